@@ -1,0 +1,55 @@
+# passo_module(NAME [SOURCES file…] [LIBRARIES target…] [TESTS file…])
+#
+# One module of the street: a static library passo_NAME with its public headers under
+# include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
+# TESTS become one test program NAME_tests.
+file(STRINGS "${PROJECT_SOURCE_DIR}/docs/layers.txt" PASSO_LAYER_LINES REGEX "^[a-z_]+\\*?:")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/layers.txt")
+
+function(passo_layers module out)
+  foreach(line IN LISTS PASSO_LAYER_LINES)
+    if(line MATCHES "^${module}\\*?: *(.*)$")
+      string(REGEX MATCHALL "[a-z_]+" names "${CMAKE_MATCH_1}")
+      set(${out} "${names}" PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  message(FATAL_ERROR "docs/layers.txt has no line for module '${module}'")
+endfunction()
+
+function(passo_module module)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;TESTS" ${ARGN})
+  passo_layers(${module} layers)
+  list(TRANSFORM layers PREPEND "passo_")
+
+  if(ARG_SOURCES)
+    add_library(passo_${module} STATIC ${ARG_SOURCES})
+    target_include_directories(passo_${module} PUBLIC include)
+    target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
+  else()
+    add_library(passo_${module} INTERFACE)
+    target_include_directories(passo_${module} INTERFACE include)
+    target_link_libraries(passo_${module} INTERFACE ${layers})
+  endif()
+
+  if(ARG_TESTS AND PASSO_BUILD_TESTS)
+    passo_test(${module}_tests SOURCES ${ARG_TESTS} LIBRARIES passo_${module})
+  endif()
+endfunction()
+
+# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…])
+#
+# A GoogleTest program. Tests without a label are fast: a developer runs them at every change.
+function(passo_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
+  target_compile_definitions(${name} PRIVATE
+    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINITIONS})
+  target_precompile_headers(${name} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+  set(properties TIMEOUT 600)
+  if(ARG_LABELS)
+    list(APPEND properties LABELS "${ARG_LABELS}")
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+endfunction()

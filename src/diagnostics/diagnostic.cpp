@@ -1,0 +1,121 @@
+#include "passo/diagnostics/diagnostic.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// A source line may be a megabyte long: what is shown is a window around the place.
+constexpr std::size_t window_before = 60;
+constexpr std::size_t window_after = 40;
+
+struct Window {
+  std::string text;       // without control characters
+  std::size_t caret = 0;  // offset of the place in `text`
+};
+
+bool is_continuation_byte(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+// The caret counts characters, not bytes, so that it stands under what it means.
+std::size_t characters(std::string_view bytes) {
+  return static_cast<std::size_t>(std::ranges::count_if(bytes, [](char c) { return !is_continuation_byte(c); }));
+}
+
+Window window_around(std::string_view line, std::size_t offset, std::size_t length) {
+  offset = std::min(offset, line.size());
+  std::size_t first = offset > window_before ? offset - window_before : 0;
+  std::size_t last = std::min(line.size(), offset + std::max(length, window_after));
+  last = std::min(last, offset + window_before + window_after);
+  while (first > 0 && is_continuation_byte(line[first])) --first;
+  while (last < line.size() && is_continuation_byte(line[last])) ++last;
+
+  Window window;
+  if (first > 0) window.text = "...";
+  window.caret = characters(window.text) + characters(line.substr(first, offset - first));
+  window.text += line.substr(first, last - first);
+  if (last < line.size()) window.text += "...";
+  for (char& c : window.text) {
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = ' ';
+  }
+  return window;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  if (diagnostic.severity == Severity::error && ++errors_ > limit_) return;
+  if (diagnostic.severity == Severity::warning && all_.size() >= 4 * limit_) return;
+  all_.push_back(std::move(diagnostic));
+}
+
+std::string render(const Diagnostic& diagnostic, bool colour) {
+  const auto paint = [colour](const char* code, std::string_view text) {
+    return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+  };
+  const bool is_error = diagnostic.severity == Severity::error;
+  const SourcePlace& place = diagnostic.place;
+
+  std::string where = diagnostic.file;
+  if (place.line > 0) where += fmt::format(":{}", place.line);
+  if (place.line > 0 && place.column > 0) where += fmt::format(":{}", place.column);
+
+  std::string out =
+      fmt::format("{}: {}: {} [{}]\n", paint("1", where), is_error ? paint("1;31", "error") : paint("1;35", "warning"),
+                  paint("1", diagnostic.message), diagnostic.code);
+  if (place.line > 0 && place.column > 0 && !diagnostic.text.empty()) {
+    const Window window = window_around(diagnostic.text, place.column - 1, place.length);
+    const std::size_t room = characters(window.text) > window.caret ? characters(window.text) - window.caret : 1;
+    const std::size_t length = std::clamp<std::size_t>(place.length, 1, room);
+    out += fmt::format("{:>5} | {}\n", place.line, window.text);
+    out += fmt::format("      | {}{}\n", std::string(window.caret, ' '),
+                       paint("1;32", "^" + std::string(length - 1, '~')));
+  }
+  if (!diagnostic.expected.empty()) out += fmt::format("      = expected: {}\n", diagnostic.expected);
+  return out;
+}
+
+std::string render(const Diagnostics& diagnostics, bool colour) {
+  std::string out;
+  for (const Diagnostic& diagnostic : diagnostics.all()) out += render(diagnostic, colour);
+  const std::size_t errors = diagnostics.errors();
+  if (errors == 0) return out;
+  const auto kept = static_cast<std::size_t>(std::ranges::count_if(
+      diagnostics.all(), [](const Diagnostic& diagnostic) { return diagnostic.severity == Severity::error; }));
+  out += fmt::format("{} error{}", errors, errors == 1 ? "" : "s");
+  if (kept < errors) out += fmt::format(", the first {} shown", kept);
+  return out + "\n";
+}
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best;
+}
+
+}  // namespace passo

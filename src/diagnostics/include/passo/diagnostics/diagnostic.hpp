@@ -1,0 +1,66 @@
+// Diagnostic: the user's file is wrong, here, for this reason, and this was expected.
+//
+// Diagnostics are collected, not thrown: one run over a file shows them all, up to a limit. Each has a stable code
+// ("gcode.unknown-word") that scripts and search engines may rely on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace passo {
+
+// Where in a file: line and column count from 1, columns and length in bytes. Line 0: the file as a whole.
+struct SourcePlace {
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+  std::uint32_t length = 1;
+  friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
+};
+
+enum class Severity : std::uint8_t { warning, error };
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
+  std::string file;  // as the user named it
+  SourcePlace place;
+  std::string message;   // one sentence without a full stop: what is wrong, with the value found
+  std::string expected;  // what would have been right, or how to mend it; may be empty
+  std::string text;      // the source line, for the caret; may be empty
+};
+
+// Collects diagnostics up to a limit of errors; the rest is counted, not kept.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}
+
+  void add(Diagnostic diagnostic);
+  const std::vector<Diagnostic>& all() const { return all_; }
+  std::size_t errors() const { return errors_; }
+  bool any_error() const { return errors_ > 0; }
+  // No more errors are kept: a stage may stop looking for more.
+  bool full() const { return errors_ >= limit_; }
+
+ private:
+  std::size_t limit_;
+  std::size_t errors_ = 0;
+  std::vector<Diagnostic> all_;
+};
+
+// The form people know from compilers; a long source line is shown as a window around the place:
+//
+//   part.ngc:3:5: error: no feed rate is set [gcode.missing-feed]
+//       3 | G1 X10
+//         |    ^~~
+//         = expected: F before the first feed move, or on it
+std::string render(const Diagnostic& diagnostic, bool colour);
+// All of them, each as above, and a closing line that counts ("2 errors").
+std::string render(const Diagnostics& diagnostics, bool colour);
+
+// The word of `candidates` nearest to `word` (edit distance, at most a third of its length), or an empty view.
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
+
+}  // namespace passo

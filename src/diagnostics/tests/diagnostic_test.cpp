@@ -1,0 +1,61 @@
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+namespace {
+
+Diagnostic missing_feed() {
+  return {.code = "gcode.missing-feed",
+          .file = "part.ngc",
+          .place = {.line = 3, .column = 4, .length = 3},
+          .message = "no feed rate is set",
+          .expected = "F before the first feed move, or on it",
+          .text = "G1 X10"};
+}
+
+TEST(Render, points_at_the_place_and_says_what_was_expected) {
+  EXPECT_EQ(render(missing_feed(), false),
+            "part.ngc:3:4: error: no feed rate is set [gcode.missing-feed]\n"
+            "    3 | G1 X10\n"
+            "      |    ^~~\n"
+            "      = expected: F before the first feed move, or on it\n");
+}
+
+TEST(Render, shows_a_window_of_a_very_long_line) {
+  Diagnostic diagnostic = missing_feed();
+  diagnostic.text = std::string(500'000, 'x') + "Q9" + std::string(500'000, 'y');
+  diagnostic.place = {.line = 1, .column = 500'001, .length = 2};
+  const std::string text = render(diagnostic, false);
+  EXPECT_LT(text.size(), 500U);
+  EXPECT_NE(text.find("Q9"), std::string::npos);
+  EXPECT_EQ(text.find("Q9") - text.rfind('\n', text.find("Q9")), text.find('^') - text.rfind('\n', text.find('^')));
+}
+
+TEST(Render, a_caret_stands_under_its_character_after_letters_outside_ascii) {
+  Diagnostic diagnostic = missing_feed();
+  diagnostic.text = "(\xC3\xA9\xC3\xA9) X";
+  diagnostic.place = {.line = 1, .column = 8, .length = 1};
+  EXPECT_NE(render(diagnostic, false).find("      |      ^\n"), std::string::npos);
+}
+
+TEST(Render, control_characters_do_not_reach_the_terminal) {
+  Diagnostic diagnostic = missing_feed();
+  diagnostic.text = "G1 \x1b[31mX10";
+  EXPECT_EQ(render(diagnostic, false).find('\x1b'), std::string::npos);
+}
+
+TEST(Diagnostics, keeps_the_first_errors_and_counts_the_rest) {
+  Diagnostics diagnostics(2);
+  for (int i = 0; i < 5; ++i) diagnostics.add(missing_feed());
+  EXPECT_EQ(diagnostics.all().size(), 2U);
+  EXPECT_EQ(diagnostics.errors(), 5U);
+  EXPECT_TRUE(diagnostics.full());
+  EXPECT_NE(render(diagnostics, false).find("5 errors, the first 2 shown\n"), std::string::npos);
+}
+
+TEST(Nearest, finds_the_word_that_was_meant_and_nothing_when_none_is_near) {
+  EXPECT_EQ(nearest("travle", {"travel", "velocity"}), "travel");
+  EXPECT_EQ(nearest("colour", {"travel", "velocity"}), "");
+}
+
+}  // namespace
+}  // namespace passo

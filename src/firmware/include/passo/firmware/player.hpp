@@ -1,0 +1,57 @@
+// Player: the heart of the board. Plays board segments event by event; the host replays the very same code.
+//
+// Invariant: accumulators and the fraction of a tick survive from segment to segment, nothing is rounded at a border.
+// Portable: integers only, no division, no heap. On the host about 3 ns an event.
+#pragma once
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+class Player {
+ public:
+  explicit Player(uint8_t motors) : motors_(motors) {}
+
+  // Takes the next segment. Only when done().
+  void load(const BoardSegment& segment) {
+    segment_ = segment;
+    left_ = segment.events;
+  }
+  bool done() const { return left_ == 0; }
+  uint8_t directions() const { return segment_.directions; }
+
+  // Whole ticks from the event before to the one that comes next. Only when not done(), once for each event.
+  uint32_t wait() {
+    const uint32_t fraction = tick_fraction_ + (segment_.interval & 0xffff);
+    tick_fraction_ = static_cast<uint16_t>(fraction);
+    const uint32_t ticks = (segment_.interval >> 16) + (fraction >> 16);
+    segment_.interval += static_cast<uint32_t>(segment_.change);
+    return ticks;
+  }
+
+  // The event itself: bit m of the result says that motor m steps, in the direction of directions().
+  uint8_t play() {
+    uint8_t carries = 0;
+    for (uint8_t motor = 0; motor < motors_; ++motor) {
+      const uint16_t before = accumulators_[motor];
+      const uint16_t after = static_cast<uint16_t>(before + segment_.increments[motor]);
+      accumulators_[motor] = after;
+      if (after < before) carries = static_cast<uint8_t>(carries | 1U << motor);
+    }
+    --left_;
+    return carries ^ segment_.flips;
+  }
+
+  uint16_t accumulator(uint8_t motor) const { return accumulators_[motor]; }
+  uint16_t tick_fraction() const { return tick_fraction_; }
+
+ private:
+  BoardSegment segment_;
+  uint8_t motors_;
+  uint8_t left_ = 0;
+  // Half a step and half a tick: what is truncated below is rounding above.
+  uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
+  uint16_t tick_fraction_ = 0x8000;
+};
+
+}  // namespace passo

@@ -1,0 +1,157 @@
+// Block: one line of G-code, parsed but not yet given a meaning.
+//
+// The parser knows the shape of RS274/NGC (words, expressions, parameters, comments, O-words) and none of its
+// meaning: which letters mean what, modal groups and numbers are the interpreter's. A Block owns no text of its own
+// line (views point into the reader's buffer, until the next line is read) and keeps its vectors' capacity, so that
+// parsing a line allocates nothing once it is warm.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "passo/gcode/symbols.hpp"
+
+namespace passo {
+
+// A stretch of the line: column counts from 1, in bytes.
+struct Span {
+  std::uint32_t column = 0;
+  std::uint32_t length = 0;
+  friend bool operator==(const Span&, const Span&) = default;
+};
+
+// What one instruction of an expression does to the stack of numbers.
+enum class ExpressionOp : std::uint8_t {
+  number,            // push `number`
+  parameter,         // pop n, push #n
+  named_parameter,   // push the parameter named `symbol`
+  exists_parameter,  // pop n, push whether #n exists
+  exists_named,      // push whether the parameter named `symbol` exists
+  negate,
+  // two operands
+  power,
+  multiply,
+  divide,
+  modulo,
+  add,
+  subtract,
+  equal,
+  not_equal,
+  greater,
+  greater_equal,
+  less,
+  less_equal,
+  bit_and,
+  bit_or,
+  bit_xor,
+  // functions; angles in degrees; atan takes two: ATAN[y]/[x]
+  abs,
+  acos,
+  asin,
+  atan,
+  cos,
+  exp,
+  fix,
+  fup,
+  ln,
+  round,
+  sin,
+  sqrt,
+  tan,
+};
+
+struct Instruction {
+  ExpressionOp op = ExpressionOp::number;
+  Span span;  // what to point at when it cannot be computed
+  double number = 0;
+  Symbol symbol{};
+};
+
+// A slice of Block::code in postfix order. Most are one `number`.
+struct Expression {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+  Span span;
+};
+
+struct Word {
+  char letter = 0;  // upper case A…Z, '@' or '^'
+  Expression value;
+  Span span;  // letter and value
+};
+
+// #12 = …, #<name> = …
+struct Assignment {
+  std::optional<Expression> index;  // #[…]: the number of the parameter; else `symbol` names it
+  Symbol symbol{};
+  Expression value;
+  Span span;
+};
+
+struct Comment {
+  enum class Kind : std::uint8_t {
+    plain,
+    message,
+    debug,
+    print,
+    log,
+    log_open,
+    log_append,
+    log_close,
+    abort,
+    probe_open,
+    probe_close
+  };
+  Kind kind = Kind::plain;
+  std::string_view text;  // without the delimiters, and without the keyword ("MSG,") where there is one
+  Span span;
+};
+
+enum class ControlKind : std::uint8_t {
+  sub,
+  endsub,
+  call,
+  return_,
+  do_,
+  while_,
+  endwhile,
+  if_,
+  elseif,
+  else_,
+  endif,
+  repeat,
+  endrepeat,
+  break_,
+  continue_,
+};
+
+// O… line: flow of control.
+struct Control {
+  ControlKind kind = ControlKind::sub;
+  // The label: a name or a plain number ("o100" and "o<100>" are the same label), or a computed number.
+  Symbol label{};
+  std::optional<Expression> computed_label;
+  std::vector<Expression>
+      arguments;  // call: its arguments; if, elseif, while, repeat: one; return, endsub: at most one
+  Span span;
+};
+
+struct Block {
+  std::uint32_t line = 0;                       // in its file, from 1
+  std::string_view text;                        // the line without its end
+  bool block_delete = false;                    // starts with '/'
+  bool percent = false;                         // a line with '%' alone
+  std::optional<std::string_view> line_number;  // the digits after N, as written
+  std::vector<Word> words;                      // in order, without N
+  std::vector<Assignment> assignments;
+  std::vector<Comment> comments;
+  std::optional<Control> control;
+  std::vector<Instruction> code;  // what all the expressions above point into
+
+  bool empty() const { return words.empty() && assignments.empty() && comments.empty() && !control && !percent; }
+  void clear();
+};
+
+}  // namespace passo

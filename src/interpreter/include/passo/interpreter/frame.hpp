@@ -1,0 +1,32 @@
+// Frame: how work positions become machine positions. Listens to the operations that move the frame.
+//
+// machine = work offset + rotate(work + G92 offset, rotation about Z) + tool offset      (as LinuxCNC's canon layer)
+#pragma once
+
+#include "passo/geometry/axes.hpp"
+#include "passo/interpreter/operation.hpp"
+
+namespace passo {
+
+class Frame {
+ public:
+  // Takes note if the operation moves the frame; says whether it did.
+  bool follow(const Operation& operation);
+
+  Point machine_from_work(const Point& work) const;
+  Point work_from_machine(const Point& machine) const;
+
+  const Point& work_offset() const { return work_offset_; }
+  int work_system() const { return work_system_; }
+
+ private:
+  Point work_offset_;
+  Point g92_offset_;
+  Point tool_offset_;
+  double rotation_degrees_ = 0;
+  double cosine_ = 1;
+  double sine_ = 0;
+  int work_system_ = 1;
+};
+
+}  // namespace passo

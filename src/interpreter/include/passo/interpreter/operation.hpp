@@ -1,0 +1,138 @@
+// Operation: a canonical command, what a program means after modal state, offsets and expressions are resolved.
+//
+// The printable seam: canon.hpp prints operations in the very form of `rs274 -g`. Like there, coordinates are in the
+// *work* frame with offsets announced by operations of their own (frame.hpp turns them into machine positions); unlike
+// there, lengths are millimetres always, and feeds millimetres a second.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <variant>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+enum class Plane : std::uint8_t { xy, zx, yz };  // G17, G18, G19
+enum class LengthUnits : std::uint8_t { mm, inch };
+enum class FeedMode : std::uint8_t { units_per_minute, inverse_time, units_per_revolution };  // G94, G93, G95
+enum class PathMode : std::uint8_t { exact_path, exact_stop, continuous };                    // G61, G61.1, G64
+enum class SpindleDirection : std::uint8_t { off, clockwise, counterclockwise };
+
+namespace operation {
+
+struct SetLengthUnits {
+  LengthUnits units = LengthUnits::mm;
+};
+struct SetWorkOffset {
+  std::uint8_t system = 1;
+  Point offset;
+};  // 1 = G54 … 9 = G59.3
+struct SetG92Offset {
+  Point offset;
+};
+struct SetRotation {
+  double degrees = 0;
+};  // of the work frame about Z
+struct SetToolOffset {
+  Point offset;
+};
+struct SelectPlane {
+  Plane plane = Plane::xy;
+};
+struct SetFeedMode {
+  FeedMode mode = FeedMode::units_per_minute;
+};
+// Units per minute: millimetres (degrees) a second. Inverse time: moves a second. Per revolution: mm a revolution.
+struct SetFeedRate {
+  double rate = 0;
+};
+struct SetPathMode {
+  PathMode mode = PathMode::continuous;
+  Mm tolerance{0};
+};  // tolerance 0: the machine's own
+struct SetMergeTolerance {
+  Mm tolerance{0};
+};  // G64 Q, the naive cam detector
+struct StraightTraverse {
+  Point end;
+};
+struct StraightFeed {
+  Point end;
+};
+// End and centre in the plane's own axes are read from `end` and `center`; the axis through the plane and all
+// others move along (helix). `turns`: +n counterclockwise seen from the plane's positive axis, −n clockwise; 1 is at
+// most one full turn, 2 one more.
+struct ArcFeed {
+  Plane plane = Plane::xy;
+  Point end;
+  Mm first_center;
+  Mm second_center;
+  std::int32_t turns = 1;
+};
+// Spindle-synchronised feed (G33): `pitch` mm a revolution until the synchronised stretch ends.
+struct StartSpeedFeedSync {
+  Mm pitch;
+  bool velocity_mode = false;
+};
+struct StopSpeedFeedSync {};
+struct Dwell {
+  Seconds time;
+};
+struct SetSpindleSpeed {
+  double revolutions_per_minute = 0;
+};
+struct TurnSpindle {
+  SpindleDirection direction = SpindleDirection::off;
+};
+struct SetMist {
+  bool on = false;
+};
+struct SetFlood {
+  bool on = false;
+};
+struct SelectTool {
+  std::int32_t tool = 0;
+};
+struct ChangeTool {
+  std::int32_t tool = 0;
+};
+struct SetToolNumber {
+  std::int32_t tool = 0;
+};                              // M61
+struct ProgramStop {};          // M0
+struct OptionalProgramStop {};  // M1
+struct ProgramEnd {};           // M2, M30
+struct Comment {
+  std::string_view text;
+};
+struct Message {
+  std::string_view text;
+};
+struct Reset {};             // ON_RESET: the interpreter (re)starts
+struct SetFeedReference {};  // always XYZ
+
+}  // namespace operation
+
+using OperationKind = std::variant<
+    operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
+    operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
+    operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse, operation::StraightFeed,
+    operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::Dwell,
+    operation::SetSpindleSpeed, operation::TurnSpindle, operation::SetMist, operation::SetFlood, operation::SelectTool,
+    operation::ChangeTool, operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop,
+    operation::ProgramEnd, operation::Comment, operation::Message, operation::Reset, operation::SetFeedReference>;
+
+// Where an operation comes from: what a diagnostic about a move points at.
+struct OperationSource {
+  std::uint32_t line = 0;         // of the file, from 1
+  std::int64_t line_number = -1;  // N word; -1: none
+};
+
+struct Operation {
+  OperationKind what;
+  OperationSource source;
+};
+
+}  // namespace passo

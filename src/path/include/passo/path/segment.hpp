@@ -1,0 +1,42 @@
+// Segment: one geometric piece of the path in machine coordinates, with the speed the program asks for.
+// Action: what happens between pieces, at rest. PathItem: either, in program order.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "passo/geometry/curve.hpp"
+#include "passo/interpreter/operation.hpp"
+
+namespace passo {
+
+struct Segment {
+  Curve curve;
+  MmPerSecond speed{0};  // programmed, along s; for a rapid: no limit but the axes' own (infinity)
+  bool rapid = false;
+  PathMode mode = PathMode::continuous;  // at the junction to the next segment
+  Mm tolerance{0};                       // how far the junction to the next segment may leave the path
+  OperationSource source;
+};
+
+// All outputs of the board as they are to be from here on.
+struct OutputState {
+  SpindleDirection spindle = SpindleDirection::off;
+  double revolutions_per_minute = 0;
+  bool mist = false;
+  bool flood = false;
+  friend bool operator==(const OutputState&, const OutputState&) = default;
+};
+
+struct Action {
+  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end };
+  Kind kind = Kind::dwell;
+  Seconds dwell{0};
+  OutputState outputs;  // for every kind: the state after it
+  std::int32_t tool = 0;
+  OperationSource source;
+};
+
+using PathItem = std::variant<Segment, Action>;
+
+}  // namespace passo

@@ -1,0 +1,49 @@
+// StepGenerator: phases -> board segments. Every step where and when mathematics puts it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <variant>
+
+#include "passo/base/source.hpp"
+#include "passo/trajectory/phase.hpp"
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+// A motor of the board and the axis it turns.
+struct Motor {
+  Axis axis = Axis::x;
+  double steps_per_unit = 0;  // a millimetre or a degree; negative: the motor turns the other way
+};
+
+struct BoardClock {
+  Hertz tick_rate{16e6};
+  Hertz highest_event_rate{100e3};
+};
+
+struct StepOptions {
+  std::array<Motor, max_motors> motors;
+  std::uint8_t motor_count = 0;
+  BoardClock clock;
+  Point start;  // machine position at the start; the motors' step counts begin at its whole steps
+};
+
+// What goes down the wire, in order. An Action follows the segments that end at rest before it; a dwell has become
+// segments without steps.
+using BoardItem = std::variant<BoardSegment, Action>;
+
+class StepGenerator final : public Source<BoardItem> {
+ public:
+  StepGenerator(Source<MotionItem>& motion, const StepOptions& options);
+  ~StepGenerator() override;
+
+  [[nodiscard]] bool next(BoardItem& item) override;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace passo

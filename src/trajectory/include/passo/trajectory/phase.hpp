@@ -1,0 +1,56 @@
+// Phase: a stretch of constant jerk along the path. PlannedMove: a segment and the phases that play it.
+//
+// s(t) = s0 + v0 t + a0 t²/2 + j t³/6 for 0 <= t <= duration, with s along the segment's curve. The phases of a move
+// follow each other without gap: the first begins at s = 0, the last ends at the curve's length.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <variant>
+
+#include "passo/path/segment.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+struct Phase {
+  Seconds duration{0};
+  Mm start{0};
+  MmPerSecond velocity{0};
+  MmPerSecond2 acceleration{0};
+  MmPerSecond3 jerk{0};
+
+  constexpr Mm position_at(Seconds t) const {
+    const double u = t.value();
+    return Mm(start.value() + u * (velocity.value() + u * (acceleration.value() / 2 + u * jerk.value() / 6)));
+  }
+  constexpr MmPerSecond velocity_at(Seconds t) const {
+    const double u = t.value();
+    return MmPerSecond(velocity.value() + u * (acceleration.value() + u * jerk.value() / 2));
+  }
+};
+
+struct PlannedMove {
+  static constexpr std::size_t most_phases = 8;
+
+  Segment segment;
+  std::array<Phase, most_phases> phases;
+  std::size_t phase_count = 0;
+
+  void add(const Phase& phase) {
+    assert(phase_count < most_phases);
+    phases[phase_count++] = phase;
+  }
+  const Phase* begin() const { return phases.data(); }
+  const Phase* end() const { return phases.data() + phase_count; }
+  Seconds duration() const {
+    Seconds sum{0};
+    for (const Phase& phase : *this) sum += phase.duration;
+    return sum;
+  }
+};
+
+using MotionItem = std::variant<PlannedMove, Action>;
+
+}  // namespace passo

@@ -1,0 +1,50 @@
+// BoardSegment: what the board plays. One event clock for all motors.
+//
+// Time. Intervals are ticks of the board's timer in 16.16 fixed point. The first event comes `interval` after the event
+// before it, each next interval is longer by `change`. The fraction of a tick runs on from segment to segment.
+//
+// Place. Each motor has a position in 1/65536 of a step, and every event adds a signed increment of at most one step to
+// it; when the whole part changes, that is a step. The board keeps the fraction only (the accumulator, 16 bits, runs on
+// from segment to segment) and sees a step as the carry of the addition. An increment d is sent modulo 65536 with a
+// flip bit, so that one addition serves both directions and the master axis that steps at every event:
+//
+//       d in steps        increment     flip    a step when
+//       0 <= d < 1        d             0       there is a carry
+//       d = +1            0             1       always (no carry, flipped)
+//      -1 <  d < 0        1 − |d|       1       there is no carry: the fraction went below zero
+//       d = −1            0             1       always
+//
+//   step = carry XOR flip;  direction is told beside it.
+//
+// Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+inline constexpr uint8_t max_motors = 8;
+
+struct BoardSegment {
+  uint8_t events = 0;      // 1…255
+  uint8_t directions = 0;  // bit m: motor m counts down
+  uint8_t flips = 0;       // bit m: flip motor m's carry
+  uint32_t interval = 0;   // 16.16 ticks
+  int32_t change = 0;      // 16.16 ticks an event; on the wire 24 bits
+  uint16_t increments[max_motors] = {};
+};
+
+inline constexpr int32_t largest_change = 0x7fffff;
+inline constexpr uint32_t largest_interval = 0xffffffff;
+// One whole step in accumulator units, and one whole tick in interval units.
+inline constexpr int32_t whole_step = 65536;
+inline constexpr int64_t whole_tick = 65536;
+
+// All digital outputs and the spindle's speed, switched in order with the motion.
+struct BoardOutputs {
+  uint8_t switches = 0;  // bits: OutputSwitch
+  uint16_t spindle_rpm = 0;
+};
+enum OutputSwitch : uint8_t { spindle_on = 1, spindle_reverse = 2, mist_on = 4, flood_on = 8 };
+
+}  // namespace passo
