@@ -1,0 +1,70 @@
+// EventBuffer: the events that are to become board segments, with their exact times and the exact place of each motor.
+//
+// A stretch is a run of events with one master: events lie where the master's place crosses multiples of `grid`, so that
+// the master's increment is the grid itself, exactly, and its steps come at the exact times.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+struct Stretch {
+  unsigned master = 0;
+  int sign = 1;                      // direction of the master
+  std::int64_t grid = whole_step;    // place from event to event: 65536 / 2^k
+};
+
+class EventBuffer {
+ public:
+  // Exact time in 1/65536 tick (half a tick added, as the board does) and the exact place of each motor.
+  struct Event {
+    std::int64_t time = 0;
+    std::array<double, max_motors> place{};
+  };
+
+  std::size_t size() const { return last_ - first_; }
+  bool empty() const { return first_ == last_; }
+
+  std::int64_t time(std::size_t i) const { return time_[first_ + i]; }
+  // `i` = 0 is the event before the first one of the buffer.
+  const double* places(unsigned motor) const { return &place_[motor][first_]; }
+
+  void push(const Event& event, unsigned motors) {
+    if (last_ == capacity) make_room();
+    time_[last_] = event.time;
+    ++last_;
+    for (unsigned m = 0; m < motors; ++m) place_[m][last_] = event.place[m];
+  }
+  void drop(std::size_t events) { first_ += events; }
+  // Starts again, with `before` as the event before the first.
+  void restart(const std::array<double, max_motors>& before) {
+    first_ = last_ = 0;
+    for (unsigned m = 0; m < max_motors; ++m) place_[m][0] = before[m];
+  }
+
+ private:
+  static constexpr std::size_t capacity = 1024;
+
+  void make_room() {
+    std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),
+              time_.begin());
+    for (auto& places : place_) {
+      std::copy(places.begin() + static_cast<std::ptrdiff_t>(first_),
+                places.begin() + static_cast<std::ptrdiff_t>(last_ + 1), places.begin());
+    }
+    last_ -= first_;
+    first_ = 0;
+  }
+
+  std::array<std::int64_t, capacity> time_;
+  std::array<std::array<double, capacity + 1>, max_motors> place_;  // one more: the event before the first
+  std::size_t first_ = 0;
+  std::size_t last_ = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,154 @@
+#include "event_stream.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// A move's events stay between these multiples of the slow rate; outside, a new stretch divides more or less finely.
+constexpr double rate_before_finer = 0.5;
+constexpr double rate_before_coarser = 4;
+constexpr double slow_share = 1.0 / 16;  // of the board's highest event rate
+constexpr int finest_division = 8;       // 2^8 events a step
+// Another motor must be this much faster before it becomes the master.
+constexpr double takeover = 1 + 1e-6;
+constexpr std::size_t enough_events = 256;  // one segment, and one event to look ahead
+
+}  // namespace
+
+EventStream::EventStream(const StepOptions& options)
+    : options_(options),
+      tick_rate_(options.clock.tick_rate.value()),
+      shortest_interval_(std::llround(options.clock.tick_rate / options.clock.highest_event_rate * whole_tick)),
+      slow_rate_(options.clock.highest_event_rate.value() * slow_share) {
+  for (unsigned m = 0; m < options_.motor_count; ++m) {
+    end_[m] = place_of(options_.motors[m], options_.start);
+  }
+  here_ = end_;
+}
+
+std::int64_t EventStream::fixed_time(double seconds) const {
+  return (ticks_ << 16) + std::llround((fraction_ + seconds * tick_rate_) * whole_tick) + whole_tick / 2;
+}
+
+void EventStream::advance(double seconds) {
+  const double ticks = fraction_ + seconds * tick_rate_;
+  const double whole = std::floor(ticks);
+  ticks_ += static_cast<std::int64_t>(whole);
+  fraction_ = ticks - whole;
+}
+
+void EventStream::start_move(const PlannedMove& move) {
+  move_ = move;
+  path_ = MotorPath(move_.segment.curve, options_);
+  clock_ = PhaseClock(move_);
+  in_move_ = true;
+  s_ = 0;
+  moment_ = clock_.at(0);
+  here_ = end_;
+  for (unsigned m = 0; m < options_.motor_count; ++m) end_[m] = place_of(options_.motors[m], move_.segment.curve.end());
+  if (in_stretch_ && !stretch_holds(0)) in_stretch_ = false;
+}
+
+// The speed one step from here: close to rest it is that which counts, and it is the same on both sides of a stop.
+double EventStream::speed_nearby(double slope) const {
+  const double one_step = place_per_step / std::fabs(slope);
+  return std::sqrt(moment_.speed * moment_.speed + 2 * std::fabs(moment_.acceleration) * one_step);
+}
+
+bool EventStream::stretch_holds(double s) const {
+  const double slope = path_.slope(stretch_.master, s) * stretch_.sign;
+  if (slope <= 0) return false;
+  for (unsigned m = 0; m < options_.motor_count; ++m) {
+    if (std::fabs(path_.slope(m, s)) > slope * takeover) return false;
+  }
+  const double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
+  if (rate > rate_before_coarser * slow_rate_ && stretch_.grid < whole_step) return false;
+  return rate > rate_before_finer * slow_rate_ || stretch_.grid == whole_step >> finest_division;
+}
+
+// The next line of the grid beyond the last one, in the direction of the master.
+double EventStream::next_target() const {
+  const auto grid = static_cast<double>(stretch_.grid);
+  const double along = stretch_.sign * master_place_ / grid;
+  return stretch_.sign * (std::floor(along + 1e-6) + 1) * grid;
+}
+
+// Chooses the master from what moves fastest here among the motors that reach a line of the grid before they turn back.
+bool EventStream::start_stretch(EventBuffer& events) {
+  double most = 0;
+  for (unsigned m = 0; m < options_.motor_count; ++m) {
+    const double slope = path_.slope(m, s_);
+    if (std::fabs(slope) <= most) continue;
+    Stretch candidate{.master = m, .sign = slope > 0 ? 1 : -1};
+    double rate = std::fabs(slope) * speed_nearby(slope) / place_per_step;
+    for (int k = 0; k < finest_division && rate < slow_rate_; ++k, rate *= 2) candidate.grid /= 2;
+    const Stretch kept = stretch_;
+    stretch_ = candidate;
+    master_place_ = path_.place(m, s_);
+    if (path_.crossing(m, next_target(), s_) < infinity) {
+      most = std::fabs(slope);
+    } else {
+      stretch_ = kept;
+    }
+  }
+  if (most == 0) return false;
+  master_place_ = path_.place(stretch_.master, s_);
+  events.restart(here_);
+  in_stretch_ = true;
+  return true;
+}
+
+bool EventStream::push_event(double target, double s, EventBuffer& events) {
+  moment_ = clock_.at(s);
+  s_ = s;
+  EventBuffer::Event event;
+  // Two events are never closer than the board can play them: where masters change, the new one may have to wait.
+  event.time = std::max(fixed_time(moment_.time), last_event_ + shortest_interval_);
+  for (unsigned m = 0; m < options_.motor_count; ++m) {
+    event.place[m] = m == stretch_.master ? target : path_.place(m, s);
+  }
+  here_ = event.place;
+  last_event_ = event.time;
+  master_place_ = target;
+  events.push(event, options_.motor_count);
+  return stretch_holds(s);
+}
+
+EventStream::Stop EventStream::finish_move() {
+  const bool rests = clock_.ends_at_rest();
+  advance(clock_.duration());
+  in_move_ = false;
+  return rests ? Stop::rest : Stop::move_end;
+}
+
+EventStream::Stop EventStream::fill(EventBuffer& events) {
+  while (events.size() < enough_events) {
+    if (!in_stretch_) {
+      if (!events.empty()) return Stop::stretch_end;
+      if (!start_stretch(events)) {
+        // Nothing reaches a grid line in its present direction: go on from where a motor turns back.
+        double turn = infinity;
+        for (unsigned m = 0; m < options_.motor_count; ++m) turn = std::fmin(turn, path_.turning_point(m, s_));
+        if (!(turn < path_.length())) return finish_move();
+        s_ = turn;
+        moment_ = clock_.at(s_);
+        for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, s_);
+        continue;
+      }
+    }
+    const double target = next_target();
+    const double s = path_.crossing(stretch_.master, target, s_);
+    if (!(s <= path_.length())) {
+      if (s < infinity || path_.turning_point(stretch_.master, s_) >= path_.length()) return finish_move();
+      in_stretch_ = false;
+      continue;
+    }
+    if (!push_event(target, s, events)) in_stretch_ = false;
+  }
+  return Stop::full;
+}
+
+}  // namespace passo

@@ -1,0 +1,81 @@
+// EventStream: planned moves -> exact events. Chooses the master and how finely its steps are divided, and inverts
+// the phases at each line of the grid.
+//
+// The master is the motor that moves fastest. Its events come at the highest power-of-two multiple of its step rate that is
+// needed to stay above a sixteenth of the board's highest rate, so that on a slow move the other motors are never
+// late by more than one short event.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "event_buffer.hpp"
+#include "motor_path.hpp"
+#include "passo/stepgen/step_generator.hpp"
+#include "phase_clock.hpp"
+
+namespace passo {
+
+class EventStream {
+ public:
+  explicit EventStream(const StepOptions& options);
+
+  // Why filling stopped.
+  enum class Stop : std::uint8_t {
+    full,         // enough events for a segment
+    stretch_end,  // the events of this stretch are complete: play them, then go on
+    move_end,     // the move is used up: give the next one
+    rest,         // the move is used up and ends at rest
+  };
+
+  // Begins the next move; only after move_end, rest or at the start.
+  void start_move(const PlannedMove& move);
+  bool in_move() const { return in_move_; }
+  // Adds events of the current move.
+  Stop fill(EventBuffer& events);
+  // Forgets the stretch: the next event chooses its master anew. The buffer must be empty.
+  void end_stretch() { in_stretch_ = false; }
+  void wait(Seconds time) { advance(time.value()); }
+
+  const Stretch& stretch() const { return stretch_; }
+  // The exact time now (end of the last move), in 1/65536 tick with half a tick added.
+  std::int64_t now() const { return fixed_time(0); }
+  // The exact place of a motor at the end of the last move.
+  double place_at_end(unsigned motor) const { return end_[motor]; }
+  std::int64_t shortest_interval() const { return shortest_interval_; }
+
+ private:
+  bool start_stretch(EventBuffer& events);
+  bool stretch_holds(double s) const;
+  double speed_nearby(double slope) const;
+  double next_target() const;
+  bool push_event(double target, double s, EventBuffer& events);
+  Stop finish_move();
+  std::int64_t fixed_time(double seconds) const;
+  void advance(double seconds);
+
+  StepOptions options_;
+  double tick_rate_;
+  std::int64_t shortest_interval_;
+  double slow_rate_;  // events a second under which the grid is made finer
+
+  // Time of the start of the current move: whole ticks and the rest, so that nothing is lost over hours.
+  std::int64_t ticks_ = 0;
+  double fraction_ = 0;
+
+  PlannedMove move_;
+  MotorPath path_;
+  PhaseClock clock_;
+  bool in_move_ = false;
+  double s_ = 0;
+  PhaseClock::Moment moment_;
+  std::array<double, max_motors> here_{};  // exact places at the last event
+  std::array<double, max_motors> end_{};   // and at the end of the last move
+
+  bool in_stretch_ = false;
+  Stretch stretch_;
+  double master_place_ = 0;  // of the last event on the grid
+  std::int64_t last_event_ = INT64_MIN / 2;
+};
+
+}  // namespace passo

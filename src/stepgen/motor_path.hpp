@@ -1,0 +1,58 @@
+// MotorPath: where every motor stands as a function of s, for one curve.
+//
+// Places are in the board's own units: 1/65536 of a step with half a step added, so that a motor's step count is the
+// whole part of place/65536 and a step happens where the place crosses a multiple of 65536.
+#pragma once
+
+#include <array>
+
+#include "passo/geometry/curve.hpp"
+#include "passo/stepgen/step_generator.hpp"
+
+namespace passo {
+
+// Units of place a step.
+inline constexpr double place_per_step = 65536.0;
+
+inline double place_of(const Motor& motor, const Point& point) {
+  return (point[motor.axis] * motor.steps_per_unit + 0.5) * place_per_step;
+}
+
+class MotorPath {
+ public:
+  MotorPath() = default;
+  MotorPath(const Curve& curve, const StepOptions& options);
+
+  double place(unsigned motor, double s) const;
+  // d place / ds: negative where the motor counts down.
+  double slope(unsigned motor, double s) const;
+
+  // The first s >= from where the motor's place, going on in the direction it has at `from`, reaches `target`.
+  // Infinity if it turns back before, or stands still. May lie beyond the end of the curve.
+  double crossing(unsigned motor, double target, double from) const;
+  // The first s > from where the motor turns back; infinity if it never does.
+  double turning_point(unsigned motor, double from) const;
+
+  bool is_straight() const { return straight_; }
+  double length() const { return length_; }
+
+ private:
+  // place = center + scale * radius(s) * sin(angle(s)), or start + slope * s.
+  struct Term {
+    bool turning = false;
+    double base = 0;   // place at s = 0, or of the centre
+    double scale = 0;  // slope, or places a millimetre of radius
+    double angle = 0;  // at s = 0, as the argument of the sine
+  };
+  double angle_at(const Term& term, double s) const { return term.angle + turn_ * s; }
+  double radius_at(double s) const { return radius_ + growth_ * s; }
+
+  std::array<Term, max_motors> terms_;
+  bool straight_ = true;
+  double length_ = 0;
+  double turn_ = 0;    // radians a millimetre of s
+  double radius_ = 0;  // at s = 0
+  double growth_ = 0;  // of the radius, a millimetre of s
+};
+
+}  // namespace passo

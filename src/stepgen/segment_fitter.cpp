@@ -1,0 +1,205 @@
+#include "segment_fitter.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+// How far an event may be from its exact time, in 1/65536 tick. Half a tick more comes from playing whole ticks.
+constexpr std::int64_t tolerance = whole_tick * 9 / 20;
+// An interval must fit the board's timer.
+constexpr std::int64_t longest_interval = 65535 * whole_tick;
+// Where the error of the fit is zero, as a part of the segment: the zeros of T3 with its first one at the start.
+constexpr double first_node = 0.464;
+constexpr double second_node = 0.928;
+// A motor that moves less than this in an event stands still (1/65536 step).
+constexpr double still = 1e-4;
+
+std::int64_t floor_to_int(double x) {
+  const auto truncated = static_cast<std::int64_t>(x);
+  return truncated - (x < static_cast<double>(truncated) ? 1 : 0);
+}
+std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return a >= 0 ? (a + b - 1) / b : -(-a / b); }
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+// Going down mirrors a fixed-point place by complement: the fraction that is left is what was gone.
+std::int64_t along(int sign, std::int64_t position) { return sign > 0 ? position : ~position; }
+
+}  // namespace
+
+std::int64_t rest_place(double place) {
+  const std::int64_t steps = std::llround(place / 65536.0 - 0.5);
+  return std::clamp(floor_to_int(place), steps * whole_step, steps * whole_step + whole_step - 1);
+}
+
+void set_increment(BoardSegment& segment, unsigned motor, int sign, std::int64_t increment) {
+  assert(increment >= 0 && increment <= whole_step);
+  const unsigned bit = 1U << motor;
+  if (sign < 0) {
+    segment.directions = static_cast<std::uint8_t>(segment.directions | bit);
+    if (increment > 0) segment.flips = static_cast<std::uint8_t>(segment.flips | bit);
+    segment.increments[motor] = static_cast<std::uint16_t>(whole_step - increment);
+  } else {
+    if (increment == whole_step) segment.flips = static_cast<std::uint8_t>(segment.flips | bit);
+    segment.increments[motor] = static_cast<std::uint16_t>(increment);
+  }
+}
+
+bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, const Timing& timing) const {
+  std::int64_t interval = timing.interval;
+  std::int64_t time = now;
+  for (unsigned k = 0; k < timing.events; ++k) {
+    time += interval;
+    if (std::abs(time - events.time(k)) > tolerance) return false;
+    interval += timing.change;
+  }
+  const std::int64_t last = interval - timing.change;
+  const std::int64_t shortest = shortest_interval_ - whole_tick;
+  return std::min<std::int64_t>(timing.interval, last) >= shortest &&
+         std::max<std::int64_t>(timing.interval, last) <= longest_interval;
+}
+
+SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::int64_t now, unsigned most) {
+  // One event is always met exactly, as long as it is neither too near nor too far.
+  const std::int64_t first = events.time(0) - now;
+  if (first > longest_interval) return {};
+  const Timing single{.interval = static_cast<std::uint32_t>(std::max(first, shortest_interval_)), .events = 1};
+
+  unsigned n = std::min(most, guess_ + guess_ / 4 + 4);
+  for (; n > 1; n = std::min(n - 1, n * 3 / 4)) {
+    const unsigned m1 = std::max(1U, static_cast<unsigned>(first_node * n));
+    const unsigned m2 = std::max(m1 + 1, static_cast<unsigned>(std::lround(second_node * n)));
+    const double slope1 = static_cast<double>(events.time(m1 - 1) - now) / m1;
+    const double slope2 = static_cast<double>(events.time(m2 - 1) - now) / m2;
+    const double change = std::round(2 * (slope2 - slope1) / (m2 - m1));
+    if (std::fabs(change) > largest_change) continue;
+    // With the change rounded, the interval still brings the far node where it belongs.
+    const double interval = std::round(slope2 - change * (m2 - 1) / 2);
+    if (interval < 1 || interval > static_cast<double>(longest_interval)) continue;
+    const Timing timing{.interval = static_cast<std::uint32_t>(interval),
+                        .change = static_cast<std::int32_t>(change),
+                        .events = n};
+    if (times_hold(events, now, timing)) return timing;
+  }
+  return single;
+}
+
+SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std::int64_t position, double first_target,
+                                                     unsigned events) const {
+  const double ideal = stretch.sign > 0 ? first_target : -first_target;
+  const std::int64_t step = std::llround(ideal) - along(stretch.sign, position);
+  const std::int64_t increment = std::clamp<std::int64_t>(step, 0, whole_step);
+  // Where a stretch begins between two lines of its grid, one event by itself brings the master onto the grid.
+  return {.sign = stretch.sign, .increment = increment, .events = step == stretch.grid ? events : 1};
+}
+
+SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place, unsigned count) const {
+  const std::int64_t target = rest_place(place);
+  if ((target >> 16) == (position >> 16)) return {.sign = 0, .increment = 0, .events = count};
+  const int sign = target > position ? 1 : -1;
+  const std::int64_t missing = along(sign, target) - along(sign, position);
+  return {.sign = sign, .increment = std::min<std::int64_t>(missing, whole_step), .events = 1};
+}
+
+// The longest stretch of events that one increment can serve, when the straight guess fails.
+SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned count) const {
+  std::int64_t low = 0;
+  std::int64_t high = whole_step;
+  unsigned events = 0;
+  for (unsigned k = 1; k <= count; ++k) {
+    const std::int64_t due = ideal_[k] >> 16 << 16;                      // not late
+    const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1;  // not more than one event early
+    const std::int64_t new_low = std::max(low, ceil_divide(due - place, k));
+    const std::int64_t new_high = std::min(high, floor_divide(early - place, k));
+    if (new_low > new_high) break;
+    low = new_low;
+    high = new_high;
+    events = k;
+  }
+  if (events == 0) {
+    // Behind by more than a step, or ahead of it: one event does what it can.
+    const std::int64_t missing = ideal_[1] - place;
+    return {.increment = std::clamp<std::int64_t>(missing, 0, whole_step), .events = 1};
+  }
+  const std::int64_t straight = ceil_divide(ideal_[events] - place, events);
+  return {.increment = std::clamp(straight, low, high), .events = events};
+}
+
+SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,
+                                                    unsigned count) {
+  const double* places = events.places(motor);
+  int sign = 0;
+  for (unsigned k = 1; k <= count; ++k) {
+    const double moved = places[k] - places[k - 1];
+    if (std::fabs(moved) < still) continue;
+    const int direction = moved > 0 ? 1 : -1;
+    if (sign == 0) sign = direction;
+    if (direction != sign) {  // turns back here: the rest is for the next segment
+      count = k - 1;
+      break;
+    }
+  }
+  if (sign == 0) return settle(position, places[count], count);
+
+  for (unsigned k = 1; k <= count; ++k) ideal_[k] = floor_to_int(sign * places[k]);
+  const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
+  ideal_[count + 1] = goes_on ? floor_to_int(sign * places[count + 1]) : ideal_[count];
+
+  const std::int64_t start = along(sign, position);
+  // Rounded up: a step that falls exactly on an event is not missed for want of a few 65536ths.
+  const std::int64_t straight =
+      std::clamp<std::int64_t>(ceil_divide(ideal_[count] - start, count), 0, whole_step);
+  std::int64_t place = start;
+  bool holds = true;
+  for (unsigned k = 1; k <= count && holds; ++k) {
+    place += straight;
+    const std::int64_t whole = place >> 16;
+    holds = whole >= ideal_[k] >> 16 && whole <= ideal_[k + 1] >> 16;
+  }
+  Advance advance = holds ? Advance{.increment = straight, .events = count} : within_bounds(start, count);
+  advance.sign = sign;
+  return advance;
+}
+
+unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
+                            BoardSegment& segment) {
+  const std::uint8_t kept_directions = segment.directions;
+  const auto most = static_cast<unsigned>(std::min<std::size_t>(events.size(), longest));
+  const Timing timing = fit_time(events, board.time(), most);
+  if (timing.events == 0) return 0;
+
+  std::array<Advance, max_motors> advances;
+  unsigned count = timing.events;
+  advances[stretch.master] =
+      advance_master(stretch, board.position(stretch.master), events.places(stretch.master)[1], count);
+  count = advances[stretch.master].events;
+  // A motor may shorten the segment, and then the motors before it may take another increment: until all agree.
+  for (bool agreed = false; !agreed;) {
+    agreed = true;
+    for (unsigned m = 0; m < motors_; ++m) {
+      if (m == stretch.master) continue;
+      advances[m] = advance_other(events, m, board.position(m), count);
+      if (advances[m].events < count) {
+        count = advances[m].events;
+        agreed = false;
+      }
+    }
+  }
+
+  segment = BoardSegment{.events = static_cast<std::uint8_t>(count),
+                         .interval = timing.interval,
+                         .change = count > 1 ? timing.change : 0};
+  for (unsigned m = 0; m < motors_; ++m) {
+    // A motor that stands still keeps its direction line.
+    const bool was_down = (kept_directions >> m & 1U) != 0;
+    const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
+    set_increment(segment, m, sign, advances[m].increment);
+  }
+  if (timing.events > 1) guess_ = timing.events;
+  return count;
+}
+
+}  // namespace passo

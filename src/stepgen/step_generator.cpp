@@ -1,0 +1,165 @@
+#include "passo/stepgen/step_generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "board_model.hpp"
+#include "event_stream.hpp"
+#include "segment_fitter.hpp"
+
+namespace passo {
+
+class StepGenerator::Implementation {
+ public:
+  Implementation(Source<MotionItem>& motion, const StepOptions& options)
+      : motion_(motion),
+        motors_(options.motor_count),
+        stream_(options),
+        board_(options.motor_count),
+        fitter_(options.motor_count, stream_.shortest_interval()) {
+    for (unsigned m = 0; m < motors_; ++m) {
+      board_.set_steps(m, std::llround(options.start[options.motors[m].axis] * options.motors[m].steps_per_unit));
+    }
+  }
+
+  bool next(BoardItem& item) {
+    for (;;) {
+      if (play_ && fit(item)) return true;
+      play_ = false;
+      if (rest_) {
+        if (come_to_rest(item)) return true;
+        rest_ = false;
+      }
+      if (action_) {
+        item = *action_;
+        action_.reset();
+        return true;
+      }
+      if (!go_on()) return false;
+    }
+  }
+
+ private:
+  // Turns waiting events into one segment. False when none is left, or when too few are left to be sure.
+  bool fit(BoardItem& item) {
+    if (events_.empty() || (more_ && events_.size() < SegmentFitter::longest + 1)) return false;
+    const unsigned used = fitter_.fit(events_, stream_.stretch(), board_, last_);
+    if (used == 0) return wait_until(events_.time(0), item);
+    events_.drop(used);
+    return send(last_, item);
+  }
+
+  bool send(const BoardSegment& segment, BoardItem& item) {
+    board_.play(segment);
+    item = segment;
+    return true;
+  }
+
+  // Events without steps, to bridge a time that no interval can hold. Leaves a remainder that one interval can.
+  bool wait_until(std::int64_t time, BoardItem& item) {
+    constexpr std::int64_t idle = 32768 * whole_tick;
+    const std::int64_t gap = time - board_.time();
+    const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, SegmentFitter::longest);
+    return send(without_steps(static_cast<std::uint8_t>(events), std::min(idle, gap)), item);
+  }
+
+  BoardSegment without_steps(std::uint8_t events, std::int64_t interval) {
+    last_ = BoardSegment{
+        .events = events, .directions = last_.directions, .interval = static_cast<std::uint32_t>(interval)};
+    for (unsigned m = 0; m < motors_; ++m) set_increment(last_, m, 1, 0);
+    return last_;
+  }
+
+  // At rest: brings every motor to the very place of the programmed end, and the board's time to that of the path.
+  bool come_to_rest(BoardItem& item) {
+    std::array<std::int64_t, max_motors> missing{};
+    bool moves = false;
+    for (unsigned m = 0; m < motors_; ++m) {
+      missing[m] = rest_place(stream_.place_at_end(m)) - board_.position(m);
+      moves = moves || missing[m] != 0;
+    }
+    const std::int64_t gap = stream_.now() - board_.time();
+    const std::int64_t shortest = stream_.shortest_interval();
+    if (!moves && gap < shortest) return false;
+    if (gap > 65535 * whole_tick) return wait_until(stream_.now(), item);
+    BoardSegment segment = without_steps(1, std::max(gap, shortest));
+    for (unsigned m = 0; m < motors_; ++m) {
+      if (missing[m] == 0) continue;
+      const int sign = missing[m] > 0 ? 1 : -1;
+      segment.directions = static_cast<std::uint8_t>(segment.directions & ~(1U << m));
+      segment.flips = static_cast<std::uint8_t>(segment.flips & ~(1U << m));
+      set_increment(segment, m, sign, std::min<std::int64_t>(std::abs(missing[m]), whole_step));
+    }
+    last_ = segment;
+    return send(segment, item);
+  }
+
+  // Pulls motion until there are events to play, a rest to come to or an action to pass on. False at the end.
+  bool go_on() {
+    if (!stream_.in_move()) {
+      if (!motion_.next(motion_item_)) return finish();
+      if (const auto* action = std::get_if<Action>(&motion_item_)) {
+        take(*action);
+        return true;
+      }
+      stream_.start_move(std::get<PlannedMove>(motion_item_));
+    }
+    switch (stream_.fill(events_)) {
+      case EventStream::Stop::full:
+        more_ = play_ = true;
+        break;
+      case EventStream::Stop::stretch_end:
+        more_ = false;
+        play_ = true;
+        break;
+      case EventStream::Stop::move_end: break;
+      case EventStream::Stop::rest:
+        stream_.end_stretch();
+        more_ = false;
+        play_ = rest_ = true;
+        break;
+    }
+    return true;
+  }
+
+  void take(const Action& action) {
+    stream_.end_stretch();
+    stream_.wait(action.dwell);
+    more_ = false;
+    play_ = rest_ = true;
+    action_ = action;
+  }
+
+  bool finish() {
+    if (finished_) return false;
+    finished_ = true;
+    stream_.end_stretch();
+    more_ = false;
+    play_ = rest_ = true;
+    return true;
+  }
+
+  Source<MotionItem>& motion_;
+  std::uint8_t motors_;
+  EventStream stream_;
+  EventBuffer events_;
+  BoardModel board_;
+  SegmentFitter fitter_;
+  MotionItem motion_item_;
+  BoardSegment last_;
+
+  bool play_ = false;  // events wait to be played
+  bool more_ = false;  // and more of the same stretch may follow
+  bool rest_ = false;  // after them, come to rest
+  bool finished_ = false;
+  std::optional<Action> action_;  // and then, pass this on
+};
+
+StepGenerator::StepGenerator(Source<MotionItem>& motion, const StepOptions& options)
+    : implementation_(std::make_unique<Implementation>(motion, options)) {}
+StepGenerator::~StepGenerator() = default;
+
+bool StepGenerator::next(BoardItem& item) { return implementation_->next(item); }
+
+}  // namespace passo

@@ -1,0 +1,290 @@
+#include "passo/stepgen/step_generator.hpp"
+
+#include <cstdlib>
+#include <random>
+
+#include "step_oracle.hpp"
+
+namespace passo {
+namespace {
+
+class ItemList final : public Source<MotionItem> {
+ public:
+  explicit ItemList(std::vector<MotionItem> items) : items_(std::move(items)) {}
+  bool next(MotionItem& item) override {
+    if (next_ == items_.size()) return false;
+    item = items_[next_++];
+    return true;
+  }
+
+ private:
+  std::vector<MotionItem> items_;
+  std::size_t next_ = 0;
+};
+
+std::vector<BoardItem> generate(const std::vector<MotionItem>& items, const StepOptions& options) {
+  ItemList source(items);
+  StepGenerator generator(source, options);
+  std::vector<BoardItem> result;
+  BoardItem item;
+  while (generator.next(item)) result.push_back(item);
+  return result;
+}
+
+std::uint64_t seed() {
+  const char* text = std::getenv("PASSO_SEED");
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : 20261121;
+}
+
+StepOptions machine(std::initializer_list<double> steps_per_mm, double event_rate = 100e3) {
+  StepOptions options;
+  for (const double steps : steps_per_mm) {
+    options.motors[options.motor_count] = {.axis = all_axes[options.motor_count], .steps_per_unit = steps};
+    ++options.motor_count;
+  }
+  options.clock.highest_event_rate = Hertz(event_rate);
+  return options;
+}
+
+// Speeds up or slows down from `from` to `to` over the whole length, through `peak` where the length allows.
+PlannedMove planned(const Curve& curve, double from, double peak, double to, double acceleration) {
+  PlannedMove move;
+  move.segment.curve = curve;
+  const double length = curve.length().value();
+  // v² differences over 2a are lengths.
+  const double highest = std::sqrt((from * from + to * to) / 2 + acceleration * length);
+  const double top = std::max({std::min(peak, highest), from, to});
+  const double up = (top * top - from * from) / (2 * acceleration);
+  const double down = (top * top - to * to) / (2 * acceleration);
+  const double level = std::max(0.0, length - up - down);
+  if (up > 0) {
+    move.add({.duration = Seconds((top - from) / acceleration),
+              .start = Mm(0),
+              .velocity = MmPerSecond(from),
+              .acceleration = MmPerSecond2(acceleration)});
+  }
+  if (level > 0) move.add({.duration = Seconds(level / top), .start = Mm(up), .velocity = MmPerSecond(top)});
+  if (down > 0) {
+    move.add({.duration = Seconds((top - to) / acceleration),
+              .start = Mm(length - down),
+              .velocity = MmPerSecond(top),
+              .acceleration = MmPerSecond2(-acceleration)});
+  }
+  return move;
+}
+
+Point at(double x, double y, double z = 0) {
+  Point point;
+  point[Axis::x] = x;
+  point[Axis::y] = y;
+  point[Axis::z] = z;
+  return point;
+}
+
+// Every step of every motor: as many as there ought to be, in the right direction, in time.
+void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
+  const std::vector<BoardItem> board = generate(items, options);
+  const oracle::Playback played = oracle::play(board, options);
+  EXPECT_GE(static_cast<double>(played.shortest_interval) + 1,
+            options.clock.tick_rate / options.clock.highest_event_rate);
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    const std::vector<oracle::ExactStep> exact = oracle::exact_steps(items, options, m);
+    const std::vector<oracle::PlayedStep>& steps = played.steps[m];
+    std::size_t i = 0;
+    for (const oracle::PlayedStep& step : steps) {
+      // Where the path turns back within one event, a step there and back is none.
+      while (i + 1 < exact.size() && exact[i].direction != exact[i + 1].direction &&
+             exact[i + 1].time - exact[i].time < static_cast<long double>(step.interval) &&
+             (exact[i].direction != step.direction ||
+              std::fabs(exact[i].time - static_cast<long double>(step.tick)) > static_cast<long double>(step.interval))) {
+        i += 2;
+      }
+      ASSERT_LT(i, exact.size()) << "motor " << m << ": a step too many at tick " << step.tick;
+      ASSERT_EQ(step.direction, exact[i].direction) << "motor " << m << " step " << i << " at tick " << step.tick;
+      const long double error = static_cast<long double>(step.tick) - exact[i].time;
+      const long double allowed =
+          step.of_master && !step.held_back ? 1.0L : static_cast<long double>(step.interval) + 1;
+      ASSERT_LE(std::fabs(error), allowed)
+          << "motor " << m << " step " << i << " at tick " << step.tick << " of " << exact[i].time
+          << (step.of_master ? " (master)" : "");
+      ++i;
+    }
+    while (i + 1 < exact.size() && exact[i].direction != exact[i + 1].direction) i += 2;
+    ASSERT_EQ(i, exact.size()) << "motor " << m << ": steps are missing";
+  }
+}
+
+void expect_end(const std::vector<MotionItem>& items, const StepOptions& options) {
+  const oracle::Playback played = oracle::play(generate(items, options), options);
+  const PlannedMove* last = nullptr;
+  for (const MotionItem& item : items) {
+    if (const auto* move = std::get_if<PlannedMove>(&item)) last = move;
+  }
+  ASSERT_NE(last, nullptr);
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    const Motor& motor = options.motors[m];
+    EXPECT_EQ(played.counts[m], std::llround(last->segment.curve.end()[motor.axis] * motor.steps_per_unit))
+        << "motor " << m;
+  }
+}
+
+TEST(StepGenerator, one_axis_from_rest_to_rest_steps_at_the_exact_times) {
+  const StepOptions options = machine({100});
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(10.003, 0)), 0, 25, 0, 200)};
+  expect_exact(items, options);
+  expect_end(items, options);
+}
+
+TEST(StepGenerator, slaves_follow_the_master_within_one_event) {
+  const StepOptions options = machine({640, 640, 640});
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(20, 8.123, -0.377)), 0, 100, 0, 800)};
+  expect_exact(items, options);
+  expect_end(items, options);
+}
+
+TEST(StepGenerator, a_full_circle_comes_back_to_its_start) {
+  const StepOptions options = machine({640, 640});
+  const std::vector<MotionItem> items = {
+      planned(Curve::arc(at(0, 0), at(0, 0), Axis::x, Axis::y, 10, 0, 2 * std::numbers::pi), 0, 60, 0, 500)};
+  expect_exact(items, options);
+  expect_end(items, options);
+}
+
+TEST(StepGenerator, axes_of_unlike_fineness_share_an_arc) {
+  const StepOptions options = machine({10, 3200, 48}, 200e3);
+  const std::vector<MotionItem> items = {planned(
+      Curve::arc(at(0, 0), at(3, 3, 1), Axis::x, Axis::y, 3, 0, -1.5 * std::numbers::pi - 2 * std::numbers::pi), 0, 20,
+      0, 300)};
+  expect_exact(items, options);
+  expect_end(items, options);
+}
+
+TEST(StepGenerator, a_corner_at_speed_loses_nothing) {
+  const StepOptions options = machine({100, 100});
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(5.0013, 0)), 0, 20, 3, 200),
+                                         planned(Curve::line(at(5.0013, 0), at(5.0013, 4.4471)), 3, 20, 3, 200),
+                                         planned(Curve::line(at(5.0013, 4.4471), at(0, 0)), 3, 20, 0, 200)};
+  expect_exact(items, options);
+  expect_end(items, options);
+}
+
+TEST(StepGenerator, a_move_shorter_than_a_step_ends_on_the_nearest_step) {
+  const StepOptions options = machine({100, 100});
+  for (const double length : {0.001, 0.0049, 0.0051, 0.0149, 0.0151}) {
+    const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(length, -length)), 0, 1, 0, 200)};
+    expect_end(items, options);
+  }
+}
+
+TEST(StepGenerator, a_half_step_rounds_away_from_zero) {
+  const StepOptions options = machine({100, 100});
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(12.345, -12.345)), 0, 20, 0, 200)};
+  expect_end(items, options);
+  const std::vector<MotionItem> stays = {items[0],
+                                         planned(Curve::line(at(12.345, -12.345), at(13, -12.345)), 0, 20, 0, 200)};
+  expect_end(stays, options);
+}
+
+TEST(StepGenerator, a_dwell_is_waited_for_without_a_step) {
+  const StepOptions options = machine({100});
+  const Action pause{.kind = Action::Kind::dwell, .dwell = Seconds(2.5)};
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(1, 0)), 0, 10, 0, 200), pause,
+                                         planned(Curve::line(at(1, 0), at(0, 0)), 0, 10, 0, 200)};
+  expect_exact(items, options);
+  const std::vector<BoardItem> alone = generate({pause}, options);
+  const oracle::Playback played = oracle::play(alone, options);
+  EXPECT_NEAR(static_cast<double>(played.end_tick), 2.5 * 16e6, 1);
+  EXPECT_TRUE(std::holds_alternative<Action>(alone.back()));
+}
+
+TEST(StepGenerator, one_step_in_ten_seconds_comes_on_the_tick) {
+  const StepOptions options = machine({1});
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(3, 0)), 0.1, 0.1, 0.1, 1)};
+  expect_exact(items, options);
+}
+
+TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
+  const StepOptions options = machine({640});
+  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(1000, 0)), 100, 100, 100, 800)};
+  const oracle::Playback played = oracle::play(generate(items, options), options);
+  EXPECT_LE(played.segments, played.events / 250);
+}
+
+// Lines and arcs with random corners, speeds and machines.
+class RandomPrograms : public testing::Test {
+ protected:
+  std::mt19937_64 random_{seed()};
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
+
+  StepOptions random_machine() {
+    constexpr std::array<double, 7> finenesses = {10, 48, 100, -100, 640, 1000, -3200};
+    StepOptions options = machine({1, 1, 1}, below(2) == 0 ? 100e3 : 50e3);
+    for (unsigned m = 0; m < 3; ++m) options.motors[m].steps_per_unit = finenesses[static_cast<std::size_t>(below(7))];
+    return options;
+  }
+
+  Curve random_curve(const Point& start) {
+    const double size = std::pow(10.0, uniform(-2.5, 1));
+    Point end = start + at(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) * size;
+    if (below(3) == 0) end[all_axes[static_cast<std::size_t>(below(3))]] = start[Axis::x];
+    if (below(3) != 0) return Curve::line(start, end);
+    const double center_x = start[Axis::x] + uniform(-1, 1) * size;
+    const double center_y = start[Axis::y] + uniform(-1, 1) * size;
+    const double radius = std::hypot(start[Axis::x] - center_x, start[Axis::y] - center_y);
+    const double from = std::atan2(start[Axis::y] - center_y, start[Axis::x] - center_x);
+    const double sweep = uniform(-8, 8);
+    const double growth = below(3) == 0 ? uniform(0.999, 1.001) : 1;
+    end[Axis::x] = center_x + growth * radius * std::cos(from + sweep);
+    end[Axis::y] = center_y + growth * radius * std::sin(from + sweep);
+    return Curve::arc(start, end, Axis::x, Axis::y, center_x, center_y, sweep);
+  }
+
+  std::vector<MotionItem> random_program(const StepOptions& options) {
+    double finest = 0;
+    for (unsigned m = 0; m < 3; ++m) finest = std::max(finest, std::fabs(options.motors[m].steps_per_unit));
+    const double fastest = 0.8 * options.clock.highest_event_rate.value() / finest;
+    std::vector<MotionItem> items;
+    Point place;
+    double speed = 0;
+    const int moves = 1 + below(8);
+    for (int i = 0; i < moves; ++i) {
+      const Curve curve = random_curve(place);
+      place = curve.end();
+      const double acceleration = std::pow(10.0, uniform(1.5, 3.5));
+      const double peak = uniform(0.05, 1) * fastest;
+      // What can be reached from the speed at the start, and what is near enough to stop from.
+      const double reach = std::sqrt(speed * speed + 2 * acceleration * curve.length().value());
+      const double least = std::sqrt(std::max(0.0, speed * speed - 2 * acceleration * curve.length().value()));
+      double exit = i + 1 == moves || below(4) == 0 ? 0 : uniform(0, 1) * std::min(reach, fastest);
+      exit = std::max(exit, least);
+      items.push_back(planned(curve, speed, peak, exit, acceleration));
+      speed = exit;
+      if (speed == 0 && below(5) == 0) items.push_back(Action{.dwell = Seconds(uniform(0, 0.01))});
+    }
+    return items;
+  }
+};
+
+TEST_F(RandomPrograms, step_where_and_when_mathematics_puts_it) {
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed() << " program " << i);
+    const StepOptions options = random_machine();
+    expect_exact(random_program(options), options);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_F(RandomPrograms, give_the_same_bytes_twice) {
+  const StepOptions options = random_machine();
+  const std::vector<MotionItem> items = random_program(options);
+  const oracle::Playback once = oracle::play(generate(items, options), options);
+  const oracle::Playback again = oracle::play(generate(items, options), options);
+  EXPECT_EQ(once.end_tick, again.end_tick);
+  EXPECT_EQ(once.counts, again.counts);
+  EXPECT_EQ(once.segments, again.segments);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,200 @@
+// What the steps ought to be, computed from the phases in long double by bisection, and what a list of board segments
+// plays, computed from the definition in board_segment.hpp. Shares no code with the step generator or the player.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "passo/stepgen/step_generator.hpp"
+
+namespace passo::oracle {
+
+struct ExactStep {
+  long double time = 0;  // ticks
+  int direction = 0;
+};
+
+struct PlayedStep {
+  std::int64_t tick = 0;
+  int direction = 0;
+  bool of_master = false;        // the motor that sets the event clock of its segment
+  bool held_back = false;        // its event came as soon after the one before as the board allows
+  std::int64_t interval = 0;     // the longer of the intervals before and after its event, ticks
+};
+
+struct Playback {
+  std::vector<std::vector<PlayedStep>> steps;  // by motor
+  std::vector<std::int64_t> counts;
+  std::int64_t end_tick = 0;
+  std::int64_t segments = 0;
+  std::int64_t events = 0;
+  std::int64_t shortest_interval = INT64_MAX;  // ticks
+};
+
+// A motor's step count is the whole part of this.
+inline long double exact_place(const Motor& motor, const Curve& curve, long double s) {
+  const long double scale = motor.steps_per_unit;
+  const long double length = curve.length().value();
+  if (curve.shape() == Curve::Shape::arc) {
+    const Curve::ArcData& arc = curve.arc_data();
+    const long double part = s / length;
+    const long double angle = arc.start_angle + arc.sweep * part;
+    const long double radius = arc.start_radius + (static_cast<long double>(arc.end_radius) - arc.start_radius) * part;
+    if (motor.axis == arc.first) return (arc.first_center + radius * std::cos(angle)) * scale + 0.5L;
+    if (motor.axis == arc.second) return (arc.second_center + radius * std::sin(angle)) * scale + 0.5L;
+  }
+  const long double start = curve.start()[motor.axis];
+  return (start + (curve.end()[motor.axis] - start) * s / length) * scale + 0.5L;
+}
+
+inline long double bisect(auto&& below, long double low, long double high) {
+  for (int i = 0; i < 100; ++i) {
+    const long double middle = (low + high) / 2;
+    (below(middle) ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+// Seconds from the start of the move until the path has come to s.
+inline long double exact_time(const PlannedMove& move, long double s) {
+  long double time = 0;
+  for (std::size_t i = 0; i < move.phase_count; ++i) {
+    const Phase& phase = move.phases[i];
+    const long double v = phase.velocity.value();
+    const long double a = phase.acceleration.value();
+    const long double j = phase.jerk.value();
+    const auto position = [&](long double t) { return phase.start.value() + t * (v + t * (a / 2 + t * j / 6)); };
+    const long double duration = phase.duration.value();
+    if (i + 1 < move.phase_count && position(duration) < s) {
+      time += duration;
+      continue;
+    }
+    return time + bisect([&](long double t) { return position(t) < s; }, 0, duration);
+  }
+  return time;
+}
+
+// Places of s between which the motor does not turn back.
+inline std::vector<long double> monotone_pieces(const Motor& motor, const Curve& curve) {
+  const long double length = curve.length().value();
+  std::vector<long double> ends = {0};
+  const Curve::ArcData& arc = curve.arc_data();
+  if (curve.shape() == Curve::Shape::arc && (motor.axis == arc.first || motor.axis == arc.second)) {
+    const int samples = 64 + static_cast<int>(std::fabs(arc.sweep) * 64);
+    const auto place = [&](long double s) { return exact_place(motor, curve, s); };
+    for (int i = 1; i < samples; ++i) {
+      const long double step = length / samples;
+      const long double at = step * i;
+      const bool was_rising = place(at) > place(at - step);
+      if ((place(at + step) > place(at)) == was_rising) continue;
+      // The slope changes its sign in here: ternary search.
+      long double low = at - step;
+      long double high = at + step;
+      for (int k = 0; k < 200; ++k) {
+        const long double a = low + (high - low) / 3;
+        const long double b = high - (high - low) / 3;
+        ((place(a) < place(b)) == was_rising ? low : high) = (place(a) < place(b)) == was_rising ? a : b;
+      }
+      ends.push_back((low + high) / 2);
+    }
+  }
+  ends.push_back(length);
+  return ends;
+}
+
+inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, const StepOptions& options,
+                                          unsigned m) {
+  std::vector<ExactStep> steps;
+  const Motor& motor = options.motors[m];
+  const long double ticks = options.clock.tick_rate.value();
+  long double start = 0;  // seconds
+  for (const MotionItem& item : items) {
+    if (const auto* action = std::get_if<Action>(&item)) {
+      start += action->dwell.value();
+      continue;
+    }
+    const auto& move = std::get<PlannedMove>(item);
+    const Curve& curve = move.segment.curve;
+    const std::vector<long double> pieces = monotone_pieces(motor, curve);
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      const long double from = exact_place(motor, curve, pieces[i]);
+      const long double to = exact_place(motor, curve, pieces[i + 1]);
+      const auto low = static_cast<std::int64_t>(std::floor(std::min(from, to)));
+      const auto high = static_cast<std::int64_t>(std::floor(std::max(from, to)));
+      for (std::int64_t k = 0; k < high - low; ++k) {
+        const std::int64_t line = to > from ? low + 1 + k : high - k;
+        const long double s = bisect(
+            [&](long double at) { return (exact_place(motor, curve, at) < static_cast<long double>(line)) == (to > from); },
+            pieces[i], pieces[i + 1]);
+        steps.push_back({.time = (start + exact_time(move, s)) * ticks, .direction = to > from ? 1 : -1});
+      }
+    }
+    for (const Phase& phase : move) start += phase.duration.value();
+  }
+  return steps;
+}
+
+// The signed increment as board_segment.hpp's table has it.
+inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
+  const bool flip = (segment.flips >> m & 1U) != 0;
+  const bool down = (segment.directions >> m & 1U) != 0;
+  const std::int64_t raw = segment.increments[m];
+  if (!down) return flip ? 65536 : raw;
+  return flip ? raw - 65536 : 0;
+}
+
+inline Playback play(const std::vector<BoardItem>& items, const StepOptions& options) {
+  Playback result;
+  result.steps.resize(options.motor_count);
+  std::vector<std::int64_t> place(options.motor_count, 32768);
+  std::int64_t time = 32768;  // 1/65536 tick
+  struct Pending {
+    unsigned motor;
+    std::size_t index;
+  };
+  std::vector<Pending> pending;  // steps whose following interval is not known yet
+  const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
+  for (const BoardItem& item : items) {
+    const auto* segment = std::get_if<BoardSegment>(&item);
+    if (segment == nullptr) continue;
+    ++result.segments;
+    std::int64_t most = 0;
+    for (unsigned m = 0; m < options.motor_count; ++m) most = std::max(most, std::abs(signed_increment(*segment, m)));
+    std::int64_t interval = segment->interval;
+    for (unsigned k = 0; k < segment->events; ++k) {
+      const std::int64_t before = time >> 16;
+      time += interval;
+      interval += segment->change;
+      const std::int64_t tick = time >> 16;
+      ++result.events;
+      result.shortest_interval = std::min(result.shortest_interval, tick - before);
+      for (const Pending& p : pending) {
+        PlayedStep& step = result.steps[p.motor][p.index];
+        step.interval = std::max(step.interval, tick - before);
+      }
+      pending.clear();
+      for (unsigned m = 0; m < options.motor_count; ++m) {
+        const std::int64_t increment = signed_increment(*segment, m);
+        const std::int64_t whole = place[m] >> 16;
+        place[m] += increment;
+        const std::int64_t steps = (place[m] >> 16) - whole;
+        if (steps == 0) continue;
+        const bool power_of_two = (std::abs(increment) & (std::abs(increment) - 1)) == 0;
+        pending.push_back({.motor = m, .index = result.steps[m].size()});
+        result.steps[m].push_back({.tick = tick,
+                                   .direction = steps > 0 ? 1 : -1,
+                                   .of_master = std::abs(increment) == most && power_of_two && segment->events > 1,
+                                   .held_back = static_cast<double>(tick - before) <= shortest + 1,
+                                   .interval = tick - before});
+      }
+    }
+  }
+  for (const std::int64_t p : place) result.counts.push_back(p >> 16);
+  result.end_tick = time >> 16;
+  return result;
+}
+
+}  // namespace passo::oracle
