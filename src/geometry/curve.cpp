@@ -1,0 +1,186 @@
+#include "passo/geometry/curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+
+namespace passo {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double length_over(const Point& vector, std::initializer_list<Axis> axes) {
+  double sum = 0;
+  for (const Axis axis : axes) sum += vector[axis] * vector[axis];
+  return std::sqrt(sum);
+}
+
+// The first of the three groups of axes that moves at all counts.
+double counted_length(const Point& travel) {
+  const double linear = length_over(travel, {Axis::x, Axis::y, Axis::z});
+  if (linear > 0) return linear;
+  const double second_linear = length_over(travel, {Axis::u, Axis::v, Axis::w});
+  if (second_linear > 0) return second_linear;
+  return length_over(travel, {Axis::a, Axis::b, Axis::c});
+}
+
+double low_angle(const Curve::ArcData& arc) {
+  return std::min(arc.start_angle, arc.start_angle + arc.sweep);
+}
+double high_angle(const Curve::ArcData& arc) {
+  return std::max(arc.start_angle, arc.start_angle + arc.sweep);
+}
+
+double radius_at(const Curve::ArcData& arc, double angle) {
+  return arc.start_radius + (arc.end_radius - arc.start_radius) * ((angle - arc.start_angle) / arc.sweep);
+}
+
+// Whether the arc passes `angle`, counted modulo `period`.
+bool sweeps_over(const Curve::ArcData& arc, double angle, double period) {
+  return angle + period * std::ceil((low_angle(arc) - angle) / period) <= high_angle(arc);
+}
+
+double largest_sine(const Curve::ArcData& arc) {
+  if (sweeps_over(arc, pi / 2, pi)) return 1;
+  return std::max(std::abs(std::sin(arc.start_angle)), std::abs(std::sin(arc.start_angle + arc.sweep)));
+}
+double largest_cosine(const Curve::ArcData& arc) {
+  if (sweeps_over(arc, 0, pi)) return 1;
+  return std::max(std::abs(std::cos(arc.start_angle)), std::abs(std::cos(arc.start_angle + arc.sweep)));
+}
+
+// How far the arc reaches from its centre in the direction `toward`, a multiple of a quarter turn; 0 where no point
+// between its ends is the farthest. A growing radius reaches farthest on the first or on the last turn, at the angle
+// where tan(angle - toward) = growth / radius.
+double reach(const Curve::ArcData& arc, double toward) {
+  const double low = low_angle(arc);
+  const double high = high_angle(arc);
+  const double growth = (arc.end_radius - arc.start_radius) / arc.sweep;
+  const double first = toward + 2 * pi * std::ceil((low - pi / 2 - toward) / (2 * pi));
+  const double last = toward + 2 * pi * std::floor((high + pi / 2 - toward) / (2 * pi));
+  double best = 0;
+  for (const double turn : {first, first + 2 * pi, last - 2 * pi, last}) {
+    double angle = turn;
+    for (int pass = 0; pass < 3 && growth != 0; ++pass) angle = turn + std::atan2(growth, radius_at(arc, angle));
+    if (angle < low || angle > high) continue;
+    best = std::max(best, radius_at(arc, angle) * std::cos(angle - turn));
+  }
+  return best;
+}
+
+}  // namespace
+
+Curve Curve::line(const Point& start, const Point& end) {
+  Curve curve;
+  curve.start_ = start;
+  curve.end_ = end;
+  const Point travel = end - start;
+  curve.length_ = counted_length(travel);
+  // A division, not a product with 1/length: a length of 1e-310 has no reciprocal.
+  for (std::size_t i = 0; i < axis_count && curve.length_ > 0; ++i) {
+    curve.slope_.values[i] = travel.values[i] / curve.length_;
+  }
+  return curve;
+}
+
+Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
+                 double second_center, double sweep) {
+  Curve curve;
+  curve.shape_ = Shape::arc;
+  curve.start_ = start;
+  curve.end_ = end;
+
+  const double first_arm = start[first] - first_center;
+  const double second_arm = start[second] - second_center;
+  ArcData& arc = curve.arc_;
+  arc.first = first;
+  arc.second = second;
+  arc.first_center = first_center;
+  arc.second_center = second_center;
+  arc.start_radius = std::hypot(first_arm, second_arm);
+  arc.end_radius = std::hypot(end[first] - first_center, end[second] - second_center);
+  arc.start_angle = std::atan2(second_arm, first_arm);
+  arc.sweep = sweep;
+
+  Point travel = end - start;
+  travel[first] = 0;
+  travel[second] = 0;
+  const double along = length_over(travel, {Axis::x, Axis::y, Axis::z});
+  const double around = (arc.start_radius + arc.end_radius) / 2 * std::abs(sweep);
+  const double outward = arc.end_radius - arc.start_radius;
+  curve.length_ = std::sqrt(around * around + outward * outward + along * along);
+  for (std::size_t i = 0; i < axis_count && curve.length_ > 0; ++i) {
+    curve.slope_.values[i] = travel.values[i] / curve.length_;
+  }
+  return curve;
+}
+
+Point Curve::at(Mm s) const {
+  if (s.value() <= 0) return start_;
+  if (s.value() >= length_) return end_;
+  Point point = start_ + slope_ * s.value();
+  if (shape_ == Shape::arc) {
+    const double share = s.value() / length_;
+    const double radius = arc_.start_radius + share * (arc_.end_radius - arc_.start_radius);
+    const double angle = arc_.start_angle + share * arc_.sweep;
+    point[arc_.first] = arc_.first_center + radius * std::cos(angle);
+    point[arc_.second] = arc_.second_center + radius * std::sin(angle);
+  }
+  return point;
+}
+
+Point Curve::tangent(Mm s) const {
+  Point tangent = slope_;
+  if (shape_ == Shape::arc && length_ > 0) {
+    const double share = std::clamp(s.value() / length_, 0.0, 1.0);
+    const double radius = arc_.start_radius + share * (arc_.end_radius - arc_.start_radius);
+    const double angle = arc_.start_angle + share * arc_.sweep;
+    const double outward = (arc_.end_radius - arc_.start_radius) / length_;
+    const double around = radius * arc_.sweep / length_;
+    tangent[arc_.first] = outward * std::cos(angle) - around * std::sin(angle);
+    tangent[arc_.second] = outward * std::sin(angle) + around * std::cos(angle);
+  }
+  return tangent;
+}
+
+Point Curve::steepest() const {
+  Point steepest;
+  for (std::size_t i = 0; i < axis_count; ++i) steepest.values[i] = std::abs(slope_.values[i]);
+  if (shape_ == Shape::arc && length_ > 0) {
+    const double outward = std::abs(arc_.end_radius - arc_.start_radius) / length_;
+    const double around = std::max(arc_.start_radius, arc_.end_radius) * std::abs(arc_.sweep) / length_;
+    const double sine = largest_sine(arc_);
+    const double cosine = largest_cosine(arc_);
+    steepest[arc_.first] = outward * cosine + around * sine;
+    steepest[arc_.second] = outward * sine + around * cosine;
+  }
+  return steepest;
+}
+
+double Curve::curvature() const {
+  if (shape_ == Shape::line || !(length_ > 0)) return 0;
+  // r'' = 0 and angle'' = 0, so that what is left is the pull to the centre and, in a spiral, the sideways part.
+  const double turning = arc_.sweep / length_;
+  const double outward = (arc_.end_radius - arc_.start_radius) / length_;
+  return std::hypot(std::max(arc_.start_radius, arc_.end_radius) * turning * turning, 2 * outward * turning);
+}
+
+Box Curve::extents() const {
+  Box box;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    box.low.values[i] = std::min(start_.values[i], end_.values[i]);
+    box.high.values[i] = std::max(start_.values[i], end_.values[i]);
+  }
+  if (shape_ == Shape::arc) {
+    const auto widen = [&box](Axis axis, double center, double up, double down) {
+      if (up > 0) box.high[axis] = std::max(box.high[axis], center + up);
+      if (down > 0) box.low[axis] = std::min(box.low[axis], center - down);
+    };
+    widen(arc_.first, arc_.first_center, reach(arc_, 0), reach(arc_, pi));
+    widen(arc_.second, arc_.second_center, reach(arc_, pi / 2), reach(arc_, -pi / 2));
+  }
+  return box;
+}
+
+}  // namespace passo

@@ -1,0 +1,267 @@
+#include "passo/geometry/curve.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+
+namespace passo {
+namespace {
+
+using Real = long double;
+constexpr Real pi = std::numbers::pi_v<Real>;
+
+Point point_of(double x, double y, double z) {
+  Point point;
+  point[Axis::x] = x;
+  point[Axis::y] = y;
+  point[Axis::z] = z;
+  return point;
+}
+
+// An arc as the test made it up: the oracle walks it in polar form, with its own numbers.
+struct Drawn {
+  Axis first = Axis::x;
+  Axis second = Axis::y;
+  Real first_center = 0;
+  Real second_center = 0;
+  Real start_radius = 0;
+  Real end_radius = 0;
+  Real start_angle = 0;
+  Real sweep = 0;
+  Point start;
+  Point end;
+
+  Real first_at(Real share) const {
+    return first_center + (start_radius + share * (end_radius - start_radius)) * std::cos(start_angle + share * sweep);
+  }
+  Real second_at(Real share) const {
+    return second_center + (start_radius + share * (end_radius - start_radius)) * std::sin(start_angle + share * sweep);
+  }
+  Real other_at(Axis axis, Real share) const { return start[axis] + share * (Real(end[axis]) - Real(start[axis])); }
+  Real value_at(Axis axis, Real share) const {
+    if (axis == first) return first_at(share);
+    if (axis == second) return second_at(share);
+    return other_at(axis, share);
+  }
+  Curve curve() const {
+    return Curve::arc(start, end, first, second, static_cast<double>(first_center), static_cast<double>(second_center),
+                      static_cast<double>(sweep));
+  }
+};
+
+class RandomArcs : public testing::Test {
+ protected:
+  RandomArcs() {
+    const char* given = std::getenv("PASSO_SEED");
+    seed_ = given != nullptr ? std::strtoull(given, nullptr, 10) : std::uint64_t{std::random_device{}()};
+    random_.seed(seed_);
+    RecordProperty("seed", std::to_string(seed_));
+  }
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+
+  Drawn draw(bool spiral) {
+    static constexpr std::array<std::array<Axis, 2>, 3> planes = {
+        {{Axis::x, Axis::y}, {Axis::z, Axis::x}, {Axis::y, Axis::z}}};
+    const auto& plane = planes[static_cast<std::size_t>(between(0, 2.999))];
+    Drawn drawn;
+    drawn.first = plane[0];
+    drawn.second = plane[1];
+    drawn.first_center = between(-100, 100);
+    drawn.second_center = between(-100, 100);
+    drawn.start_radius = std::exp(between(-3, 5));
+    drawn.start_angle = between(-3.14, 3.14);
+    const double size = between(0, 1) < 0.7 ? between(0.001, 6.28) : between(6.29, 40);
+    drawn.sweep = between(0, 1) < 0.5 ? size : -size;
+    // A slight spiral, as programs that round their numbers ask for: much less outward than around.
+    const double growth = spiral ? between(-0.03, 0.03) : 0;
+    drawn.end_radius = drawn.start_radius * Real(1 + growth * std::min(1.0, size));
+    for (const Axis axis : all_axes) {
+      drawn.start[axis] = between(-50, 50);
+      drawn.end[axis] = between(0, 1) < 0.5 ? drawn.start[axis] : between(-50, 50);
+    }
+    drawn.start[drawn.first] = static_cast<double>(drawn.first_at(0));
+    drawn.start[drawn.second] = static_cast<double>(drawn.second_at(0));
+    drawn.end[drawn.first] = static_cast<double>(drawn.first_at(1));
+    drawn.end[drawn.second] = static_cast<double>(drawn.second_at(1));
+    return drawn;
+  }
+
+  std::uint64_t seed_ = 0;
+  std::mt19937_64 random_;
+};
+
+TEST(Line, ends_where_it_was_told_to_bit_for_bit) {
+  const Point start = point_of(0.1, 0.2, 0.3);
+  const Point end = point_of(1.0 / 3, -7.7, 1e6);
+  const Curve line = Curve::line(start, end);
+  EXPECT_EQ(line.at(Mm(0)), start);
+  EXPECT_EQ(line.at(line.length()), end);
+}
+
+TEST(Line, counts_xyz_then_uvw_then_abc) {
+  Point end = point_of(3, 4, 0);
+  end[Axis::u] = 100;
+  end[Axis::a] = 1000;
+  EXPECT_DOUBLE_EQ(Curve::line(Point{}, end).length().value(), 5);
+  EXPECT_DOUBLE_EQ(Curve::line(Point{}, end).tangent(Mm(1))[Axis::a], 200);
+  end[Axis::x] = end[Axis::y] = 0;
+  EXPECT_DOUBLE_EQ(Curve::line(Point{}, end).length().value(), 100);
+  end[Axis::u] = 0;
+  EXPECT_DOUBLE_EQ(Curve::line(Point{}, end).length().value(), 1000);
+  end[Axis::a] = 0;
+  EXPECT_FALSE(Curve::line(Point{}, end).has_length());
+}
+
+TEST(Line, without_length_stays_finite) {
+  const Curve line = Curve::line(point_of(1, 2, 3), point_of(1, 2, 3));
+  EXPECT_EQ(line.tangent(Mm(0)), Point{});
+  EXPECT_EQ(line.at(Mm(0)), point_of(1, 2, 3));
+}
+
+TEST(Arc, a_quarter_circle_is_where_school_says) {
+  const Curve arc = Curve::arc(point_of(10, 0, 0), point_of(0, 10, 0), Axis::x, Axis::y, 0, 0, std::numbers::pi / 2);
+  EXPECT_DOUBLE_EQ(arc.length().value(), 5 * std::numbers::pi);
+  EXPECT_DOUBLE_EQ(arc.curvature(), 0.1);
+  EXPECT_NEAR(arc.at(arc.length() / 2)[Axis::x], std::sqrt(50), 1e-14);
+  EXPECT_NEAR(arc.tangent(Mm(0))[Axis::y], 1, 1e-15);
+  EXPECT_NEAR(arc.tangent(arc.length())[Axis::x], -1, 1e-15);
+}
+
+TEST(Arc, a_full_circle_touches_all_four_sides) {
+  const Curve arc = Curve::arc(point_of(3, 4, 0), point_of(3, 4, 0), Axis::x, Axis::y, 0, 0, -2 * std::numbers::pi);
+  const Box box = arc.extents();
+  EXPECT_DOUBLE_EQ(box.low[Axis::x], -5);
+  EXPECT_DOUBLE_EQ(box.high[Axis::x], 5);
+  EXPECT_DOUBLE_EQ(box.low[Axis::y], -5);
+  EXPECT_DOUBLE_EQ(box.high[Axis::y], 5);
+}
+
+TEST(Arc, steepest_of_a_short_arc_is_less_than_one_on_the_axis_it_hardly_moves) {
+  // From 3 to 4 o'clock X changes slowly: at most sin 30 degrees.
+  const double angle = -std::numbers::pi / 6;
+  const Curve arc =
+      Curve::arc(point_of(1, 0, 0), point_of(std::cos(angle), std::sin(angle), 0), Axis::x, Axis::y, 0, 0, angle);
+  EXPECT_NEAR(arc.steepest()[Axis::x], 0.5, 1e-14);
+  EXPECT_NEAR(arc.steepest()[Axis::y], 1, 1e-14);
+}
+
+TEST_F(RandomArcs, are_where_the_polar_form_puts_them) {
+  for (int n = 0; n < 2000; ++n) {
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " arc " << n);
+    const Drawn drawn = draw(n % 2 == 0);
+    const Curve curve = drawn.curve();
+    ASSERT_EQ(curve.at(Mm(0)), drawn.start);
+    ASSERT_EQ(curve.at(curve.length()), drawn.end);
+    for (int k = 1; k < 40; ++k) {
+      const double share = k / 40.0;
+      const Point point = curve.at(curve.length() * share);
+      for (const Axis axis : all_axes) {
+        ASSERT_NEAR(point[axis], static_cast<double>(drawn.value_at(axis, share)), 1e-10) << letter_of(axis);
+      }
+    }
+  }
+}
+
+TEST_F(RandomArcs, tangents_agree_with_differences_and_stay_under_the_steepest) {
+  for (int n = 0; n < 1000; ++n) {
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " arc " << n);
+    const bool spiral = n % 2 == 0;
+    const Drawn drawn = draw(spiral);
+    const Curve curve = drawn.curve();
+    const Real length = curve.length().value();
+    const Real step = 1e-6L;
+    // Even a long double difference has rounding noise, on a short arc most.
+    const double noise = 1e-9 + 1e-10 / static_cast<double>(length);
+    const Point steepest = curve.steepest();
+    Point found;
+    for (int k = 0; k <= 2000; ++k) {
+      const Real share = k / Real(2000);
+      for (const Axis axis : all_axes) {
+        const Real slope =
+            (drawn.value_at(axis, share + step) - drawn.value_at(axis, share - step)) / (2 * step * length);
+        found[axis] = std::max(found[axis], static_cast<double>(std::abs(slope)));
+        if (k % 200 == 0) {
+          const double tangent = curve.tangent(curve.length() * static_cast<double>(share))[axis];
+          ASSERT_NEAR(tangent, static_cast<double>(slope), 1e-7 * (1 + std::abs(tangent)) + noise) << letter_of(axis);
+        }
+      }
+    }
+    for (const Axis axis : all_axes) {
+      ASSERT_LE(found[axis], steepest[axis] * (1 + 1e-9) + noise) << letter_of(axis);
+      // Not a loose bound either: on a true arc the steepest place is met, in a spiral nearly.
+      ASSERT_GE(found[axis] * (spiral ? 1.1 : 1 + 1e-3) + (spiral ? 0.1 : 1e-6), steepest[axis]) << letter_of(axis);
+    }
+  }
+}
+
+TEST_F(RandomArcs, have_a_unit_tangent_and_the_curvature_of_the_second_difference) {
+  for (int n = 0; n < 500; ++n) {
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " arc " << n);
+    const Drawn drawn = draw(false);
+    const Curve curve = drawn.curve();
+    const Real length = curve.length().value();
+    const Real share = between(0.1, 0.9);
+    Real squares = 0;
+    Real bend = 0;
+    const Real step = std::min(0.05L, 0.01L / std::abs(drawn.sweep));
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      const double tangent = curve.tangent(Mm(static_cast<double>(share * length)))[axis];
+      squares += Real(tangent) * tangent;
+      const Real second =
+          (drawn.value_at(axis, share + step) - 2 * drawn.value_at(axis, share) + drawn.value_at(axis, share - step)) /
+          (step * step * length * length);
+      bend += second * second;
+    }
+    ASSERT_NEAR(static_cast<double>(squares), 1, 1e-12);
+    ASSERT_NEAR(static_cast<double>(std::sqrt(bend)), curve.curvature(), 2e-5 * curve.curvature() + 1e-9);
+  }
+}
+
+TEST_F(RandomArcs, extents_hold_every_point_and_are_touched) {
+  for (int n = 0; n < 1000; ++n) {
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " arc " << n);
+    const Drawn drawn = draw(n % 2 == 0);
+    const Box box = drawn.curve().extents();
+    Point low = drawn.start;
+    Point high = drawn.start;
+    const int samples = 400 + static_cast<int>(400 * std::abs(drawn.sweep));
+    for (int k = 0; k <= samples; ++k) {
+      for (const Axis axis : all_axes) {
+        const auto value = static_cast<double>(drawn.value_at(axis, Real(k) / samples));
+        low[axis] = std::min(low[axis], value);
+        high[axis] = std::max(high[axis], value);
+      }
+    }
+    // Between two samples the arc bulges by r·(angle step)²/8.
+    const double bulge = static_cast<double>(drawn.start_radius) * 1e-5;
+    for (const Axis axis : all_axes) {
+      ASSERT_LE(box.low[axis], low[axis] + 1e-10) << letter_of(axis);
+      ASSERT_GE(box.high[axis], high[axis] - 1e-10) << letter_of(axis);
+      ASSERT_GE(box.low[axis], low[axis] - bulge - 1e-10) << letter_of(axis);
+      ASSERT_LE(box.high[axis], high[axis] + bulge + 1e-10) << letter_of(axis);
+    }
+  }
+}
+
+TEST_F(RandomArcs, a_length_is_the_sum_of_its_chords) {
+  for (int n = 0; n < 100; ++n) {
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " arc " << n);
+    const Drawn drawn = draw(false);
+    Real sum = 0;
+    const int chords = 4000;
+    for (int k = 0; k < chords; ++k) {
+      Real squares = 0;
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        const Real step = drawn.value_at(axis, Real(k + 1) / chords) - drawn.value_at(axis, Real(k) / chords);
+        squares += step * step;
+      }
+      sum += std::sqrt(squares);
+    }
+    ASSERT_NEAR(drawn.curve().length().value() / static_cast<double>(sum), 1, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace passo
