@@ -1,5 +1,5 @@
-// BoardModel: the board as the host knows it. Plays the board's own code on every segment that is sent, so that the host
-// knows each motor's fixed-point place and the board's time to the last bit.
+// BoardModel: the board as the host knows it. Plays the board's own code on every segment that is sent, so that the
+// host knows each motor's fixed-point place and the board's time to the last bit.
 #pragma once
 
 #include <array>

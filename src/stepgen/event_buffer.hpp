@@ -1,7 +1,7 @@
 // EventBuffer: the events that are to become board segments, with their exact times and the exact place of each motor.
 //
-// A stretch is a run of events with one master: events lie where the master's place crosses multiples of `grid`, so that
-// the master's increment is the grid itself, exactly, and its steps come at the exact times.
+// A stretch is a run of events with one master: events lie where the master's place crosses multiples of `grid`, so
+// that the master's increment is the grid itself, exactly, and its steps come at the exact times.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace passo {
 
 struct Stretch {
   unsigned master = 0;
-  int sign = 1;                      // direction of the master
-  std::int64_t grid = whole_step;    // place from event to event: 65536 / 2^k
+  int sign = 1;                    // direction of the master
+  std::int64_t grid = whole_step;  // place from event to event: 65536 / 2^k
 };
 
 class EventBuffer {

@@ -26,7 +26,7 @@ EventStream::EventStream(const StepOptions& options)
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     end_[m] = place_of(options_.motors[m], options_.start);
   }
-  here_ = end_;
+  here_ = at_last_event_ = end_;
 }
 
 std::int64_t EventStream::fixed_time(double seconds) const {
@@ -76,45 +76,78 @@ double EventStream::next_target() const {
   return stretch_.sign * (std::floor(along + 1e-6) + 1) * grid;
 }
 
-// Chooses the master from what moves fastest here among the motors that reach a line of the grid before they turn back.
-bool EventStream::start_stretch(EventBuffer& events) {
-  double most = 0;
+// Chooses the master: the motor that is first a whole step away from here.
+EventStream::Start EventStream::start_stretch(EventBuffer& events) {
+  double shortest = infinity;
   for (unsigned m = 0; m < options_.motor_count; ++m) {
-    const double slope = path_.slope(m, s_);
-    if (std::fabs(slope) <= most) continue;
-    Stretch candidate{.master = m, .sign = slope > 0 ? 1 : -1};
-    double rate = std::fabs(slope) * speed_nearby(slope) / place_per_step;
-    for (int k = 0; k < finest_division && rate < slow_rate_; ++k, rate *= 2) candidate.grid /= 2;
-    const Stretch kept = stretch_;
-    stretch_ = candidate;
-    master_place_ = path_.place(m, s_);
-    if (path_.crossing(m, next_target(), s_) < infinity) {
-      most = std::fabs(slope);
-    } else {
-      stretch_ = kept;
-    }
+    const double length = path_.step_length(m, s_);
+    if (length >= shortest) continue;
+    shortest = length;
+    stretch_.master = m;
   }
-  if (most == 0) return false;
-  master_place_ = path_.place(stretch_.master, s_);
+  if (shortest == infinity) return Start::nothing_moves;
+  const unsigned master = stretch_.master;
+  stretch_.sign = path_.slope(master, s_) > 0 ? 1 : -1;
+  stretch_.grid = whole_step;
+  double rate = speed_nearby(place_per_step / shortest) / shortest;
+  for (int k = 0; k < finest_division && rate < slow_rate_; ++k, rate *= 2) stretch_.grid /= 2;
+  master_place_ = path_.place(master, s_);
+  if (path_.crossing(master, next_target(), s_) == infinity) {
+    // It turns back before the next line: what comes first is on the way back.
+    const double turn = path_.turning_point(master, s_);
+    if (!(turn < path_.length())) return Start::nothing_moves;
+    go_to(turn);
+    return Start::turned;
+  }
   events.restart(here_);
   in_stretch_ = true;
+  return Start::done;
+}
+
+// Where one stretch ends and the next begins, the path may have gone on from the last event. A step that fell due on
+// the way gets an event here, at the border.
+bool EventStream::push_border(EventBuffer& events) {
+  double most = 0;
+  bool due = false;
+  for (unsigned m = 0; m < options_.motor_count; ++m) {
+    const double moved = here_[m] - at_last_event_[m];
+    due = due || std::floor(here_[m] / place_per_step) != std::floor(at_last_event_[m] / place_per_step);
+    if (std::fabs(moved) <= most) continue;
+    most = std::fabs(moved);
+    stretch_ = {.master = m, .sign = moved > 0 ? 1 : -1, .grid = whole_step};
+  }
+  if (!due) return false;
+  events.restart(at_last_event_);
+  push({.time = fixed_time(moment_.time), .place = here_}, events);
   return true;
 }
 
-bool EventStream::push_event(double target, double s, EventBuffer& events) {
+void EventStream::push(EventBuffer::Event event, EventBuffer& events) {
+  // Two events are never closer than the board can play them: where masters change, the new one may have to wait.
+  event.time = std::max(event.time, last_event_ + shortest_interval_);
+  last_event_ = event.time;
+  at_last_event_ = here_ = event.place;
+  events.push(event, options_.motor_count);
+}
+
+void EventStream::go_to(double s) {
+  s_ = s;
+  moment_ = clock_.at(s_);
+  for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, s_);
+}
+
+void EventStream::push_master(double target, double s, EventBuffer& events) {
   moment_ = clock_.at(s);
   s_ = s;
-  EventBuffer::Event event;
-  // Two events are never closer than the board can play them: where masters change, the new one may have to wait.
-  event.time = std::max(fixed_time(moment_.time), last_event_ + shortest_interval_);
+  EventBuffer::Event event{.time = fixed_time(moment_.time)};
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     event.place[m] = m == stretch_.master ? target : path_.place(m, s);
   }
-  here_ = event.place;
-  last_event_ = event.time;
   master_place_ = target;
-  events.push(event, options_.motor_count);
-  return stretch_holds(s);
+  push(event, events);
+  // Going down, the step is the crossing itself: from here on the place lies below the line.
+  if (stretch_.sign < 0) at_last_event_[stretch_.master] = here_[stretch_.master] -= 0.5;
+  in_stretch_ = stretch_holds(s);
 }
 
 EventStream::Stop EventStream::finish_move() {
@@ -127,26 +160,19 @@ EventStream::Stop EventStream::finish_move() {
 EventStream::Stop EventStream::fill(EventBuffer& events) {
   while (events.size() < enough_events) {
     if (!in_stretch_) {
-      if (!events.empty()) return Stop::stretch_end;
-      if (!start_stretch(events)) {
-        // Nothing reaches a grid line in its present direction: go on from where a motor turns back.
-        double turn = infinity;
-        for (unsigned m = 0; m < options_.motor_count; ++m) turn = std::fmin(turn, path_.turning_point(m, s_));
-        if (!(turn < path_.length())) return finish_move();
-        s_ = turn;
-        moment_ = clock_.at(s_);
-        for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, s_);
-        continue;
-      }
+      if (!events.empty() || push_border(events)) return Stop::stretch_end;
+      const Start start = start_stretch(events);
+      if (start == Start::nothing_moves) return finish_move();
+      if (start == Start::turned) continue;
     }
     const double target = next_target();
     const double s = path_.crossing(stretch_.master, target, s_);
-    if (!(s <= path_.length())) {
-      if (s < infinity || path_.turning_point(stretch_.master, s_) >= path_.length()) return finish_move();
+    if (s == infinity) {  // turns back before: choose again
       in_stretch_ = false;
       continue;
     }
-    if (!push_event(target, s, events)) in_stretch_ = false;
+    if (s > path_.length()) return finish_move();
+    push_master(target, s, events);
   }
   return Stop::full;
 }

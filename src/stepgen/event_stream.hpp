@@ -1,9 +1,9 @@
 // EventStream: planned moves -> exact events. Chooses the master and how finely its steps are divided, and inverts
 // the phases at each line of the grid.
 //
-// The master is the motor that moves fastest. Its events come at the highest power-of-two multiple of its step rate that is
-// needed to stay above a sixteenth of the board's highest rate, so that on a slow move the other motors are never
-// late by more than one short event.
+// The master is the motor that moves fastest. Its events come at the highest power-of-two multiple of its step rate
+// that is needed to stay above a sixteenth of the board's highest rate, so that on a slow move the other motors are
+// never late by more than one short event.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 #include "event_buffer.hpp"
 #include "motor_path.hpp"
-#include "passo/stepgen/step_generator.hpp"
 #include "phase_clock.hpp"
+
+#include "passo/stepgen/step_generator.hpp"
 
 namespace passo {
 
@@ -45,11 +46,16 @@ class EventStream {
   std::int64_t shortest_interval() const { return shortest_interval_; }
 
  private:
-  bool start_stretch(EventBuffer& events);
+  enum class Start : std::uint8_t { done, turned, nothing_moves };
+
+  Start start_stretch(EventBuffer& events);
+  bool push_border(EventBuffer& events);
+  void push_master(double target, double s, EventBuffer& events);
+  void push(EventBuffer::Event event, EventBuffer& events);
+  void go_to(double s);
   bool stretch_holds(double s) const;
   double speed_nearby(double slope) const;
   double next_target() const;
-  bool push_event(double target, double s, EventBuffer& events);
   Stop finish_move();
   std::int64_t fixed_time(double seconds) const;
   void advance(double seconds);
@@ -69,8 +75,9 @@ class EventStream {
   bool in_move_ = false;
   double s_ = 0;
   PhaseClock::Moment moment_;
-  std::array<double, max_motors> here_{};  // exact places at the last event
-  std::array<double, max_motors> end_{};   // and at the end of the last move
+  std::array<double, max_motors> here_{};  // exact places at s_
+  std::array<double, max_motors> at_last_event_{};
+  std::array<double, max_motors> end_{};  // and at the end of the last move
 
   bool in_stretch_ = false;
   Stretch stretch_;

@@ -9,6 +9,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
+// Radians: far enough behind a turning point to be on the other side of it for certain, and no place further.
+constexpr double behind_turn = 1e-7;
 
 }  // namespace
 
@@ -61,24 +63,52 @@ double MotorPath::crossing(unsigned motor, double target, double from) const {
   if (!(std::fabs(sine) <= 1)) return infinity;
   // The sine rises on one half of the turn and falls on the other: stay on the half where `from` is.
   const double here = angle_at(term, from);
-  const double principal = std::cos(here) >= 0 ? std::asin(sine) : pi - std::asin(sine);
+  const bool sine_rises = (slope(motor, from) > 0) == (term.scale * turn_ > 0);
+  const double principal = sine_rises ? std::asin(sine) : pi - std::asin(sine);
   const double turns = std::round((here - principal) / (2 * pi));
   double s = (principal + turns * 2 * pi - term.angle) / turn_;
-  if (growth_ != 0) {
-    // A slight spiral: the closed form is a guess that Newton's method makes exact.
-    for (int i = 0; i < 4; ++i) s -= (place(motor, s) - target) / slope(motor, s);
-    if (!(std::fabs(s - from) < infinity)) return infinity;
-  }
+  if (growth_ != 0) return crossing_on_spiral(motor, target, from, s);
   return std::fmax(from, s);
+}
+
+// The closed form, which takes the radius for constant, is a guess; Newton's method makes it exact, and bisection where
+// that runs away near a turning point.
+double MotorPath::crossing_on_spiral(unsigned motor, double target, double from, double guess) const {
+  const double turn = turning_point(motor, from);
+  double s = guess;
+  for (int i = 0; i < 4; ++i) s -= (place(motor, s) - target) / slope(motor, s);
+  if (s >= from && s <= turn && std::fabs(place(motor, s) - target) < 0.5) return s;
+
+  double low = from;
+  double high = turn;
+  const bool rising = place(motor, high) > place(motor, low);
+  if ((place(motor, low) < target) != rising || (place(motor, high) > target) != rising) return infinity;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    ((place(motor, middle) < target) == rising ? low : high) = middle;
+  }
+  return high;
 }
 
 double MotorPath::turning_point(unsigned motor, double from) const {
   const Term& term = terms_[motor];
   if (!term.turning) return infinity;
-  // The sine turns back at odd multiples of a right angle.
-  const double quarter = (angle_at(term, from) - pi / 2) / pi;
+  // The sine turns back at odd multiples of a right angle; on a spiral a little later, where the growth of the radius
+  // is made up for.
+  const double lag = std::atan(growth_ / (radius_at(from) * turn_));
+  const double quarter = (angle_at(term, from) - lag - pi / 2) / pi;
   const double next = turn_ > 0 ? std::floor(quarter + 1e-9) + 1 : std::ceil(quarter - 1e-9) - 1;
-  return (next * pi + pi / 2 - term.angle) / turn_;
+  return (next * pi + pi / 2 + lag - term.angle) / turn_ + behind_turn / std::fabs(turn_);
+}
+
+double MotorPath::step_length(unsigned motor, double from) const {
+  const Term& term = terms_[motor];
+  if (!term.turning) return term.scale == 0 ? infinity : place_per_step / std::fabs(term.scale);
+  const double here = place(motor, from);
+  const double step = slope(motor, from) > 0 ? place_per_step : -place_per_step;
+  const double ahead = crossing(motor, here + step, from);
+  if (ahead < infinity) return ahead - from;
+  return crossing(motor, here - step, turning_point(motor, from)) - from;
 }
 
 }  // namespace passo

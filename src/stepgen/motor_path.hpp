@@ -30,8 +30,11 @@ class MotorPath {
   // The first s >= from where the motor's place, going on in the direction it has at `from`, reaches `target`.
   // Infinity if it turns back before, or stands still. May lie beyond the end of the curve.
   double crossing(unsigned motor, double target, double from) const;
-  // The first s > from where the motor turns back; infinity if it never does.
+  // Just behind the first place after `from` where the motor turns back; infinity if it never does.
   double turning_point(unsigned motor, double from) const;
+  // How much s it takes until the motor is a whole step away from where it is at `from`, turning back or not: what
+  // "slow" means also where a motor turns back and its slope is nothing.
+  double step_length(unsigned motor, double from) const;
 
   bool is_straight() const { return straight_; }
   double length() const { return length_; }
@@ -44,6 +47,7 @@ class MotorPath {
     double scale = 0;  // slope, or places a millimetre of radius
     double angle = 0;  // at s = 0, as the argument of the sine
   };
+  double crossing_on_spiral(unsigned motor, double target, double from, double guess) const;
   double angle_at(const Term& term, double s) const { return term.angle + turn_ * s; }
   double radius_at(double s) const { return radius_ + growth_ * s; }
 

@@ -40,7 +40,8 @@ Seconds time_at(const Phase& phase, Mm s) {
 }
 
 double PhaseClock::end_of(std::size_t phase) const {
-  return phase + 1 < move_->phase_count ? move_->phases[phase + 1].start.value() : move_->segment.curve.length().value();
+  return phase + 1 < move_->phase_count ? move_->phases[phase + 1].start.value()
+                                        : move_->segment.curve.length().value();
 }
 
 PhaseClock::Moment PhaseClock::at(double s) {

@@ -22,11 +22,17 @@ std::int64_t floor_to_int(double x) {
   const auto truncated = static_cast<std::int64_t>(x);
   return truncated - (x < static_cast<double>(truncated) ? 1 : 0);
 }
-std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return a >= 0 ? (a + b - 1) / b : -(-a / b); }
-std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
+  return a >= 0 ? (a + b - 1) / b : -(-a / b);
+}
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
+  return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
 
 // Going down mirrors a fixed-point place by complement: the fraction that is left is what was gone.
-std::int64_t along(int sign, std::int64_t position) { return sign > 0 ? position : ~position; }
+std::int64_t along(int sign, std::int64_t position) {
+  return sign > 0 ? position : ~position;
+}
 
 }  // namespace
 
@@ -79,9 +85,8 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
     // With the change rounded, the interval still brings the far node where it belongs.
     const double interval = std::round(slope2 - change * (m2 - 1) / 2);
     if (interval < 1 || interval > static_cast<double>(longest_interval)) continue;
-    const Timing timing{.interval = static_cast<std::uint32_t>(interval),
-                        .change = static_cast<std::int32_t>(change),
-                        .events = n};
+    const Timing timing{
+        .interval = static_cast<std::uint32_t>(interval), .change = static_cast<std::int32_t>(change), .events = n};
     if (times_hold(events, now, timing)) return timing;
   }
   return single;
@@ -110,7 +115,7 @@ SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned
   std::int64_t high = whole_step;
   unsigned events = 0;
   for (unsigned k = 1; k <= count; ++k) {
-    const std::int64_t due = ideal_[k] >> 16 << 16;                      // not late
+    const std::int64_t due = ideal_[k] >> 16 << 16;                           // not late
     const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1;  // not more than one event early
     const std::int64_t new_low = std::max(low, ceil_divide(due - place, k));
     const std::int64_t new_high = std::min(high, floor_divide(early - place, k));
@@ -150,8 +155,7 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
 
   const std::int64_t start = along(sign, position);
   // Rounded up: a step that falls exactly on an event is not missed for want of a few 65536ths.
-  const std::int64_t straight =
-      std::clamp<std::int64_t>(ceil_divide(ideal_[count] - start, count), 0, whole_step);
+  const std::int64_t straight = std::clamp<std::int64_t>(ceil_divide(ideal_[count] - start, count), 0, whole_step);
   std::int64_t place = start;
   bool holds = true;
   for (unsigned k = 1; k <= count && holds; ++k) {
@@ -189,9 +193,8 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     }
   }
 
-  segment = BoardSegment{.events = static_cast<std::uint8_t>(count),
-                         .interval = timing.interval,
-                         .change = count > 1 ? timing.change : 0};
+  segment = BoardSegment{
+      .events = static_cast<std::uint8_t>(count), .interval = timing.interval, .change = count > 1 ? timing.change : 0};
   for (unsigned m = 0; m < motors_; ++m) {
     // A motor that stands still keeps its direction line.
     const bool was_down = (kept_directions >> m & 1U) != 0;

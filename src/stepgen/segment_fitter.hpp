@@ -1,12 +1,12 @@
 // SegmentFitter: exact events -> one board segment that plays as many of them as it can.
 //
-// Time. Event k of a segment comes at k I + d k(k-1)/2. I and d are chosen so that the curve meets the exact times where
-// a cubic error is smallest over all (the zeros of a Chebyshev polynomial), and then each event is checked: none
+// Time. Event k of a segment comes at k I + d k(k-1)/2. I and d are chosen so that the curve meets the exact times
+// where a cubic error is smallest over all (the zeros of a Chebyshev polynomial), and then each event is checked: none
 // may be further than `tolerance` from its exact time. With the rounding to whole ticks that is within one tick.
 //
-// Place. The master moves by the grid at each event. Any other motor adds one increment d at each event; its step is due at the
-// first event at or after its exact time and may come one event early. That bounds d from both sides; the bounds are
-// met by shortening the segment where they must be.
+// Place. The master moves by the grid at each event. Any other motor adds one increment d at each event; its step is
+// due at the first event at or after its exact time and may come one event early. That bounds d from both sides; the
+// bounds are met by shortening the segment where they must be.
 //
 // About 10 ns an event and motor.
 #pragma once
@@ -16,6 +16,7 @@
 
 #include "board_model.hpp"
 #include "event_buffer.hpp"
+
 #include "passo/stepgen/step_generator.hpp"
 
 namespace passo {
@@ -58,8 +59,8 @@ class SegmentFitter {
   std::array<std::int64_t, longest + 2> ideal_{};
 };
 
-// The place at which a motor rests when its exact place is `place`: the step count is the exact position rounded, halves
-// away from zero.
+// The place at which a motor rests when its exact place is `place`: the step count is the exact position rounded,
+// halves away from zero.
 std::int64_t rest_place(double place);
 
 // Writes an increment of -65536…65536 in the form of the wire.

@@ -106,9 +106,7 @@ class StepGenerator::Implementation {
       stream_.start_move(std::get<PlannedMove>(motion_item_));
     }
     switch (stream_.fill(events_)) {
-      case EventStream::Stop::full:
-        more_ = play_ = true;
-        break;
+      case EventStream::Stop::full: more_ = play_ = true; break;
       case EventStream::Stop::stretch_end:
         more_ = false;
         play_ = true;
@@ -160,6 +158,8 @@ StepGenerator::StepGenerator(Source<MotionItem>& motion, const StepOptions& opti
     : implementation_(std::make_unique<Implementation>(motion, options)) {}
 StepGenerator::~StepGenerator() = default;
 
-bool StepGenerator::next(BoardItem& item) { return implementation_->next(item); }
+bool StepGenerator::next(BoardItem& item) {
+  return implementation_->next(item);
+}
 
 }  // namespace passo

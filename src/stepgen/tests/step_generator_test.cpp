@@ -36,6 +36,12 @@ std::uint64_t seed() {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 20261121;
 }
 
+// How many random programs: few at every change, many in the slow test.
+int runs() {
+  const char* text = std::getenv("PASSO_RUNS");
+  return text != nullptr ? std::atoi(text) : 25;
+}
+
 StepOptions machine(std::initializer_list<double> steps_per_mm, double event_rate = 100e3) {
   StepOptions options;
   for (const double steps : steps_per_mm) {
@@ -73,6 +79,13 @@ PlannedMove planned(const Curve& curve, double from, double peak, double to, dou
   return move;
 }
 
+Action dwell(double seconds) {
+  Action action;
+  action.kind = Action::Kind::dwell;
+  action.dwell = Seconds(seconds);
+  return action;
+}
+
 Point at(double x, double y, double z = 0) {
   Point point;
   point[Axis::x] = x;
@@ -84,9 +97,42 @@ Point at(double x, double y, double z = 0) {
 // Every step of every motor: as many as there ought to be, in the right direction, in time.
 void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
   const std::vector<BoardItem> board = generate(items, options);
+  if (getenv("DUMP")) {
+    for (auto& it : items)
+      if (auto* mv = std::get_if<PlannedMove>(&it)) {
+        printf("MOVE %s len %g", mv->segment.curve.shape() == Curve::Shape::arc ? "arc" : "line",
+               mv->segment.curve.length().value());
+        for (auto& p : *mv)
+          printf(" [%g s0=%g v=%g a=%g]", p.duration.value(), p.start.value(), p.velocity.value(),
+                 p.acceleration.value());
+        for (unsigned m = 0; m < 3; m++)
+          printf(" %.4f",
+                 (mv->segment.curve.end() - mv->segment.curve.start())[all_axes[m]] * options.motors[m].steps_per_unit);
+        puts("");
+      }
+    int64_t t = 32768;
+    long pos[3] = {32768, 32768, 32768};
+    for (auto& it : board)
+      if (auto* sg = std::get_if<BoardSegment>(&it)) {
+        int64_t t0 = t;
+        int64_t iv = sg->interval;
+        for (int k = 0; k < sg->events; k++) {
+          t += iv;
+          iv += sg->change;
+        }
+        printf("SEG t %.2f..%.2f n=%d I=%.3f d=%.4f", t0 / 65536. - .5, t / 65536. - .5, sg->events,
+               sg->interval / 65536., sg->change / 65536.);
+        for (unsigned m = 0; m < options.motor_count; m++) {
+          auto inc = oracle::signed_increment(*sg, m);
+          pos[m] += inc * sg->events;
+          printf(" | %ld -> %.4f", (long)inc, pos[m] / 65536. - .5);
+        }
+        puts("");
+      }
+  }
   const oracle::Playback played = oracle::play(board, options);
-  EXPECT_GE(static_cast<double>(played.shortest_interval) + 1,
-            options.clock.tick_rate / options.clock.highest_event_rate);
+  const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
+  EXPECT_GE(static_cast<double>(played.shortest_interval) + 1, shortest);
   for (unsigned m = 0; m < options.motor_count; ++m) {
     const std::vector<oracle::ExactStep> exact = oracle::exact_steps(items, options, m);
     const std::vector<oracle::PlayedStep>& steps = played.steps[m];
@@ -95,18 +141,17 @@ void expect_exact(const std::vector<MotionItem>& items, const StepOptions& optio
       // Where the path turns back within one event, a step there and back is none.
       while (i + 1 < exact.size() && exact[i].direction != exact[i + 1].direction &&
              exact[i + 1].time - exact[i].time < static_cast<long double>(step.interval) &&
-             (exact[i].direction != step.direction ||
-              std::fabs(exact[i].time - static_cast<long double>(step.tick)) > static_cast<long double>(step.interval))) {
+             (exact[i].direction != step.direction || std::fabs(exact[i].time - static_cast<long double>(step.tick)) >
+                                                          static_cast<long double>(step.interval))) {
         i += 2;
       }
       ASSERT_LT(i, exact.size()) << "motor " << m << ": a step too many at tick " << step.tick;
       ASSERT_EQ(step.direction, exact[i].direction) << "motor " << m << " step " << i << " at tick " << step.tick;
       const long double error = static_cast<long double>(step.tick) - exact[i].time;
-      const long double allowed =
-          step.of_master && !step.held_back ? 1.0L : static_cast<long double>(step.interval) + 1;
-      ASSERT_LE(std::fabs(error), allowed)
-          << "motor " << m << " step " << i << " at tick " << step.tick << " of " << exact[i].time
-          << (step.of_master ? " (master)" : "");
+      const long double interval = static_cast<long double>(step.interval);
+      const long double allowed = step.held_back ? interval + shortest + 1 : step.of_master ? 1 : interval + 1;
+      ASSERT_LE(std::fabs(error), allowed) << "motor " << m << " step " << i << " at tick " << step.tick << " of "
+                                           << exact[i].time << (step.of_master ? " (master)" : "");
       ++i;
     }
     while (i + 1 < exact.size() && exact[i].direction != exact[i + 1].direction) i += 2;
@@ -153,7 +198,7 @@ TEST(StepGenerator, a_full_circle_comes_back_to_its_start) {
 TEST(StepGenerator, axes_of_unlike_fineness_share_an_arc) {
   const StepOptions options = machine({10, 3200, 48}, 200e3);
   const std::vector<MotionItem> items = {planned(
-      Curve::arc(at(0, 0), at(3, 3, 1), Axis::x, Axis::y, 3, 0, -1.5 * std::numbers::pi - 2 * std::numbers::pi), 0, 20,
+      Curve::arc(at(0, 0), at(3, -3, 1), Axis::x, Axis::y, 3, 0, -1.5 * std::numbers::pi - 2 * std::numbers::pi), 0, 20,
       0, 300)};
   expect_exact(items, options);
   expect_end(items, options);
@@ -187,7 +232,7 @@ TEST(StepGenerator, a_half_step_rounds_away_from_zero) {
 
 TEST(StepGenerator, a_dwell_is_waited_for_without_a_step) {
   const StepOptions options = machine({100});
-  const Action pause{.kind = Action::Kind::dwell, .dwell = Seconds(2.5)};
+  const Action pause = dwell(2.5);
   const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(1, 0)), 0, 10, 0, 200), pause,
                                          planned(Curve::line(at(1, 0), at(0, 0)), 0, 10, 0, 200)};
   expect_exact(items, options);
@@ -261,14 +306,14 @@ class RandomPrograms : public testing::Test {
       exit = std::max(exit, least);
       items.push_back(planned(curve, speed, peak, exit, acceleration));
       speed = exit;
-      if (speed == 0 && below(5) == 0) items.push_back(Action{.dwell = Seconds(uniform(0, 0.01))});
+      if (speed == 0 && below(5) == 0) items.push_back(dwell(uniform(0, 0.01)));
     }
     return items;
   }
 };
 
 TEST_F(RandomPrograms, step_where_and_when_mathematics_puts_it) {
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < runs(); ++i) {
     SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed() << " program " << i);
     const StepOptions options = random_machine();
     expect_exact(random_program(options), options);

@@ -20,9 +20,9 @@ struct ExactStep {
 struct PlayedStep {
   std::int64_t tick = 0;
   int direction = 0;
-  bool of_master = false;        // the motor that sets the event clock of its segment
-  bool held_back = false;        // its event came as soon after the one before as the board allows
-  std::int64_t interval = 0;     // the longer of the intervals before and after its event, ticks
+  bool of_master = false;     // the motor that sets the event clock of its segment
+  bool held_back = false;     // its event, or the one before, came as soon as the board allows
+  std::int64_t interval = 0;  // the longer of the intervals before and after its event, ticks
 };
 
 struct Playback {
@@ -51,7 +51,7 @@ inline long double exact_place(const Motor& motor, const Curve& curve, long doub
 }
 
 inline long double bisect(auto&& below, long double low, long double high) {
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 70; ++i) {
     const long double middle = (low + high) / 2;
     (below(middle) ? low : high) = middle;
   }
@@ -93,7 +93,7 @@ inline std::vector<long double> monotone_pieces(const Motor& motor, const Curve&
       // The slope changes its sign in here: ternary search.
       long double low = at - step;
       long double high = at + step;
-      for (int k = 0; k < 200; ++k) {
+      for (int k = 0; k < 120; ++k) {
         const long double a = low + (high - low) / 3;
         const long double b = high - (high - low) / 3;
         ((place(a) < place(b)) == was_rising ? low : high) = (place(a) < place(b)) == was_rising ? a : b;
@@ -127,7 +127,9 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
       for (std::int64_t k = 0; k < high - low; ++k) {
         const std::int64_t line = to > from ? low + 1 + k : high - k;
         const long double s = bisect(
-            [&](long double at) { return (exact_place(motor, curve, at) < static_cast<long double>(line)) == (to > from); },
+            [&](long double at) {
+              return (exact_place(motor, curve, at) < static_cast<long double>(line)) == (to > from);
+            },
             pieces[i], pieces[i + 1]);
         steps.push_back({.time = (start + exact_time(move, s)) * ticks, .direction = to > from ? 1 : -1});
       }
@@ -156,19 +158,30 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     std::size_t index;
   };
   std::vector<Pending> pending;  // steps whose following interval is not known yet
+  bool held_back = false;
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
   for (const BoardItem& item : items) {
     const auto* segment = std::get_if<BoardSegment>(&item);
     if (segment == nullptr) continue;
     ++result.segments;
+    // The master moves by a power of two and by more than any other motor. Two that move alike cannot be told apart
+    // here.
     std::int64_t most = 0;
-    for (unsigned m = 0; m < options.motor_count; ++m) most = std::max(most, std::abs(signed_increment(*segment, m)));
+    unsigned alike = 0;
+    for (unsigned m = 0; m < options.motor_count; ++m) {
+      const std::int64_t increment = std::abs(signed_increment(*segment, m));
+      alike = increment == most ? alike + 1 : increment > most ? 1 : alike;
+      most = std::max(most, increment);
+    }
+    const bool has_master = alike == 1 && (most & (most - 1)) == 0 && segment->events > 1;
     std::int64_t interval = segment->interval;
     for (unsigned k = 0; k < segment->events; ++k) {
       const std::int64_t before = time >> 16;
       time += interval;
       interval += segment->change;
       const std::int64_t tick = time >> 16;
+      const bool was_held_back = held_back;
+      held_back = static_cast<double>(tick - before) <= shortest + 1;
       ++result.events;
       result.shortest_interval = std::min(result.shortest_interval, tick - before);
       for (const Pending& p : pending) {
@@ -182,12 +195,11 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
         place[m] += increment;
         const std::int64_t steps = (place[m] >> 16) - whole;
         if (steps == 0) continue;
-        const bool power_of_two = (std::abs(increment) & (std::abs(increment) - 1)) == 0;
         pending.push_back({.motor = m, .index = result.steps[m].size()});
         result.steps[m].push_back({.tick = tick,
                                    .direction = steps > 0 ? 1 : -1,
-                                   .of_master = std::abs(increment) == most && power_of_two && segment->events > 1,
-                                   .held_back = static_cast<double>(tick - before) <= shortest + 1,
+                                   .of_master = has_master && std::abs(increment) == most,
+                                   .held_back = held_back || was_held_back,
                                    .interval = tick - before});
       }
     }
