@@ -11,9 +11,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rate_before_finer = 0.5;
 constexpr double rate_before_coarser = 4;
 constexpr double slow_share = 1.0 / 16;  // of the board's highest event rate
-constexpr int finest_division = 8;       // 2^8 events a step
+constexpr std::int64_t finest_grid = whole_step / 256;
+constexpr double turn_an_event = 0.25;  // radians
 // Another motor must be this much faster before it becomes the master.
 constexpr double takeover = 1 + 1e-6;
+constexpr double smallest_distance = place_per_step / 256;
 constexpr std::size_t enough_events = 256;  // one segment, and one event to look ahead
 
 }  // namespace
@@ -49,7 +51,7 @@ void EventStream::start_move(const PlannedMove& move) {
   moment_ = clock_.at(0);
   here_ = end_;
   for (unsigned m = 0; m < options_.motor_count; ++m) end_[m] = place_of(options_.motors[m], move_.segment.curve.end());
-  if (in_stretch_ && !stretch_holds(0)) in_stretch_ = false;
+  in_stretch_ = in_stretch_ && master_leads(0) && rate_fits(0);
 }
 
 // The speed one step from here: close to rest it is that which counts, and it is the same on both sides of a stop.
@@ -58,15 +60,30 @@ double EventStream::speed_nearby(double slope) const {
   return std::sqrt(moment_.speed * moment_.speed + 2 * std::fabs(moment_.acceleration) * one_step);
 }
 
-bool EventStream::stretch_holds(double s) const {
+// No motor is faster than the master, which still goes its way.
+bool EventStream::master_leads(double s) const {
   const double slope = path_.slope(stretch_.master, s) * stretch_.sign;
   if (slope <= 0) return false;
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     if (std::fabs(path_.slope(m, s)) > slope * takeover) return false;
   }
+  return true;
+}
+
+// Events come neither so slowly nor so fast that another division would be better.
+bool EventStream::rate_fits(double s) const {
+  const double slope = std::fabs(path_.slope(stretch_.master, s));
   const double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
-  if (rate > rate_before_coarser * slow_rate_ && stretch_.grid < whole_step) return false;
-  return rate > rate_before_finer * slow_rate_ || stretch_.grid == whole_step >> finest_division;
+  if (rate > rate_before_coarser * slow_rate_ && stretch_.grid < coarsest_grid(stretch_.master)) return false;
+  return rate > rate_before_finer * slow_rate_ || stretch_.grid == finest_grid;
+}
+
+// A step, but on an arc of few steps so little that its direction hardly changes from event to event.
+std::int64_t EventStream::coarsest_grid(unsigned motor) const {
+  std::int64_t grid = whole_step;
+  const double most = path_.reach(motor) * turn_an_event;
+  while (static_cast<double>(grid) > most && grid > finest_grid) grid /= 2;
+  return grid;
 }
 
 // The next line of the grid beyond the last one, in the direction of the master.
@@ -76,21 +93,29 @@ double EventStream::next_target() const {
   return stretch_.sign * (std::floor(along + 1e-6) + 1) * grid;
 }
 
-// Chooses the master: the motor that is first a whole step away from here.
-EventStream::Start EventStream::start_stretch(EventBuffer& events) {
-  double shortest = infinity;
-  for (unsigned m = 0; m < options_.motor_count; ++m) {
-    const double length = path_.step_length(m, s_);
-    if (length >= shortest) continue;
-    shortest = length;
-    stretch_.master = m;
+// The motor that is first some distance away from here: a step, or on an arc so small that motors turn back
+// before they have gone a step, less.
+EventStream::Fastest EventStream::fastest() const {
+  Fastest best;
+  for (double distance = place_per_step; distance >= smallest_distance; distance /= 4) {
+    best = {};
+    bool arrives = path_.is_straight();
+    for (unsigned m = 0; m < options_.motor_count; ++m) {
+      const double length = path_.travel(m, distance, s_);
+      if (distance > best.slope * length) best = {.motor = m, .slope = distance / length};
+      arrives = arrives || (length < infinity && path_.is_turning(m));
+    }
+    if (arrives) break;
   }
-  if (shortest == infinity) return Start::nothing_moves;
-  const unsigned master = stretch_.master;
-  stretch_.sign = path_.slope(master, s_) > 0 ? 1 : -1;
-  stretch_.grid = whole_step;
-  double rate = speed_nearby(place_per_step / shortest) / shortest;
-  for (int k = 0; k < finest_division && rate < slow_rate_; ++k, rate *= 2) stretch_.grid /= 2;
+  return best;
+}
+
+EventStream::Start EventStream::start_stretch(EventBuffer& events) {
+  const auto [master, slope] = fastest();
+  if (slope == 0) return Start::nothing_moves;
+  stretch_ = {.master = master, .sign = path_.slope(master, s_) > 0 ? 1 : -1, .grid = coarsest_grid(master)};
+  double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
+  for (; rate < slow_rate_ && stretch_.grid > finest_grid; rate *= 2) stretch_.grid /= 2;
   master_place_ = path_.place(master, s_);
   if (path_.crossing(master, next_target(), s_) == infinity) {
     // It turns back before the next line: what comes first is on the way back.
@@ -147,7 +172,7 @@ void EventStream::push_master(double target, double s, EventBuffer& events) {
   push(event, events);
   // Going down, the step is the crossing itself: from here on the place lies below the line.
   if (stretch_.sign < 0) at_last_event_[stretch_.master] = here_[stretch_.master] -= 0.5;
-  in_stretch_ = stretch_holds(s);
+  in_stretch_ = rate_fits(s);
 }
 
 EventStream::Stop EventStream::finish_move() {
@@ -172,7 +197,14 @@ EventStream::Stop EventStream::fill(EventBuffer& events) {
       continue;
     }
     if (s > path_.length()) return finish_move();
+    // On an arc another motor may have become the faster one on the way.
+    const bool leads = path_.is_straight() || master_leads(s);
+    if (!leads && !events.empty()) {
+      in_stretch_ = false;
+      continue;
+    }
     push_master(target, s, events);
+    in_stretch_ = in_stretch_ && leads;
   }
   return Stop::full;
 }

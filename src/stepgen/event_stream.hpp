@@ -48,12 +48,20 @@ class EventStream {
  private:
   enum class Start : std::uint8_t { done, turned, nothing_moves };
 
+  struct Fastest {
+    unsigned motor = 0;
+    double slope = 0;  // |d place / ds| on the way
+  };
+
+  Fastest fastest() const;
   Start start_stretch(EventBuffer& events);
   bool push_border(EventBuffer& events);
   void push_master(double target, double s, EventBuffer& events);
   void push(EventBuffer::Event event, EventBuffer& events);
   void go_to(double s);
-  bool stretch_holds(double s) const;
+  bool master_leads(double s) const;
+  bool rate_fits(double s) const;
+  std::int64_t coarsest_grid(unsigned motor) const;
   double speed_nearby(double slope) const;
   double next_target() const;
   Stop finish_move();

@@ -46,6 +46,11 @@ double MotorPath::place(unsigned motor, double s) const {
   return term.base + term.scale * radius_at(s) * std::sin(angle_at(term, s));
 }
 
+double MotorPath::reach(unsigned motor) const {
+  const Term& term = terms_[motor];
+  return term.turning ? std::fabs(term.scale) * radius_ : infinity;
+}
+
 double MotorPath::slope(unsigned motor, double s) const {
   const Term& term = terms_[motor];
   if (!term.turning) return term.scale;
@@ -101,11 +106,11 @@ double MotorPath::turning_point(unsigned motor, double from) const {
   return (next * pi + pi / 2 + lag - term.angle) / turn_ + behind_turn / std::fabs(turn_);
 }
 
-double MotorPath::step_length(unsigned motor, double from) const {
+double MotorPath::travel(unsigned motor, double distance, double from) const {
   const Term& term = terms_[motor];
-  if (!term.turning) return term.scale == 0 ? infinity : place_per_step / std::fabs(term.scale);
+  if (!term.turning) return term.scale == 0 ? infinity : distance / std::fabs(term.scale);
   const double here = place(motor, from);
-  const double step = slope(motor, from) > 0 ? place_per_step : -place_per_step;
+  const double step = slope(motor, from) > 0 ? distance : -distance;
   const double ahead = crossing(motor, here + step, from);
   if (ahead < infinity) return ahead - from;
   return crossing(motor, here - step, turning_point(motor, from)) - from;

@@ -32,9 +32,12 @@ class MotorPath {
   double crossing(unsigned motor, double target, double from) const;
   // Just behind the first place after `from` where the motor turns back; infinity if it never does.
   double turning_point(unsigned motor, double from) const;
-  // How much s it takes until the motor is a whole step away from where it is at `from`, turning back or not: what
-  // "slow" means also where a motor turns back and its slope is nothing.
-  double step_length(unsigned motor, double from) const;
+  // How much s it takes until the motor is `distance` away from where it is at `from`, turning back or not: what "fast"
+  // means also where a motor turns back and its slope is nothing. Infinity if it never gets there.
+  double travel(unsigned motor, double distance, double from) const;
+  // The radius on which the motor turns, in places; infinity where it goes straight.
+  double reach(unsigned motor) const;
+  bool is_turning(unsigned motor) const { return terms_[motor].turning; }
 
   bool is_straight() const { return straight_; }
   double length() const { return length_; }

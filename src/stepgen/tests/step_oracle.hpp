@@ -28,6 +28,7 @@ struct PlayedStep {
 struct Playback {
   std::vector<std::vector<PlayedStep>> steps;  // by motor
   std::vector<std::int64_t> counts;
+  std::vector<std::int64_t> event_ticks;
   std::int64_t end_tick = 0;
   std::int64_t segments = 0;
   std::int64_t events = 0;
@@ -139,6 +140,16 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
   return steps;
 }
 
+// Where the path crosses a line and comes back before the next event, the board may leave out the step there and back.
+inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
+                            const std::vector<std::int64_t>& event_ticks) {
+  const auto event_after = [&](const ExactStep& step) {
+    return std::lower_bound(event_ticks.begin(), event_ticks.end(), step.time - 1,
+                            [](std::int64_t tick, long double time) { return static_cast<long double>(tick) < time; });
+  };
+  return there.direction != back.direction && event_after(back) - event_after(there) <= 1;
+}
+
 // The signed increment as board_segment.hpp's table has it.
 inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   const bool flip = (segment.flips >> m & 1U) != 0;
@@ -173,7 +184,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       alike = increment == most ? alike + 1 : increment > most ? 1 : alike;
       most = std::max(most, increment);
     }
-    const bool has_master = alike == 1 && (most & (most - 1)) == 0 && segment->events > 1;
+    const bool has_master = alike == 1 && (most & (most - 1)) == 0 && segment->events > 2;
     std::int64_t interval = segment->interval;
     for (unsigned k = 0; k < segment->events; ++k) {
       const std::int64_t before = time >> 16;
@@ -183,6 +194,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       const bool was_held_back = held_back;
       held_back = static_cast<double>(tick - before) <= shortest + 1;
       ++result.events;
+      result.event_ticks.push_back(tick);
       result.shortest_interval = std::min(result.shortest_interval, tick - before);
       for (const Pending& p : pending) {
         PlayedStep& step = result.steps[p.motor][p.index];
