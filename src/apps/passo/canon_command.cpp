@@ -1,0 +1,41 @@
+// passo canon: the seam after the interpreter, printed.
+#include <cstdio>
+
+#include "commands.hpp"
+#include "passo/interpreter/canon.hpp"
+#include "passo/report/output_file.hpp"
+#include "program_input.hpp"
+
+namespace passo {
+
+int canon(const CanonArguments& arguments) {
+  std::optional<ProgramReader> program = open_program(arguments.program);
+  if (!program) return exit_bad_program;
+  Result<OutputFile, OutputError> output = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
+  if (!output) {
+    std::fprintf(stderr, "passo: error: %s\n", output.error().message.c_str());
+    return exit_failed;
+  }
+
+  Diagnostics findings;
+  Interpreter interpreter(std::move(*program), interpreter_options(arguments.program), findings);
+  CanonPrinter printer;
+  Operation operation;
+  std::string line;
+  while (!output->failed() && !findings.full() && interpreter.next(operation)) {
+    line.clear();
+    printer.print(operation, line);
+    output->write(line);
+  }
+  show(findings);
+  // To standard output what was good is printed up to its end; a file appears only when all was.
+  if (findings.any_error() && !arguments.output.empty()) return exit_bad_program;
+  const Status<OutputError> written = output->commit();
+  if (!written) {
+    std::fprintf(stderr, "passo: error: %s\n", written.error().message.c_str());
+    return exit_failed;
+  }
+  return findings.any_error() ? exit_bad_program : exit_done;
+}
+
+}  // namespace passo

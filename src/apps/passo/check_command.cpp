@@ -1,0 +1,50 @@
+// passo check: interpret the program and build its path, and say what is wrong. Nothing runs.
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "passo/controller/job.hpp"
+#include "program_input.hpp"
+
+namespace passo {
+namespace {
+
+nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Diagnostic& finding : findings.all()) {
+    list.push_back({{"severity", finding.severity == Severity::error ? "error" : "warning"},
+                    {"code", finding.code},
+                    {"file", finding.file},
+                    {"line", finding.place.line},
+                    {"column", finding.place.column},
+                    {"length", finding.place.length},
+                    {"message", finding.message},
+                    {"expected", finding.expected}});
+  }
+  return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", list}};
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments) {
+  Diagnostics diagnostics;
+  const auto machine = load_machine_file(arguments.machine, diagnostics);
+  show(diagnostics);
+  if (!machine) return exit_bad_machine;
+  std::optional<ProgramReader> program = open_program(arguments.program);
+  if (!program) return exit_bad_program;
+
+  Diagnostics findings;
+  const ProgramCheck result =
+      check_program(std::move(*program), *machine, interpreter_options(arguments.program), findings);
+  if (arguments.json) {
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    std::puts(findings_as_json(findings).dump(2, ' ', false, replace).c_str());
+  } else {
+    show(findings);
+    if (result.good) std::printf("%s: no errors\n", arguments.program.program.c_str());
+  }
+  return result.good ? exit_done : exit_bad_program;
+}
+
+}  // namespace passo

@@ -1,0 +1,141 @@
+// passo run: check the program, run it on the virtual machine, and write what was asked for.
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "commands.hpp"
+#include "passo/controller/job.hpp"
+#include "passo/report/progress.hpp"
+#include "passo/report/summary.hpp"
+#include "passo/report/summary_builder.hpp"
+#include "program_input.hpp"
+#include "run_outputs.hpp"
+
+namespace passo {
+namespace {
+
+// How often the clock is read for the progress line: every so many board segments.
+constexpr unsigned segments_between_looks = 1024;
+
+extern "C" void end_on_signal(int signal) {
+  OutputFile::remove_unfinished();
+  std::_Exit(128 + signal);
+}
+
+class Progress {
+ public:
+  explicit Progress(const std::string& label, bool wanted)
+      : line_(label, wanted && is_terminal(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+  ~Progress() { show(line_.clear()); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(double fraction) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    show(line_.update(fraction, Seconds(elapsed.count())));
+  }
+
+ private:
+  static void show(const std::string& text) {
+    if (!text.empty()) std::fwrite(text.data(), 1, text.size(), stderr);
+  }
+
+  ProgressLine line_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+void add_board(RunSummary& summary, Job& job, const MachineDescription& machine) {
+  const MachineCounts counts = job.machine().counts();
+  BoardSummary board;
+  board.end = Seconds(static_cast<double>(job.machine().now().count) / machine.board.clock.value());
+  board.events = static_cast<std::uint64_t>(counts.events);
+  board.frames = job.link().frames_sent();
+  board.bytes = job.link().bytes_sent();
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;
+    summary.axes[m].net_steps = Steps{net};
+    summary.axes[m].total_steps = Steps{counts.motors[m].total};
+    summary.axes[m].position = static_cast<double>(net) / axis.steps_per_unit;
+    board.pulses += static_cast<std::uint64_t>(counts.motors[m].total);
+  }
+  summary.board = board;
+}
+
+std::vector<Axis> axes_of(const MachineDescription& machine) {
+  std::vector<Axis> axes;
+  for (const AxisDescription& axis : machine.axes) axes.push_back(axis.axis);
+  return axes;
+}
+
+RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& arguments, const MachineDescription& machine,
+                RunOutputs& outputs) {
+  SummaryBuilder builder(axes_of(machine));
+  job.motion().watch([&](const MotionItem& item) {
+    const auto* move = std::get_if<PlannedMove>(&item);
+    builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
+  });
+  outputs.watch(job);
+  {
+    Progress progress(arguments.program.program, !arguments.quiet);
+    for (unsigned played = 0; job.advance(); ++played) {
+      if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
+    }
+  }
+  RunSummary summary = builder.summary();
+  summary.program = arguments.program.program;
+  summary.machine = machine.name;
+  add_board(summary, job, machine);
+  return summary;
+}
+
+int fail(const std::string& message) {
+  std::fprintf(stderr, "passo: error: %s\n", message.c_str());
+  return exit_failed;
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  Diagnostics diagnostics;
+  const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
+  show(diagnostics);
+  if (!machine) return exit_bad_machine;
+
+  std::optional<ProgramReader> program = open_program(arguments.program);
+  if (!program) return exit_bad_program;
+  Diagnostics findings;
+  const InterpreterOptions options = interpreter_options(arguments.program);
+  const ProgramCheck check = check_program(program->again(), *machine, options, findings);
+  show(findings);
+  if (!check.good) return exit_bad_program;
+
+  std::signal(SIGINT, end_on_signal);
+  std::signal(SIGTERM, end_on_signal);
+  Result<RunOutputs, OutputError> outputs = RunOutputs::open(arguments, *machine);
+  if (!outputs) return fail(outputs.error().message);
+
+  Diagnostics late;
+  Job job(std::move(*program), *machine, options, late);
+  const RunSummary summary = play(job, check, arguments, *machine, *outputs);
+  if (late.any_error()) {
+    show(late);
+    return exit_bad_program;
+  }
+  const Status<OutputError> written = outputs->commit(summary, *machine);
+  if (!written) return fail(written.error().message);
+
+  if (arguments.json) {
+    std::fputs(to_json(summary).c_str(), stdout);
+  } else if (!arguments.quiet) {
+    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
+  }
+  return std::fflush(stdout) == 0 ? exit_done : fail("cannot write to standard output");
+}
+
+}  // namespace passo

@@ -1,0 +1,18 @@
+// What each stage needs to know of the machine, taken from its description. The only place where the two meet.
+#pragma once
+
+#include <string>
+
+#include "passo/interpreter/interpreter.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/path/path_builder.hpp"
+#include "passo/stepgen/step_generator.hpp"
+#include "passo/trajectory/planner.hpp"
+
+namespace passo {
+
+PathOptions path_options(const MachineDescription& machine, const std::string& program);
+MotionLimits motion_limits(const MachineDescription& machine);
+StepOptions step_options(const MachineDescription& machine);
+
+}  // namespace passo

@@ -1,0 +1,36 @@
+#include "passo/controller/stage_options.hpp"
+
+namespace passo {
+
+PathOptions path_options(const MachineDescription& machine, const std::string& program) {
+  PathOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.add(axis.axis);
+    options.travel[axis.axis] = {.low = axis.travel_low, .high = axis.travel_high};
+  }
+  options.tolerance = machine.path_tolerance;
+  options.spindle_limit = machine.tool.highest_rpm;
+  options.file = program;
+  return options;
+}
+
+MotionLimits motion_limits(const MachineDescription& machine) {
+  MotionLimits limits;
+  for (const AxisDescription& axis : machine.axes) {
+    limits.velocity[axis.axis] = axis.velocity;
+    limits.acceleration[axis.axis] = axis.acceleration;
+  }
+  return limits;
+}
+
+StepOptions step_options(const MachineDescription& machine) {
+  StepOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.motors[options.motor_count++] = {
+        .axis = axis.axis, .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit};
+  }
+  options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
+  return options;
+}
+
+}  // namespace passo

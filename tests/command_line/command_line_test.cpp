@@ -1,0 +1,246 @@
+// The program itself, as a user starts it: what it prints, what it leaves behind, and how it exits.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source_dir = PASSO_SOURCE_DIR;
+const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
+const std::string engrave = (source_dir / "examples" / "engrave.ngc").string();
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// A directory of its own for each test, gone afterwards.
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    fs::create_directories(dir_);
+  }
+  ~CommandLine() override { fs::remove_all(dir_); }
+
+  std::string path(const std::string& name) const { return (dir_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(dir_ / name, std::ios::binary) << text;
+    return path(name);
+  }
+  Outcome passo(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " " PASSO_PROGRAM " " + arguments + " >" + path("out") + " 2>" + path("err");
+    const int status = std::system(command.c_str());
+    return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(path("out")), .err = read(path("err"))};
+  }
+  // Runs a program text on the router.
+  Outcome run_text(const std::string& text, const std::string& options = "") const {
+    return passo("run " + write("p.ngc", text) + " -m " + router + " " + options);
+  }
+  // Files that are there beside the program and the captured output.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(dir_)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "out" && name != "err" && name != "p.ngc" && name != "m.toml") names.push_back(name);
+    }
+    return names;
+  }
+
+  fs::path dir_ = fs::temp_directory_path() / ("passo-test-" + std::to_string(getpid()));
+};
+
+TEST_F(CommandLine, help_teaches_with_examples_and_exits_well) {
+  const Outcome outcome = passo("--help");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("passo run part.ngc --machine router.toml"), std::string::npos);
+  EXPECT_EQ(passo("--version").code, 0);
+}
+
+TEST_F(CommandLine, a_wrong_command_line_exits_with_2) {
+  EXPECT_EQ(passo("").code, 2);
+  EXPECT_EQ(passo("fly").code, 2);
+  EXPECT_EQ(passo("run " + engrave).code, 2);
+  EXPECT_EQ(passo("run " + engrave + " -m " + router + " --colour").code, 2);
+}
+
+TEST_F(CommandLine, json_tells_time_steps_and_position_of_each_axis) {
+  const Outcome outcome = run_text("G21 G90 G1 X10 Y-2.5 F600\nM2\n", "--json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["steps"]["X"]["net"], 6400);
+  EXPECT_EQ(json["steps"]["Y"]["net"], -1600);
+  EXPECT_EQ(json["steps"]["Y"]["total"], 1600);
+  EXPECT_EQ(json["steps"]["Z"]["total"], 0);
+  EXPECT_DOUBLE_EQ(json["position_mm"]["X"], 10.0);
+  EXPECT_DOUBLE_EQ(json["position_mm"]["Y"], -2.5);
+  EXPECT_GT(json["time_s"], 10.3078 / 10);
+}
+
+TEST_F(CommandLine, a_there_and_back_counts_all_steps_and_ends_at_zero) {
+  const Outcome outcome = run_text("G21 G90 G1 X3 F600\nX0\nM2\n", "--json");
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["steps"]["X"]["net"], 0);
+  EXPECT_EQ(json["steps"]["X"]["total"], 2 * 3 * 640);
+}
+
+TEST_F(CommandLine, pictures_traces_and_reports_are_written_where_they_were_asked_for) {
+  const Outcome outcome = run_text("G21 G1 X1 F600\nM2\n", "--picture " + path("a.png") + " --picture " + path("a.svg") +
+                                                              " --trace " + path("a.vcd") + " --trace " + path("a.csv") +
+                                                              " --report " + path("a.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read(path("a.png")).substr(1, 3), "PNG");
+  EXPECT_NE(read(path("a.svg")).find("<svg"), std::string::npos);
+  EXPECT_NE(read(path("a.vcd")).find("$timescale"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(read(path("a.json")))["steps"]["X"]["net"], 640);
+}
+
+TEST_F(CommandLine, the_csv_trace_adds_up_to_the_steps_counted) {
+  ASSERT_EQ(run_text("G21 G2 X10 Y0 I5 F600\nG1 Z-1\nM2\n", "-q --trace " + path("t.csv")).code, 0);
+  std::ifstream file(path("t.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(file, line));
+  EXPECT_EQ(line, "t,x,y,z");
+  long x = 0;
+  long y = 0;
+  long z = 0;
+  double last = -1;
+  while (std::getline(file, line)) {
+    double t = 0;
+    int dx = 0;
+    int dy = 0;
+    int dz = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%d,%d,%d", &t, &dx, &dy, &dz), 4) << line;
+    EXPECT_GT(t, last);
+    EXPECT_TRUE(dx != 0 || dy != 0 || dz != 0);
+    last = t;
+    x += dx;
+    y += dy;
+    z += dz;
+  }
+  EXPECT_EQ(x, 6400);
+  EXPECT_EQ(y, 0);
+  EXPECT_EQ(z, -640);
+}
+
+TEST_F(CommandLine, an_existing_picture_survives_a_program_that_is_wrong) {
+  write("a.png", "precious");
+  const Outcome outcome = run_text("G21 G1 X1\nM2\n", "--picture " + path("a.png"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_EQ(read(path("a.png")), "precious");
+}
+
+TEST_F(CommandLine, a_file_that_cannot_be_written_is_said_before_the_run) {
+  const Outcome outcome = run_text("G21 G1 X1 F600\nM2\n", "--picture /nonexistent/dir/a.png");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.err.find("/nonexistent/dir/a.png"), std::string::npos);
+  EXPECT_EQ(run_text("G21 G1 X1 F600\nM2\n", "--picture " + path("a.jpeg")).code, 2);
+  EXPECT_EQ(run_text("G21 G1 X1 F600\nM2\n", "--trace " + path("a.xls")).code, 2);
+}
+
+struct BadProgram {
+  const char* name;
+  std::string text;
+  const char* code;   // that must be named
+  const char* place;  // file:line:column that must be named, after the file's name
+};
+
+class BadPrograms : public CommandLine, public testing::WithParamInterface<BadProgram> {};
+
+TEST_P(BadPrograms, are_refused_with_their_place_and_leave_nothing_behind) {
+  const BadProgram& bad = GetParam();
+  const Outcome outcome = run_text(bad.text, "--picture " + path("a.png") + " --trace " + path("a.csv") + " --report " +
+                                                 path("a.json"));
+  EXPECT_EQ(outcome.code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find(std::string("[") + bad.code + "]"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find(std::string("p.ngc") + bad.place), std::string::npos) << outcome.err;
+  EXPECT_EQ(files(), std::vector<std::string>());
+  EXPECT_EQ(outcome.out, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadPrograms,
+    testing::Values(BadProgram{"empty", "", "file.empty", ": error"},
+                    BadProgram{"binary", std::string("\x7f" "ELF\0\0\0\1\2\3\0\0\0\0\0\0\0\0", 18), "file.binary", ""},
+                    BadProgram{"nul", std::string("G21 G90 (a comment that is long enough to be text)\nG0 X1\0Y2\nM2\n", 66), "gcode.nul-byte", ":2:6"},
+                    BadProgram{"megabyte", "G21\n(" + std::string(1'000'000, 'x') + ")\nM2\n", "gcode.line-too-long", ":2"},
+                    BadProgram{"missing_feed", "G21\nG1 X1\nM2\n", "gcode.missing-feed", ":2:1"},
+                    BadProgram{"huge_number", "G21\nG0 X1e999\nM2\n", "gcode.", ":2:"},
+                    BadProgram{"past_travel", "G21\nG0 X401\nM2\n", "travel.exceeded", ":2"},
+                    BadProgram{"unknown_code", "G21\nG123 X1\nM2\n", "gcode.", ":2:1"},
+                    BadProgram{"cr_only_counts_lines", "G21\rG1 X1\rM2\r", "gcode.missing-feed", ":2:1"},
+                    BadProgram{"crlf_counts_lines", "G21\r\nG1 X1\r\nM2\r\n", "gcode.missing-feed", ":2:1"},
+                    BadProgram{"bom_is_no_column", "\xEF\xBB\xBFG1 X1\nM2\n", "gcode.missing-feed", ":1:1"},
+                    BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.", ":2:"}),
+    [](const testing::TestParamInfo<BadProgram>& param_info) { return param_info.param.name; });
+
+TEST_F(CommandLine, all_errors_of_a_program_come_in_one_go) {
+  const Outcome outcome = run_text("G21\nG1 X1\nG123\nG0 X9999\nM2\n");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("p.ngc:2:"), std::string::npos);
+  EXPECT_NE(outcome.err.find("p.ngc:3:"), std::string::npos);
+  EXPECT_NE(outcome.err.find("p.ngc:4"), std::string::npos);
+  EXPECT_NE(outcome.err.find("3 errors"), std::string::npos) << outcome.err;
+}
+
+TEST_F(CommandLine, crlf_cr_and_a_byte_order_mark_are_fine) {
+  for (const char* text : {"G21 F600\r\nG1 X1\r\nM2\r\n", "G21 F600\rG1 X1\rM2\r", "\xEF\xBB\xBFG21 F600\nG1 X1\nM2"}) {
+    EXPECT_EQ(run_text(text).code, 0);
+  }
+}
+
+TEST_F(CommandLine, a_missing_program_exits_with_2_and_a_missing_machine_with_3) {
+  EXPECT_EQ(passo("run " + path("none.ngc") + " -m " + router).code, 2);
+  EXPECT_EQ(passo("run " + engrave + " -m " + path("none.toml")).code, 3);
+  EXPECT_EQ(passo("run " + dir_.string() + " -m " + router).code, 2);
+}
+
+TEST_F(CommandLine, a_mistake_in_the_machine_file_names_line_and_nearest_key) {
+  std::string text = read(router);
+  text.replace(text.find("max_velocity_mm_s"), 17, "max_velocty_mm_s");
+  const Outcome outcome = passo("run " + engrave + " -m " + write("m.toml", text));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("m.toml:"), std::string::npos);
+  EXPECT_NE(outcome.err.find("max_velocity_mm_s"), std::string::npos) << outcome.err;
+}
+
+TEST_F(CommandLine, a_program_from_standard_input_runs) {
+  const Outcome outcome = passo("run - -m " + router + " --json", "printf 'G21 F600\\nG1 X1\\nM2\\n' |");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"]["X"]["net"], 640);
+}
+
+TEST_F(CommandLine, check_finds_what_run_would_refuse_and_runs_nothing) {
+  EXPECT_EQ(passo("check " + engrave + " -m " + router).code, 0);
+  EXPECT_EQ(passo("check " + write("p.ngc", "G1 X1\n") + " -m " + router).code, 2);
+}
+
+TEST_F(CommandLine, canon_prints_canonical_calls) {
+  const Outcome outcome = passo("canon " + write("p.ngc", "G21 F600\nG1 X1 Y2\nM2\n"));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("STRAIGHT_FEED(1.0000, 2.0000, 0.0000, 0.0000, 0.0000, 0.0000)"), std::string::npos);
+}
+
+TEST_F(CommandLine, no_colour_and_no_progress_reach_a_pipe) {
+  const Outcome outcome = run_text("G21 F600\nG1 X100\nX0\nM2\n");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+}  // namespace
