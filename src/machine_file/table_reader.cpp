@@ -45,8 +45,7 @@ void TableReader::error(std::string_view code, std::string_view key, std::string
 }
 
 void TableReader::missing(std::string_view key, std::string example) {
-  missing_.push_back(key);
-  missing_examples_.push_back(std::move(example));
+  missing_.push_back({key, std::move(example)});
 }
 
 const TomlEntry* TableReader::ask(std::string_view key, std::string example, Need need) {
@@ -144,9 +143,10 @@ void TableReader::finish(bool report_missing, const std::vector<std::string_view
   if (report_missing && !missing_.empty()) report_missing_keys();
 }
 
-void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys) const {
+void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys) {
   const bool is_table = std::holds_alternative<TomlTable>(entry.value.content);
   const std::string_view near = suggestion(entry.key, known_);
+  forgive_missing(near);
   std::string expected;
   if (!path_.empty() && contains(top_keys, entry.key)) {
     expected = fmt::format("{} at the top of the file, before the first [table]", entry.key);
@@ -160,10 +160,22 @@ void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::
                   expected);
 }
 
+// One mistake, one diagnostic: a misspelt key is not missing as well.
+void TableReader::forgive_missing(std::string_view key) {
+  const auto found = std::ranges::find(missing_, key, &MissingKey::name);
+  if (found != missing_.end()) missing_.erase(found);
+}
+
 void TableReader::report_missing_keys() const {
+  std::vector<std::string_view> names;
+  std::vector<std::string_view> examples;
+  for (const MissingKey& key : missing_) {
+    names.push_back(key.name);
+    examples.push_back(key.example);
+  }
   const std::string where = path_.empty() ? "the file" : fmt::format("[{}]", path_);
-  reporter_.error("machine.missing-key", place_, fmt::format("{} lacks {}", where, fmt::join(missing_, ", ")),
-                  fmt::format("{}", fmt::join(missing_examples_, "; ")));
+  reporter_.error("machine.missing-key", place_, fmt::format("{} lacks {}", where, fmt::join(names, ", ")),
+                  fmt::format("{}", fmt::join(examples, "; ")));
 }
 
 }  // namespace passo

@@ -58,10 +58,16 @@ class TableReader {
   std::string full_name(std::string_view key) const;
 
  private:
+  struct MissingKey {
+    std::string_view name;
+    std::string example;
+  };
+
   const TomlEntry* ask(std::string_view key, std::string example, Need need);
   void wrong_type(const TomlEntry& entry, std::string expected) const;
   bool in_range(const NumberKey& key, double value, const SourcePlace& place) const;
-  void report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys) const;
+  void report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys);
+  void forgive_missing(std::string_view key);
   void report_missing_keys() const;
 
   const TomlTable& table_;
@@ -69,8 +75,7 @@ class TableReader {
   SourcePlace place_;
   const Reporter& reporter_;
   std::vector<std::string_view> known_;
-  std::vector<std::string_view> missing_;
-  std::vector<std::string> missing_examples_;
+  std::vector<MissingKey> missing_;
 };
 
 }  // namespace passo
