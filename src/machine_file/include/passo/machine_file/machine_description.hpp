@@ -1,8 +1,16 @@
 // MachineDescription: what a machine file (TOML) says, checked and in strong units.
+//
+// The file is the only place where the parts of a real machine are written: its axes, its board, its tool. It is read
+// once, before a job; the street takes its options from here. docs/manual/machine-file.md explains every key.
+//
+// Invariant: a description that was handed out is whole and sound. Every number is finite and in range, every
+// axis can be played at its full velocity by the board, and there is at least one axis.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "passo/diagnostics/diagnostic.hpp"
@@ -11,6 +19,9 @@
 
 namespace passo {
 
+inline constexpr std::size_t most_motors = 8;  // of a board; the same number as wire's max_motors
+
+// A rotary axis has degrees in place of millimetres throughout.
 struct AxisDescription {
   Axis axis = Axis::x;
   double steps_per_unit = 0;  // a millimetre, for a rotary axis a degree; always positive
@@ -19,18 +30,26 @@ struct AxisDescription {
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};
   bool inverted = false;  // the motor turns the other way
+
+  // The way of one step, and the steps a second at full velocity.
+  Mm step() const { return Mm(1.0 / steps_per_unit); }
+  Hertz highest_step_rate() const { return Hertz(velocity.value() * steps_per_unit); }
 };
 
 struct BoardDescription {
   Hertz clock{16e6};               // ticks a second
   Hertz highest_event_rate{50e3};  // events a second
   Seconds step_pulse{2.5e-6};
+
+  // An interval is at most 65535 whole ticks. Slower motion is played all the same: the events go on at this rate or
+  // above, and most of them are without a step.
+  Hertz lowest_event_rate() const { return Hertz(clock.value() / 65535); }
 };
 
 struct ToolDescription {
   std::string name;
   double highest_rpm = 0;  // 0: a relay, on or off
-  Mm diameter{0};
+  Mm diameter{0};          // 0: not told
 };
 
 struct MachineDescription {
@@ -42,7 +61,14 @@ struct MachineDescription {
 };
 
 // Reads and checks a machine file. Everything that is wrong is in `diagnostics` (line, key, nearest key, what is
-// missing); empty when there was any error.
+// missing), with codes "machine.*"; empty when there was any error.
 std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics);
+
+// The same for a text that is in memory already. `file` names it in diagnostics.
+std::optional<MachineDescription> parse_machine(std::string_view text, const std::string& file,
+                                                Diagnostics& diagnostics);
+
+// The description as a person reads it: one line for the machine, the board and the tool, one for each axis.
+std::string describe(const MachineDescription& machine);
 
 }  // namespace passo

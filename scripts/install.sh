@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# scripts/install.sh [--build]: installs the Debian packages that Passo needs and that are missing.
+#
+#   --build   only what building and running needs; without it also what the tests and checks need
+#
+# It says what it does, does nothing else, and uses the network only where something is missing.
+set -euo pipefail
+
+build_packages=(
+  g++ cmake ninja-build      # compiler and build
+  libfmt-dev                 # text
+  libcli11-dev               # command line
+  libtomlplusplus-dev        # machine files
+  nlohmann-json3-dev         # reports
+  libcairo2-dev libpng-dev   # pictures
+  fonts-dejavu-core          # letters in pictures
+  pkg-config                 # finds cairo
+)
+test_packages=(
+  libgtest-dev libgmock-dev  # tests
+  libbenchmark-dev           # benchmarks
+  clang libclang-rt-14-dev   # a second opinion on warnings; the portable code for the AVR
+  clang-format clang-tidy    # style
+  git ccache                 # checks of the tracked files; builds again in seconds
+)
+
+packages=("${build_packages[@]}")
+case "${1-}" in
+  --build) ;;
+  "") packages+=("${test_packages[@]}") ;;
+  *)
+    sed -n '2,6s/^# \{0,1\}//p' "$0"
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "This is not Debian or a relative of it. Passo needs what Debian 12 calls:" >&2
+  echo "  ${packages[*]}" >&2
+  echo "Install the like of them; then CONTRIBUTING.md tells how to build." >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  # shellcheck disable=SC2016  # the braces are dpkg-query's
+  state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) || state=none
+  [[ $state == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  echo "All ${#packages[@]} packages are installed."
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "Not root, and there is no sudo. As root, run:" >&2
+    echo "  apt-get update && apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+run() {
+  echo "+ $*"
+  "$@"
+}
+echo "Missing: ${missing[*]}"
+run "${as_root[@]}" apt-get update --quiet
+run "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install --yes --quiet --no-install-recommends "${missing[@]}"
+echo "Installed: ${missing[*]}"

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# scripts/start.sh: from a fresh clone to a first job. Installs what is missing, builds Passo, engraves an example on a
+# virtual machine, and names the picture and the report that it wrote.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/install.sh --build
+
+# A build that has been set up with tests keeps them.
+tests_off=(-DPASSO_BUILD_TESTS=OFF -DPASSO_BUILD_BENCHMARKS=OFF)
+[[ -f build/release/CMakeCache.txt ]] && tests_off=()
+cmake --preset release "${tests_off[@]}"
+cmake --build build/release --target passo --parallel "$(nproc)"
+
+mkdir -p out
+first_job=(build/release/src/apps/passo run examples/engrave.ngc
+  --machine examples/machines/pantograph.toml
+  --picture out/engrave.png
+  --json out/report.json)
+echo "+ ${first_job[*]}"
+"${first_job[@]}"
+
+echo
+echo "Picture: $PWD/out/engrave.png"
+echo "Report:  $PWD/out/report.json"

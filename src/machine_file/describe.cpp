@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+namespace {
+
+std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
+  const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
+  std::string line = fmt::format(
+      "axis {}          motor {}, {:g} steps/{unit}, {:.4g} {unit} a step, {:g} to {:g} {unit}, "
+      "{:g} {unit}/s ({:.6g} steps/s), {:g} {unit}/s2",
+      letter_of(axis.axis), motor, axis.steps_per_unit, axis.step().value(), axis.travel_low, axis.travel_high,
+      axis.velocity.value(), axis.highest_step_rate().value(), axis.acceleration.value(), fmt::arg("unit", unit));
+  if (axis.inverted) line += ", inverted";
+  return line + "\n";
+}
+
+std::string describe_tool(const ToolDescription& tool) {
+  std::string line = fmt::format("tool            {}", tool.name.empty() ? "without a name" : tool.name);
+  line += tool.highest_rpm > 0 ? fmt::format(", up to {:g} rpm", tool.highest_rpm) : ", a relay (on or off)";
+  if (tool.diameter.value() > 0) line += fmt::format(", {:g} mm", tool.diameter.value());
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string describe(const MachineDescription& machine) {
+  const BoardDescription& board = machine.board;
+  std::string out = fmt::format("machine         {}\n", machine.name);
+  out += fmt::format("path tolerance  {:g} mm\n", machine.path_tolerance.value());
+  out +=
+      fmt::format("board           clock {:.9g} Hz, {:.1f} to {:g} events/s, step pulse {:g} us\n", board.clock.value(),
+                  board.lowest_event_rate().value(), board.highest_event_rate.value(), board.step_pulse.value() * 1e6);
+  out += describe_tool(machine.tool);
+  for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) out += describe_axis(machine.axes[motor], motor);
+  return out;
+}
+
+}  // namespace passo

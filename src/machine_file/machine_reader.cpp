@@ -1,0 +1,298 @@
+// docs/manual/machine-file.md tells the user the same; tests/machine_manual_test.cpp holds the two together.
+#include "machine_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "table_reader.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
+
+constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
+constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
+constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
+
+constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
+constexpr NumberKey diameter_key{"diameter_mm", 0, 1000, "3"};
+
+constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
+constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
+constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
+
+// The keys of an axis that carry a unit in their names.
+struct AxisKeys {
+  const char* unit;
+  NumberKey scale;
+  NumberKey gear;
+  NumberKey travel;
+  NumberKey velocity;
+  NumberKey acceleration;
+};
+constexpr AxisKeys linear_keys{
+    .unit = "mm",
+    .scale = {"steps_per_mm", 1e-3, 1e6, "100"},
+    .gear = {"screw_pitch_mm", 1e-2, 1e3, "4"},
+    .travel = {"travel_mm", -1e5, 1e5, "[-150, 150]"},
+    .velocity = {"max_velocity_mm_s", 1e-3, 1e5, "25"},
+    .acceleration = {"max_acceleration_mm_s2", 1e-3, 1e6, "200"},
+};
+constexpr AxisKeys rotary_keys{
+    .unit = "deg",
+    .scale = {"steps_per_deg", 1e-3, 1e6, "40"},
+    .gear = {"gear_ratio", 1e-3, 1e5, "36"},
+    .travel = {"travel_deg", -1e7, 1e7, "[-180, 180]"},
+    .velocity = {"max_velocity_deg_s", 1e-3, 1e5, "60"},
+    .acceleration = {"max_acceleration_deg_s2", 1e-3, 1e6, "300"},
+};
+
+// An interrupt that serves an event takes longer than this on any processor.
+constexpr double fewest_ticks_an_event = 16;
+constexpr double longest_interval_ticks = 65535;
+
+class MachineReader {
+ public:
+  MachineReader(const TomlDocument& document, const Reporter& reporter) : document_(document), reporter_(reporter) {}
+
+  MachineDescription read();
+
+ private:
+  struct AxisEntry {
+    AxisDescription description;
+    std::optional<std::size_t> motor;
+    SourcePlace place;        // of its table
+    SourcePlace motor_place;  // of its motor's number
+  };
+
+  void read_board(const TomlEntry& entry);
+  void read_tool(const TomlEntry& entry);
+  void read_axes(const TomlEntry& entry);
+  void read_axis(const TomlEntry& entry, Axis axis);
+  void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
+  double read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const;
+  void check_velocity(const TableReader& reader, const AxisKeys& keys, const AxisDescription& axis) const;
+  void order_motors();
+  void number_motors();
+
+  void finish(TableReader& reader) const { reader.finish(document_.complete, {"name", path_tolerance_key.name}); }
+
+  const TomlDocument& document_;
+  const Reporter& reporter_;
+  MachineDescription machine_;
+  std::optional<Hertz> event_rate_;  // of the board, where that is right
+  std::vector<AxisEntry> axes_;
+  bool motors_are_readable_ = true;
+};
+
+MachineDescription MachineReader::read() {
+  TableReader top(document_.root, "", {}, reporter_);
+  if (const auto name = top.text("name", "My machine", Need::required)) machine_.name = *name;
+  if (const auto tolerance = top.number(path_tolerance_key, Need::optional)) machine_.path_tolerance = Mm(*tolerance);
+  const TomlEntry* board = top.table("board", "a table [board] with the board's clock", Need::required);
+  const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
+  const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
+  finish(top);
+  if (board != nullptr) read_board(*board);
+  if (tool != nullptr) read_tool(*tool);
+  if (axes != nullptr) read_axes(*axes);
+  return std::move(machine_);
+}
+
+void MachineReader::read_board(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "board", entry.place, reporter_);
+  BoardDescription& board = machine_.board;
+  const auto clock = reader.number(clock_key, Need::required);
+  auto rate = reader.number(event_rate_key, Need::required);
+  const bool pulse_is_given = reader.has(step_pulse_key.name);
+  const auto pulse = reader.number(step_pulse_key, Need::optional);
+  finish(reader);
+
+  if (clock && rate) {
+    board.clock = Hertz(*clock);
+    const double fastest = *clock / fewest_ticks_an_event;
+    // Twice the slowest, so that between the two there is a multiple of every slow rate of steps.
+    const double slowest = 2 * *clock / longest_interval_ticks;
+    if (*rate > fastest || *rate < slowest) {
+      reader.error("machine.event-rate", event_rate_key.name,
+                   fmt::format("a board with a clock of {} Hz cannot make at most {} events a second", *clock, *rate),
+                   fmt::format("{} from {:.0f} to {:.0f}: an event takes {} ticks of the clock or more, and an "
+                               "interval is counted in 16 bits",
+                               event_rate_key.name, std::ceil(slowest), fastest, fewest_ticks_an_event));
+      rate.reset();
+    }
+  }
+  if (!rate) return;
+  board.highest_event_rate = Hertz(*rate);
+  event_rate_ = board.highest_event_rate;
+  if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
+  // A driver wants the pause as long as the pulse.
+  const double longest_us = 1e6 / (2 * *rate);
+  if ((pulse || !pulse_is_given) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
+    reader.error("machine.step-pulse", step_pulse_key.name,
+                 fmt::format("a step pulse of {:g} us and as long a pause do not fit between {:g} events a second",
+                             board.step_pulse.value() * 1e6, *rate),
+                 fmt::format("{} = {:g} or less, or a lower {}", step_pulse_key.name, longest_us, event_rate_key.name));
+  }
+}
+
+void MachineReader::read_tool(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "tool", entry.place, reporter_);
+  ToolDescription& tool = machine_.tool;
+  if (const auto name = reader.text("name", "Spindle", Need::optional)) tool.name = *name;
+  if (const auto rpm = reader.number(rpm_key, Need::optional)) tool.highest_rpm = *rpm;
+  if (const auto diameter = reader.number(diameter_key, Need::optional)) tool.diameter = Mm(*diameter);
+  finish(reader);
+}
+
+void MachineReader::read_axes(const TomlEntry& entry) {
+  const auto& tables = std::get<TomlTable>(entry.value.content).entries;
+  for (const TomlEntry& table : tables) {
+    const auto axis = table.key.size() == 1 ? axis_of(table.key[0]) : std::nullopt;
+    if (!axis || letter_of(*axis) != table.key[0]) {
+      reporter_.error("machine.unknown-axis", table.place, fmt::format("there is no axis {}", table.key),
+                      axis ? fmt::format("[axis.{}], with a capital letter", letter_of(*axis))
+                           : "an axis X, Y, Z, A, B, C, U, V or W");
+    } else if (!std::holds_alternative<TomlTable>(table.value.content)) {
+      reporter_.error("machine.wrong-type", table.value.place,
+                      fmt::format("axis.{} is {}", table.key, kind_of(table.value)),
+                      fmt::format("a table [axis.{}]", table.key));
+    } else {
+      read_axis(table, *axis);
+    }
+  }
+  if (tables.empty() && document_.complete) {
+    reporter_.error("machine.no-axis", entry.place, "the machine has no axis", "a table for each axis, as in [axis.X]");
+  }
+  if (tables.size() > most_motors) {
+    reporter_.error("machine.too-many-axes", tables[most_motors].place,
+                    fmt::format("the machine has {} axes", tables.size()),
+                    fmt::format("at most {}: a board has no more motors", most_motors));
+  }
+  order_motors();
+}
+
+void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), fmt::format("axis.{}", entry.key), entry.place,
+                     reporter_);
+  AxisEntry result;
+  result.place = entry.place;
+  AxisDescription& description = result.description;
+  description.axis = axis;
+  read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
+  description.inverted = reader.flag("inverted").value_or(false);
+  if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
+    result.motor = static_cast<std::size_t>(*motor);
+    result.motor_place = reader.place_of(motor_key.name);
+  }
+  if (reader.has(motor_key.name) && !result.motor) motors_are_readable_ = false;
+  finish(reader);
+  axes_.push_back(result);
+}
+
+void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {
+  axis.steps_per_unit = read_scale(reader, keys, axis.axis);
+  if (const auto travel = reader.low_high(keys.travel, Need::required)) {
+    axis.travel_low = travel->low;
+    axis.travel_high = travel->high;
+    if (travel->low >= travel->high) {
+      reader.error("machine.travel", keys.travel.name,
+                   fmt::format("{} goes from {} to {}", reader.full_name(keys.travel.name), travel->low, travel->high),
+                   "the low end first, then the high end");
+    }
+  }
+  if (const auto velocity = reader.number(keys.velocity, Need::required)) axis.velocity = MmPerSecond(*velocity);
+  if (const auto acceleration = reader.number(keys.acceleration, Need::required)) {
+    axis.acceleration = MmPerSecond2(*acceleration);
+  }
+  check_velocity(reader, keys, axis);
+}
+
+// Steps a millimetre or degree, told as such or by motor and gear; 0 where neither is right.
+double MachineReader::read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const {
+  const NumberKey* const gear_keys[] = {&turn_key, &microsteps_key, &keys.gear};
+  const auto by_gear = std::ranges::find_if(gear_keys, [&](const NumberKey* key) { return reader.has(key->name); });
+  const bool has_gear = by_gear != std::end(gear_keys);
+  const bool has_scale = reader.has(keys.scale.name);
+
+  const auto scale = reader.number(keys.scale, Need::optional);
+  const auto turn = reader.number(turn_key, has_gear && !has_scale ? Need::required : Need::optional);
+  const auto microsteps = reader.whole_number(microsteps_key, Need::optional);
+  const auto gear = reader.number(keys.gear, has_gear && !has_scale ? Need::required : Need::optional);
+
+  if (has_gear && has_scale) {
+    reader.error("machine.two-scales", (*by_gear)->name,
+                 fmt::format("{} and {} are both given", reader.full_name((*by_gear)->name), keys.scale.name),
+                 fmt::format("either {}, or {}, {} and {}", keys.scale.name, turn_key.name, microsteps_key.name,
+                             keys.gear.name));
+    return 0;
+  }
+  if (!has_gear) {
+    if (!has_scale) {
+      reader.missing(keys.scale.name, fmt::format("{} = {}, or {} and {}", keys.scale.name, keys.scale.example,
+                                                  turn_key.name, keys.gear.name));
+    }
+    return scale.value_or(0);
+  }
+  const bool microsteps_wrong = reader.has(microsteps_key.name) && !microsteps;
+  if (!turn || !gear || microsteps_wrong) return 0;
+  const double motor_steps = *turn * microsteps.value_or(1);
+  // A screw moves its pitch in one turn of the motor; a rotary axis turns once for `gear` turns of the motor.
+  return is_rotary(axis) ? motor_steps * *gear / 360 : motor_steps / *gear;
+}
+
+void MachineReader::check_velocity(const TableReader& reader, const AxisKeys& keys, const AxisDescription& axis) const {
+  if (!event_rate_ || axis.steps_per_unit == 0 || axis.velocity.value() == 0) return;
+  const double steps = axis.highest_step_rate().value();
+  if (steps <= event_rate_->value() * (1 + 1e-9)) return;
+  reader.error("machine.too-fast", keys.velocity.name,
+               fmt::format("axis {} needs {:.0f} steps a second for {:g} {}/s, and the board makes {:g} events",
+                           letter_of(axis.axis), steps, axis.velocity.value(), keys.unit, event_rate_->value()),
+               fmt::format("{} = {:g} or less, fewer microsteps, or a faster board", keys.velocity.name,
+                           event_rate_->value() / axis.steps_per_unit));
+}
+
+// By their numbers where those are given, else in the order X Y Z A B C U V W.
+void MachineReader::order_motors() {
+  std::ranges::sort(axes_, {}, [](const AxisEntry& entry) { return index_of(entry.description.axis); });
+  const bool numbered = std::ranges::any_of(axes_, [](const AxisEntry& entry) { return entry.motor.has_value(); });
+  if (numbered && motors_are_readable_) number_motors();
+  for (const AxisEntry& entry : axes_) machine_.axes.push_back(entry.description);
+}
+
+void MachineReader::number_motors() {
+  std::vector<const AxisEntry*> taken(axes_.size(), nullptr);
+  bool good = true;
+  for (const AxisEntry& entry : axes_) {
+    const char letter = letter_of(entry.description.axis);
+    if (!entry.motor) {
+      reporter_.error("machine.motor", entry.place, fmt::format("[axis.{}] lacks its motor", letter),
+                      "a motor for every axis, or for none: then they are in the order X Y Z A B C U V W");
+      good = false;
+    } else if (*entry.motor >= axes_.size()) {
+      reporter_.error("machine.motor", entry.motor_place, fmt::format("axis {} has motor {}", letter, *entry.motor),
+                      fmt::format("0 to {}: the motors of {} axes without a gap", axes_.size() - 1, axes_.size()));
+      good = false;
+    } else if (taken[*entry.motor] != nullptr) {
+      reporter_.error(
+          "machine.motor", entry.motor_place,
+          fmt::format("motor {} turns axis {} already", *entry.motor, letter_of(taken[*entry.motor]->description.axis)),
+          "a motor of its own for each axis");
+      good = false;
+    } else {
+      taken[*entry.motor] = &entry;
+    }
+  }
+  if (good) std::ranges::sort(axes_, {}, [](const AxisEntry& entry) { return *entry.motor; });
+}
+
+}  // namespace
+
+MachineDescription read_machine(const TomlDocument& document, const Reporter& reporter) {
+  return MachineReader(document, reporter).read();
+}
+
+}  // namespace passo

@@ -1,0 +1,62 @@
+#include "reporter.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace passo {
+namespace {
+
+// Bytes before the character with this number (from 1); past the end of the line: one column for each character.
+std::size_t bytes_before(std::string_view line, std::uint32_t character) {
+  std::size_t byte = 0;
+  for (std::uint32_t i = 1; i < character; ++i) {
+    ++byte;
+    while (byte < line.size() && (static_cast<unsigned char>(line[byte]) & 0xC0U) == 0x80U) ++byte;
+  }
+  return std::min(byte, line.size());
+}
+
+// Keys and values of the file are quoted in messages: what they carry must not steer a terminal.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = '?';
+  }
+  return text;
+}
+
+}  // namespace
+
+Reporter::Reporter(std::string_view text, std::string file, Diagnostics& diagnostics)
+    : file_(std::move(file)), diagnostics_(diagnostics) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines_.push_back(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+void Reporter::error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const {
+  diagnostics_.add({.severity = Severity::error,
+                    .code = std::string(code),
+                    .file = file_,
+                    .place = place,
+                    .message = printable(std::move(message)),
+                    .expected = printable(std::move(expected)),
+                    .text = std::string(line(place.line))});
+}
+
+std::string_view Reporter::line(std::uint32_t number) const {
+  return number == 0 || number > lines_.size() ? std::string_view() : lines_[number - 1];
+}
+
+SourcePlace Reporter::place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const {
+  const std::size_t first = bytes_before(this->line(line), first_character);
+  const std::size_t end = bytes_before(this->line(line), std::max(first_character + 1, end_character));
+  return {.line = line,
+          .column = static_cast<std::uint32_t>(first + 1),
+          .length = static_cast<std::uint32_t>(std::max<std::size_t>(1, end - first))};
+}
+
+}  // namespace passo

@@ -1,0 +1,181 @@
+#include "table_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace passo {
+namespace {
+
+// The nearest known key; or one that is the same but for swapped letters ("naem"), or for a unit left out or added
+// ("max_velocity").
+std::string_view suggestion(std::string_view word, const std::vector<std::string_view>& known) {
+  if (const std::string_view near = nearest(word, known); !near.empty()) return near;
+  const auto is_meant = [word](std::string_view key) {
+    const bool same_start = word.size() >= 3 && (key.starts_with(word) || word.starts_with(key));
+    return same_start || std::ranges::is_permutation(word, key);
+  };
+  const auto found = std::ranges::find_if(known, is_meant);
+  return found == known.end() ? std::string_view() : *found;
+}
+
+bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
+  return std::ranges::find(keys, key) != keys.end();
+}
+
+}  // namespace
+
+TableReader::TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const Reporter& reporter)
+    : table_(table), path_(std::move(path)), place_(place), reporter_(reporter) {}
+
+std::string TableReader::full_name(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+SourcePlace TableReader::place_of(std::string_view key) const {
+  const TomlEntry* entry = find(table_, key);
+  return entry != nullptr ? entry->value.place : place_;
+}
+
+void TableReader::error(std::string_view code, std::string_view key, std::string message, std::string expected) const {
+  reporter_.error(code, place_of(key), std::move(message), std::move(expected));
+}
+
+void TableReader::missing(std::string_view key, std::string example) {
+  missing_.push_back({key, std::move(example)});
+}
+
+const TomlEntry* TableReader::ask(std::string_view key, std::string example, Need need) {
+  known_.push_back(key);
+  const TomlEntry* entry = find(table_, key);
+  if (entry == nullptr && need == Need::required) missing(key, std::move(example));
+  return entry;
+}
+
+void TableReader::wrong_type(const TomlEntry& entry, std::string expected) const {
+  reporter_.error("machine.wrong-type", entry.value.place,
+                  fmt::format("{} is {}", full_name(entry.key), kind_of(entry.value)), std::move(expected));
+}
+
+bool TableReader::in_range(const NumberKey& key, double value, const SourcePlace& place) const {
+  if (value >= key.least && value <= key.most) return true;  // false for what is not a number at all, too
+  reporter_.error("machine.out-of-range", place, fmt::format("{} is {}", full_name(key.name), value),
+                  fmt::format("a number from {} to {}", key.least, key.most));
+  return false;
+}
+
+std::optional<double> TableReader::number(const NumberKey& key, Need need) {
+  const TomlEntry* entry = ask(key.name, fmt::format("{} = {}", key.name, key.example), need);
+  if (entry == nullptr) return std::nullopt;
+  const auto* value = std::get_if<double>(&entry->value.content);
+  if (value == nullptr) {
+    wrong_type(*entry, fmt::format("a number, as in {} = {}", key.name, key.example));
+    return std::nullopt;
+  }
+  if (!in_range(key, *value, entry->value.place)) return std::nullopt;
+  return *value;
+}
+
+std::optional<double> TableReader::whole_number(const NumberKey& key, Need need) {
+  const auto value = number(key, need);
+  if (!value || *value == std::floor(*value)) return value;
+  error("machine.out-of-range", key.name, fmt::format("{} is {}", full_name(key.name), *value),
+        fmt::format("a whole number from {} to {}", key.least, key.most));
+  return std::nullopt;
+}
+
+std::optional<LowHigh> TableReader::low_high(const NumberKey& key, Need need) {
+  const TomlEntry* entry = ask(key.name, fmt::format("{} = {}", key.name, key.example), need);
+  if (entry == nullptr) return std::nullopt;
+  const std::string expected = fmt::format("two numbers, as in {} = {}", key.name, key.example);
+  const auto* list = std::get_if<TomlArray>(&entry->value.content);
+  if (list == nullptr || list->size() != 2) {
+    wrong_type(*entry, expected);
+    return std::nullopt;
+  }
+  LowHigh ends;
+  bool good = true;
+  for (const auto& [item, end] : {std::pair(&(*list)[0], &ends.low), std::pair(&(*list)[1], &ends.high)}) {
+    if (const auto* value = std::get_if<double>(&item->content)) {
+      good = in_range(key, *value, item->place) && good;
+      *end = *value;
+    } else {
+      reporter_.error("machine.wrong-type", item->place,
+                      fmt::format("{} has {} in its list", full_name(key.name), kind_of(*item)), expected);
+      good = false;
+    }
+  }
+  return good ? std::optional(ends) : std::nullopt;
+}
+
+std::optional<bool> TableReader::flag(std::string_view key) {
+  const TomlEntry* entry = ask(key, {}, Need::optional);
+  if (entry == nullptr) return std::nullopt;
+  if (const auto* value = std::get_if<bool>(&entry->value.content)) return *value;
+  wrong_type(*entry, fmt::format("{} = true or {} = false", key, key));
+  return std::nullopt;
+}
+
+std::optional<std::string> TableReader::text(std::string_view key, std::string_view example, Need need) {
+  const std::string line = fmt::format("{} = \"{}\"", key, example);
+  const TomlEntry* entry = ask(key, line, need);
+  if (entry == nullptr) return std::nullopt;
+  if (const auto* value = std::get_if<std::string>(&entry->value.content)) return *value;
+  wrong_type(*entry, fmt::format("a text in quotes, as in {}", line));
+  return std::nullopt;
+}
+
+const TomlEntry* TableReader::table(std::string_view key, std::string_view what, Need need) {
+  const TomlEntry* entry = ask(key, std::string(what), need);
+  if (entry == nullptr) return nullptr;
+  if (std::holds_alternative<TomlTable>(entry->value.content)) return entry;
+  wrong_type(*entry, std::string(what));
+  return nullptr;
+}
+
+void TableReader::finish(bool report_missing, const std::vector<std::string_view>& top_keys) {
+  for (const TomlEntry& entry : table_.entries) {
+    if (!contains(known_, entry.key)) report_unknown(entry, top_keys);
+  }
+  if (report_missing && !missing_.empty()) report_missing_keys();
+}
+
+void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys) {
+  const bool is_table = std::holds_alternative<TomlTable>(entry.value.content);
+  const std::string_view near = suggestion(entry.key, known_);
+  forgive_missing(near);
+  std::string expected;
+  if (!path_.empty() && contains(top_keys, entry.key)) {
+    expected = fmt::format("{} at the top of the file, before the first [table]", entry.key);
+  } else if (!near.empty()) {
+    expected = fmt::format("perhaps {}", near);
+  } else {
+    expected = fmt::format("one of {}", fmt::join(known_, ", "));
+  }
+  reporter_.error(is_table ? "machine.unknown-table" : "machine.unknown-key", entry.place,
+                  fmt::format("a machine file has no {} {}", is_table ? "table" : "key", full_name(entry.key)),
+                  expected);
+}
+
+// One mistake, one diagnostic: a misspelt key is not missing as well.
+void TableReader::forgive_missing(std::string_view key) {
+  const auto found = std::ranges::find(missing_, key, &MissingKey::name);
+  if (found != missing_.end()) missing_.erase(found);
+}
+
+void TableReader::report_missing_keys() const {
+  std::vector<std::string_view> names;
+  std::vector<std::string_view> examples;
+  for (const MissingKey& key : missing_) {
+    names.push_back(key.name);
+    examples.push_back(key.example);
+  }
+  const std::string where = path_.empty() ? "the file" : fmt::format("[{}]", path_);
+  reporter_.error("machine.missing-key", place_, fmt::format("{} lacks {}", where, fmt::join(names, ", ")),
+                  fmt::format("{}", fmt::join(examples, "; ")));
+}
+
+}  // namespace passo

@@ -1,0 +1,81 @@
+// TableReader: one table of a machine file, key by key.
+//
+// Whoever reads a table asks for each key that it may have. What was asked for is known, so the rest is a mistake and
+// is reported with the nearest known key; what was required and is absent is reported in one diagnostic for the
+// table. A value that is absent or wrong is an empty optional.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reporter.hpp"
+#include "toml_document.hpp"
+
+namespace passo {
+
+// A key whose value is a number, its range (both ends belong to it), and an example for messages.
+struct NumberKey {
+  std::string_view name;
+  double least = 0;
+  double most = 0;
+  std::string_view example;
+};
+
+enum class Need { required, optional };
+
+struct LowHigh {
+  double low = 0;
+  double high = 0;
+};
+
+class TableReader {
+ public:
+  // `path` names the table as the file does ("axis.X"; empty for the top of the file). A table that is absent is
+  // read as an empty one.
+  TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const Reporter& reporter);
+
+  bool has(std::string_view key) const { return find(table_, key) != nullptr; }
+  SourcePlace place_of(std::string_view key) const;  // of its value, or of the table where there is none
+
+  std::optional<double> number(const NumberKey& key, Need need);
+  std::optional<double> whole_number(const NumberKey& key, Need need);
+  // A list of two numbers in the key's range.
+  std::optional<LowHigh> low_high(const NumberKey& key, Need need);
+  std::optional<bool> flag(std::string_view key);
+  std::optional<std::string> text(std::string_view key, std::string_view example, Need need);
+  // A table in this one; `what` describes it for messages.
+  const TomlEntry* table(std::string_view key, std::string_view what, Need need);
+
+  void error(std::string_view code, std::string_view key, std::string message, std::string expected) const;
+  void missing(std::string_view key, std::string example);
+
+  // Reports what is unknown, and where the whole file could be read what is missing. `top_keys`: what belongs to the
+  // top of the file and is often written below a [table] by mistake.
+  void finish(bool report_missing, const std::vector<std::string_view>& top_keys);
+
+  std::string full_name(std::string_view key) const;
+
+ private:
+  struct MissingKey {
+    std::string_view name;
+    std::string example;
+  };
+
+  const TomlEntry* ask(std::string_view key, std::string example, Need need);
+  void wrong_type(const TomlEntry& entry, std::string expected) const;
+  bool in_range(const NumberKey& key, double value, const SourcePlace& place) const;
+  void report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys);
+  void forgive_missing(std::string_view key);
+  void report_missing_keys() const;
+
+  const TomlTable& table_;
+  std::string path_;
+  SourcePlace place_;
+  const Reporter& reporter_;
+  std::vector<std::string_view> known_;
+  std::vector<MissingKey> missing_;
+};
+
+}  // namespace passo

@@ -1,0 +1,62 @@
+// The part of the style that clang-format and clang-tidy do not know.
+#include <algorithm>
+#include <sstream>
+
+#include "source_tree.hpp"
+
+namespace passo {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Style, no_source_file_is_longer_than_500_lines) {
+  for (const fs::path& file : files_below("src", {".hpp", ".cpp", ".inc"})) {
+    EXPECT_LE(lines_of(file).size(), 500U) << file;
+  }
+}
+
+TEST(Style, a_file_is_named_after_what_it_holds) {
+  const std::set<std::string> empty_words = {"util",   "utils",   "utilities", "manager",
+                                             "helper", "helpers", "common",    "misc"};
+  for (const char* directory : {"src", "tests", "bench", "scripts"}) {
+    for (const fs::path& file : files_below(directory, {".hpp", ".cpp", ".h", ".sh", ".py", ".cmake"})) {
+      std::string name = file.stem().string();
+      std::ranges::replace(name, '-', '_');
+      std::istringstream words(name);
+      for (std::string word; std::getline(words, word, '_');) EXPECT_FALSE(empty_words.contains(word)) << file;
+    }
+  }
+}
+
+TEST(Style, every_public_header_opens_with_a_comment_and_guards_itself) {
+  std::size_t checked = 0;
+  for (const fs::path& file : files_below("src", {".hpp"})) {
+    if (file.string().find("/include/passo/") == std::string::npos) continue;
+    EXPECT_FALSE(opening_comment(file).empty()) << file;
+    EXPECT_NE(text_of(file).find("\n#pragma once\n"), std::string::npos) << file;
+    ++checked;
+  }
+  EXPECT_GT(checked, 15U);
+}
+
+// A path of the machine where something was written means nothing to those who clone it.
+TEST(Style, no_tracked_file_names_a_place_of_the_machine_it_was_made_on) {
+  const std::vector<fs::path> files = tracked_files();
+  if (files.empty()) GTEST_SKIP() << "not a git checkout";
+  for (const fs::path& file : files) {
+    const std::string text = text_of(file);
+    for (const std::string directory : {"work", "root"}) {
+      const std::string path = "/" + directory + "/";
+      for (std::size_t i = text.find(path); i != std::string::npos; i = text.find(path, i + 1)) {
+        // Only where the path begins here: docs/work/... is none of it.
+        const bool inside = i > 0 && (std::isalnum(static_cast<unsigned char>(text[i - 1])) != 0 ||
+                                      std::string("_-.}~)").find(text[i - 1]) != std::string::npos);
+        const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+        EXPECT_TRUE(inside) << file.string() << ":" << line << ": " << text.substr(i, 40);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace passo
