@@ -110,6 +110,7 @@ struct Comment {
 struct Message {
   std::string_view text;
 };
+struct SetSpindleMode {};  // constant revolutions a minute (G97)
 struct Reset {};             // ON_RESET: the interpreter (re)starts
 struct SetFeedReference {};  // always XYZ
 
@@ -122,7 +123,7 @@ using OperationKind = std::variant<
     operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::Dwell,
     operation::SetSpindleSpeed, operation::TurnSpindle, operation::SetMist, operation::SetFlood, operation::SelectTool,
     operation::ChangeTool, operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop,
-    operation::ProgramEnd, operation::Comment, operation::Message, operation::Reset, operation::SetFeedReference>;
+    operation::ProgramEnd, operation::Comment, operation::Message, operation::SetSpindleMode, operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {

@@ -1,0 +1,13 @@
+// Evaluating an expression of the block at hand, with its errors reported.
+#pragma once
+
+#include "parameters.hpp"
+#include "passo/gcode/block.hpp"
+#include "reporter.hpp"
+
+namespace passo {
+
+[[nodiscard]] bool evaluate(const Block& block, const Expression& expression, const Parameters& parameters,
+                            const Reporter& reporter, double& value);
+
+}  // namespace passo
