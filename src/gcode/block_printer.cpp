@@ -150,6 +150,7 @@ const char* keyword_of(ControlKind kind) {
     case ControlKind::endrepeat: return "ENDREPEAT";
     case ControlKind::break_: return "BREAK";
     case ControlKind::continue_: return "CONTINUE";
+    case ControlKind::program: return "";
   }
   return "";
 }
@@ -189,7 +190,8 @@ std::string print(const Block& block, const SymbolTable& symbols) {
   if (block.line_number) item(fmt::format("N{}", *block.line_number));
   if (block.control) {
     const Control& control = *block.control;
-    item(fmt::format("O{} {}", print_label(block, control, expressions, symbols), keyword_of(control.kind)));
+    item("O" + print_label(block, control, expressions, symbols));
+    if (control.kind != ControlKind::program) item(keyword_of(control.kind));
     for (const Expression& argument : control.arguments) item(expressions.print_bracketed(block, argument));
   }
   for (const Word& word : block.words) item(fmt::format("{}{}", word.letter, expressions.print(block, word.value)));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 #include "line_parser.hpp"
 #include <fmt/format.h>
@@ -17,6 +18,16 @@ constexpr const char* a_value = "a number, #parameter, [expression] or function"
 std::string shortened(std::string_view text) {
   constexpr std::size_t most = 24;
   return text.size() <= most ? std::string(text) : std::string(text.substr(0, most)) + "...";
+}
+
+// The word that was meant: one with a wrong letter, or with two of them swapped.
+std::string_view guess(std::string_view word, const std::vector<std::string_view>& candidates) {
+  const std::string_view near = nearest(word, candidates);
+  if (!near.empty()) return near;
+  for (const std::string_view candidate : candidates) {
+    if (std::ranges::is_permutation(word, candidate)) return candidate;
+  }
+  return {};
 }
 
 }  // namespace
@@ -40,7 +51,7 @@ bool LineParser::fail_missing_value(const char* owner) {
   std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;
   if (c == ',') cure = "a decimal point";
   if (c == '=') cure = "the value right after the letter, as in X5";
-  const bool is_known = c == '=' || c == '+' || c == '-' || c == '*' || c == '/' || c == '.' || c == '%';
+  const bool is_known = std::string_view("=+-*/.%)").find(c) != std::string_view::npos;  // elsewhere it has a meaning
   return fail(is_known ? "gcode.missing-value" : "gcode.bad-character", at_, found.length,
               fmt::format("{} where a value should be", found.name), cure);
 }
@@ -119,12 +130,12 @@ bool LineParser::fail_in_brackets(const char* open) {
 bool LineParser::fail_function(const char* name_start, std::string_view name) {
   std::string upper;
   std::ranges::transform(name, std::back_inserter(upper), to_upper);
-  const std::string_view guess = nearest(upper, {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP",
-                                                 "LN", "ROUND", "SIN", "SQRT", "TAN"});
+  const std::string_view meant = guess(upper, {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP",
+                                               "LN", "ROUND", "SIN", "SQRT", "TAN"});
   return fail("gcode.unknown-function", name_start, name.size(),
               fmt::format("there is no function {}", shortened(upper)),
-              guess.empty() ? "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT or TAN"
-                            : fmt::format("{}, perhaps", guess));
+              meant.empty() ? "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT or TAN"
+                            : fmt::format("{}, perhaps", meant));
 }
 
 bool LineParser::fail_letter_o(const char* o) {
@@ -133,21 +144,18 @@ bool LineParser::fail_letter_o(const char* o) {
 }
 
 bool LineParser::fail_control_keyword(const char* start, std::string_view keyword) {
+  constexpr const char* all =
+      "sub, endsub, call, return, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue";
   if (keyword.empty()) {
-    const std::size_t length = at_end() ? 1 : name_character(rest(at_)).length;
-    return fail("gcode.bad-o-word", start == end_ ? token_end_ - 1 : start, length,
-                "the O-word does not say what to do",
-                "sub, endsub, call, return, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or "
-                "continue");
+    const NamedCharacter found = name_character(rest(at_));
+    return fail("gcode.bad-o-word", at_, found.length, fmt::format("{} after the label of an O-word", found.name), all);
   }
-  const std::string_view guess =
-      nearest(keyword, {"SUB", "ENDSUB", "CALL", "RETURN", "DO", "WHILE", "ENDWHILE", "IF", "ELSEIF", "ELSE", "ENDIF",
-                        "REPEAT", "ENDREPEAT", "BREAK", "CONTINUE"});
+  const std::string_view meant =
+      guess(keyword, {"SUB", "ENDSUB", "CALL", "RETURN", "DO", "WHILE", "ENDWHILE", "IF", "ELSEIF", "ELSE", "ENDIF",
+                      "REPEAT", "ENDREPEAT", "BREAK", "CONTINUE"});
   const std::string written = shortened({start, static_cast<std::size_t>(token_end_ - start)});
   return fail("gcode.bad-o-word", start, span_from(start).length, fmt::format("an O-word cannot {}", written),
-              guess.empty() ? "sub, endsub, call, return, if, elseif, else, endif, while, endwhile, do, repeat, "
-                              "endrepeat, break or continue"
-                            : fmt::format("{}, perhaps", guess));
+              meant.empty() ? all : fmt::format("{}, perhaps", meant));
 }
 
 }  // namespace passo

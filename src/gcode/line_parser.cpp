@@ -231,7 +231,12 @@ bool LineParser::parse_control() {
   control.arguments.swap(block_.spare);
   if (!parse_label(control)) return false;
 
-  peek();
+  const char next = peek();
+  if (at_end() || next == '(' || next == ';') {
+    control.kind = ControlKind::program;
+    control.span = span_from(start);
+    return parse_comments_only();
+  }
   const char* const keyword_start = at_;
   std::array<char, 12> letters;  // longer than the longest keyword
   const std::string_view name = take_letters(letters.data(), letters.size());

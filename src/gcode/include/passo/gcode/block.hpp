@@ -125,6 +125,7 @@ enum class ControlKind : std::uint8_t {
   endrepeat,
   break_,
   continue_,
+  program,  // the label alone ("O2000"): where a program starts that M98 calls, as Fanuc writes it
 };
 
 // O… line: flow of control.
