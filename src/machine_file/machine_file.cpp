@@ -16,8 +16,10 @@ namespace passo {
 namespace {
 
 constexpr std::size_t largest_file = 1U << 20U;
-// The depth of a TOML tree grows with the dots of a key: a bound for the line is one for the depth.
 constexpr std::size_t longest_line = 4096;
+// The TOML library recurses as deep as keys have dots, and stops by itself only where brackets nest. A machine file
+// needs a dot or two in a line, and numbers have some.
+constexpr std::size_t most_dots = 16;
 constexpr std::size_t most_errors = 1000;  // kept to be sorted
 
 struct FileCloser {
@@ -49,18 +51,40 @@ std::optional<std::string> read_file(const std::string& path, Diagnostics& diagn
   return text;
 }
 
-bool is_text_of_bounded_lines(const Reporter& reporter) {
+// Dots that may belong to keys: those of comments do not count. Never fewer than there are.
+std::size_t dots_of(std::string_view line) {
+  const bool has_quotes = line.find_first_of("\"'") != std::string_view::npos;
+  const std::string_view relevant = has_quotes ? line : line.substr(0, line.find('#'));
+  return static_cast<std::size_t>(std::ranges::count(relevant, '.'));
+}
+
+// What a parser should not have to see. A text over several lines is refused too: without those, what is a comment
+// can be told from its line alone.
+bool is_fit_for_parser(const Reporter& reporter) {
   for (std::uint32_t number = 1; number <= reporter.line_count(); ++number) {
     const std::string_view line = reporter.line(number);
-    if (const std::size_t zero = line.find('\0'); zero != std::string_view::npos) {
-      reporter.error("machine.binary", {.line = number, .column = static_cast<std::uint32_t>(zero + 1)},
-                     "this is not text: it has a zero byte", "a text file in UTF-8");
+    const auto refuse = [&](const char* code, std::size_t offset, std::string message, std::string expected) {
+      reporter.error(code, {.line = number, .column = static_cast<std::uint32_t>(offset + 1)}, std::move(message),
+                     std::move(expected));
       return false;
+    };
+    if (const std::size_t zero = line.find('\0'); zero != std::string_view::npos) {
+      return refuse("machine.binary", zero, "this is not text: it has a zero byte", "a text file in UTF-8");
     }
     if (line.size() > longest_line) {
-      reporter.error("machine.long-line", {.line = number, .column = longest_line + 1},
-                     fmt::format("a line of {} bytes", line.size()), fmt::format("at most {} bytes", longest_line));
-      return false;
+      return refuse("machine.long-line", longest_line, fmt::format("a line of {} bytes", line.size()),
+                    fmt::format("at most {} bytes", longest_line));
+    }
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string_view::npos || line[first] == '#') continue;
+    const std::size_t triple = std::min(line.find(R"(""")"), line.find("'''"));
+    if (triple != std::string_view::npos) {
+      return refuse("machine.syntax", triple, "a text over several lines",
+                    "a text on one line, as in name = \"Router\"");
+    }
+    if (const std::size_t dots = dots_of(line); dots > most_dots) {
+      return refuse("machine.too-deep", line.find('.'), fmt::format("a line with {} dots", dots),
+                    fmt::format("at most {}: keys as in 'clock_hz', tables as in '[axis.X]'", most_dots));
     }
   }
   return true;
@@ -98,7 +122,7 @@ std::optional<MachineDescription> parse_machine(std::string_view text, const std
   Diagnostics found(most_errors);
   const Reporter reporter(text, file, found);
   MachineDescription machine;
-  if (is_text_of_bounded_lines(reporter)) machine = read_machine(parse_toml(std::string(text), reporter), reporter);
+  if (is_fit_for_parser(reporter)) machine = read_machine(parse_toml(std::string(text), reporter), reporter);
   hand_over(found, diagnostics);
   if (found.any_error()) return std::nullopt;
   return machine;

@@ -302,15 +302,38 @@ TEST(MachineDiagnostics, what_is_no_text_file_at_all_is_refused_by_name) {
   EXPECT_EQ(code_of("\n" + std::string(5000, '#')), "2 machine.long-line\n");
 }
 
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
 TEST(MachineDiagnostics, deep_nesting_is_refused_without_harm) {
-  std::string dots = "a";
-  while (dots.size() < 4000) dots += ".a";
-  std::string brackets = "a = " + std::string(4000, '[');
-  for (const std::string& text : {dots + " = 1\n", "[" + dots + "]\n" + dots + " = 1\n", brackets}) {
+  const std::string dots = repeated("a.", 16) + "a";
+  const std::string too_many = repeated("a.", 1000) + "a";
+  const std::string deepest =
+      dots + " = [\n" + repeated(std::string("{").append(dots).append(" = [\n"), 120) + repeated("]}\n", 120) + "]\n";
+  for (const std::string& text :
+       {too_many + " = 1\n", std::string("[").append(too_many).append("]\n"), std::string("a = ").append(4000, '['),
+        std::string("[").append(dots).append("]\n").append(deepest), std::string("a = \"\"\"\n# \"\"\"\n"),
+        repeated("a = [\n", 100'000)}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_machine(text, "m.toml", diagnostics));
     EXPECT_TRUE(diagnostics.any_error());
   }
+  // The deepest file that reaches the parser is read to its end.
+  Diagnostics deep;
+  EXPECT_FALSE(parse_machine(sound_machine + "[q]\n" + deepest, "m.toml", deep));
+  EXPECT_EQ(all_codes(deep), "28 machine.unknown-table\n");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(parse_machine(sound_machine + too_many + " = 1 # a.b\n", "m.toml", diagnostics));
+  EXPECT_EQ(all_codes(diagnostics), "28 machine.too-deep\n");
+}
+
+TEST(MachineDiagnostics, dots_in_a_comment_are_no_depth) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(parse_machine(sound_machine + "# ................................ \"\"\"\n", "m.toml", diagnostics));
+  EXPECT_EQ(render(diagnostics, false), "");
 }
 
 TEST(MachineDiagnostics, a_file_that_cannot_be_read_is_told_with_the_reason) {

@@ -114,10 +114,12 @@ TEST(MachineReader, a_spoiled_file_gives_a_sound_machine_or_diagnostics_and_neve
     std::string text = sound_machine;
     for (std::size_t edits = 1 + below(3); edits > 0; --edits) {
       const std::size_t place = below(text.size());
+      const std::size_t other = below(text.size());
+      const std::size_t length = 1 + below(30);
       switch (below(3)) {
         case 0: text[place] = spice[below(spice.size())]; break;
-        case 1: text.erase(place, 1 + below(20)); break;
-        default: text.insert(place, text.substr(below(text.size()), below(30))); break;
+        case 1: text.erase(place, length); break;
+        default: text.insert(place, std::string(text, other, length)); break;
       }
     }
     Diagnostics diagnostics;
@@ -132,7 +134,8 @@ TEST(MachineReader, a_spoiled_file_gives_a_sound_machine_or_diagnostics_and_neve
       ASSERT_LE(diagnostic.place.column, diagnostic.text.size() + 1) << render(diagnostic, false) << text;
     }
   }
-  EXPECT_GT(sound, 100);
+  // Both kinds occur, whatever the seed.
+  EXPECT_GT(sound, 20);
   EXPECT_GT(wrong, 1000);
 }
 
