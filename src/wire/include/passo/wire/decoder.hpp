@@ -78,7 +78,7 @@ class Decoder {
 
   Decoded check(uint8_t crc_high) {
     state_ = State::search;
-    if (crc_ == (crc_low_ | crc_high << 8)) {
+    if (crc_ == static_cast<uint16_t>(crc_low_ | crc_high << 8)) {
       if (crc_high == sync_byte) begin();
       return Decoded::frame;
     }
