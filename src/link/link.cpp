@@ -1,0 +1,15 @@
+#include "passo/link/link.hpp"
+
+namespace passo {
+
+std::string_view message_of(LinkError error) {
+  switch (error) {
+    case LinkError::no_answer: return "the board does not answer";
+    case LinkError::wrong_version: return "the board speaks another version of the protocol";
+    case LinkError::too_few_motors: return "the board has fewer motors than the machine has axes";
+    case LinkError::refused: return "the board refused what was sent to it";
+  }
+  return "the link to the board failed";
+}
+
+}  // namespace passo

@@ -1,0 +1,81 @@
+#include "passo/machine/virtual_machine.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace passo {
+
+VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock)
+    : board_(hardware_, motors, static_cast<std::uint32_t>(std::llround(clock.value()))), motor_count_(motors) {}
+
+void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
+  for (const std::uint8_t byte : bytes) board_.receive(byte);
+  if (board_.owes_report()) board_.report();
+}
+
+bool VirtualMachine::run() {
+  while (hardware_.to_host.empty() && !board_.idle()) {
+    const std::int64_t interval = board_.ticks_to_next_event();
+    shortest_event_interval_ = std::min(shortest_event_interval_, interval);
+    hardware_.now += interval;
+    ++events_;
+    board_.on_event();
+    if (board_.owes_report()) board_.report();
+  }
+  return !hardware_.to_host.empty();
+}
+
+std::span<const std::uint8_t> VirtualMachine::replies() {
+  taken_.clear();
+  taken_.swap(hardware_.to_host);
+  return taken_;
+}
+
+void VirtualMachine::Hardware::step(std::uint8_t stepped, std::uint8_t directions) {
+  const unsigned turned = (directions ^ last_directions) & stepped;
+  for (unsigned left = stepped; left != 0; left &= left - 1) {
+    const auto m = static_cast<unsigned>(std::countr_zero(left));
+    Motor& motor = motors[m];
+    motor.position += (directions >> m & 1U) != 0 ? -1 : 1;
+    // The first step has none before it.
+    if (motor.total++ != 0) motor.shortest_interval = std::min(motor.shortest_interval, now - motor.last_step);
+    motor.last_step = now;
+  }
+  if (turned != 0) {
+    for (unsigned left = turned; left != 0; left &= left - 1) {
+      Motor& motor = motors[static_cast<unsigned>(std::countr_zero(left))];
+      if (motor.total > 1) ++motor.reversals;
+    }
+    last_directions = static_cast<std::uint8_t>(last_directions ^ turned);
+  }
+  for (MachineObserver* observer : observers) observer->on_steps(Ticks{now}, stepped, directions);
+}
+
+void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
+  outputs_now = wanted;
+  ++output_changes;
+  for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
+}
+
+MachineCounts VirtualMachine::counts() const {
+  const auto shortest = [](std::int64_t interval) { return Ticks{interval == INT64_MAX ? 0 : interval}; };
+  MachineCounts counts;
+  counts.motor_count = motor_count_;
+  for (std::size_t m = 0; m < motor_count_; ++m) {
+    const Hardware::Motor& motor = hardware_.motors[m];
+    counts.motors[m] = {.position = motor.position,
+                        .total = motor.total,
+                        .reversals = motor.reversals,
+                        .last_step = Ticks{motor.last_step},
+                        .shortest_interval = shortest(motor.shortest_interval)};
+  }
+  counts.time = now();
+  counts.events = events_;
+  counts.shortest_event_interval = shortest(shortest_event_interval_);
+  counts.outputs = hardware_.outputs_now;
+  counts.output_changes = hardware_.output_changes;
+  return counts;
+}
+
+}  // namespace passo

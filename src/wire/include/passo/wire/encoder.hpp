@@ -1,0 +1,60 @@
+// Encoder: puts one frame together in a buffer of the caller's. Same code on the host and on the board.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/wire/crc16.hpp"
+#include "passo/wire/wire_frame.hpp"
+
+namespace passo {
+
+class Encoder {
+ public:
+  // `frame` has room for largest_frame bytes.
+  Encoder(uint8_t* frame, MessageType type, uint8_t sequence) : frame_(frame) {
+    frame_[0] = sync_byte;
+    frame_[1] = 0;
+    put8(static_cast<uint8_t>(type));
+    put8(sequence);
+  }
+
+  void put8(uint8_t byte) {
+    if (byte == sync_byte) {
+      frame_[last_link_] = static_cast<uint8_t>(size_ - last_link_);
+      last_link_ = size_;
+      byte = 0;
+    }
+    frame_[size_++] = byte;
+  }
+  // Least significant byte first.
+  void put16(uint16_t value) {
+    put8(static_cast<uint8_t>(value));
+    put8(static_cast<uint8_t>(value >> 8));
+  }
+  void put24(uint32_t value) {
+    put16(static_cast<uint16_t>(value));
+    put8(static_cast<uint8_t>(value >> 16));
+  }
+  void put32(uint32_t value) {
+    put16(static_cast<uint16_t>(value));
+    put16(static_cast<uint16_t>(value >> 16));
+  }
+
+  // Closes the frame and returns its size. Once.
+  uint8_t finish() {
+    // Over the bytes as they are on the wire, links included: a flipped bit is then one wrong bit to the CRC, never
+    // more.
+    uint16_t crc = crc16_start;
+    for (uint8_t i = 1; i < size_; ++i) crc = crc16(crc, frame_[i]);
+    frame_[size_++] = static_cast<uint8_t>(crc);
+    frame_[size_++] = static_cast<uint8_t>(crc >> 8);
+    return size_;
+  }
+
+ private:
+  uint8_t* frame_;
+  uint8_t size_ = 2;
+  uint8_t last_link_ = 1;  // where the distance to the next sync byte is to be written
+};
+
+}  // namespace passo

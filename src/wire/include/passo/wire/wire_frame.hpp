@@ -1,0 +1,55 @@
+// WireFrame: the envelope of every message on the wire, in both directions. docs/wire.md has it byte by byte.
+//
+//   sync  link  type  sequence  payload…  crc low  crc high
+//
+// The sync byte never occurs between link and payload: where a message has one, the byte on the wire is instead the
+// distance to the next such place (0: none), and `link` is the distance to the first. So a sync byte is the start of a
+// frame, a receiver is in step again at the very next frame after any garbage, and each byte costs it the same work.
+// The type alone tells the length (a segment's also the number of motors). Portable.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+inline constexpr uint8_t sync_byte = 0xA5;
+inline constexpr uint8_t protocol_version = 1;
+
+// Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
+enum class MessageType : uint8_t {
+  // host to board
+  hello = 0x0F,
+  segment = 0x33,
+  outputs = 0x3C,
+  // board to host
+  hello_reply = 0xF0,
+  credit = 0xCC,
+  error = 0xC3,
+};
+
+inline constexpr uint8_t frame_overhead = 6;
+inline constexpr uint8_t largest_payload = 10 + 2 * max_motors;
+inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
+
+struct WireFrame {
+  MessageType type = MessageType::hello;
+  uint8_t sequence = 0;
+  uint8_t payload[largest_payload] = {};
+};
+
+// Bytes of payload, or 0 for what is no type. Without motors there are no segments.
+constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
+  switch (static_cast<MessageType>(type)) {
+    case MessageType::hello: return 2;
+    case MessageType::segment: return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(10 + 2 * motors);
+    case MessageType::outputs: return 3;
+    case MessageType::hello_reply: return 7;
+    case MessageType::credit: return 2;
+    case MessageType::error: return 2;
+  }
+  return 0;
+}
+
+}  // namespace passo

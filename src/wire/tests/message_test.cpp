@@ -1,0 +1,85 @@
+#include "passo/wire/message.hpp"
+
+#include "random_messages.hpp"
+
+#include "passo/wire/decoder.hpp"
+
+namespace passo {
+namespace {
+
+// Over the wire and back: the frame as the other side has it.
+WireFrame carried(const std::uint8_t* frame, std::uint8_t size, std::uint8_t motors = 0) {
+  Decoder decoder;
+  decoder.set_motors(motors);
+  for (std::uint8_t i = 0; i + 1 < size; ++i) EXPECT_EQ(decoder.feed(frame[i]), Decoded::pending);
+  EXPECT_EQ(decoder.feed(frame[size - 1]), Decoded::frame);
+  return decoder.frame();
+}
+
+TEST(Message, a_segment_keeps_every_field_for_every_number_of_motors) {
+  const std::uint64_t seed = test_seed();
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
+  RandomMessages random(seed);
+  for (int i = 0; i < 8000; ++i) {
+    const auto motors = static_cast<std::uint8_t>(1 + i % max_motors);
+    const BoardSegment sent = random.segment(motors);
+    std::uint8_t frame[largest_frame];
+    BoardSegment received;
+    decode(carried(frame, encode(sent, motors, static_cast<std::uint8_t>(i), frame), motors), motors, received);
+    ASSERT_EQ(received.events, sent.events);
+    ASSERT_EQ(received.directions, sent.directions);
+    ASSERT_EQ(received.flips, sent.flips);
+    ASSERT_EQ(received.interval, sent.interval);
+    ASSERT_EQ(received.change, sent.change);
+    for (unsigned m = 0; m < max_motors; ++m) ASSERT_EQ(received.increments[m], sent.increments[m]);
+  }
+}
+
+TEST(Message, a_change_keeps_its_sign_at_both_ends_of_its_range) {
+  for (const std::int32_t change : {0, 1, -1, largest_change, -largest_change, 0xA5A5, -0x5A5A5B}) {
+    std::uint8_t frame[largest_frame];
+    BoardSegment received;
+    decode(carried(frame, encode(BoardSegment{.events = 1, .change = change}, 1, 0, frame), 1), 1, received);
+    EXPECT_EQ(received.change, change);
+  }
+}
+
+TEST(Message, all_others_keep_every_field_too) {
+  std::uint8_t frame[largest_frame];
+  Hello hello;
+  decode(carried(frame, encode(Hello{.version = 7, .motors = 0xA5}, 1, frame)), hello);
+  EXPECT_EQ(hello.version, 7);
+  EXPECT_EQ(hello.motors, 0xA5);
+
+  BoardOutputs outputs;
+  decode(carried(frame, encode(BoardOutputs{.switches = 0x0F, .spindle_rpm = 0xA5A4}, 2, frame)), outputs);
+  EXPECT_EQ(outputs.switches, 0x0F);
+  EXPECT_EQ(outputs.spindle_rpm, 0xA5A4);
+
+  HelloReply reply;
+  const HelloReply board{.version = 1, .motors = 4, .capacity = 32, .clock = 0xF4240A5};
+  decode(carried(frame, encode(board, 3, frame)), reply);
+  EXPECT_EQ(reply.version, 1);
+  EXPECT_EQ(reply.motors, 4);
+  EXPECT_EQ(reply.capacity, 32);
+  EXPECT_EQ(reply.clock, 0xF4240A5U);
+
+  Credit credit;
+  decode(carried(frame, encode(Credit{.executed = 0xA5, .free = 31}, 4, frame)), credit);
+  EXPECT_EQ(credit.executed, 0xA5);
+  EXPECT_EQ(credit.free, 31);
+
+  ErrorReport error;
+  const ErrorReport sent{.reason = WireError::out_of_sequence, .expected = 0xA5};
+  decode(carried(frame, encode(sent, 5, frame)), error);
+  EXPECT_EQ(error.reason, WireError::out_of_sequence);
+  EXPECT_EQ(error.expected, 0xA5);
+}
+
+TEST(Message, carries_its_sequence_number_even_where_that_is_a_sync_byte) {
+  std::uint8_t frame[largest_frame];
+  EXPECT_EQ(carried(frame, encode(Credit(), 0xA5, frame)).sequence, 0xA5);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,54 @@
+// The example session of docs/wire.md is the wire's golden trace: these bytes, or the protocol has changed.
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "passo/wire/message.hpp"
+
+namespace passo {
+namespace {
+
+std::string hex(const std::uint8_t* frame, std::uint8_t size) {
+  std::string text;
+  for (std::uint8_t i = 0; i < size; ++i) {
+    static constexpr char digits[] = "0123456789ABCDEF";
+    if (i != 0) text += ' ';
+    text += digits[frame[i] >> 4];
+    text += digits[frame[i] & 15];
+  }
+  return text;
+}
+
+std::vector<std::string> example_session() {
+  std::vector<std::string> lines;
+  std::uint8_t frame[largest_frame];
+  const auto line = [&](std::uint8_t size) { lines.push_back(hex(frame, size)); };
+  line(encode(Hello{.motors = 2}, 0, frame));
+  line(encode(HelloReply{.motors = 4, .capacity = 32, .clock = 16'000'000}, 0, frame));
+  line(encode(BoardOutputs{.switches = spindle_on | flood_on, .spindle_rpm = 12000}, 1, frame));
+  // 200 events, the first after 160.5 ticks and each next one a 256th of a tick sooner: X down at every event, Y up at
+  // 0x4BA5/65536 of them.
+  const BoardSegment segment{
+      .events = 200, .directions = 1, .flips = 1, .interval = 0x00A08000, .change = -256, .increments = {0, 0x4BA5}};
+  line(encode(segment, 2, 2, frame));
+  line(encode(Credit{.executed = 1, .free = 31}, 1, frame));
+  line(encode(Credit{.executed = 2, .free = 32}, 2, frame));
+  line(encode(ErrorReport{.reason = WireError::out_of_sequence, .expected = 3}, 3, frame));
+  return lines;
+}
+
+TEST(WireDocument, shows_the_bytes_that_the_encoder_writes) {
+  std::ifstream file(PASSO_SOURCE_DIR "/docs/wire.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::size_t from = 0;
+  for (const std::string& line : example_session()) {
+    const std::size_t at = text.str().find("  " + line + "\n", from);
+    EXPECT_NE(at, std::string::npos) << "docs/wire.md lacks, or has not in this order:\n" << line;
+    if (at != std::string::npos) from = at;
+  }
+}
+
+}  // namespace
+}  // namespace passo
