@@ -71,10 +71,14 @@ class Planner::Implementation {
     const SegmentLimits own = segment_limits(segment, limits_);
     const double top = own.speed.value() * own.speed.value();
     double cap = 0;
+    bool straight = false;
     if (!queue_.empty()) {
-      const double junction = junction_speed(queue_.back().segment, segment, limits_).value();
-      cap = std::min({junction * junction, top, queue_.back().top_squared});
+      const Segment& before = queue_.back().segment;
+      const Junction junction = junction_between(before, segment, straight_, limits_);
+      cap = std::min({junction.speed.value() * junction.speed.value(), top, queue_.back().top_squared});
+      straight = junction.straight;
     }
+    straight_ = straight ? straight_ + segment.curve.length() : segment.curve.length();
     queue_.push_back({.segment = segment,
                       .length = segment.curve.length().value(),
                       .acceleration = own.acceleration.value(),
@@ -136,6 +140,7 @@ class Planner::Implementation {
 
   std::deque<Queued> queue_;
   std::size_t decided_ = 0;   // segments at its head whose exit speed nothing to come can change
+  Mm straight_{0};            // the way at its end that leads in one direction
   double speed_squared_ = 0;  // at the head's start
   bool closed_ = false;       // an action or the program's end follows the queue: it ends at rest
   std::optional<Action> action_;

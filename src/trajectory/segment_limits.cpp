@@ -18,6 +18,9 @@ constexpr double strongest = 1e9;
 constexpr double tangent_angle = 0.01;
 constexpr double tangent_tolerance = 0.001;
 
+// Lines whose directions differ by less are one line in pieces: that much is rounding.
+constexpr double same_direction = 1e-8;
+
 // The share of an arc's acceleration that turning may use up: at that speed half of it is left for speeding up and
 // braking, since sqrt(1 - 3/4) = 1/2.
 constexpr double turning_share = 0.8660254037844386;
@@ -94,31 +97,37 @@ SegmentLimits segment_limits(const Segment& segment, const MotionLimits& limits)
   return {.speed = MmPerSecond(speed), .acceleration = MmPerSecond2(acceleration)};
 }
 
-MmPerSecond junction_speed(const Segment& before, const Segment& after, const MotionLimits& limits) {
-  if (before.mode == PathMode::exact_stop) return MmPerSecond(0);
+Junction junction_between(const Segment& before, const Segment& after, Mm straight_before, const MotionLimits& limits) {
   const Point in = before.curve.tangent(before.curve.length());
   const Point out = after.curve.tangent(Mm(0));
   const Point turn = out - in;
   const double size = std::sqrt(dot(turn, turn));
-  if (size == 0) return MmPerSecond(infinity);
+  const double in_size = std::sqrt(dot(in, in));
+  Junction junction;
+  junction.straight = size < same_direction * in_size && before.curve.shape() == Curve::Shape::line &&
+                      after.curve.shape() == Curve::Shape::line;
+  if (before.mode == PathMode::exact_stop) return junction;
+  junction.speed = MmPerSecond(infinity);
+  if (size == 0) return junction;
 
   double tolerance = before.tolerance.value();
   if (!(tolerance > 0)) {
-    if (squared(size) > squared(tangent_angle) * dot(in, in)) return MmPerSecond(0);
+    if (size > tangent_angle * in_size) junction.speed = MmPerSecond(0);
     tolerance = tangent_tolerance;
   }
   // Sonny Jeon's junction deviation: the speed of a circle that touches both segments, passes `tolerance` beside the
   // corner and needs no more than the acceleration along the turn. With h the cosine of half the angle that the path
   // turns by, its radius is tolerance·h/(1 - h), and |turn|² = 4(1 - h²) for unit tangents.
-  const double in_size = std::sqrt(dot(in, in));
   const double out_size = std::sqrt(dot(out, out));
   const Point sum = in * out_size + out * in_size;
   const double half = std::min(1.0, std::sqrt(dot(sum, sum)) / (2 * in_size * out_size));
   const double by_tolerance = 4 * tolerance * half * (1 + half) / size;
-  // And the circle begins and ends within the halves of the segments next to the corner; so a circle drawn with many
-  // chords is as slow as a true one.
-  const double by_length = half * std::min(before.curve.length(), after.curve.length()).value();
-  return MmPerSecond(std::sqrt(largest_multiple(turn, limits.acceleration) * std::min(by_tolerance, by_length)));
+  // And it begins within half of the way from the corner before: so a circle drawn with many chords, each a corner of
+  // its own, is as slow as a true one.
+  const double by_length = half * straight_before.value();
+  const double speed = std::sqrt(largest_multiple(turn, limits.acceleration) * std::min(by_tolerance, by_length));
+  junction.speed = std::min(junction.speed, MmPerSecond(speed));
+  return junction;
 }
 
 }  // namespace passo

@@ -31,16 +31,13 @@ void add_phases(const SpeedProfile& profile, PlannedMove& move) {
   const double crest = (profile.entry_squared + profile.exit_squared) / 2 + profile.acceleration * length;
   const double peak = std::clamp(crest, std::max(profile.entry_squared, profile.exit_squared), profile.top_squared);
 
-  double speeding = std::clamp((peak - profile.entry_squared) / twice, 0.0, length);
+  const double speeding = std::clamp((peak - profile.entry_squared) / twice, 0.0, length);
   double braking = std::clamp((peak - profile.exit_squared) / twice, 0.0, length - speeding);
+  double cruising = length - speeding - braking;
   if (crest <= profile.top_squared) {  // no cruising: the two meet, whatever rounding says
-    if (profile.entry_squared < profile.exit_squared) {
-      speeding = length - braking;
-    } else {
-      braking = length - speeding;
-    }
+    braking = length - speeding;
+    cruising = 0;
   }
-  const double cruising = length - speeding - braking;
 
   const double entry = std::sqrt(profile.entry_squared);
   const double top = std::sqrt(peak);

@@ -18,8 +18,11 @@ struct SegmentLimits {
 };
 SegmentLimits segment_limits(const Segment& segment, const MotionLimits& limits);
 
-// The fastest speed at which the junction from `before` to `after` may be passed, infinite where the path goes
-// straight on. The segments' own limits come on top.
-MmPerSecond junction_speed(const Segment& before, const Segment& after, const MotionLimits& limits);
+struct Junction {
+  MmPerSecond speed{0};   // at most; infinite where the path goes straight on. The segments' own limits come on top.
+  bool straight = false;  // two lines in one direction
+};
+// `straight_before`: the way up to the junction that leads in one direction, the segment `before` and lines before it.
+Junction junction_between(const Segment& before, const Segment& after, Mm straight_before, const MotionLimits& limits);
 
 }  // namespace passo
