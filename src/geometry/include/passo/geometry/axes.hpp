@@ -48,6 +48,7 @@ class AxisSet {
   constexpr explicit AxisSet(std::uint16_t bits) : bits_(bits) {}
   constexpr bool has(Axis axis) const { return (bits_ >> index_of(axis) & 1U) != 0; }
   constexpr void add(Axis axis) { bits_ = static_cast<std::uint16_t>(bits_ | 1U << index_of(axis)); }
+  constexpr void remove(Axis axis) { bits_ = static_cast<std::uint16_t>(bits_ & ~(1U << index_of(axis))); }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr std::uint16_t bits() const { return bits_; }
   friend constexpr bool operator==(AxisSet, AxisSet) = default;

@@ -1,8 +1,15 @@
 // PathBuilder: operations -> segments. Follows the frame, keeps geometry exact (no chords), checks the travel.
+//
+// Between the interpreter and the planner. Segments join without gap: each begins, bit for bit, where the one before
+// ended. Moves shorter than a nanometre's thousandth are rounding, not moves, and are dropped. Outputs (spindle,
+// coolant) that change without a move between them become one action.
+//
+// Errors are collected and the builder goes on, so that one pass finds them all; what it gives after an error is not
+// to be played.
 #pragma once
 
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -27,6 +34,7 @@ struct PathOptions {
 
 class PathBuilder final : public Source<PathItem> {
  public:
+  // `options` outlives the builder.
   PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics);
 
   [[nodiscard]] bool next(PathItem& item) override;
@@ -34,10 +42,50 @@ class PathBuilder final : public Source<PathItem> {
   const Frame& frame() const { return frame_; }
 
  private:
+  // Each says whether it wrote an item.
+  bool take(const Operation& operation, PathItem& item);
+  bool take_line(const Point& work_end, bool rapid, PathItem& item);
+  bool take_arc(const operation::ArcFeed& arc, PathItem& item);
+  bool take_curve(const Curve& curve, bool rapid, PathItem& item);
+
+  Point machine_end(const Point& work_end) const;
+  MmPerSecond feed_along(const Curve& curve);
+  MmPerSecond feed_with_spindle(double mm_per_revolution);
+  void set_spindle_speed(double revolutions_per_minute);
+  void set_path_mode(const operation::SetPathMode& mode);
+  OutputState outputs() const;
+  Action outputs_action() const;
+
+  void check_travel(const Curve& curve);
+  void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
+  void check_axes(const Curve& curve);
+  void report(Severity severity, std::string code, std::string message, std::string expected);
+
   Source<Operation>& operations_;
   const PathOptions& options_;
   Diagnostics& diagnostics_;
   Frame frame_;
+  double rotation_degrees_ = 0;
+
+  Operation operation_;           // the one in hand
+  std::optional<PathItem> held_;  // waits while the outputs before it are handed on
+  Point position_;                // machine
+
+  FeedMode feed_mode_ = FeedMode::units_per_minute;
+  double feed_rate_ = 0;
+  std::optional<Mm> synchronised_pitch_;
+  PathMode path_mode_ = PathMode::continuous;
+  Mm tolerance_{0};
+
+  OutputState commanded_;  // with the spindle's speed also while it stands
+  OutputState handed_on_;
+  OperationSource outputs_source_;
+  double refused_spindle_speed_ = 0;
+
+  // Where the path is outside the machine now: an excursion is reported once, not at each of its moves.
+  AxisSet below_;
+  AxisSet above_;
+  AxisSet missing_;
 };
 
 }  // namespace passo

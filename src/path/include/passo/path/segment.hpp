@@ -16,7 +16,7 @@ struct Segment {
   bool rapid = false;
   PathMode mode = PathMode::continuous;  // at the junction to the next segment
   Mm tolerance{0};                       // how far the junction to the next segment may leave the path
-  OperationSource source;
+  OperationSource source{};
 };
 
 // All outputs of the board as they are to be from here on.
@@ -32,9 +32,9 @@ struct Action {
   enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
-  OutputState outputs;  // for every kind: the state after it
+  OutputState outputs{};  // for every kind: the state after it
   std::int32_t tool = 0;
-  OperationSource source;
+  OperationSource source{};
 };
 
 using PathItem = std::variant<Segment, Action>;

@@ -1,0 +1,19 @@
+// The text form of the path, one item a line; golden files hold it.
+//
+//   line 7: feed (X10.000000 Y2.000000) to (X20.000000 Y2.000000) length 10.000000 speed 20.000000 continuous 0.010000
+//   line 8: dwell 0.500000; spindle clockwise 1000.000 mist on flood off
+//
+// An axis is shown where it moves or is not at 0; a rapid has no speed.
+#pragma once
+
+#include <string>
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+std::string to_text(const Segment& segment);
+std::string to_text(const Action& action);
+std::string to_text(const PathItem& item);
+
+}  // namespace passo

@@ -1,0 +1,239 @@
+#include "passo/path/path_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// A coordinate that changes by less (mm or degrees) did not change: what is left of frames and inches after rounding.
+constexpr double still = 1e-9;
+
+// After an error a move needs some speed, so that the checking pass can go on.
+constexpr MmPerSecond speed_after_error{1};
+
+struct PlaneAxes {
+  Axis first;
+  Axis second;
+};
+
+constexpr PlaneAxes axes_of(Plane plane) {
+  switch (plane) {
+    case Plane::zx: return {Axis::z, Axis::x};
+    case Plane::yz: return {Axis::y, Axis::z};
+    case Plane::xy: break;
+  }
+  return {Axis::x, Axis::y};
+}
+
+// The angle from start to end in the sense of `turns`, 1 or -1 within one turn. As in LinuxCNC's canon layer two
+// directions closer than a millionth of a radian are one, and the arc is a full circle.
+double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
+  constexpr double same_direction = 1e-6;
+  constexpr double full = 2 * std::numbers::pi;
+  const double sense = turns > 0 ? 1 : -1;
+  double sweep = sense * (end_angle - start_angle);
+  if (sweep < same_direction) sweep += full;
+  return sense * (sweep + full * (std::abs(static_cast<double>(turns)) - 1));
+}
+
+template <class... Handlers>
+struct Overloaded : Handlers... {
+  using Handlers::operator()...;
+};
+template <class... Handlers>
+Overloaded(Handlers...) -> Overloaded<Handlers...>;
+
+}  // namespace
+
+PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics)
+    : operations_(operations),
+      options_(options),
+      diagnostics_(diagnostics),
+      position_(options.start),
+      tolerance_(options.tolerance) {}
+
+bool PathBuilder::next(PathItem& item) {
+  if (held_) {
+    item = *std::exchange(held_, std::nullopt);
+    return true;
+  }
+  bool has_item = false;
+  while (!has_item && operations_.next(operation_)) has_item = take(operation_, item);
+  if (outputs() == handed_on_) return has_item;
+
+  // The outputs change before the item in hand; at the end of the operations there may be none.
+  if (has_item) held_ = item;
+  item = outputs_action();
+  handed_on_ = outputs();
+  return true;
+}
+
+bool PathBuilder::take(const Operation& operation, PathItem& item) {
+  if (frame_.follow(operation)) {
+    if (const auto* rotation = std::get_if<operation::SetRotation>(&operation.what)) {
+      rotation_degrees_ = rotation->degrees;
+    }
+    return false;
+  }
+  const auto act = [&](Action::Kind kind, Seconds dwell = Seconds(0), std::int32_t tool = 0) {
+    item = Action{.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .source = operation.source};
+    return true;
+  };
+  const auto set_output = [&](auto& output, auto value) {
+    output = value;
+    outputs_source_ = operation.source;
+    return false;
+  };
+  return std::visit(
+      Overloaded{
+          [&](const operation::StraightTraverse& move) { return take_line(move.end, true, item); },
+          [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
+          [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
+          [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
+          [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate.rate, false; },
+          [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
+          [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
+          [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
+          [&](const operation::SetSpindleSpeed& speed) {
+            set_spindle_speed(speed.revolutions_per_minute);
+            return set_output(commanded_.revolutions_per_minute, commanded_.revolutions_per_minute);
+          },
+          [&](const operation::TurnSpindle& turn) { return set_output(commanded_.spindle, turn.direction); },
+          [&](const operation::SetMist& mist) { return set_output(commanded_.mist, mist.on); },
+          [&](const operation::SetFlood& flood) { return set_output(commanded_.flood, flood.on); },
+          [&](const operation::Dwell& dwell) { return act(Action::Kind::dwell, dwell.time); },
+          [&](const operation::ChangeTool& change) { return act(Action::Kind::tool_change, Seconds(0), change.tool); },
+          [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop); },
+          [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
+          [&](const operation::ProgramEnd&) {
+            if (outputs() != OutputState{}) outputs_source_ = operation.source;
+            commanded_ = OutputState{};  // whatever the program forgot to switch off
+            return act(Action::Kind::program_end);
+          },
+          [](const auto&) { return false; },  // comments, and state that the path does not depend on
+      },
+      operation.what);
+}
+
+bool PathBuilder::take_line(const Point& work_end, bool rapid, PathItem& item) {
+  return take_curve(Curve::line(position_, machine_end(work_end)), rapid, item);
+}
+
+bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
+  const auto [first, second] = axes_of(arc.plane);
+  if (rotation_degrees_ != 0 && arc.plane != Plane::xy) {
+    report(Severity::error, "path.rotated-arc",
+           fmt::format("an arc in the plane {}{} while the work frame is turned by {:.3f} degrees about Z",
+                       letter_of(first), letter_of(second), rotation_degrees_),
+           "arcs in the plane XY (G17), or a frame that is not turned");
+  }
+  const Point end = machine_end(arc.end);
+  Point work_center = arc.end;
+  work_center[first] = arc.first_center.value();
+  work_center[second] = arc.second_center.value();
+  const Point center = frame_.machine_from_work(work_center);
+
+  const auto arm = [&](const Point& point) {
+    return std::pair(point[first] - center[first], point[second] - center[second]);
+  };
+  const auto [start_first, start_second] = arm(position_);
+  const auto [end_first, end_second] = arm(end);
+  const double radius = std::max(std::hypot(start_first, start_second), std::hypot(end_first, end_second));
+  if (arc.turns == 0 || radius < still) return take_curve(Curve::line(position_, end), false, item);
+
+  const double sweep =
+      sweep_between(std::atan2(start_second, start_first), std::atan2(end_second, end_first), arc.turns);
+  return take_curve(Curve::arc(position_, end, first, second, center[first], center[second], sweep), false, item);
+}
+
+bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
+  if (!curve.has_length()) return false;
+  check_axes(curve);
+  check_travel(curve);
+  position_ = curve.end();
+  item = Segment{.curve = curve,
+                 .speed = rapid ? MmPerSecond(std::numeric_limits<double>::infinity()) : feed_along(curve),
+                 .rapid = rapid,
+                 .mode = path_mode_,
+                 .tolerance = tolerance_,
+                 .source = operation_.source};
+  return true;
+}
+
+// An axis that stays keeps its value bit for bit, whatever the way through the frame made of it.
+Point PathBuilder::machine_end(const Point& work_end) const {
+  Point end = frame_.machine_from_work(work_end);
+  for (const Axis axis : all_axes) {
+    if (std::abs(end[axis] - position_[axis]) < still) end[axis] = position_[axis];
+  }
+  return end;
+}
+
+MmPerSecond PathBuilder::feed_along(const Curve& curve) {
+  if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
+  if (feed_mode_ == FeedMode::units_per_revolution) return feed_with_spindle(feed_rate_);
+  const double rate = feed_mode_ == FeedMode::inverse_time ? curve.length().value() * feed_rate_ : feed_rate_;
+  if (rate > 0) return MmPerSecond(rate);
+  report(Severity::error, "path.no-feed", "a feed move without a feed rate", "F above 0 before the move, or on it");
+  return speed_after_error;
+}
+
+MmPerSecond PathBuilder::feed_with_spindle(double mm_per_revolution) {
+  const double rate = mm_per_revolution * outputs().revolutions_per_minute / seconds_per_minute;
+  if (rate > 0) return MmPerSecond(rate);
+  report(Severity::error, "path.spindle-off",
+         mm_per_revolution > 0 ? "the feed follows the spindle, and the spindle stands"
+                               : "the feed follows the spindle, by nothing a revolution",
+         "S above 0 with M3 or M4, and a pitch (K) or feed (F) above 0, before the move");
+  return speed_after_error;
+}
+
+void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
+  const double limit = options_.spindle_limit;
+  commanded_.revolutions_per_minute = limit > 0 ? std::min(revolutions_per_minute, limit) : revolutions_per_minute;
+  if (!(limit > 0 && revolutions_per_minute > limit) || revolutions_per_minute == refused_spindle_speed_) return;
+  refused_spindle_speed_ = revolutions_per_minute;
+  report(Severity::warning, "path.spindle-too-fast",
+         fmt::format("the program asks for {:.0f} rpm, and the spindle turns at {:.0f} at most, which is used",
+                     revolutions_per_minute, limit),
+         fmt::format("S up to {:.0f}", limit));
+}
+
+// G61 and G61.1 leave the path nowhere: their tolerance is 0.
+void PathBuilder::set_path_mode(const operation::SetPathMode& mode) {
+  path_mode_ = mode.mode;
+  if (mode.mode != PathMode::continuous) {
+    tolerance_ = Mm(0);
+  } else {
+    tolerance_ = mode.tolerance > Mm(0) ? mode.tolerance : options_.tolerance;
+  }
+}
+
+OutputState PathBuilder::outputs() const {
+  OutputState state = commanded_;
+  if (state.spindle == SpindleDirection::off) state.revolutions_per_minute = 0;
+  return state;
+}
+
+Action PathBuilder::outputs_action() const {
+  return {
+      .kind = Action::Kind::outputs, .dwell = Seconds(0), .outputs = outputs(), .tool = 0, .source = outputs_source_};
+}
+
+void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected) {
+  diagnostics_.add({.severity = severity,
+                    .code = std::move(code),
+                    .file = options_.file,
+                    .place = {.line = operation_.source.line, .column = 0, .length = 1},
+                    .message = std::move(message),
+                    .expected = std::move(expected),
+                    .text = {}});
+}
+
+}  // namespace passo

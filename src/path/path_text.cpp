@@ -1,0 +1,87 @@
+#include "passo/path/path_text.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// Six digits, and no minus before a zero.
+std::string number(double value) {
+  std::string text = fmt::format("{:.6f}", value);
+  return text == "-0.000000" ? text.substr(1) : text;
+}
+
+// The axes that move, and those that are not at zero.
+std::string place(const Point& point, const Curve& curve) {
+  std::string text;
+  for (const Axis axis : all_axes) {
+    if (curve.steepest()[axis] == 0 && point[axis] == 0) continue;
+    text += fmt::format("{}{}{}", text.empty() ? "" : " ", letter_of(axis), number(point[axis]));
+  }
+  return "(" + text + ")";
+}
+
+const char* name_of(PathMode mode) {
+  switch (mode) {
+    case PathMode::exact_path: return "exact path";
+    case PathMode::exact_stop: return "exact stop";
+    case PathMode::continuous: break;
+  }
+  return "continuous";
+}
+
+const char* name_of(SpindleDirection direction) {
+  switch (direction) {
+    case SpindleDirection::clockwise: return "clockwise";
+    case SpindleDirection::counterclockwise: return "counterclockwise";
+    case SpindleDirection::off: break;
+  }
+  return "off";
+}
+
+std::string name_of(const Action& action) {
+  switch (action.kind) {
+    case Action::Kind::dwell: return "dwell " + number(action.dwell.value());
+    case Action::Kind::outputs: return "outputs";
+    case Action::Kind::program_stop: return "program stop";
+    case Action::Kind::optional_stop: return "optional stop";
+    case Action::Kind::tool_change: return fmt::format("tool change {}", action.tool);
+    case Action::Kind::program_end: break;
+  }
+  return "program end";
+}
+
+}  // namespace
+
+std::string to_text(const Segment& segment) {
+  const Curve& curve = segment.curve;
+  std::string text = fmt::format("line {}: {} {} to {}", segment.source.line, segment.rapid ? "rapid" : "feed",
+                                 place(curve.start(), curve), place(curve.end(), curve));
+  if (curve.shape() == Curve::Shape::arc) {
+    const Curve::ArcData& arc = curve.arc_data();
+    text +=
+        fmt::format(" arc {}{} centre {} {} sweep {}", letter_of(arc.first), letter_of(arc.second),
+                    number(arc.first_center), number(arc.second_center), number(arc.sweep * 180 / std::numbers::pi));
+  }
+  text += " length " + number(curve.length().value());
+  if (std::isfinite(segment.speed.value())) text += " speed " + number(segment.speed.value());
+  text += fmt::format(" {}", name_of(segment.mode));
+  if (segment.mode == PathMode::continuous) text += " " + number(segment.tolerance.value());
+  return text + "\n";
+}
+
+std::string to_text(const Action& action) {
+  const OutputState& outputs = action.outputs;
+  return fmt::format("line {}: {}; spindle {} {:.3f} mist {} flood {}\n", action.source.line, name_of(action),
+                     name_of(outputs.spindle), outputs.revolutions_per_minute, outputs.mist ? "on" : "off",
+                     outputs.flood ? "on" : "off");
+}
+
+std::string to_text(const PathItem& item) {
+  return std::visit([](const auto& what) { return to_text(what); }, item);
+}
+
+}  // namespace passo

@@ -1,0 +1,85 @@
+// PathBuilder's check that the machine can go where the program sends it.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "passo/path/path_builder.hpp"
+
+namespace passo {
+namespace {
+
+// Rounding at a limit that is met exactly is no excursion.
+constexpr double slack = 1e-6;
+
+const char* unit_of(Axis axis) {
+  return is_rotary(axis) ? "degrees" : "mm";
+}
+
+// The place of the curve where `axis` reaches `reached`; there an arc's other axis is level with the centre.
+Point place_of(const Curve& curve, Axis axis, double reached) {
+  if (curve.start()[axis] == reached) return curve.start();
+  Point place = curve.end();
+  if (place[axis] == reached || curve.shape() == Curve::Shape::line) return place;
+  const Curve::ArcData& arc = curve.arc_data();
+  place[arc.first] = arc.first_center;
+  place[arc.second] = arc.second_center;
+  place[axis] = reached;
+  return place;
+}
+
+}  // namespace
+
+void PathBuilder::check_travel(const Curve& curve) {
+  const Box box = curve.extents();
+  for (const Axis axis : all_axes) {
+    if (!options_.axes.has(axis)) continue;
+    const TravelLimit& travel = options_.travel[axis];
+    if (box.high[axis] > travel.high + slack) {
+      check_side(axis, true, box.high[axis], curve, above_);
+    } else {
+      above_.remove(axis);
+    }
+    if (box.low[axis] < travel.low - slack) {
+      check_side(axis, false, box.low[axis], curve, below_);
+    } else {
+      below_.remove(axis);
+    }
+  }
+}
+
+// The curve leaves the travel on this side. A new excursion is reported; it lasts until a move ends back inside.
+void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside) {
+  const TravelLimit& travel = options_.travel[axis];
+  const double limit = high_side ? travel.high : travel.low;
+  const double end_beyond = high_side ? curve.end()[axis] - limit : limit - curve.end()[axis];
+  const bool is_new = !outside.has(axis);
+  if (end_beyond > slack) {
+    outside.add(axis);
+  } else {
+    outside.remove(axis);
+  }
+  if (!is_new) return;
+  report(
+      Severity::error, "travel.exceeded",
+      fmt::format("{} would reach {:.3f} (work {:.3f}), {:.3f} {} {} its travel's end at {:.3f}", letter_of(axis),
+                  reached, frame_.work_from_machine(place_of(curve, axis, reached))[axis],
+                  high_side ? reached - limit : limit - reached, unit_of(axis), high_side ? "beyond" : "below", limit),
+      fmt::format("{} within {:.3f} to {:.3f}, machine coordinates", letter_of(axis), travel.low, travel.high));
+}
+
+// Once an axis: a program for a machine with more axes moves them in most of its lines.
+void PathBuilder::check_axes(const Curve& curve) {
+  for (const Axis axis : all_axes) {
+    if (options_.axes.has(axis) || missing_.has(axis) || curve.steepest()[axis] == 0) continue;
+    missing_.add(axis);
+    std::string has;
+    for (const Axis other : all_axes) {
+      if (options_.axes.has(other)) has += letter_of(other);
+    }
+    report(Severity::error, "travel.no-such-axis",
+           fmt::format("this moves the axis {}, which the machine does not have", letter_of(axis)),
+           fmt::format("moves of {} only", has));
+  }
+}
+
+}  // namespace passo

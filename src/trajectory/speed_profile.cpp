@@ -1,0 +1,50 @@
+#include "speed_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo {
+namespace {
+
+// A stretch of constant acceleration from one speed to another over `distance`. The time follows from way and speeds,
+// not from speed and acceleration: a difference of two nearly equal speeds has few good digits, their sum has all, and
+// so the phase ends where it should however short it is.
+void add_stretch(double start, double distance, double from, double to, double limit, PlannedMove& move) {
+  if (!(distance > 0)) return;
+  const double duration = 2 * distance / (from + to);
+  const double acceleration = std::clamp((to - from) / duration, -limit, limit);
+  // At rest the speed is exactly 0: the same product is subtracted there.
+  if (to == 0) from = -(duration * acceleration);
+  move.add({.duration = Seconds(duration),
+            .start = Mm(start),
+            .velocity = MmPerSecond(from),
+            .acceleration = MmPerSecond2(acceleration),
+            .jerk = MmPerSecond3(0)});
+}
+
+}  // namespace
+
+void add_phases(const SpeedProfile& profile, PlannedMove& move) {
+  move.phase_count = 0;
+  const double length = profile.length;
+  const double twice = 2 * profile.acceleration;
+  const double crest = (profile.entry_squared + profile.exit_squared) / 2 + profile.acceleration * length;
+  const double peak = std::clamp(crest, std::max(profile.entry_squared, profile.exit_squared), profile.top_squared);
+
+  const double speeding = std::clamp((peak - profile.entry_squared) / twice, 0.0, length);
+  double braking = std::clamp((peak - profile.exit_squared) / twice, 0.0, length - speeding);
+  double cruising = length - speeding - braking;
+  if (crest <= profile.top_squared) {  // no cruising: the two meet, whatever rounding says
+    braking = length - speeding;
+    cruising = 0;
+  }
+
+  const double entry = std::sqrt(profile.entry_squared);
+  const double top = std::sqrt(peak);
+  const double exit = std::sqrt(profile.exit_squared);
+  add_stretch(0, speeding, entry, top, profile.acceleration, move);
+  add_stretch(speeding, cruising, top, top, profile.acceleration, move);
+  add_stretch(length - braking, braking, top, exit, profile.acceleration, move);
+}
+
+}  // namespace passo
