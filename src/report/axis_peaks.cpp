@@ -1,0 +1,186 @@
+#include "axis_peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace passo {
+namespace {
+
+// A stretch of time inside one phase.
+struct Stretch {
+  double begin = 0;
+  double end = 0;
+};
+
+double acceleration_at(const Phase& phase, double t) {
+  return phase.acceleration.value() + phase.jerk.value() * t;
+}
+
+double highest_speed(const Phase& phase, Stretch time) {
+  double highest = std::max(std::abs(phase.velocity_at(Seconds(time.begin)).value()),
+                            std::abs(phase.velocity_at(Seconds(time.end)).value()));
+  if (phase.jerk.value() != 0) {  // the speed may turn inside
+    const double turn = -phase.acceleration.value() / phase.jerk.value();
+    if (turn > time.begin && turn < time.end) {
+      highest = std::max(highest, std::abs(phase.velocity_at(Seconds(turn)).value()));
+    }
+  }
+  return highest;
+}
+
+double highest_acceleration(const Phase& phase, Stretch time) {
+  return std::max(std::abs(acceleration_at(phase, time.begin)), std::abs(acceleration_at(phase, time.end)));
+}
+
+// One axis of an arc's plane: x(s) = centre + r cos(angle), with r and angle linear in s.
+class ArcAxis {
+ public:
+  ArcAxis(const Curve& curve, double shift)
+      : radius_(curve.arc_data().start_radius),
+        growth_((curve.arc_data().end_radius - curve.arc_data().start_radius) / curve.length().value()),
+        angle_(curve.arc_data().start_angle - shift),
+        turning_(curve.arc_data().sweep / curve.length().value()) {}
+
+  // dx/ds and d²x/ds².
+  double slope(double s) const {
+    return growth_ * std::cos(angle_at(s)) - radius_at(s) * turning_ * std::sin(angle_at(s));
+  }
+  double bend(double s) const {
+    return -turning_ * (2 * growth_ * std::sin(angle_at(s)) + radius_at(s) * turning_ * std::cos(angle_at(s)));
+  }
+
+  // What no axis of the plane exceeds: the lengths of the vectors of which slope, bend and the next derivative are one
+  // component. `radius` is the largest in the stretch.
+  double most_slope(double radius) const { return std::hypot(growth_, radius * turning_); }
+  double most_bend(double radius) const { return std::abs(turning_) * std::hypot(2 * growth_, radius * turning_); }
+  double most_twist(double radius) const { return turning_ * turning_ * std::hypot(3 * growth_, radius * turning_); }
+  // Of a · slope + v² · bend.
+  double most_pull(double a, double v, double radius) const {
+    const double inward = a * std::abs(growth_) + v * v * radius * turning_ * turning_;
+    const double along = (a * radius + 2 * v * v * std::abs(growth_)) * std::abs(turning_);
+    return std::hypot(inward, along);
+  }
+  double largest_radius(double first_s, double last_s) const { return std::max(radius_at(first_s), radius_at(last_s)); }
+
+ private:
+  double radius_at(double s) const { return radius_ + growth_ * s; }
+  double angle_at(double s) const { return angle_ + turning_ * s; }
+
+  double radius_;
+  double growth_;
+  double angle_;
+  double turning_;
+};
+
+// The highest speed and acceleration of that axis in one phase, each to a thousandth. A stretch is halved until it
+// cannot hold more than what was already seen: beyond its middle a value changes by no more than the highest rate of
+// change allows. On most arcs that is known after the first look.
+class ArcSearch {
+ public:
+  ArcSearch(const ArcAxis& axis, const Phase& phase) : axis_(axis), phase_(phase) {}
+
+  void raise_speed(double& peak) {
+    raise(peak, [this](const Look& look) {
+      const double most = look.v * axis_.most_slope(look.radius);
+      const double change = axis_.most_pull(look.a, look.v, look.radius);
+      const double here = std::abs(look.middle_v * axis_.slope(look.middle_s));
+      return Found{here, std::min(most, here + look.half * change)};
+    });
+  }
+  void raise_acceleration(double& peak) {
+    raise(peak, [this](const Look& look) {
+      const double most = axis_.most_pull(look.a, look.v, look.radius);
+      const double change = std::abs(phase_.jerk.value()) * axis_.most_slope(look.radius) +
+                            3 * look.v * look.a * axis_.most_bend(look.radius) +
+                            look.v * look.v * look.v * axis_.most_twist(look.radius);
+      const double here = std::abs(look.middle_a * axis_.slope(look.middle_s) +
+                                   look.middle_v * look.middle_v * axis_.bend(look.middle_s));
+      return Found{here, std::min(most, here + look.half * change)};
+    });
+  }
+
+ private:
+  struct Look {  // at a stretch: the largest of speed, acceleration and radius in it, and what is at its middle
+    double v, a, radius;
+    double half, middle_s, middle_v, middle_a;
+  };
+  struct Found {
+    double here;   // at the middle
+    double bound;  // anywhere in the stretch
+  };
+
+  Look look_at(Stretch time) const {
+    const double middle = (time.begin + time.end) / 2;
+    return {.v = highest_speed(phase_, time),
+            .a = highest_acceleration(phase_, time),
+            .radius = axis_.largest_radius(phase_.position_at(Seconds(time.begin)).value(),
+                                           phase_.position_at(Seconds(time.end)).value()),
+            .half = (time.end - time.begin) / 2,
+            .middle_s = phase_.position_at(Seconds(middle)).value(),
+            .middle_v = phase_.velocity_at(Seconds(middle)).value(),
+            .middle_a = acceleration_at(phase_, middle)};
+  }
+
+  template <class Examine>
+  void raise(double& peak, const Examine& examine) {
+    left_ = 10'000;
+    // The ends first: the highest acceleration of a ramp is at one of them.
+    const double duration = phase_.duration.value();
+    for (const double end : {0.0, duration}) peak = std::max(peak, examine(look_at({end, end})).here);
+    search({0, duration}, peak, examine, 30);
+  }
+  template <class Examine>
+  void search(Stretch time, double& peak, const Examine& examine, int depth) {
+    constexpr double precision = 1e-3;
+    constexpr double nothing = 1e-9;
+    const Found found = examine(look_at(time));
+    peak = std::max(peak, found.here);
+    if (found.bound <= peak * (1 + precision) + nothing || depth == 0 || --left_ < 0) return;
+    const double middle = (time.begin + time.end) / 2;
+    search({time.begin, middle}, peak, examine, depth - 1);
+    search({middle, time.end}, peak, examine, depth - 1);
+  }
+
+  const ArcAxis& axis_;
+  const Phase& phase_;
+  int left_ = 0;  // a limit on everything; ordinary arcs need a few looks
+};
+
+void raise_on_arc(const PlannedMove& move, double shift, double& speed, double& acceleration) {
+  const ArcAxis axis(move.segment.curve, shift);
+  for (const Phase& phase : move) {
+    ArcSearch search(axis, phase);
+    search.raise_speed(speed);
+    search.raise_acceleration(acceleration);
+  }
+}
+
+}  // namespace
+
+void AxisPeaks::watch(const PlannedMove& move) {
+  const Curve& curve = move.segment.curve;
+  if (!curve.has_length()) return;
+  double speed = 0;
+  double acceleration = 0;
+  for (const Phase& phase : move) {
+    const Stretch all{0, phase.duration.value()};
+    speed = std::max(speed, highest_speed(phase, all));
+    acceleration = std::max(acceleration, highest_acceleration(phase, all));
+  }
+
+  const bool arc = curve.shape() == Curve::Shape::arc;
+  const Point slope = curve.tangent(Mm(0));
+  for (const Axis axis : all_axes) {
+    if (arc && axis == curve.arc_data().first) {
+      raise_on_arc(move, 0, speed_[axis], acceleration_[axis]);
+    } else if (arc && axis == curve.arc_data().second) {
+      raise_on_arc(move, std::numbers::pi / 2, speed_[axis], acceleration_[axis]);
+    } else {
+      speed_[axis] = std::max(speed_[axis], speed * std::abs(slope[axis]));
+      acceleration_[axis] = std::max(acceleration_[axis], acceleration * std::abs(slope[axis]));
+    }
+  }
+}
+
+}  // namespace passo

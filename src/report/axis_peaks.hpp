@@ -1,0 +1,20 @@
+// AxisPeaks: the highest speed and acceleration that each axis reaches. Private to report/.
+#pragma once
+
+#include "passo/trajectory/phase.hpp"
+
+namespace passo {
+
+class AxisPeaks {
+ public:
+  void watch(const PlannedMove& move);
+
+  double speed(Axis axis) const { return speed_[axis]; }
+  double acceleration(Axis axis) const { return acceleration_[axis]; }
+
+ private:
+  PerAxis<double> speed_;
+  PerAxis<double> acceleration_;
+};
+
+}  // namespace passo

@@ -1,0 +1,51 @@
+// OutputFile: a file that appears whole or not at all. Every writer of the program writes through it.
+//
+// Bytes go to a temporary name in the same directory; commit() gives the file its name in one step (rename), so that
+// a reader never sees half a file and an older file stays until the new one is complete. Without commit() nothing is
+// left behind. "-" is standard output, and what is no regular file (a device, a pipe) is written to directly.
+//
+// write() never fails on its own: the first error is kept, the bytes after it are dropped, and commit() tells it. A
+// writer of gigabytes asks failed() now and then.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "passo/base/result.hpp"
+
+namespace passo {
+
+struct OutputError {
+  std::string message;  // "cannot write out/part.svg: no such directory"
+};
+
+class OutputFile {
+ public:
+  static constexpr std::size_t buffer_size = 256 * 1024;
+
+  static Result<OutputFile, OutputError> open(const std::string& path);
+
+  OutputFile(OutputFile&&) noexcept;
+  OutputFile& operator=(OutputFile&&) noexcept;
+  ~OutputFile();
+
+  void write(std::string_view bytes);
+  bool failed() const;
+  // All bytes written so far, buffered ones included.
+  std::uint64_t size() const;
+  // Hands the rest to the system and gives the file its name. Once.
+  Status<OutputError> commit();
+
+  // For a signal handler that ends the program: removes the temporary files of all OutputFiles that are open.
+  // Async-signal-safe.
+  static void remove_unfinished() noexcept;
+
+ private:
+  struct State;
+  explicit OutputFile(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace passo

@@ -1,0 +1,69 @@
+// RunSummary: what a run came to, in numbers. Filled by SummaryBuilder (the motion) and by whoever drives the board.
+//
+// Two renderings: text for a person, JSON for a program. Keys of the JSON are a promise: they are added to, not
+// changed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+// Of one axis, in millimetres or degrees.
+struct Range {
+  double low = 0;
+  double high = 0;
+};
+
+struct AxisSummary {
+  Axis axis = Axis::x;
+  // Where the path goes, rapids included; none where nothing moved.
+  std::optional<Range> machine_extents;
+  std::optional<Range> work_extents;
+  MmPerSecond peak_speed{0};
+  MmPerSecond2 peak_acceleration{0};
+  // Of the board:
+  Steps net_steps;
+  Steps total_steps;
+  double position = 0;  // machine coordinates at the end, from the steps that were counted
+};
+
+struct BoardSummary {
+  Seconds end{0};            // when the last event was played
+  std::uint64_t pulses = 0;  // steps of all motors
+  std::uint64_t events = 0;
+  std::uint64_t frames = 0;  // sent down the wire
+  std::uint64_t bytes = 0;
+};
+
+struct RunSummary {
+  std::string program;
+  std::string machine;
+
+  // By the phases of the motion; cutting is everything at feed.
+  Seconds cutting_time{0};
+  Seconds rapid_time{0};
+  Seconds dwell_time{0};
+  Mm cutting_distance{0};
+  Mm rapid_distance{0};
+  std::uint64_t moves = 0;  // rapids and arcs included
+  std::uint64_t rapids = 0;
+  std::uint64_t arcs = 0;
+  std::uint64_t dwells = 0;
+
+  std::vector<AxisSummary> axes;
+  std::optional<BoardSummary> board;  // none: nothing was sent to a board
+
+  Seconds time() const { return cutting_time + rapid_time + dwell_time; }
+};
+
+std::string to_text(const RunSummary& summary, bool colour);
+// Pretty-printed, keys always in the same order, with a line end.
+std::string to_json(const RunSummary& summary);
+
+}  // namespace passo

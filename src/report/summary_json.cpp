@@ -1,0 +1,65 @@
+#include <nlohmann/json.hpp>
+
+#include "passo/report/summary.hpp"
+
+namespace passo {
+namespace {
+
+// Keeps the order in which keys are written.
+using Json = nlohmann::ordered_json;
+
+std::string key(const AxisSummary& axis) {
+  return {letter_of(axis.axis)};
+}
+
+template <class Value>
+Json of_axes(const RunSummary& summary, const Value& value) {
+  Json json = Json::object();
+  for (const AxisSummary& axis : summary.axes) json[key(axis)] = value(axis);
+  return json;
+}
+
+Json range(const std::optional<Range>& extents) {
+  if (!extents) return nullptr;
+  return {{"min", extents->low}, {"max", extents->high}};
+}
+
+void add_motion(const RunSummary& summary, Json& json) {
+  json["time_s"] = summary.time().value();
+  json["time"] = {{"cutting_s", summary.cutting_time.value()},
+                  {"rapid_s", summary.rapid_time.value()},
+                  {"dwell_s", summary.dwell_time.value()}};
+  json["distance_mm"] = {{"cutting", summary.cutting_distance.value()}, {"rapid", summary.rapid_distance.value()}};
+  json["counts"] = {
+      {"moves", summary.moves}, {"rapids", summary.rapids}, {"arcs", summary.arcs}, {"dwells", summary.dwells}};
+  json["extents_mm"] = {
+      {"machine", of_axes(summary, [](const AxisSummary& axis) { return range(axis.machine_extents); })},
+      {"work", of_axes(summary, [](const AxisSummary& axis) { return range(axis.work_extents); })}};
+  json["peak_speed_mm_s"] = of_axes(summary, [](const AxisSummary& axis) { return axis.peak_speed.value(); });
+  json["peak_acceleration_mm_s2"] =
+      of_axes(summary, [](const AxisSummary& axis) { return axis.peak_acceleration.value(); });
+}
+
+void add_board(const RunSummary& summary, const BoardSummary& board, Json& json) {
+  json["steps"] = of_axes(summary, [](const AxisSummary& axis) {
+    return Json{{"net", axis.net_steps.count}, {"total", axis.total_steps.count}};
+  });
+  json["position_mm"] = of_axes(summary, [](const AxisSummary& axis) { return axis.position; });
+  json["pulses"] = board.pulses;
+  json["board"] = {
+      {"end_s", board.end.value()}, {"events", board.events}, {"frames", board.frames}, {"bytes", board.bytes}};
+}
+
+}  // namespace
+
+std::string to_json(const RunSummary& summary) {
+  Json json;
+  json["program"] = summary.program;
+  json["machine"] = summary.machine;
+  add_motion(summary, json);
+  if (summary.board) add_board(summary, *summary.board, json);
+  // A program's name need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace passo

@@ -1,0 +1,164 @@
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "passo/report/summary.hpp"
+
+namespace passo {
+namespace {
+
+// 1234567 as "1 234 567".
+std::string grouped(std::int64_t number) {
+  std::string digits = fmt::format("{}", number);
+  const std::size_t first = number < 0 ? 1 : 0;
+  for (std::size_t end = digits.size(); end > first + 3; end -= 3) digits.insert(end - 3, 1, ' ');
+  return digits;
+}
+std::string grouped(std::uint64_t number) {
+  return grouped(static_cast<std::int64_t>(number));
+}
+
+std::string counted(std::uint64_t number, std::string_view noun) {
+  return fmt::format("{} {}{}", grouped(number), noun, number == 1 ? "" : "s");
+}
+
+// Hours only where there are some, and always three digits after the point: one column, aligned at the point.
+std::string duration(Seconds time) {
+  const auto milliseconds = std::llround(time.value() * 1000);
+  const auto seconds = milliseconds / 1000;
+  const auto rest = fmt::format("{:02}.{:03}", seconds % 60, milliseconds % 1000);
+  if (seconds >= 3600) return fmt::format("{}:{:02}:{}", seconds / 3600, seconds / 60 % 60, rest);
+  return fmt::format("{}:{}", seconds / 60, rest);
+}
+
+std::string share(double part, double whole) {
+  return whole > 0 ? fmt::format("{:5.1f} %", 100 * part / whole) : "";
+}
+
+// Three decimals without a "-0.000".
+std::string place(double value) {
+  const std::string text = fmt::format("{:.3f}", value);
+  return text == "-0.000" ? "0.000" : text;
+}
+
+// What a file's name may hold does not reach the terminal.
+std::string printable(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+std::string sizes(std::uint64_t bytes) {
+  if (bytes < 10'000) return counted(bytes, "byte");
+  if (bytes < 10'000'000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
+  return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
+}
+
+class Text {
+ public:
+  explicit Text(bool colour) : colour_(colour) {}
+
+  void title(const RunSummary& summary) {
+    out_ += strong(printable(summary.program));
+    if (!summary.machine.empty()) out_ += " on " + summary.machine;
+    out_ += "\n";
+  }
+
+  void times(const RunSummary& summary) {
+    const double all = summary.time().value();
+    heading("Time", all < 3600 ? "min:s" : "h:min:s");
+    line("cutting", duration(summary.cutting_time), share(summary.cutting_time.value(), all));
+    line("rapid", duration(summary.rapid_time), share(summary.rapid_time.value(), all));
+    line("dwell", duration(summary.dwell_time), share(summary.dwell_time.value(), all));
+    line("total", duration(summary.time()), summary.dwells > 0 ? "  with " + counted(summary.dwells, "dwell") : "");
+  }
+
+  void distances(const RunSummary& summary) {
+    const Mm all = summary.cutting_distance + summary.rapid_distance;
+    heading("Distance", "mm");
+    line("cutting", place(summary.cutting_distance.value()), share(summary.cutting_distance.value(), all.value()));
+    line("rapid", place(summary.rapid_distance.value()), share(summary.rapid_distance.value(), all.value()));
+    line("total", place(all.value()),
+         fmt::format("  in {}: {}, {}", counted(summary.moves, "move"), counted(summary.rapids, "rapid"),
+                     counted(summary.arcs, "arc")));
+  }
+
+  void extents(const RunSummary& summary) {
+    heading("Extents", unit_of_places(summary));
+    out_ += fmt::format("  {:4}{:>12}{:>12}{:>14}{:>12}\n", "", "machine from", "to", "work from", "to");
+    for (const AxisSummary& axis : summary.axes) {
+      out_ += fmt::format("  {:4}{:>24}{:>26}\n", letter_of(axis.axis), range(axis.machine_extents),
+                          range(axis.work_extents));
+    }
+  }
+
+  void axes(const RunSummary& summary) {
+    heading("Axes", unit_of_places(summary));
+    out_ += fmt::format("  {:4}{:>10}{:>14}", "", "peak /min", "peak /s\u00B2");
+    if (summary.board) out_ += fmt::format("{:>13}{:>14}{:>12}", "steps net", "steps total", "at the end");
+    out_ += "\n";
+    for (const AxisSummary& axis : summary.axes) {
+      out_ += fmt::format("  {:4}{:>10.1f}{:>14.1f}", letter_of(axis.axis),
+                          axis.peak_speed.value() * seconds_per_minute, axis.peak_acceleration.value());
+      if (summary.board) {
+        out_ += fmt::format("{:>13}{:>14}{:>12}", grouped(axis.net_steps.count), grouped(axis.total_steps.count),
+                            place(axis.position));
+      }
+      out_ += "\n";
+    }
+  }
+
+  void board(const BoardSummary& board) {
+    heading("Board", "");
+    line("end", duration(board.end), "");
+    line("pulses", grouped(board.pulses), "  in " + counted(board.events, "event"));
+    line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
+  }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string strong(std::string_view text) const {
+    return colour_ ? fmt::format("\x1b[1m{}\x1b[0m", text) : std::string(text);
+  }
+  void heading(std::string_view name, std::string_view unit) {
+    out_ += "\n" + strong(name);
+    if (!unit.empty()) out_ += fmt::format(", {}", unit);
+    out_ += "\n";
+  }
+  void line(std::string_view name, std::string_view value, std::string_view note) {
+    out_ += fmt::format("  {:10}{:>18}", name, value);
+    if (!note.empty()) out_ += fmt::format("  {}", note);
+    out_ += "\n";
+  }
+  static std::string range(const std::optional<Range>& extents) {
+    if (!extents) return "no motion";
+    return fmt::format("{:>12}{:>12}", place(extents->low), place(extents->high));
+  }
+  static std::string_view unit_of_places(const RunSummary& summary) {
+    for (const AxisSummary& axis : summary.axes) {
+      if (is_rotary(axis.axis)) return "mm; A B C in degrees";
+    }
+    return "mm";
+  }
+
+  bool colour_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string to_text(const RunSummary& summary, bool colour) {
+  Text text(colour);
+  text.title(summary);
+  text.times(summary);
+  text.distances(summary);
+  text.extents(summary);
+  text.axes(summary);
+  if (summary.board) text.board(*summary.board);
+  return text.take();
+}
+
+}  // namespace passo

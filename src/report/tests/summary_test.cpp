@@ -1,0 +1,202 @@
+#include "passo/report/summary.hpp"
+
+#include <numbers>
+#include <random>
+
+#include "golden.hpp"
+#include "motion.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/report/summary_builder.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// A rapid, a cut, a half circle, a dwell, with the work's zero at X 10 Y 20.
+RunSummary small_job() {
+  SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
+  const Point offset = at(10, 20);
+  builder.watch(rapid(at(0, 0, 5), at(10, 20, 5)), offset);
+  builder.watch(feed(at(10, 20, 5), at(10, 20, -1)), offset);
+  builder.watch(dwell(0.5), offset);
+  builder.watch(play(Curve::arc(at(10, 20, -1), at(30, 20, -1), Axis::x, Axis::y, 20, 20, -pi), 10, 100), offset);
+  RunSummary summary = builder.summary();
+  summary.program = "small.ngc";
+  summary.machine = "Test bench";
+  summary.axes[0].net_steps.count = 12000;
+  summary.axes[0].total_steps.count = 12000;
+  summary.axes[0].position = 30;
+  summary.axes[1].net_steps.count = 8000;
+  summary.axes[1].total_steps.count = 16000;
+  summary.axes[1].position = 20;
+  summary.axes[2].net_steps.count = -2400;
+  summary.axes[2].total_steps.count = 2400;
+  summary.axes[2].position = -1;
+  summary.board = BoardSummary{.end = Seconds(5.25), .pulses = 30400, .events = 41234, .frames = 180, .bytes = 3456};
+  return summary;
+}
+
+TEST(RunSummary, reads_as_a_person_wants_it) {
+  expect_golden("small_summary.txt", to_text(small_job(), false));
+}
+
+TEST(RunSummary, is_json_for_programs) {
+  expect_golden("small_summary.json", to_json(small_job()));
+}
+
+TEST(RunSummary, colour_adds_nothing_but_escapes) {
+  std::string coloured = to_text(small_job(), true);
+  const std::string plain = to_text(small_job(), false);
+  EXPECT_NE(coloured, plain);
+  for (const std::string_view escape : {"\x1b[1m", "\x1b[0m"}) {
+    for (auto place = coloured.find(escape); place != std::string::npos; place = coloured.find(escape)) {
+      coloured.erase(place, escape.size());
+    }
+  }
+  EXPECT_EQ(coloured, plain);
+}
+
+TEST(RunSummary, has_the_json_keys_that_are_promised) {
+  const auto json = nlohmann::json::parse(to_json(small_job()));
+  EXPECT_NEAR(json.at("time_s").get<double>(),
+              json.at("time").at("cutting_s").get<double>() + json.at("time").at("rapid_s").get<double>() + 0.5, 1e-12);
+  EXPECT_EQ(json.at("steps").at("Y").at("net").get<std::int64_t>(), 8000);
+  EXPECT_EQ(json.at("steps").at("Y").at("total").get<std::int64_t>(), 16000);
+  EXPECT_EQ(json.at("position_mm").at("Z").get<double>(), -1);
+}
+
+TEST(RunSummary, of_a_job_without_motion_and_board_is_still_sound) {
+  SummaryBuilder builder({Axis::x, Axis::a});
+  RunSummary summary = builder.summary();
+  summary.program = "bad \xff\x1b[31m name.ngc";
+  const auto json = nlohmann::json::parse(to_json(summary));
+  EXPECT_TRUE(json.at("extents_mm").at("machine").at("X").is_null());
+  EXPECT_FALSE(json.contains("steps"));
+  EXPECT_EQ(json.at("time_s").get<double>(), 0);
+  const std::string text = to_text(summary, false);
+  EXPECT_NE(text.find("no motion"), std::string::npos);
+  EXPECT_NE(text.find("A B C in degrees"), std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+}
+
+TEST(SummaryBuilder, splits_time_and_distance_into_cutting_rapid_and_dwell) {
+  const RunSummary summary = small_job();
+  // 22.36 mm at 50 mm/s needs 25 mm of ramps at 100 mm/s²: a triangle.
+  EXPECT_NEAR(summary.rapid_time.value(), 2 * std::sqrt(std::sqrt(500.0) / 100), 1e-12);
+  // Length / speed + speed / acceleration, for each cut.
+  EXPECT_NEAR(summary.cutting_time.value(), 6 / 10.0 + 0.1 + pi + 0.1, 1e-12);
+  EXPECT_EQ(summary.dwell_time, Seconds(0.5));
+  EXPECT_NEAR(summary.rapid_distance.value(), std::sqrt(500.0), 1e-12);
+  EXPECT_NEAR(summary.cutting_distance.value(), 6 + 10 * pi, 1e-12);
+  EXPECT_EQ(summary.moves, 3U);
+  EXPECT_EQ(summary.rapids, 1U);
+  EXPECT_EQ(summary.arcs, 1U);
+  EXPECT_EQ(summary.dwells, 1U);
+}
+
+TEST(SummaryBuilder, extents_know_how_far_an_arc_bulges_in_both_frames) {
+  const RunSummary summary = small_job();
+  EXPECT_DOUBLE_EQ(summary.axes[0].machine_extents->low, 0);
+  EXPECT_DOUBLE_EQ(summary.axes[0].machine_extents->high, 30);
+  EXPECT_DOUBLE_EQ(summary.axes[1].machine_extents->high, 30);
+  EXPECT_DOUBLE_EQ(summary.axes[1].work_extents->low, -20);
+  EXPECT_DOUBLE_EQ(summary.axes[1].work_extents->high, 10);
+}
+
+TEST(SummaryBuilder, peaks_of_a_line_are_shared_out_by_its_direction) {
+  SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
+  builder.watch(feed(at(0, 0), at(30, -40), 10, 100), Point());
+  const RunSummary summary = builder.summary();
+  EXPECT_DOUBLE_EQ(summary.axes[0].peak_speed.value(), 6);
+  EXPECT_DOUBLE_EQ(summary.axes[1].peak_speed.value(), 8);
+  EXPECT_DOUBLE_EQ(summary.axes[2].peak_speed.value(), 0);
+  EXPECT_DOUBLE_EQ(summary.axes[0].peak_acceleration.value(), 60);
+  EXPECT_DOUBLE_EQ(summary.axes[1].peak_acceleration.value(), 80);
+}
+
+TEST(SummaryBuilder, finds_the_top_of_a_speed_that_turns_inside_a_phase) {
+  PlannedMove move;
+  move.segment.curve = Curve::line(at(0, 0), at(100, 0));
+  // 10 + 20 t − 20 t²/2 is highest at t = 1.
+  move.add({Seconds(2), Mm(0), MmPerSecond(10), MmPerSecond2(20), MmPerSecond3(-20)});
+  SummaryBuilder builder({Axis::x});
+  builder.watch(move, Point());
+  EXPECT_DOUBLE_EQ(builder.summary().axes[0].peak_speed.value(), 20);
+}
+
+// The peaks by differences of positions in small steps of time: knows nothing of slopes and angles.
+struct SampledPeaks {
+  Point speed;
+  Point acceleration;
+};
+SampledPeaks sample(const PlannedMove& move) {
+  SampledPeaks peaks;
+  for (const Phase& phase : move) {
+    // Not shorter than 20 µs: the second difference would be rounding.
+    const int samples = static_cast<int>(std::clamp(phase.duration.value() / 20e-6, 2.0, 4000.0));
+    const double h = phase.duration.value() / samples;
+    if (h < 1e-5) continue;
+    for (int i = 1; i < samples; ++i) {
+      const Point before = move.segment.curve.at(phase.position_at(Seconds((i - 1) * h)));
+      const Point now = move.segment.curve.at(phase.position_at(Seconds(i * h)));
+      const Point after = move.segment.curve.at(phase.position_at(Seconds((i + 1) * h)));
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        const double speed = std::abs(after[axis] - before[axis]) / (2 * h);
+        const double acceleration = std::abs(after[axis] - 2 * now[axis] + before[axis]) / (h * h);
+        peaks.speed[axis] = std::max(peaks.speed[axis], speed);
+        peaks.acceleration[axis] = std::max(peaks.acceleration[axis], acceleration);
+      }
+    }
+  }
+  return peaks;
+}
+
+TEST(SummaryBuilder, peaks_on_arcs_helices_and_spirals_are_those_of_the_motion) {
+  const char* given = std::getenv("PASSO_SEED");
+  const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 20260101U;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int i = 0; i < 60; ++i) {
+    const double start_angle = uniform(-pi, pi);
+    const double sweep = uniform(0.2, 7) * (uniform(0, 1) < 0.5 ? -1 : 1);
+    const double start_radius = uniform(1, 20);
+    const double end_radius = i % 3 == 0 ? start_radius * uniform(0.9, 1.1) : start_radius;
+    const double depth = i % 2 == 0 ? uniform(-3, 3) : 0;
+    const Point start = at(start_radius * std::cos(start_angle), start_radius * std::sin(start_angle), 0);
+    const Point end = at(end_radius * std::cos(start_angle + sweep), end_radius * std::sin(start_angle + sweep), depth);
+    const PlannedMove move =
+        play(Curve::arc(start, end, Axis::x, Axis::y, 0, 0, sweep), uniform(5, 60), uniform(100, 600));
+
+    SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
+    builder.watch(move, Point());
+    const RunSummary summary = builder.summary();
+    const SampledPeaks expected = sample(move);
+    for (const AxisSummary& axis : summary.axes) {
+      EXPECT_NEAR(axis.peak_speed.value(), expected.speed[axis.axis], 2e-3 * expected.speed[axis.axis] + 1e-3) << i;
+      EXPECT_NEAR(axis.peak_acceleration.value(), expected.acceleration[axis.axis],
+                  2e-3 * expected.acceleration[axis.axis] + 1e-2)
+          << i;
+    }
+  }
+}
+
+TEST(SummaryBuilder, a_long_helix_is_understood_as_quickly_as_a_short_one) {
+  const double sweep = 2 * pi * 2000;
+  const PlannedMove move = play(Curve::arc(at(10, 0, 0), at(10, 0, -100), Axis::x, Axis::y, 0, 0, sweep), 20, 200);
+  SummaryBuilder builder({Axis::x, Axis::y});
+  builder.watch(move, Point());
+  for (const AxisSummary& axis : builder.summary().axes) {
+    EXPECT_NEAR(axis.peak_speed.value(), 20, 0.03);
+    // Nearly all of it at 20 mm/s on 10 mm; while the speed still changes, the two parts add at right angles.
+    EXPECT_GE(axis.peak_acceleration.value(), 40);
+    EXPECT_LE(axis.peak_acceleration.value(), std::hypot(200, 40) * 1.001);
+  }
+}
+
+}  // namespace
+}  // namespace passo
