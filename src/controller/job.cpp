@@ -50,8 +50,8 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
          Diagnostics& diagnostics)
-    : limits_(motion_limits(machine)),
-      path_options_(path_options(machine, program.name())),
+    : path_options_(path_options(machine, program.name())),
+      limits_(motion_limits(machine)),
       interpreter_(std::move(program), options, diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
       watched_path_(path_builder_),

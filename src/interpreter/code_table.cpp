@@ -86,7 +86,7 @@ static_assert(std::ranges::is_sorted(codes, comes_before));
 }  // namespace
 
 const Code* find_code(char letter, std::int32_t tenths) {
-  const Code wanted{.letter = letter, .number = tenths};
+  const Code wanted{.letter = letter, .number = tenths, .group = motion, .meaning = {}};
   const auto* found = std::lower_bound(codes.begin(), codes.end(), wanted, comes_before);
   return found != codes.end() && found->letter == letter && found->number == tenths ? found : nullptr;
 }

@@ -90,6 +90,9 @@ bool ControlFlow::follow(Block& block) {
     case endif: return on_end(block, label);
     case break_:
     case continue_: return on_break(block, label);
+    case program:
+      return error(block, "gcode.unsupported-code", block.control->span,
+                   "numbered subprograms (M98) are not supported by this release", "o<name> sub and o<name> call");
   }
   return false;
 }

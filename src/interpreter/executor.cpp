@@ -20,7 +20,7 @@ void Executor::emit(OperationKind what) {
 
 void Executor::begin() {
   emit(operation::SetLengthUnits{state_.units});
-  emit(operation::SetWorkOffset{.system = 1});
+  emit(operation::SetWorkOffset{.system = 1, .offset = {}});
   emit(operation::SetG92Offset{});
   emit(operation::SetRotation{});
   emit(operation::SetFeedReference{});

@@ -52,11 +52,11 @@ class Job {
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
+  PathOptions path_options_;
   MotionLimits limits_;
 
   // The street.
   Interpreter interpreter_;  // text -> blocks -> operations
-  PathOptions path_options_;
   PathBuilder path_builder_;  // operations -> segments
   Tap<PathItem> watched_path_;
   Planner planner_;  // segments -> phases

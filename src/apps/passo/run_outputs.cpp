@@ -1,0 +1,1 @@
+int passo_placeholder;

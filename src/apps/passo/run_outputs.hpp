@@ -1,0 +1,38 @@
+// RunOutputs: the files that a run was asked for. Opened before it, filled while it goes, given their names after it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "passo/base/result.hpp"
+#include "passo/controller/job.hpp"
+#include "passo/machine/machine_observer.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/report/summary.hpp"
+
+namespace passo {
+
+class RunOutputs {
+ public:
+  // Fails when a file cannot be written, or its name does not tell its kind.
+  static Result<RunOutputs, OutputError> open(const RunArguments& arguments, const MachineDescription& machine);
+
+  RunOutputs(RunOutputs&&) noexcept;
+  RunOutputs& operator=(RunOutputs&&) noexcept;
+  ~RunOutputs();
+
+  // Before the first step of the job.
+  void watch(Job& job);
+  Status<OutputError> commit(const RunSummary& summary, const MachineDescription& machine);
+
+ private:
+  struct State;
+  explicit RunOutputs(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace passo
