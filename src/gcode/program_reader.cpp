@@ -187,6 +187,7 @@ bool ProgramReader::State::fill(Diagnostics& diagnostics) {
 }
 
 std::size_t ProgramReader::State::find_line_feed() {
+  if (cursor == filled) return filled;  // an empty buffer has no address to search at
   const void* const found = std::memchr(buffer.data() + cursor, '\n', filled - cursor);
   return found == nullptr ? filled : static_cast<std::size_t>(static_cast<const char*>(found) - buffer.data());
 }
