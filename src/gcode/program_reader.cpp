@@ -138,9 +138,10 @@ Content inspect(std::string_view first) {
 // The bytes [offset, offset + filled) of the program are in the buffer; `cursor` is the next line's first byte there.
 struct ProgramReader::State {
   std::string name;
-  File file;  // not open: the whole program is in `buffer`
+  std::shared_ptr<const File> file;  // none: the whole program is in `buffer`. Shared by readers of one program
   std::vector<char> buffer;
   std::uint64_t size = 0;
+  std::uint64_t start = 0;  // of the first line, behind a byte order mark
   std::uint64_t offset = 0;
   std::size_t filled = 0;
   std::size_t cursor = 0;
@@ -170,7 +171,7 @@ bool ProgramReader::State::fill(Diagnostics& diagnostics) {
   filled = kept;
   line_feed = 0;
   while (filled < buffer.size()) {
-    const ssize_t count = read_at(file.get(), buffer.data() + filled, buffer.size() - filled, offset + filled);
+    const ssize_t count = read_at(file->get(), buffer.data() + filled, buffer.size() - filled, offset + filled);
     if (count < 0) {
       diagnostics.add(unreadable(name, errno));
       failed = true;
@@ -187,6 +188,7 @@ bool ProgramReader::State::fill(Diagnostics& diagnostics) {
 }
 
 std::size_t ProgramReader::State::find_line_feed() {
+  if (cursor == filled) return filled;  // an empty buffer has no address to search at
   const void* const found = std::memchr(buffer.data() + cursor, '\n', filled - cursor);
   return found == nullptr ? filled : static_cast<std::size_t>(static_cast<const char*>(found) - buffer.data());
 }
@@ -259,9 +261,9 @@ Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
 
   auto state = std::make_unique<State>();
   state->name = name;
-  state->file = std::move(*opened);
+  state->file = std::make_shared<const File>(std::move(*opened));
   struct stat status = {};
-  if (::fstat(state->file.get(), &status) != 0) return Failure{unreadable(name, errno)};
+  if (::fstat(state->file->get(), &status) != 0) return Failure{unreadable(name, errno)};
   state->size = static_cast<std::uint64_t>(status.st_size);
   state->buffer.resize(buffer_size);
 
@@ -278,7 +280,7 @@ Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
     case Content::binary:
       return Failure{whole_file("file.binary", name, "the file is not text", "a G-code program, which is plain text")};
   }
-  if (first.starts_with(utf8_mark)) state->cursor = utf8_mark.size();
+  if (first.starts_with(utf8_mark)) state->start = state->cursor = utf8_mark.size();
   return ProgramReader(std::move(state));
 }
 
@@ -289,7 +291,7 @@ ProgramReader ProgramReader::from_text(std::string name, std::string text) {
   state->size = state->filled = text.size();
   state->at_file_end = true;
   state->line_feed = state->find_line_feed();
-  if (text.starts_with(utf8_mark)) state->cursor = utf8_mark.size();
+  if (text.starts_with(utf8_mark)) state->start = state->cursor = utf8_mark.size();
   return ProgramReader(std::move(state));
 }
 
@@ -333,6 +335,14 @@ void ProgramReader::seek(ReaderPosition position) {
   state.offset = position.offset;
   state.cursor = state.filled = state.line_feed = 0;
   state.at_file_end = false;
+}
+
+ProgramReader ProgramReader::again() const {
+  auto state = std::make_unique<State>(*state_);
+  state->failed = false;
+  ProgramReader reader(std::move(state));
+  reader.seek({.offset = state_->start, .line = 1});
+  return reader;
 }
 
 const std::string& ProgramReader::name() const {

@@ -162,6 +162,7 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .rapid = rapid,
                  .mode = path_mode_,
                  .tolerance = tolerance_,
+                 .work_zero = frame_.machine_from_work(Point()),
                  .source = operation_.source};
   return true;
 }

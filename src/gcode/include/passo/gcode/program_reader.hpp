@@ -38,6 +38,9 @@ class ProgramReader {
   // is then in `diagnostics`; a line that is too long or has NUL bytes is reported and skipped.
   [[nodiscard]] bool next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics);
 
+  // Another reader of the same program, at its beginning. Standard input too can be read as often as wanted.
+  ProgramReader again() const;
+
   // Where the line that comes next begins.
   ReaderPosition position() const;
   void seek(ReaderPosition position);
