@@ -43,7 +43,7 @@ class TraceBuffer {
   static constexpr std::size_t longest = 1024;
 
  private:
-  static constexpr std::size_t size = 64 * 1024;
+  static constexpr std::size_t size = 65536;
 
   TraceSink sink_;
   std::unique_ptr<char[]> text_;
