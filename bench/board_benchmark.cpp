@@ -1,7 +1,8 @@
-// Events a second from board segments to counted pulses: link, wire, board and machine, all of them.
+// Events a second from board segments to counted pulses: link, wire, board and machine, all of them; and with traces.
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -9,6 +10,8 @@
 #include "passo/firmware/player.hpp"
 #include "passo/link/in_process_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
+#include "passo/report/trace_csv.hpp"
+#include "passo/report/trace_vcd.hpp"
 
 namespace passo {
 namespace {
@@ -92,6 +95,33 @@ void with_an_observer(benchmark::State& state) {
   benchmark::DoNotOptimize(counter.sum);
 }
 BENCHMARK(with_an_observer)->Arg(100)->Unit(benchmark::kMicrosecond);
+
+// Written to nowhere: what the text itself costs.
+template <class SomeTrace>
+void with_a_trace(benchmark::State& state) {
+  std::size_t bytes = 0;
+  SomeTrace trace({.motors = {{.axis = Axis::x}, {.axis = Axis::y}, {.axis = Axis::z}}},
+                  [&](std::string_view text) { bytes += text.size(); });
+  // The machine starts anew each time and so does its time, which a trace would not like.
+  class Onwards final : public MachineObserver {
+   public:
+    explicit Onwards(MachineObserver& next) : next_(next) {}
+    void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
+      if (time.count < last_) start_ += last_;
+      last_ = time.count;
+      next_.on_steps(Ticks{start_ + time.count}, stepped, directions);
+    }
+
+   private:
+    MachineObserver& next_;
+    std::int64_t start_ = 0;
+    std::int64_t last_ = 0;
+  } onwards(trace);
+  play(state, &onwards);
+  benchmark::DoNotOptimize(bytes);
+}
+BENCHMARK(with_a_trace<TraceCsv>)->Arg(100)->Unit(benchmark::kMicrosecond);
+BENCHMARK(with_a_trace<TraceVcd>)->Arg(100)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace passo

@@ -114,8 +114,9 @@ inline void decode(const WireFrame& frame, uint8_t motors, BoardSegment& segment
   // 24 bits with a sign: up to the top, and down again with the sign drawn along.
   segment.change =
       static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 7)) << 8 | static_cast<uint32_t>(bytes[9]) << 24) >> 8;
-  for (uint8_t motor = 0; motor < max_motors; ++motor) {
-    segment.increments[motor] = motor < motors ? load16(bytes + 10 + 2 * motor) : uint16_t{0};
+  bytes += 10;
+  for (uint8_t motor = 0; motor < max_motors; ++motor, bytes += 2) {
+    segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
   }
 }
 

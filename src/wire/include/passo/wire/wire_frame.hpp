@@ -42,12 +42,12 @@ struct WireFrame {
 // Bytes of payload, or 0 for what is no type. Without motors there are no segments.
 constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
   switch (static_cast<MessageType>(type)) {
-    case MessageType::hello: return 2;
+    case MessageType::hello:
+    case MessageType::credit:
+    case MessageType::error: return 2;
     case MessageType::segment: return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(10 + 2 * motors);
     case MessageType::outputs: return 3;
     case MessageType::hello_reply: return 7;
-    case MessageType::credit: return 2;
-    case MessageType::error: return 2;
   }
   return 0;
 }

@@ -1,0 +1,39 @@
+// TraceCsv: a row for each event in which something steps, for spreadsheets and scripts.
+//
+//   t,x,y,z
+//   0.000010031,1,0,-1
+//
+// Seconds from the start with nine decimals, rounded half up from the exact tick; then for each axis −1, 0 or 1: the
+// direction of the axis, whichever way its motor turns. Outputs are not shown.
+// Cost: about 20 ns a row.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "passo/report/trace.hpp"
+#include "passo/report/trace_buffer.hpp"
+
+namespace passo {
+
+class TraceCsv final : public Trace {
+ public:
+  // Hands on the header with the first piece of text.
+  TraceCsv(const TraceOptions& options, TraceSink sink);
+
+  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override;
+  void finish(Ticks end) override;
+
+ private:
+  void put_seconds(std::uint64_t ticks);
+
+  TraceBuffer buffer_;
+  std::uint64_t ticks_a_second_;
+  unsigned motors_;
+  std::uint8_t inverted_ = 0;
+  // The whole second that the last row was in.
+  std::uint64_t second_ = 0;
+  std::uint64_t second_start_ = 0;  // ticks
+};
+
+}  // namespace passo
