@@ -64,7 +64,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
 }
 
 bool Job::advance() {
-  if (!step_generator_.next(item_)) {
+  if (link_.error() || !step_generator_.next(item_)) {
     link_.drain();
     return false;
   }

@@ -83,7 +83,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   outputs.watch(job);
   {
     Progress progress(arguments.program.program, !arguments.quiet);
-    for (unsigned played = 0; job.advance(); ++played) {
+    for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }
   }
@@ -99,9 +99,25 @@ int fail(const std::string& message) {
   return exit_failed;
 }
 
+// The names of the files tell their kinds: a wrong one is a mistake of the command line.
+bool names_are_good(const RunArguments& arguments) {
+  for (const std::string& path : arguments.pictures) {
+    if (is_picture_name(path)) continue;
+    fail(path + ": a picture's name ends in .svg or .png");
+    return false;
+  }
+  for (const std::string& path : arguments.traces) {
+    if (is_trace_name(path)) continue;
+    fail(path + ": a trace's name ends in .vcd or .csv");
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  if (!names_are_good(arguments)) return exit_bad_program;
   Diagnostics diagnostics;
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
@@ -123,11 +139,12 @@ int run(const RunArguments& arguments) {
   Diagnostics late;
   Job job(std::move(*program), *machine, options, late);
   const RunSummary summary = play(job, check, arguments, *machine, *outputs);
+  if (const auto error = job.link().error()) return fail("the board: " + std::string(message_of(*error)));
   if (late.any_error()) {
     show(late);
     return exit_bad_program;
   }
-  const Status<OutputError> written = outputs->commit(summary, *machine);
+  const Status<OutputError> written = outputs->commit(summary);
   if (!written) return fail(written.error().message);
 
   if (arguments.json) {

@@ -1,1 +1,144 @@
-int passo_placeholder;
+#include "run_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include "passo/report/path_recorder.hpp"
+#include "passo/report/picture.hpp"
+#include "passo/report/trace_csv.hpp"
+#include "passo/report/trace_vcd.hpp"
+
+namespace passo {
+namespace {
+
+bool ends_with(std::string_view path, std::string_view ending) {
+  if (path.size() < ending.size()) return false;
+  const std::string_view tail = path.substr(path.size() - ending.size());
+  for (std::size_t i = 0; i < ending.size(); ++i) {
+    if (std::tolower(static_cast<unsigned char>(tail[i])) != ending[i]) return false;
+  }
+  return true;
+}
+
+TraceOptions trace_options(const MachineDescription& machine) {
+  TraceOptions options{.clock = machine.board.clock, .step_pulse = machine.board.step_pulse};
+  for (const AxisDescription& axis : machine.axes) options.motors.push_back({axis.axis, axis.inverted});
+  return options;
+}
+
+}  // namespace
+
+struct RunOutputs::State {
+  struct PictureFile {
+    OutputFile file;
+    PictureFormat format;
+  };
+  struct TraceFile {
+    // At a fixed place in memory: the trace writes into it.
+    std::unique_ptr<OutputFile> file;
+    std::unique_ptr<Trace> trace;
+  };
+
+  std::vector<PictureFile> pictures;
+  std::vector<TraceFile> traces;
+  std::optional<OutputFile> report;
+  bool report_is_json = false;
+  PathRecorder recorder;
+  VirtualMachine* machine = nullptr;
+
+  Status<OutputError> add_picture(const std::string& path);
+  Status<OutputError> add_trace(const std::string& path, const TraceOptions& options);
+};
+
+Status<OutputError> RunOutputs::State::add_picture(const std::string& path) {
+  const std::optional<PictureFormat> format = picture_format_of(path);
+  Result<OutputFile, OutputError> file = OutputFile::open(path);
+  if (!file) return Failure{file.error()};
+  pictures.push_back({.file = std::move(*file), .format = *format});
+  return Unit{};
+}
+
+Status<OutputError> RunOutputs::State::add_trace(const std::string& path, const TraceOptions& options) {
+  Result<OutputFile, OutputError> opened = OutputFile::open(path);
+  if (!opened) return Failure{opened.error()};
+  auto file = std::make_unique<OutputFile>(std::move(*opened));
+  const TraceSink sink = [to = file.get()](std::string_view text) { to->write(text); };
+  std::unique_ptr<Trace> trace;
+  if (ends_with(path, ".vcd")) {
+    trace = std::make_unique<TraceVcd>(options, sink);
+  } else {
+    trace = std::make_unique<TraceCsv>(options, sink);
+  }
+  traces.push_back({.file = std::move(file), .trace = std::move(trace)});
+  return Unit{};
+}
+
+RunOutputs::RunOutputs(std::unique_ptr<State> state) : state_(std::move(state)) {}
+RunOutputs::RunOutputs(RunOutputs&&) noexcept = default;
+RunOutputs& RunOutputs::operator=(RunOutputs&&) noexcept = default;
+RunOutputs::~RunOutputs() = default;
+
+bool is_picture_name(const std::string& path) { return picture_format_of(path).has_value(); }
+bool is_trace_name(const std::string& path) { return ends_with(path, ".vcd") || ends_with(path, ".csv"); }
+
+Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, const MachineDescription& machine) {
+  auto state = std::make_unique<State>();
+  for (const std::string& path : arguments.pictures) {
+    const Status<OutputError> added = state->add_picture(path);
+    if (!added) return Failure{added.error()};
+  }
+  for (const std::string& path : arguments.traces) {
+    const Status<OutputError> added = state->add_trace(path, trace_options(machine));
+    if (!added) return Failure{added.error()};
+  }
+  if (!arguments.report.empty()) {
+    Result<OutputFile, OutputError> file = OutputFile::open(arguments.report);
+    if (!file) return Failure{file.error()};
+    state->report.emplace(std::move(*file));
+    state->report_is_json = ends_with(arguments.report, ".json");
+  }
+  return RunOutputs(std::move(state));
+}
+
+void RunOutputs::watch(Job& job) {
+  state_->machine = &job.machine();
+  for (State::TraceFile& trace : state_->traces) job.machine().add_observer(*trace.trace);
+  if (state_->pictures.empty()) return;
+  job.motion().watch([state = state_.get()](const MotionItem& item) {
+    const auto* move = std::get_if<PlannedMove>(&item);
+    state->recorder.watch(item, move != nullptr ? move->segment.work_zero : Point());
+  });
+}
+
+bool RunOutputs::failed() const {
+  for (const State::TraceFile& trace : state_->traces) {
+    if (trace.file->failed()) return true;
+  }
+  return false;
+}
+
+// Everything is written before the first file gets its name: all of them appear, or none.
+Status<OutputError> RunOutputs::commit(const RunSummary& summary) {
+  for (State::TraceFile& trace : state_->traces) trace.trace->finish(state_->machine->now());
+  for (State::PictureFile& picture : state_->pictures) {
+    const PictureOptions options{.format = picture.format, .program = summary.program, .machine = summary.machine};
+    const Status<OutputError> drawn = draw_picture(state_->recorder, options, picture.file);
+    if (!drawn) return drawn;
+  }
+  if (state_->report) state_->report->write(state_->report_is_json ? to_json(summary) : to_text(summary, false));
+
+  std::vector<OutputFile*> files;
+  for (State::TraceFile& trace : state_->traces) files.push_back(trace.file.get());
+  for (State::PictureFile& picture : state_->pictures) files.push_back(&picture.file);
+  if (state_->report) files.push_back(&*state_->report);
+  for (OutputFile* file : files) {
+    const Status<OutputError> committed = file->commit();
+    if (!committed) return committed;
+  }
+  return Unit{};
+}
+
+}  // namespace passo

@@ -16,9 +16,13 @@
 
 namespace passo {
 
+// Whether a name tells what kind of file is wanted.
+bool is_picture_name(const std::string& path);
+bool is_trace_name(const std::string& path);
+
 class RunOutputs {
  public:
-  // Fails when a file cannot be written, or its name does not tell its kind.
+  // Fails when a file cannot be written.
   static Result<RunOutputs, OutputError> open(const RunArguments& arguments, const MachineDescription& machine);
 
   RunOutputs(RunOutputs&&) noexcept;
@@ -27,7 +31,10 @@ class RunOutputs {
 
   // Before the first step of the job.
   void watch(Job& job);
-  Status<OutputError> commit(const RunSummary& summary, const MachineDescription& machine);
+  // A file cannot take more: there is no point in going on.
+  bool failed() const;
+  // After the job has come to its end.
+  Status<OutputError> commit(const RunSummary& summary);
 
  private:
   struct State;

@@ -38,7 +38,8 @@ class Job {
   Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
       Diagnostics& diagnostics);
 
-  // Plays a little more of the job (one board segment). False at the end, with everything at rest.
+  // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
+  // has an error.
   [[nodiscard]] bool advance();
 
   // Who wants to watch, before the first advance().
