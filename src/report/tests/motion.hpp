@@ -32,6 +32,17 @@ inline PlannedMove play(const Curve& curve, double speed, double acceleration, b
   return move;
 }
 
+// Along a line without a change of speed, as in the middle of a long path.
+inline PlannedMove cruise(const Point& from, const Point& to, double speed, bool rapid = false) {
+  PlannedMove move;
+  move.segment.curve = Curve::line(from, to);
+  move.segment.speed = MmPerSecond(speed);
+  move.segment.rapid = rapid;
+  move.add({Seconds(move.segment.curve.length().value() / speed), Mm(0), MmPerSecond(speed), MmPerSecond2(0),
+            MmPerSecond3(0)});
+  return move;
+}
+
 inline PlannedMove feed(const Point& from, const Point& to, double speed = 10, double acceleration = 100) {
   return play(Curve::line(from, to), speed, acceleration);
 }

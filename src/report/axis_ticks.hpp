@@ -1,0 +1,24 @@
+// Ticks of an axis: round numbers, as many as have room. Private to report/.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace passo {
+
+struct Tick {
+  double value = 0;
+  std::string label;
+};
+
+// The smallest of …, 0.1, 0.2, 0.5, 1, 2, 5, 10, … that is not below `least`.
+double round_step(double least);
+// "12.5": as many decimals as `step` needs, and no "-0".
+std::string tick_label(double value, double step);
+
+// The ticks in low…high, at least as far apart that the widest label has room. `pixels` is what one unit measures,
+// `room(label)` the pixels that a label takes along the axis, with its margin.
+std::vector<Tick> ticks(double low, double high, double pixels, const std::function<double(const std::string&)>& room);
+
+}  // namespace passo

@@ -1,0 +1,34 @@
+// A picture of the path: an isometric view and a top view side by side, feeds coloured by their actual speed.
+//
+// One drawing for both formats (cairo). An SVG stays under 10 MB whatever was recorded.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "passo/base/result.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/report/path_recorder.hpp"
+
+namespace passo {
+
+enum class PictureFormat : std::uint8_t { svg, png };
+
+// By the end of the name, in any case: ".svg", ".png".
+std::optional<PictureFormat> picture_format_of(std::string_view path);
+
+struct PictureOptions {
+  PictureFormat format = PictureFormat::svg;
+  std::string program;  // the title
+  std::string machine;
+  int width = 1600;
+  int height = 900;
+  int pixels_per_unit = 1;  // of a PNG: 2 gives 3200 × 1800 pixels
+};
+
+// Into `file`, which the caller commits.
+Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions& options, OutputFile& file);
+
+}  // namespace passo

@@ -1,0 +1,14 @@
+// Drawing a recorded path through a projection: rapids below, feeds above in the colours of their speed. Private.
+#pragma once
+
+#include "projection.hpp"
+
+#include "passo/report/path_recorder.hpp"
+
+namespace passo {
+
+Pen rapid_pen();
+// `area` is what the path spreads over; a dense path is drawn with a finer pen.
+void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection, const Area& area);
+
+}  // namespace passo

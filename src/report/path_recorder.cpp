@@ -1,0 +1,136 @@
+#include "passo/report/path_recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "polyline_joining.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::array<Axis, 3> space = {Axis::x, Axis::y, Axis::z};
+// So many steps of speed a picture can tell apart.
+constexpr double speed_steps = 32;
+constexpr std::uint64_t stretch = 64;  // moves, and vertices, that are kept or left out together
+
+double diagonal(const Box& box) {
+  return std::hypot(box.high[Axis::x] - box.low[Axis::x], box.high[Axis::y] - box.low[Axis::y],
+                    box.high[Axis::z] - box.low[Axis::z]);
+}
+
+// Chords that leave an arc by no more than `tolerance`, or by a two-thousandth of its radius: no eye sees it.
+double chords_of(const Curve& curve, double share, double tolerance) {
+  if (curve.shape() == Curve::Shape::line) return 1;
+  const Curve::ArcData& arc = curve.arc_data();
+  const double radius = std::max(arc.start_radius, arc.end_radius);
+  if (!(radius > 0)) return 1;
+  const double sagitta = std::min(std::max(tolerance, radius / 2000), radius);
+  return std::abs(arc.sweep) * share / std::sqrt(8 * sagitta / radius);
+}
+
+}  // namespace
+
+void PathRecorder::watch(const MotionItem& item, const Point& machine_minus_work) {
+  if (const auto* move = std::get_if<PlannedMove>(&item)) {
+    watch_move(*move, machine_minus_work);
+  } else if (const auto& action = std::get<Action>(item); action.kind == Action::Kind::dwell) {
+    time_ += action.dwell;
+  }
+}
+
+void PathRecorder::watch_move(const PlannedMove& move, const Point& origin) {
+  time_ += move.duration();
+  const Box box = move.segment.curve.extents();
+  if (!(diagonal(box) > 0)) return;  // only other axes move
+
+  if (!any_) {
+    any_ = true;
+    base_ = move.segment.curve.start();
+    extents_ = box;
+  }
+  for (const Axis axis : space) {
+    extents_.low[axis] = std::min(extents_.low[axis], box.low[axis]);
+    extents_.high[axis] = std::max(extents_.high[axis], box.high[axis]);
+  }
+  constexpr std::size_t most_origins = 9;
+  if (origins_.size() < most_origins && std::ranges::find(origins_, origin) == origins_.end()) {
+    origins_.push_back(origin);
+  }
+  record(move);
+}
+
+void PathRecorder::record(const PlannedMove& move) {
+  if (!move.segment.rapid) {
+    for (const Phase& phase : move) {
+      fastest_feed_ = std::max({fastest_feed_, phase.velocity.value(), phase.velocity_at(phase.duration).value()});
+    }
+  }
+  if (moves_++ / stretch % keep_one_of_ != 0) return;
+  const Vertex before = vertices_.empty() ? Vertex{} : vertices_.back();
+  add(move.segment.curve.start(), 0, Kind::jump);
+  const Vertex& begin = vertices_.back();
+  const bool continues = vertices_.size() > 1 && before.x == begin.x && before.y == begin.y && before.z == begin.z;
+  if (continues) vertices_.pop_back();
+  for (const Phase& phase : move) record(move, phase);
+}
+
+void PathRecorder::record(const PlannedMove& move, const Phase& phase) {
+  const Curve& curve = move.segment.curve;
+  const double from = phase.position_at(Seconds(0)).value();
+  const double to = phase.position_at(phase.duration).value();
+  if (!(to > from)) return;
+
+  double pieces = chords_of(curve, (to - from) / curve.length().value(), tolerance_);
+  if (!move.segment.rapid) {
+    // Where the speed changes, but not finer than the path itself is kept.
+    const double change = std::abs(phase.velocity_at(phase.duration).value() - phase.velocity.value());
+    const double steps = change > 0 ? change / (fastest_feed_ / speed_steps) : 1;
+    pieces = std::max(pieces, tolerance_ > 0 ? std::min(steps, (to - from) / tolerance_) : steps);
+  }
+  constexpr double most_pieces = 10'000;
+  const auto count = static_cast<int>(std::ceil(std::clamp(pieces, 1.0, most_pieces)));
+  const Kind kind = move.segment.rapid ? Kind::rapid : Kind::feed;
+  const Seconds step = phase.duration / count;
+  double last = from;
+  for (int i = 1; i <= count; ++i) {
+    const double s = i == count ? to : phase.position_at(step * i).value();
+    add(curve.at(Mm(s)), (s - last) / step.value(), kind);
+    last = s;
+  }
+}
+
+void PathRecorder::add(const Point& point, double speed, Kind kind) {
+  if (vertices_.size() == most_vertices) make_room();
+  if (vertices_.capacity() == 0) vertices_.reserve(1024);
+  vertices_.push_back({.x = static_cast<float>(point[Axis::x] - base_[Axis::x]),
+                       .y = static_cast<float>(point[Axis::y] - base_[Axis::y]),
+                       .z = static_cast<float>(point[Axis::z] - base_[Axis::z]),
+                       .speed = static_cast<float>(speed),
+                       .kind = kind});
+}
+
+void PathRecorder::make_room() {
+  // A pixel of a large picture; a coarser polyline would not look like the path any more.
+  const double coarsest = diagonal(extents_) / 2000;
+  const double speed_step = fastest_feed_ / (speed_steps / 2);
+  if (tolerance_ > 0) join_pieces(vertices_, tolerance_, speed_step);
+  while (vertices_.size() > most_vertices / 2 && tolerance_ < coarsest) {
+    tolerance_ = std::max(2 * tolerance_, coarsest / 64);
+    join_pieces(vertices_, tolerance_, speed_step);
+  }
+  while (vertices_.size() > most_vertices / 8 * 7) thin();
+}
+
+void PathRecorder::thin() {
+  keep_one_of_ *= 2;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (i / stretch % 2 != 0) continue;
+    vertices_[kept] = vertices_[i];
+    if (i % stretch == 0) vertices_[kept].kind = Kind::jump;
+    ++kept;
+  }
+  vertices_.resize(kept);
+}
+
+}  // namespace passo

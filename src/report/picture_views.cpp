@@ -1,0 +1,268 @@
+#include "picture_views.hpp"
+
+#include <cmath>
+
+#include "axis_ticks.hpp"
+#include "path_drawing.hpp"
+
+namespace passo {
+namespace {
+
+const Colour ink{0.25, 0.27, 0.30};
+const Colour quiet_ink{0.48, 0.50, 0.54};
+const Colour paper{1, 1, 1};
+const Pen grid{.colour = {0.90, 0.91, 0.92}, .width = 0.8};
+const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
+const Font label{.size = 12, .colour = ink};
+const Font heading{.size = 14, .colour = quiet_ink};
+constexpr double mark = 5;            // length of a tick
+constexpr double axis_name_gap = 28;  // from the axis, not counting the labels between
+
+// The axes' colours, as in most drawing programs.
+struct Arm {
+  Axis axis;
+  Colour colour;
+};
+const std::array<Arm, 3> arms = {
+    {{Axis::x, {0.82, 0.22, 0.20}}, {Axis::y, {0.20, 0.58, 0.24}}, {Axis::z, {0.16, 0.38, 0.78}}}};
+
+double span(const Box& box, Axis axis) {
+  return box.high[axis] - box.low[axis];
+}
+
+void widen(Box& box, Axis axis, double least) {
+  const double missing = least - span(box, axis);
+  if (missing <= 0) return;
+  box.low[axis] -= missing / 2;
+  box.high[axis] += missing / 2;
+}
+
+bool inside(const Box& box, const Point& point, double margin) {
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    if (point[axis] < box.low[axis] - margin || point[axis] > box.high[axis] + margin) return false;
+  }
+  return true;
+}
+
+std::vector<Tick> axis_ticks(const Scene& scene, const Box& box, Axis axis, double pixels,
+                             const std::function<double(const std::string&)>& room) {
+  return ticks(box.low[axis] - scene.zero[axis], box.high[axis] - scene.zero[axis], pixels, room);
+}
+
+Spot moved(Spot spot, double right, double down) {
+  return {spot.x + right, spot.y + down};
+}
+
+// The three axes at each work zero that the view shows. An axis that points at the eye is a ring.
+void draw_zeros(Canvas& canvas, const Scene& scene, const Projection& projection, const Box& shown) {
+  constexpr double length = 26;
+  for (const Point& zero : scene.path.origins()) {
+    if (!inside(shown, zero, 1e-9 * span(shown, Axis::x))) continue;
+    const Spot centre = projection.spot(zero);
+    for (const bool halo : {true, false}) {
+      for (const Arm& arm : arms) {
+        Point tip = zero;
+        tip[arm.axis] += length / projection.scale();
+        const Spot end = projection.spot(tip);
+        if (std::hypot(end.x - centre.x, end.y - centre.y) < length / 2) continue;
+        canvas.line(centre, end, {.colour = halo ? paper : arm.colour, .width = halo ? 4.0 : 2.0});
+        if (halo) continue;
+        const Spot letter{centre.x + (end.x - centre.x) * 1.34, centre.y + (end.y - centre.y) * 1.34};
+        canvas.disc(letter, 6.5, paper);
+        canvas.text(letter, {letter_of(arm.axis)}, {.size = 11, .colour = arm.colour, .bold = true}, Align::centre);
+      }
+    }
+    canvas.disc(centre, 4, paper);
+    canvas.disc(centre, 3, ink);
+  }
+}
+
+// "20 mm" of the drawing, about a fifth of the view.
+void draw_scale_bar(Canvas& canvas, Spot right_end, double scale, double view_width) {
+  const double length = round_step(0.11 * view_width / scale);
+  const Spot left_end = moved(right_end, -length * scale, 0);
+  const Area backing{left_end.x - 10, right_end.y - 24, length * scale + 20, 34};
+  canvas.fill({{backing.x, backing.y},
+               {backing.right(), backing.y},
+               {backing.right(), backing.bottom()},
+               {backing.x, backing.bottom()}},
+              paper, 0.85);
+  const Pen pen{.colour = ink, .width = 1.6};
+  canvas.line(left_end, right_end, pen);
+  canvas.line(moved(left_end, 0, -4), moved(left_end, 0, 4), pen);
+  canvas.line(moved(right_end, 0, -4), moved(right_end, 0, 4), pen);
+  canvas.text(moved(left_end, length * scale / 2, -13), tick_label(length, length) + " mm", label, Align::centre);
+}
+
+// The frame of the top view is filled: what is beside the path on a wide or narrow view is shown too.
+Box filled_box(const Box& box, const Projection& projection, const Area& area) {
+  Box filled = box;
+  widen(filled, Axis::x, area.width / projection.scale());
+  widen(filled, Axis::y, area.height / projection.scale());
+  return filled;
+}
+
+void draw_top_frame(Canvas& canvas, const Scene& scene, const Projection& projection, const Area& area) {
+  const Box shown = filled_box(scene.box, projection, area);
+  const double scale = projection.scale();
+  // The same for both axes, so that the grid is square.
+  const auto room = [&](const std::string& text) { return canvas.text_width(text, label) + 22; };
+  for (const Tick& tick : axis_ticks(scene, shown, Axis::x, scale, room)) {
+    const double x = projection.spot(scene.zero[Axis::x] + tick.value, 0, 0).x;
+    canvas.line({x, area.y}, {x, area.bottom()}, grid);
+    canvas.line({x, area.bottom()}, {x, area.bottom() + mark}, edge);
+    canvas.text({x, area.bottom() + mark + 10}, tick.label, label, Align::centre);
+  }
+  for (const Tick& tick : axis_ticks(scene, shown, Axis::y, scale, room)) {
+    const double y = projection.spot(0, scene.zero[Axis::y] + tick.value, 0).y;
+    canvas.line({area.x, y}, {area.right(), y}, grid);
+    canvas.line({area.x - mark, y}, {area.x, y}, edge);
+    canvas.text({area.x - mark - 4, y}, tick.label, label, Align::right);
+  }
+  canvas.frame(area, edge);
+  canvas.text({area.x + area.width / 2, area.bottom() + 36}, "X, mm", heading, Align::centre);
+  canvas.text({area.x - mark - 4, area.y - 16}, "Y, mm", heading, Align::right);
+}
+
+// One edge of the isometric box with its ticks: the axis runs along it, the labels stand outside.
+struct EdgeOfBox {
+  Axis axis;
+  Point begin;   // where the axis is lowest
+  double out_x;  // the way out, a unit vector of the picture
+  double out_y;
+  Align align;
+};
+
+// Labels of a slanting edge stand below each other, half as far apart as their ticks.
+std::vector<Tick> edge_ticks(const Scene& scene, const Projection& projection, Axis axis) {
+  const double height = axis == Axis::z ? 20 : 40;
+  return axis_ticks(scene, scene.box, axis, projection.scale(), [height](const std::string&) { return height; });
+}
+
+double widest_label(Canvas& canvas, const std::vector<Tick>& all) {
+  double widest = 0;
+  for (const Tick& tick : all) widest = std::max(widest, canvas.text_width(tick.label, label));
+  return widest;
+}
+
+void draw_edge(Canvas& canvas, const Scene& scene, const Projection& projection, const EdgeOfBox& side) {
+  const std::vector<Tick> all = edge_ticks(scene, projection, side.axis);
+  for (const Tick& tick : all) {
+    Point place = side.begin;
+    place[side.axis] = scene.zero[side.axis] + tick.value;
+    const Spot spot = projection.spot(place);
+    canvas.line(spot, moved(spot, mark * side.out_x, mark * side.out_y), edge);
+    canvas.text(moved(spot, 11 * side.out_x, 17 * side.out_y), tick.label, label, side.align);
+  }
+  Point middle = side.begin;
+  middle[side.axis] = (scene.box.low[side.axis] + scene.box.high[side.axis]) / 2;
+  const double way = axis_name_gap + widest_label(canvas, all);
+  canvas.text(moved(projection.spot(middle), way * side.out_x, way * side.out_y),
+              std::string{letter_of(side.axis)} + ", mm", heading, side.align);
+}
+
+// As large as leaves room for the labels on the left, on the right and below, whose widths depend on the scale.
+Projection fitted_isometric(Canvas& canvas, const Scene& scene, const Area& area) {
+  Projection projection = Projection::isometric();
+  projection.fit(scene.box, area);
+  const double left = widest_label(canvas, edge_ticks(scene, projection, Axis::z)) + axis_name_gap +
+                      canvas.text_width("Z, mm", heading);
+  const double right = widest_label(canvas, edge_ticks(scene, projection, Axis::y)) + axis_name_gap;
+  projection.fit(scene.box, {area.x + left, area.y + 20, area.width - left - right, area.height - 76});
+  return projection;
+}
+
+// What there is to say where there is nothing to show.
+void draw_no_motion(Canvas& canvas, const Area& area) {
+  const Spot middle{area.x + area.width / 2, area.y + area.height / 2};
+  canvas.text(middle, "The program moves nothing.", {.size = 18, .colour = quiet_ink}, Align::centre);
+}
+
+void draw_box(Canvas& canvas, const Scene& scene, const Projection& projection) {
+  const Point& low = scene.box.low;
+  const Point& high = scene.box.high;
+  const auto at = [&](bool x, bool y, bool z) {
+    return projection.spot((x ? high : low)[Axis::x], (y ? high : low)[Axis::y], (z ? high : low)[Axis::z]);
+  };
+  canvas.fill({at(false, false, false), at(true, false, false), at(true, true, false), at(false, true, false)},
+              {0.965, 0.97, 0.975});
+  const auto room = [](const std::string&) { return 40.0; };
+  for (const Tick& tick : axis_ticks(scene, scene.box, Axis::x, projection.scale(), room)) {
+    const double x = scene.zero[Axis::x] + tick.value;
+    canvas.line(projection.spot(x, low[Axis::y], low[Axis::z]), projection.spot(x, high[Axis::y], low[Axis::z]), grid);
+  }
+  for (const Tick& tick : axis_ticks(scene, scene.box, Axis::y, projection.scale(), room)) {
+    const double y = scene.zero[Axis::y] + tick.value;
+    canvas.line(projection.spot(low[Axis::x], y, low[Axis::z]), projection.spot(high[Axis::x], y, low[Axis::z]), grid);
+  }
+  // The walls behind the path: left, back, right.
+  for (const auto& [from, to] : {std::pair{at(false, true, false), at(false, true, true)},
+                                 {at(true, true, false), at(true, true, true)},
+                                 {at(false, false, true), at(false, true, true)},
+                                 {at(false, true, true), at(true, true, true)},
+                                 {at(false, true, false), at(true, true, false)},
+                                 {at(false, false, false), at(false, true, false)}}) {
+    canvas.line(from, to, grid);
+  }
+  canvas.line(at(false, false, false), at(true, false, false), edge);
+  canvas.line(at(true, false, false), at(true, true, false), edge);
+  canvas.line(at(false, false, false), at(false, false, true), edge);
+}
+
+}  // namespace
+
+Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extents()) {
+  if (path.origins().size() == 1) {
+    zero = path.origins().front();
+    work_coordinates = true;
+  }
+  const auto largest_span = [this] { return std::max({span(box, Axis::x), span(box, Axis::y), span(box, Axis::z)}); };
+  double largest = largest_span();
+  // A work zero near the path belongs to the picture; one that is far away would make the path small.
+  for (const Point& origin : path.origins()) {
+    if (!inside(box, origin, largest / 3)) continue;
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      box.low[axis] = std::min(box.low[axis], origin[axis]);
+      box.high[axis] = std::max(box.high[axis], origin[axis]);
+    }
+  }
+  largest = largest_span();
+  constexpr double some = 40;  // mm, where nothing moves
+  if (!(largest > 0)) largest = some;
+  widen(box, Axis::x, largest / 4);
+  widen(box, Axis::y, largest / 4);
+  widen(box, Axis::z, largest / 20);
+}
+
+void draw_top_view(Canvas& canvas, const Scene& scene, const Area& area) {
+  canvas.text({area.x + area.width / 2, area.y - 16}, "Top view", heading, Align::centre);
+  Projection projection = Projection::top();
+  constexpr double margin = 0.06;
+  projection.fit(scene.box, {area.x + margin * area.width, area.y + margin * area.height, area.width * (1 - 2 * margin),
+                             area.height * (1 - 2 * margin)});
+  draw_top_frame(canvas, scene, projection, area);
+  draw_path(canvas, scene.path, projection, area);
+  Box shown = filled_box(scene.box, projection, area);
+  draw_zeros(canvas, scene, projection, shown);
+  if (scene.path.empty()) draw_no_motion(canvas, area);
+  draw_scale_bar(canvas, {area.right() - 18, area.bottom() - 18}, projection.scale(), area.width);
+}
+
+void draw_isometric_view(Canvas& canvas, const Scene& scene, const Area& area) {
+  canvas.text({area.x + area.width / 2, area.y - 16}, "Isometric view", heading, Align::centre);
+  const Projection projection = fitted_isometric(canvas, scene, area);
+  draw_box(canvas, scene, projection);
+
+  const Point& low = scene.box.low;
+  Point right_corner = low;
+  right_corner[Axis::x] = scene.box.high[Axis::x];
+  constexpr double cosine = 0.8660254037844386;
+  draw_edge(canvas, scene, projection, {Axis::x, low, -0.5, cosine, Align::right});
+  draw_edge(canvas, scene, projection, {Axis::y, right_corner, 0.5, cosine, Align::left});
+  draw_edge(canvas, scene, projection, {Axis::z, low, -1, 0, Align::right});
+  draw_path(canvas, scene.path, projection, area);
+  draw_zeros(canvas, scene, projection, scene.box);
+  if (scene.path.empty()) draw_no_motion(canvas, area);
+}
+
+}  // namespace passo
