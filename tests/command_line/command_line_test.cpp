@@ -12,6 +12,7 @@
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 const fs::path source_dir = PASSO_SOURCE_DIR;
 const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
@@ -176,8 +177,8 @@ TEST_P(BadPrograms, are_refused_with_their_place_and_leave_nothing_behind) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadPrograms,
     testing::Values(BadProgram{"empty", "", "file.empty", ": error"},
-                    BadProgram{"binary", std::string("\x7f" "ELF\0\0\0\1\2\3\0\0\0\0\0\0\0\0", 18), "file.binary", ""},
-                    BadProgram{"nul", std::string("G21 G90 (a comment that is long enough to be text)\nG0 X1\0Y2\nM2\n", 66), "gcode.nul-byte", ":2:6"},
+                    BadProgram{"binary", "\x7f" "ELF\0\0\0\1\2\3\0\0\0\0\0\0\0\0"s, "file.binary", ""},
+                    BadProgram{"nul", "G21 G90 (a comment that is long enough to be text)\nG0 X1\0Y2\nM2\n"s, "gcode.nul-byte", ":2:6"},
                     BadProgram{"megabyte", "G21\n(" + std::string(1'000'000, 'x') + ")\nM2\n", "gcode.line-too-long", ":2"},
                     BadProgram{"missing_feed", "G21\nG1 X1\nM2\n", "gcode.missing-feed", ":2:1"},
                     BadProgram{"huge_number", "G21\nG0 X1e999\nM2\n", "gcode.", ":2:"},

@@ -24,7 +24,7 @@ bool ends_with(std::string_view path, std::string_view ending) {
 }
 
 TraceOptions trace_options(const MachineDescription& machine) {
-  TraceOptions options{.clock = machine.board.clock, .step_pulse = machine.board.step_pulse};
+  TraceOptions options{.motors = {}, .clock = machine.board.clock, .step_pulse = machine.board.step_pulse};
   for (const AxisDescription& axis : machine.axes) options.motors.push_back({axis.axis, axis.inverted});
   return options;
 }

@@ -97,39 +97,6 @@ Point at(double x, double y, double z = 0) {
 // Every step of every motor: as many as there ought to be, in the right direction, in time.
 void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
   const std::vector<BoardItem> board = generate(items, options);
-  if (getenv("DUMP")) {
-    for (auto& it : items)
-      if (auto* mv = std::get_if<PlannedMove>(&it)) {
-        printf("MOVE %s len %g", mv->segment.curve.shape() == Curve::Shape::arc ? "arc" : "line",
-               mv->segment.curve.length().value());
-        for (auto& p : *mv)
-          printf(" [%g s0=%g v=%g a=%g]", p.duration.value(), p.start.value(), p.velocity.value(),
-                 p.acceleration.value());
-        for (unsigned m = 0; m < 3; m++)
-          printf(" %.4f",
-                 (mv->segment.curve.end() - mv->segment.curve.start())[all_axes[m]] * options.motors[m].steps_per_unit);
-        puts("");
-      }
-    int64_t t = 32768;
-    long pos[3] = {32768, 32768, 32768};
-    for (auto& it : board)
-      if (auto* sg = std::get_if<BoardSegment>(&it)) {
-        int64_t t0 = t;
-        int64_t iv = sg->interval;
-        for (int k = 0; k < sg->events; k++) {
-          t += iv;
-          iv += sg->change;
-        }
-        printf("SEG t %.2f..%.2f n=%d I=%.3f d=%.4f", t0 / 65536. - .5, t / 65536. - .5, sg->events,
-               sg->interval / 65536., sg->change / 65536.);
-        for (unsigned m = 0; m < options.motor_count; m++) {
-          auto inc = oracle::signed_increment(*sg, m);
-          pos[m] += inc * sg->events;
-          printf(" | %ld -> %.4f", (long)inc, pos[m] / 65536. - .5);
-        }
-        puts("");
-      }
-  }
   const oracle::Playback played = oracle::play(board, options);
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
   EXPECT_GE(static_cast<double>(played.shortest_interval) + 1, shortest);
