@@ -32,10 +32,11 @@ Outcome failure(Kind kind, double operand) {
   return {operand, true, kind};
 }
 
-// The result has the sign of nothing: LinuxCNC's MOD is never negative.
+// LinuxCNC's MOD is never negative.
 Outcome modulo(double a, double b) {
   if (b == 0) return failure(Kind::division_by_zero, b);
   const double rest = std::fmod(a, b);
+  if (rest == 0) return {0};  // not -0
   return {rest < 0 ? rest + std::abs(b) : rest};
 }
 

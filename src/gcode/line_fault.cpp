@@ -17,7 +17,10 @@ constexpr const char* a_value = "a number, #parameter, [expression] or function"
 // At most this much of the line is repeated in a message.
 std::string shortened(std::string_view text) {
   constexpr std::size_t most = 24;
-  return text.size() <= most ? std::string(text) : std::string(text.substr(0, most)) + "...";
+  if (text.size() <= most) return std::string(text);
+  std::size_t size = most;
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;  // not through a character
+  return std::string(text.substr(0, size)) + "...";
 }
 
 // The word that was meant: one with a wrong letter, or with two of them swapped.
@@ -136,6 +139,13 @@ bool LineParser::fail_function(const char* name_start, std::string_view name) {
               fmt::format("there is no function {}", shortened(upper)),
               meant.empty() ? "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT or TAN"
                             : fmt::format("{}, perhaps", meant));
+}
+
+bool LineParser::fail_assignment(const char* target) {
+  const Span span = span_from(target);
+  return fail("gcode.unexpected-text", target, span.length,
+              fmt::format("parameter {} is not given a value", shortened({target, span.length})),
+              "'=' and the value, as in #1=2.5, or a letter before the '#', as in X#1");
 }
 
 bool LineParser::fail_letter_o(const char* o) {

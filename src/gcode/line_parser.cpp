@@ -181,12 +181,7 @@ bool LineParser::parse_assignment() {
   } else if (!parse_expression(assignment.index.emplace(), start)) {
     return false;
   }
-  if (peek() != '=') {
-    const Span target = span_from(start);
-    return fail("gcode.unexpected-text", start, target.length,
-                "parameter " + std::string(start, target.length) + " is not given a value",
-                "'=' and the value, as in #1=2.5, or a letter before the '#', as in X#1");
-  }
+  if (peek() != '=') return fail_assignment(start);
   const char* const equals = at_;
   take();
   if (!parse_expression(assignment.value, equals)) return false;

@@ -79,7 +79,8 @@ class LineParser {
   bool fail_unexpected();                   // at_ is where no item can start
   bool fail_in_brackets(const char* open);  // at_ is where an operator or ']' should be
   bool fail_function(const char* name_start, std::string_view name);
-  bool fail_letter_o(const char* o);  // an O that is not the first on its line, perhaps a zero
+  bool fail_assignment(const char* target);  // no '=' after the parameter
+  bool fail_letter_o(const char* o);         // an O that is not the first on its line, perhaps a zero
   bool fail_control_keyword(const char* start, std::string_view keyword);
 
   bool at_end() const { return at_ == end_; }

@@ -55,6 +55,7 @@ TEST(Expressions, divide_with_a_remainder_that_is_never_negative) {
   EXPECT_EQ(value("-7 mod 3"), 2);
   EXPECT_EQ(value("7 mod -3"), 1);
   EXPECT_EQ(value("-7 mod -3"), 2);
+  EXPECT_FALSE(std::signbit(value("-6 mod 3")));
   EXPECT_EQ(value("5.5 mod 2"), 1.5);
 }
 
@@ -160,6 +161,7 @@ TEST(Expressions, are_bounded_in_depth) {
   };
   EXPECT_TRUE(nested(deepest_expression).good);
   EXPECT_EQ(nested(deepest_expression + 1).fault_at(), "gcode.expression-too-deep 66 1");
+  EXPECT_EQ(ParsedLine("X" + std::string(deepest_expression, '[')).fault_at(), "gcode.missing-value 65 1");
   EXPECT_EQ(ParsedLine("X" + std::string(60'000, '[')).fault_at(), "gcode.expression-too-deep 66 1");
   EXPECT_EQ(ParsedLine("X" + std::string(60'000, '#')).fault_at(), "gcode.expression-too-deep 66 1");
   EXPECT_EQ(ParsedLine("X" + std::string(60'000, '-')).fault_at(), "gcode.expression-too-deep 66 1");
