@@ -62,6 +62,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 void Diagnostics::add(Diagnostic diagnostic) {
+  // A line in a loop is wrong once, however often it is run.
+  const auto is_same = [&](const Diagnostic& other) {
+    return other.place == diagnostic.place && other.code == diagnostic.code && other.file == diagnostic.file;
+  };
+  if (diagnostic.place.line > 0 && std::ranges::any_of(all_, is_same)) return;
   if (diagnostic.severity == Severity::error && ++errors_ > limit_) return;
   if (diagnostic.severity == Severity::warning && all_.size() >= 4 * limit_) return;
   all_.push_back(std::move(diagnostic));

@@ -56,6 +56,9 @@ bool BlockWords::add_code(const Word& word, double value, const Reporter& report
                           nearest_code(word.letter, tenths));
   }
   CodeWord& place = codes_[static_cast<std::size_t>(code->group)];
+  // Many programs begin with "G80 G0": the end of canned cycles gives way to any motion beside it.
+  if (code->group == ModalGroup::motion && place && code->number == 800) return true;
+  if (code->group == ModalGroup::motion && place.is(800)) place = {};
   // M7 and M8 may stand together; all other codes of a group exclude each other.
   if (place && !(code->group == ModalGroup::coolant && !place.is(90) && code->number != 90)) {
     return reporter.error("gcode.two-of-a-group", word.span,
@@ -83,6 +86,13 @@ bool BlockWords::gather(const Block& block, const Parameters& parameters, const 
       good = add_code(word, value, reporter) && good;
       continue;
     }
+    if (word.letter == '@' || word.letter == '^') {
+      std::optional<double>& polar = word.letter == '@' ? polar_radius_ : polar_angle_;
+      good = good && (!polar || reporter.error("gcode.word-twice", word.span,
+                                               fmt::format("{} stands twice in this block", word.letter)));
+      polar = value;
+      continue;
+    }
     if (word.letter < 'A' || word.letter > 'Z') {
       good = reporter.error("gcode.unsupported-word", word.span,
                             fmt::format("'{}' is not supported by this release", word.letter),
@@ -101,7 +111,7 @@ bool BlockWords::gather(const Block& block, const Parameters& parameters, const 
 }
 
 bool BlockWords::has_axis_word() const {
-  return std::ranges::any_of(axis_letters, [this](char letter) { return has(letter); });
+  return has_polar() || std::ranges::any_of(axis_letters, [this](char letter) { return has(letter); });
 }
 
 char BlockWords::unused() const {

@@ -42,6 +42,10 @@ class BlockWords {
   char unused() const;
 
   const CodeWord& code(ModalGroup group) const { return codes_[static_cast<std::size_t>(group)]; }
+  // The polar words @ (distance) and ^ (angle).
+  const std::optional<double>& polar_radius() const { return polar_radius_; }
+  const std::optional<double>& polar_angle() const { return polar_angle_; }
+  bool has_polar() const { return polar_radius_ || polar_angle_; }
   // M7 and M8, which may stand together.
   bool mist() const { return mist_; }
   bool flood() const { return flood_; }
@@ -56,6 +60,8 @@ class BlockWords {
   std::array<Span, 26> spans_;
   std::array<bool, 26> used_{};
   std::array<CodeWord, modal_group_count> codes_;
+  std::optional<double> polar_radius_;
+  std::optional<double> polar_angle_;
   bool mist_ = false;
   bool flood_ = false;
   Span first_;

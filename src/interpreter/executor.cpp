@@ -30,7 +30,7 @@ void Executor::begin() {
 bool Executor::execute(BlockWords& words, const OperationSource& source) {
   source_ = source;
   words.take('N');
-  if (!check_groups(words)) return false;
+  if (!check_words(words)) return false;
   if (!feed_mode(words) || !feed_rate(words) || !spindle_speed(words) || !tool(words)) return false;
   spindle(words);
   coolant(words);
@@ -44,17 +44,15 @@ bool Executor::execute(BlockWords& words, const OperationSource& source) {
   stop(words);
   if (const char letter = words.unused(); letter != 0) {
     return reporter_.error("gcode.unused-word", words.span(letter),
-                           fmt::format("nothing in this block uses {}", letter), "a code that takes it, or none");
+                           fmt::format("nothing in this block uses {}", letter),
+                           letter == 'E' ? "numbers without an exponent: 1e3 is 1000 in G-code"
+                                         : "a code that takes it, or none");
   }
   return true;
 }
 
-// What is no code of this release's, but changes nothing either, has no function below: G8, G40, G97, G98, G99, M48, M49.
-bool Executor::check_groups(BlockWords& words) {
-  if (words.code(diameter).is(70)) {
-    return reporter_.error("gcode.unsupported-code", words.code(diameter).span, "G7 is not supported by this release",
-                           "radii (G8)");
-  }
+// What is accepted and changes nothing has no function below: G40, G97, G98, G99, M48, M49.
+bool Executor::check_words(BlockWords& words) {
   if (words.code(tool_change).is(610)) {
     const double q = words.take('Q');
     if (!words.has('Q') || q < 0 || !is_whole(q)) {
@@ -204,6 +202,7 @@ bool Executor::path_mode(BlockWords& words) {
 }
 
 void Executor::distance_modes(const BlockWords& words) {
+  if (const CodeWord& code = words.code(diameter)) state_.diameters = code.is(70);
   if (const CodeWord& code = words.code(distance)) state_.incremental = code.is(910);
   if (const CodeWord& code = words.code(arc_distance)) state_.arc_centers_absolute = code.is(901);
 }

@@ -29,7 +29,7 @@ class Executor {
 
  private:
   // executor.cpp
-  bool check_groups(BlockWords& words);
+  bool check_words(BlockWords& words);
   bool feed_mode(BlockWords& words);
   bool feed_rate(BlockWords& words);
   bool spindle_speed(BlockWords& words);
@@ -70,6 +70,7 @@ class Executor {
   bool feed_is_set(BlockWords& words);
   void inverse_time(BlockWords& words, double length);
   bool end_point(BlockWords& words, Point& end);
+  bool polar_point(const BlockWords& words, Point& end) const;
   double length_word(BlockWords& words, char letter) { return words.take(letter) * state_.scale(); }
 
   ModalState& state_;

@@ -17,6 +17,7 @@ struct ModalState {
   Plane plane = Plane::xy;
   LengthUnits units = LengthUnits::mm;
   bool incremental = false;
+  bool diameters = false;  // G7: X words are diameters; positions are radii all the same
   bool arc_centers_absolute = false;
   FeedMode feed_mode = FeedMode::units_per_minute;
   double feed_rate = 0;  // as SetFeedRate; 0: none is set

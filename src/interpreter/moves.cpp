@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "executor.hpp"
 
@@ -73,6 +74,27 @@ bool Executor::motion(BlockWords& words) {
   }
 }
 
+// @ and ^ in the place of X and Y: distance and angle from the work zero. In incremental mode they add to those of the
+// tool's place; one that is missing stays as it is.
+bool Executor::polar_point(const BlockWords& words, Point& end) const {
+  if (!words.has_polar()) return true;
+  if (state_.plane != Plane::xy || words.has('X') || words.has('Y')) {
+    return reporter_.error("gcode.bad-combination", words.first(), "@ and ^ stand for X and Y, in the plane XY",
+                           "G17, and neither X nor Y beside them");
+  }
+  constexpr double radians = std::numbers::pi / 180;
+  const double radius = std::hypot(state_.work[Axis::x], state_.work[Axis::y]);
+  const double angle = std::atan2(state_.work[Axis::y], state_.work[Axis::x]) / radians;
+  const auto changed = [this](double now, const std::optional<double>& word, double scale) {
+    return word ? *word * scale + (state_.incremental ? now : 0) : now;
+  };
+  const double new_radius = changed(radius, words.polar_radius(), state_.scale());
+  const double new_angle = changed(angle, words.polar_angle(), 1) * radians;
+  end[Axis::x] = new_radius * std::cos(new_angle);
+  end[Axis::y] = new_radius * std::sin(new_angle);
+  return true;
+}
+
 bool Executor::end_point(BlockWords& words, Point& end) {
   const bool machine = words.code(ModalGroup::non_modal).is(530);
   if (machine && state_.motion != 0 && state_.motion != 10) {
@@ -82,11 +104,12 @@ bool Executor::end_point(BlockWords& words, Point& end) {
   end = machine ? state_.frame.machine_from_work(state_.work) : state_.work;
   for (const Axis axis : all_axes) {
     if (!words.has(letter_of(axis))) continue;
-    const double value = words.take(letter_of(axis)) * (is_rotary(axis) ? 1 : state_.scale());
+    const double diameter = axis == Axis::x && state_.diameters ? 0.5 : 1;
+    const double value = words.take(letter_of(axis)) * (is_rotary(axis) ? 1 : state_.scale() * diameter);
     end[axis] = state_.incremental && !machine ? end[axis] + value : value;
   }
   if (machine) end = state_.frame.work_from_machine(end);
-  return true;
+  return polar_point(words, end);
 }
 
 bool Executor::feed_is_set(BlockWords& words) {

@@ -139,11 +139,10 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
   work_center[second] = arc.second_center.value();
   const Point center = frame_.machine_from_work(work_center);
 
-  const auto arm = [&](const Point& point) {
-    return std::pair(point[first] - center[first], point[second] - center[second]);
-  };
-  const auto [start_first, start_second] = arm(position_);
-  const auto [end_first, end_second] = arm(end);
+  const double start_first = position_[first] - center[first];
+  const double start_second = position_[second] - center[second];
+  const double end_first = end[first] - center[first];
+  const double end_second = end[second] - center[second];
   const double radius = std::max(std::hypot(start_first, start_second), std::hypot(end_first, end_second));
   if (arc.turns == 0 || radius < still) return take_curve(Curve::line(position_, end), false, item);
 

@@ -181,13 +181,14 @@ INSTANTIATE_TEST_SUITE_P(
                     BadProgram{"nul", "G21 G90 (a comment that is long enough to be text)\nG0 X1\0Y2\nM2\n"s, "gcode.nul-byte", ":2:6"},
                     BadProgram{"megabyte", "G21\n(" + std::string(1'000'000, 'x') + ")\nM2\n", "gcode.line-too-long", ":2"},
                     BadProgram{"missing_feed", "G21\nG1 X1\nM2\n", "gcode.missing-feed", ":2:1"},
-                    BadProgram{"huge_number", "G21\nG0 X1e999\nM2\n", "gcode.", ":2:"},
+                    BadProgram{"exponent", "G21\nG0 X1e999\nM2\n", "gcode.unused-word", ":2:6"},
+                    BadProgram{"huge_number", "G21\nG0 X1" + std::string(400, '0') + "\nM2\n", "gcode.number-out-of-range", ":2:"},
                     BadProgram{"past_travel", "G21\nG0 X401\nM2\n", "travel.exceeded", ":2"},
-                    BadProgram{"unknown_code", "G21\nG123 X1\nM2\n", "gcode.", ":2:1"},
+                    BadProgram{"unknown_code", "G21\nG123 X1\nM2\n", "gcode.unknown-code", ":2:1"},
                     BadProgram{"cr_only_counts_lines", "G21\rG1 X1\rM2\r", "gcode.missing-feed", ":2:1"},
                     BadProgram{"crlf_counts_lines", "G21\r\nG1 X1\r\nM2\r\n", "gcode.missing-feed", ":2:1"},
                     BadProgram{"bom_is_no_column", "\xEF\xBB\xBFG1 X1\nM2\n", "gcode.missing-feed", ":1:1"},
-                    BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.", ":2:"}),
+                    BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.arc-radius-too-small", ":2:11"}),
     [](const testing::TestParamInfo<BadProgram>& param_info) { return param_info.param.name; });
 
 TEST_F(CommandLine, all_errors_of_a_program_come_in_one_go) {

@@ -2,6 +2,7 @@
 // code with the pipeline.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -54,11 +55,13 @@ class CanonEnd {
   double scale() const { return scale_; }
 
  private:
-  static std::vector<double> numbers(const std::string& text) {
+  // Between commas or blanks.
+  static std::vector<double> numbers(std::string text) {
+    std::replace(text.begin(), text.end(), ',', ' ');
     std::vector<double> values;
     std::stringstream stream(text);
     std::string part;
-    while (std::getline(stream, part, ',')) values.push_back(std::strtod(part.c_str(), nullptr));
+    while (stream >> part) values.push_back(std::strtod(part.c_str(), nullptr));
     return values;
   }
   void keep(const std::vector<double>& values, std::size_t first, std::array<double, 6>& offset) const {

@@ -45,11 +45,22 @@ TEST(Render, control_characters_do_not_reach_the_terminal) {
 
 TEST(Diagnostics, keeps_the_first_errors_and_counts_the_rest) {
   Diagnostics diagnostics(2);
-  for (int i = 0; i < 5; ++i) diagnostics.add(missing_feed());
+  for (std::uint32_t line = 1; line <= 5; ++line) {
+    Diagnostic diagnostic = missing_feed();
+    diagnostic.place.line = line;
+    diagnostics.add(diagnostic);
+  }
   EXPECT_EQ(diagnostics.all().size(), 2U);
   EXPECT_EQ(diagnostics.errors(), 5U);
   EXPECT_TRUE(diagnostics.full());
   EXPECT_NE(render(diagnostics, false).find("5 errors, the first 2 shown\n"), std::string::npos);
+}
+
+TEST(Diagnostics, a_finding_that_comes_again_at_its_place_counts_once) {
+  Diagnostics diagnostics;
+  for (int i = 0; i < 5; ++i) diagnostics.add(missing_feed());
+  EXPECT_EQ(diagnostics.all().size(), 1U);
+  EXPECT_EQ(diagnostics.errors(), 1U);
 }
 
 TEST(Nearest, finds_the_word_that_was_meant_and_nothing_when_none_is_near) {

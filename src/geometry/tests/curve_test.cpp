@@ -10,7 +10,6 @@ namespace passo {
 namespace {
 
 using Real = long double;
-constexpr Real pi = std::numbers::pi_v<Real>;
 
 Point point_of(double x, double y, double z) {
   Point point;

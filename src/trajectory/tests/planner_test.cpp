@@ -370,6 +370,28 @@ TEST(Planner, splitting_a_line_hardly_changes_its_time) {
   }
 }
 
+TEST(Planner, strong_spirals_keep_the_axes_within_their_limits_too) {
+  test::Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  const MotionLimits limits = equal_limits(1e5, 500);
+  for (int n = 0; n < 500; ++n) {
+    const double start = random.between(-3, 3);
+    const double sweep = random.between(0.3, random.chance(0.8) ? 1.5 : 12) * (random.chance(0.5) ? 1 : -1);
+    const double radius = random.between(1, 20);
+    Segment spiral = line(xyz(0, 0), xyz(1, 0), 1e5);
+    spiral.curve = Curve::arc(xyz(radius * std::cos(start), radius * std::sin(start)),
+                              xyz(radius * 2 * std::cos(start + sweep), radius * 2 * std::sin(start + sweep)), Axis::x,
+                              Axis::y, 0, 0, sweep);
+    // Straight on after it, so that the spiral is still speeding up where it is widest.
+    const Point end = spiral.curve.end();
+    const Point beyond = end + spiral.curve.tangent(spiral.curve.length()) * 500;
+    const auto motion = plan({spiral, line(end, beyond, 1e5)}, limits);
+    SCOPED_TRACE(to_text(motion));
+    expect_within_limits(std::get<PlannedMove>(motion.at(0)), limits);
+    if (HasFatalFailure()) return;
+  }
+}
+
 TEST(Planner, a_circle_of_chords_is_driven_like_the_circle) {
   Segment circle = line(xyz(5, 0), xyz(5, 0), 300);
   circle.curve = Curve::arc(xyz(5, 0), xyz(5, 0), Axis::x, Axis::y, 0, 0, 4 * std::numbers::pi);
@@ -423,6 +445,10 @@ TEST(Planner, looks_ahead_as_far_as_braking_needs_and_no_further) {
   for (MotionItem item; planner.next(item);) {
     most = std::max(most, source.pulled - given);
     ++given;
+    // At the start not even that much: what the first pieces can reach, a few dozen behind them can brake from.
+    if (given == 1) {
+      EXPECT_LE(source.pulled, 64U);
+    }
     if (given == 20'000) {
       EXPECT_DOUBLE_EQ(exit_speed(std::get<PlannedMove>(item)), 100);
     }

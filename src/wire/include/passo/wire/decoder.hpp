@@ -2,6 +2,8 @@
 //
 // Invariant: a frame that arrives whole is told with its last byte, whatever came before it. Every byte costs the same
 // small work, so that a board may read its line between two steps.
+//
+// Portable.
 #pragma once
 
 #include <stdint.h>

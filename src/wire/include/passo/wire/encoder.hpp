@@ -1,4 +1,6 @@
 // Encoder: puts one frame together in a buffer of the caller's. Same code on the host and on the board.
+//
+// Portable.
 #pragma once
 
 #include <stdint.h>
