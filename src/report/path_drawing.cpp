@@ -71,14 +71,21 @@ void for_each_piece(const PathRecorder& path, const Projection& projection, cons
 }
 
 // As wide as leaves about half of the paper white between neighbouring lines.
-double feed_width(const PathRecorder& path, const Projection& projection, const Area& area) {
+double feed_width(const PathRecorder& path, const Projection& projection) {
   double length = 0;
+  Spot low{1e9, 1e9};
+  Spot high{-1e9, -1e9};
   for_each_piece(path, projection, [&](const PathRecorder::Vertex& vertex, Spot from, Spot to) {
-    if (vertex.kind == Kind::feed) length += distance(from, to);
+    if (vertex.kind != Kind::feed) return;
+    length += distance(from, to);
+    low = {std::min(low.x, to.x), std::min(low.y, to.y)};
+    high = {std::max(high.x, to.x), std::max(high.y, to.y)};
   });
   constexpr double finest = 0.25;
   constexpr double broadest = 2.2;
-  return length > 0 ? std::clamp(0.4 * area.width * area.height / length, finest, broadest) : broadest;
+  constexpr double least = 60;  // a narrow path has the paper beside it, too
+  const double paper = std::max(high.x - low.x, least) * std::max(high.y - low.y, least);
+  return length > 0 ? std::clamp(0.4 * paper / length, finest, broadest) : broadest;
 }
 
 // A piece that points at the eye, as a plunge does from above, would be lost in the width of a line.
@@ -93,7 +100,7 @@ Pen rapid_pen() {
   return {.colour = {0.86, 0.36, 0.26}, .width = 0.8, .opacity = 0.75, .dashes = {5, 4}};
 }
 
-void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection, const Area& area) {
+void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection) {
   Stroke rapids;
   for_each_piece(path, projection, [&](const PathRecorder::Vertex& vertex, Spot from, Spot to) {
     if (vertex.kind == Kind::rapid) rapids.piece(canvas, rapid_pen(), from, to);
@@ -101,7 +108,7 @@ void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& proje
   rapids.flush(canvas, rapid_pen());
 
   const SpeedColours colours(path.fastest_feed());
-  const double width = feed_width(path, projection, area);
+  const double width = feed_width(path, projection);
   const auto pen = [&](std::size_t index) {
     return Pen{.colour = SpeedColours::of_class(index), .width = width, .opacity = 1};
   };

@@ -8,7 +8,7 @@
 namespace passo {
 
 Pen rapid_pen();
-// `area` is what the path spreads over; a dense path is drawn with a finer pen.
-void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection, const Area& area);
+// A dense path is drawn with a finer pen.
+void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection);
 
 }  // namespace passo

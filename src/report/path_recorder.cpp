@@ -112,10 +112,15 @@ void PathRecorder::add(const Point& point, double speed, Kind kind) {
 void PathRecorder::make_room() {
   // A pixel of a large picture; a coarser polyline would not look like the path any more.
   const double coarsest = diagonal(extents_) / 2000;
-  const double speed_step = fastest_feed_ / (speed_steps / 2);
+  double speed_step = fastest_feed_ / (speed_steps / 2);
   if (tolerance_ > 0) join_pieces(vertices_, tolerance_, speed_step);
   while (vertices_.size() > most_vertices / 2 && tolerance_ < coarsest) {
     tolerance_ = std::max(2 * tolerance_, coarsest / 64);
+    join_pieces(vertices_, tolerance_, speed_step);
+  }
+  // Rather coarser colours than gaps.
+  for (int pass = 0; pass < 2 && vertices_.size() > most_vertices / 2; ++pass) {
+    speed_step *= 2;
     join_pieces(vertices_, tolerance_, speed_step);
   }
   while (vertices_.size() > most_vertices / 8 * 7) thin();

@@ -241,7 +241,7 @@ void draw_top_view(Canvas& canvas, const Scene& scene, const Area& area) {
   projection.fit(scene.box, {area.x + margin * area.width, area.y + margin * area.height, area.width * (1 - 2 * margin),
                              area.height * (1 - 2 * margin)});
   draw_top_frame(canvas, scene, projection, area);
-  draw_path(canvas, scene.path, projection, area);
+  draw_path(canvas, scene.path, projection);
   Box shown = filled_box(scene.box, projection, area);
   draw_zeros(canvas, scene, projection, shown);
   if (scene.path.empty()) draw_no_motion(canvas, area);
@@ -260,7 +260,7 @@ void draw_isometric_view(Canvas& canvas, const Scene& scene, const Area& area) {
   draw_edge(canvas, scene, projection, {Axis::x, low, -0.5, cosine, Align::right});
   draw_edge(canvas, scene, projection, {Axis::y, right_corner, 0.5, cosine, Align::left});
   draw_edge(canvas, scene, projection, {Axis::z, low, -1, 0, Align::right});
-  draw_path(canvas, scene.path, projection, area);
+  draw_path(canvas, scene.path, projection);
   draw_zeros(canvas, scene, projection, scene.box);
   if (scene.path.empty()) draw_no_motion(canvas, area);
 }

@@ -23,7 +23,7 @@ struct OutputError {
 
 class OutputFile {
  public:
-  static constexpr std::size_t buffer_size = 256 * 1024;
+  static constexpr std::size_t buffer_size = 262'144;
 
   static Result<OutputFile, OutputError> open(const std::string& path);
 

@@ -1,8 +1,8 @@
 // SummaryBuilder: watches the motion as it passes and adds it up. Constant memory.
 //
-// About 50 ns a line. Extents are exact. The peaks of an axis are exact for lines; on arcs, where the pull to the
-// centre and the change of speed add up at an angle, they are found by bisection and lie at most 0.1 % below the true
-// peak.
+// About 70 ns a line, 1.3 µs an arc. Extents are exact. The peaks of an axis are exact for lines; on arcs, where the
+// pull to the centre and the change of speed add up at an angle, they are found by bisection and lie at most 0.1 %
+// below the true peak.
 #pragma once
 
 #include <memory>
