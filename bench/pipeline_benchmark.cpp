@@ -3,10 +3,6 @@
 //   pipeline_benchmark [PROGRAM…]      programs of one's own instead of the examples; on the router
 //
 // Prints figures; decides nothing.
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -15,6 +11,10 @@
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "passo/controller/job.hpp"
 
@@ -29,7 +29,9 @@ const std::string router = (source_dir / "examples" / "machines" / "router.toml"
 double cpu_seconds(int who) {
   rusage usage{};
   getrusage(who, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -99,7 +101,8 @@ void measure_memory() {
 
 void measure_start() {
   std::vector<double> times;
-  const std::string program = (fs::temp_directory_path() / ("passo-empty-" + std::to_string(getpid()) + ".ngc")).string();
+  const std::string program =
+      (fs::temp_directory_path() / ("passo-empty-" + std::to_string(getpid()) + ".ngc")).string();
   std::ofstream(program) << "M2\n";
   for (int i = 0; i < 21; ++i) times.push_back(cost_of({PASSO_PROGRAM, "run", program, "-m", router, "-q"}).seconds);
   std::sort(times.begin(), times.end());
@@ -122,8 +125,8 @@ int main(int argc, char** argv) {
     const fs::path chips = source_dir / ".." / "shared" / "peers" / "linuxcnc" / "programs" / "3D_Chips.ngc";
     if (fs::exists(chips)) programs.push_back(chips.string());
   }
-  std::printf("%-28s %12s %12s %11s %13s %9s %15s\n", "on the router, one core", "machine", "steps", "CPU", "steps", "events",
-              "on the wire");
+  std::printf("%-28s %12s %12s %11s %13s %9s %15s\n", "on the router, one core", "machine", "steps", "CPU", "steps",
+              "events", "on the wire");
   std::printf("%-28s %12s %12s %11s %13s %9s %15s\n", "", "time", "", "", "a CPU second", "a frame", "");
   for (const std::string& program : programs) measure(program, *machine);
   measure_memory();

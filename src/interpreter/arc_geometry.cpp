@@ -6,7 +6,9 @@
 namespace passo {
 namespace {
 
-double distance(PlanePoint a, PlanePoint b) { return std::hypot(a.first - b.first, a.second - b.second); }
+double distance(PlanePoint a, PlanePoint b) {
+  return std::hypot(a.first - b.first, a.second - b.second);
+}
 
 }  // namespace
 

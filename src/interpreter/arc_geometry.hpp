@@ -1,7 +1,7 @@
 // The centre of an arc from what a program says of it, in the two coordinates of its plane.
 //
-// Two formats (NIST RS274/NGC 3.5.3): the centre itself (I J K), or the radius R, where a negative one asks for the longer
-// way round. The tolerances are LinuxCNC's.
+// Two formats (NIST RS274/NGC 3.5.3): the centre itself (I J K), or the radius R, where a negative one asks for the
+// longer way round. The tolerances are LinuxCNC's.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,8 @@ CenterCheck check_center(PlanePoint start, PlanePoint end, PlanePoint center, co
 bool center_from_radius(PlanePoint start, PlanePoint end, double radius, bool clockwise, const ArcTolerance& tolerance,
                         PlanePoint& center);
 
-// Radians from start to end in the sense of `clockwise`, more than 0 and at most a full turn, and `turns` − 1 turns more.
+// Radians from start to end in the sense of `clockwise`, more than 0 and at most a full turn, and `turns` − 1 turns
+// more.
 double swept_angle(PlanePoint start, PlanePoint end, PlanePoint center, bool clockwise, std::int32_t turns);
 
 }  // namespace passo

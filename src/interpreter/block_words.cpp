@@ -1,12 +1,11 @@
 #include "block_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "evaluation.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -18,9 +17,9 @@ std::string code_text(char letter, std::int32_t tenths) {
 
 // What LinuxCNC or others have and this release does not.
 bool is_known_elsewhere(char letter, std::int32_t tenths) {
-  constexpr std::array g = {50,  51,  52,  53,  60,  171, 181, 191, 382, 383, 384, 385, 410, 411, 420, 421, 432, 500,
-                            510, 520, 650, 660, 670, 700, 710, 711, 712, 720, 721, 722, 730, 740, 760, 810, 820, 830,
-                            840, 850, 860, 870, 880, 890, 960};
+  constexpr std::array g = {50,  51,  52,  53,  60,  171, 181, 191, 382, 383, 384, 385, 410, 411, 420,
+                            421, 432, 500, 510, 520, 650, 660, 670, 700, 710, 711, 712, 720, 721, 722,
+                            730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 960};
   if (letter == 'G') return std::ranges::binary_search(g, tenths);
   const std::int32_t m = tenths / 10;
   return m == 19 || m == 56 || (m >= 50 && m <= 53) || (m >= 62 && m <= 73) || m == 98 || m == 99 ||
@@ -61,11 +60,11 @@ bool BlockWords::add_code(const Word& word, double value, const Reporter& report
   if (code->group == ModalGroup::motion && place.is(800)) place = {};
   // M7 and M8 may stand together; all other codes of a group exclude each other.
   if (place && !(code->group == ModalGroup::coolant && !place.is(90) && code->number != 90)) {
-    return reporter.error("gcode.two-of-a-group", word.span,
-                          fmt::format("{} and {} are both of the group \"{}\"",
-                                      code_text(place.code->letter, place.code->number),
-                                      code_text(code->letter, code->number), group_name(code->group)),
-                          "one of them, or two blocks");
+    return reporter.error(
+        "gcode.two-of-a-group", word.span,
+        fmt::format("{} and {} are both of the group \"{}\"", code_text(place.code->letter, place.code->number),
+                    code_text(code->letter, code->number), group_name(code->group)),
+        "one of them, or two blocks");
   }
   if (code->group == ModalGroup::coolant) (code->number == 70 ? mist_ : flood_) |= code->number != 90;
   place = {.code = code, .span = word.span};

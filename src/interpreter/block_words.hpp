@@ -1,4 +1,5 @@
-// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, values by letter.
+// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, values by
+// letter.
 #pragma once
 
 #include <array>
@@ -8,8 +9,9 @@
 
 #include "code_table.hpp"
 #include "parameters.hpp"
-#include "passo/gcode/block.hpp"
 #include "reporter.hpp"
+
+#include "passo/gcode/block.hpp"
 
 namespace passo {
 

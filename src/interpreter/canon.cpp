@@ -1,8 +1,8 @@
 #include "passo/interpreter/canon.hpp"
 
-#include <fmt/format.h>
-
 #include <iterator>
+
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -64,7 +64,9 @@ struct Printer {
   void operator()(const operation::SetFeedMode& o) const {
     call.print("SET_FEED_MODE(0, {})", o.mode == FeedMode::units_per_revolution ? 1 : 0);
   }
-  void operator()(const operation::SetFeedRate& o) const { call.print("SET_FEED_RATE({:.4f})", call.per_minute(o.rate)); }
+  void operator()(const operation::SetFeedRate& o) const {
+    call.print("SET_FEED_RATE({:.4f})", call.per_minute(o.rate));
+  }
   void operator()(const operation::SetPathMode& o) const {
     switch (o.mode) {
       case PathMode::exact_path: call.print("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"); break;
@@ -95,7 +97,8 @@ struct Printer {
     call.print("SET_SPINDLE_SPEED(0, {:.4f})", o.revolutions_per_minute);
   }
   void operator()(const operation::TurnSpindle& o) const {
-    constexpr const char* names[] = {"STOP_SPINDLE_TURNING", "START_SPINDLE_CLOCKWISE", "START_SPINDLE_COUNTERCLOCKWISE"};
+    constexpr const char* names[] = {"STOP_SPINDLE_TURNING", "START_SPINDLE_CLOCKWISE",
+                                     "START_SPINDLE_COUNTERCLOCKWISE"};
     call.print("{}(0)", names[static_cast<int>(o.direction)]);
   }
   void operator()(const operation::SetMist& o) const { call.print("MIST_{}()", o.on ? "ON" : "OFF"); }

@@ -91,13 +91,30 @@ const Code* find_code(char letter, std::int32_t tenths) {
   return found != codes.end() && found->letter == letter && found->number == tenths ? found : nullptr;
 }
 
-std::span<const Code> all_codes() { return codes; }
+std::span<const Code> all_codes() {
+  return codes;
+}
 
 std::string_view group_name(ModalGroup group) {
-  constexpr std::array<std::string_view, modal_group_count> names = {
-      "motion", "plane", "distance mode", "arc distance mode", "feed mode", "units", "cutter compensation",
-      "tool length", "retract mode", "work offset", "path mode", "diameter mode", "spindle mode", "non-modal",
-      "stopping", "tool change", "spindle", "coolant", "override"};
+  constexpr std::array<std::string_view, modal_group_count> names = {"motion",
+                                                                     "plane",
+                                                                     "distance mode",
+                                                                     "arc distance mode",
+                                                                     "feed mode",
+                                                                     "units",
+                                                                     "cutter compensation",
+                                                                     "tool length",
+                                                                     "retract mode",
+                                                                     "work offset",
+                                                                     "path mode",
+                                                                     "diameter mode",
+                                                                     "spindle mode",
+                                                                     "non-modal",
+                                                                     "stopping",
+                                                                     "tool change",
+                                                                     "spindle",
+                                                                     "coolant",
+                                                                     "override"};
   return names[static_cast<std::size_t>(group)];
 }
 

@@ -1,11 +1,10 @@
 #include "control_flow.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "evaluation.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -185,8 +184,7 @@ bool ControlFlow::report_unclosed() {
   std::string_view text;
   if (files_[current_]->reader.next_line(text, block.line, diagnostics_)) {
     block.text = text;
-    error(block, "gcode.unclosed-o-word", opening.span,
-          fmt::format("{} is never closed", name(opening.label)),
+    error(block, "gcode.unclosed-o-word", opening.span, fmt::format("{} is never closed", name(opening.label)),
           fmt::format("{} {} after it", name(opening.label), closing_word(opening.kind)));
   }
   return false;

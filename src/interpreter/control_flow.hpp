@@ -1,7 +1,7 @@
 // ControlFlow: O-words. Subroutines, loops and branches, by going to and fro in the program's text.
 //
-// Nothing is indexed beforehand: a subroutine's place is kept when it is met, or looked for further on when it is called; a
-// loop keeps where it began. So a program of any length takes constant memory.
+// Nothing is indexed beforehand: a subroutine's place is kept when it is met, or looked for further on when it is
+// called; a loop keeps where it began. So a program of any length takes constant memory.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "parameters.hpp"
+
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/program_reader.hpp"
 

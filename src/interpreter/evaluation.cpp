@@ -31,8 +31,8 @@ bool report(const EvaluationError& error, const Block& block, const Reporter& re
 
 }  // namespace
 
-bool evaluate(const Block& block, const Expression& expression, const Parameters& parameters,
-              const Reporter& reporter, double& value) {
+bool evaluate(const Block& block, const Expression& expression, const Parameters& parameters, const Reporter& reporter,
+              double& value) {
   const Instruction& first = block.code[expression.first];
   if (expression.count == 1 && first.op == ExpressionOp::number) {  // nearly always
     value = first.number;

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "parameters.hpp"
-#include "passo/gcode/block.hpp"
 #include "reporter.hpp"
+
+#include "passo/gcode/block.hpp"
 
 namespace passo {
 

@@ -1,15 +1,17 @@
 #include "executor.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
 
 using enum ModalGroup;
 
-bool is_whole(double value) { return std::fabs(value - std::round(value)) < whole_number_tolerance; }
+bool is_whole(double value) {
+  return std::fabs(value - std::round(value)) < whole_number_tolerance;
+}
 
 }  // namespace
 
@@ -43,10 +45,9 @@ bool Executor::execute(BlockWords& words, const OperationSource& source) {
   if (!non_modal(words) || !motion(words)) return false;
   stop(words);
   if (const char letter = words.unused(); letter != 0) {
-    return reporter_.error("gcode.unused-word", words.span(letter),
-                           fmt::format("nothing in this block uses {}", letter),
-                           letter == 'E' ? "numbers without an exponent: 1e3 is 1000 in G-code"
-                                         : "a code that takes it, or none");
+    return reporter_.error(
+        "gcode.unused-word", words.span(letter), fmt::format("nothing in this block uses {}", letter),
+        letter == 'E' ? "numbers without an exponent: 1e3 is 1000 in G-code" : "a code that takes it, or none");
   }
   return true;
 }
@@ -70,10 +71,10 @@ bool Executor::feed_mode(BlockWords& words) {
     FeedMode mode;
     const char* comment;
   };
-  const Mode mode = code.is(930)   ? Mode{FeedMode::inverse_time, "interpreter: feed mode set to inverse time"}
-                    : code.is(940) ? Mode{FeedMode::units_per_minute, "interpreter: feed mode set to units per minute"}
-                                   : Mode{FeedMode::units_per_revolution,
-                                          "interpreter: feed mode set to units per revolution"};
+  const Mode mode = code.is(930) ? Mode{FeedMode::inverse_time, "interpreter: feed mode set to inverse time"}
+                    : code.is(940)
+                        ? Mode{FeedMode::units_per_minute, "interpreter: feed mode set to units per minute"}
+                        : Mode{FeedMode::units_per_revolution, "interpreter: feed mode set to units per revolution"};
   emit(operation::Comment{mode.comment});
   // Inverse time is resolved here, move by move: below the interpreter feeds are speeds.
   const bool per_revolution = mode.mode == FeedMode::units_per_revolution;
@@ -184,9 +185,7 @@ void Executor::plane_and_units(const BlockWords& words) {
 bool Executor::path_mode(BlockWords& words) {
   const CodeWord& code = words.code(path);
   if (!code) return true;
-  state_.path_mode = code.is(610)   ? PathMode::exact_path
-                     : code.is(611) ? PathMode::exact_stop
-                                    : PathMode::continuous;
+  state_.path_mode = code.is(610) ? PathMode::exact_path : code.is(611) ? PathMode::exact_stop : PathMode::continuous;
   if (state_.path_mode != PathMode::continuous) {
     emit(operation::SetPathMode{.mode = state_.path_mode});
     return true;

@@ -8,8 +8,9 @@
 #include "arc_geometry.hpp"
 #include "block_words.hpp"
 #include "modal_state.hpp"
-#include "passo/interpreter/operation.hpp"
 #include "reporter.hpp"
+
+#include "passo/interpreter/operation.hpp"
 
 namespace passo {
 

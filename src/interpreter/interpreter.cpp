@@ -1,7 +1,5 @@
 #include "passo/interpreter/interpreter.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "control_flow.hpp"
 #include "evaluation.hpp"
 #include "executor.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 
@@ -105,8 +104,7 @@ class Interpreter::Implementation {
                               "another one, or the code that changes the state");
       case Parameters::Setting::out_of_range: break;
     }
-    return reporter.error("gcode.bad-parameter-number", assignment.span,
-                          fmt::format("there is no parameter {}", index),
+    return reporter.error("gcode.bad-parameter-number", assignment.span, fmt::format("there is no parameter {}", index),
                           fmt::format("a whole number from 1 to {}", Parameters::highest));
   }
 
@@ -168,7 +166,11 @@ Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options
     : implementation_(std::make_unique<Implementation>(std::move(reader), options, diagnostics)) {}
 Interpreter::~Interpreter() = default;
 
-bool Interpreter::next(Operation& operation) { return implementation_->next(operation); }
-std::uint64_t Interpreter::offset() const { return implementation_->offset(); }
+bool Interpreter::next(Operation& operation) {
+  return implementation_->next(operation);
+}
+std::uint64_t Interpreter::offset() const {
+  return implementation_->offset();
+}
 
 }  // namespace passo

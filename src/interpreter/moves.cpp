@@ -1,10 +1,9 @@
 // Executor: what moves. G0 to G3, G33.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "executor.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -28,7 +27,9 @@ constexpr PlaneAxes plane_axes(Plane plane) {
 
 // The length that the feed counts: X Y Z if any of them moves, else U V W, else the angles.
 double feed_length(const Point& from, const Point& to) {
-  const auto length = [&](Axis a, Axis b, Axis c) { return std::hypot(to[a] - from[a], to[b] - from[b], to[c] - from[c]); };
+  const auto length = [&](Axis a, Axis b, Axis c) {
+    return std::hypot(to[a] - from[a], to[b] - from[b], to[c] - from[c]);
+  };
   const double xyz = length(Axis::x, Axis::y, Axis::z);
   if (xyz > 0) return xyz;
   const double uvw = length(Axis::u, Axis::v, Axis::w);
@@ -150,8 +151,8 @@ bool Executor::arc_center(BlockWords& words, const Point& end, bool clockwise, P
   if (words.has('R')) {
     const double radius = length_word(words, 'R');
     if (std::hypot(to.first - from.first, to.second - from.second) < tolerance.least_radius) {
-      return reporter_.error("gcode.arc-without-end", words.span('R'), "with R the arc must end elsewhere than it begins",
-                             "a centre (I J K) for a full circle");
+      return reporter_.error("gcode.arc-without-end", words.span('R'),
+                             "with R the arc must end elsewhere than it begins", "a centre (I J K) for a full circle");
     }
     if (center_from_radius(from, to, radius, clockwise, tolerance, center)) return true;
     const double least = std::hypot(to.first - from.first, to.second - from.second) / 2;
@@ -168,19 +169,18 @@ bool Executor::arc_center(BlockWords& words, const Point& end, bool clockwise, P
   const bool both = words.has(axes.first_center) && words.has(axes.second_center);
   const bool any = words.has(axes.first_center) || words.has(axes.second_center);
   if (!any || (absolute && !both)) {
-    return reporter_.error("gcode.arc-without-center", words.first(), "the arc has no centre",
-                           fmt::format("{} {} {}, or R", axes.first_center, absolute ? "and" : "or",
-                                       axes.second_center));
+    return reporter_.error(
+        "gcode.arc-without-center", words.first(), "the arc has no centre",
+        fmt::format("{} {} {}, or R", axes.first_center, absolute ? "and" : "or", axes.second_center));
   }
   center = {length_word(words, axes.first_center), length_word(words, axes.second_center)};
   if (!absolute) center = {center.first + from.first, center.second + from.second};
   const CenterCheck check = check_center(from, to, center, tolerance);
   if (check.good) return true;
-  return reporter_.error(
-      "gcode.arc-radius-differs", words.first(),
-      fmt::format("the radius at the end is {:.6g}, at the start {:.6g}", check.end_radius * scale,
-                  check.start_radius * scale),
-      "a centre that is as far from the end as from the start");
+  return reporter_.error("gcode.arc-radius-differs", words.first(),
+                         fmt::format("the radius at the end is {:.6g}, at the start {:.6g}", check.end_radius * scale,
+                                     check.start_radius * scale),
+                         "a centre that is as far from the end as from the start");
 }
 
 bool Executor::arc(BlockWords& words, bool clockwise) {

@@ -1,16 +1,17 @@
 // Executor: what moves the frame. G10, G28, G30, G43, G49, G54 … G59.3, G92.
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "executor.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
 
 constexpr std::size_t systems = work_offset_count;
 
-double rotation_of(const ModalState& state, std::size_t system) { return state.rotations[system]; }
+double rotation_of(const ModalState& state, std::size_t system) {
+  return state.rotations[system];
+}
 
 }  // namespace
 
@@ -39,7 +40,8 @@ bool Executor::tool_length(BlockWords& words) {
   Point offset;
   if (code.is(430)) {
     words.take('H');
-    reporter_.warning("gcode.no-tool-table", code.span, "there is no tool table yet: the tool's length is taken as zero",
+    reporter_.warning("gcode.no-tool-table", code.span,
+                      "there is no tool table yet: the tool's length is taken as zero",
                       "G43.1 with the length, or a work offset for each tool");
   }
   if (code.is(431)) {

@@ -61,7 +61,9 @@ constexpr auto predefined_names = std::to_array<Predefined>({
 Parameters::Parameters(const ModalState& state, const SymbolTable& symbols)
     : state_(state), symbols_(symbols), numbers_(highest + 1), scopes_(1) {}
 
-bool Parameters::is_global(Symbol name) const { return symbols_.name(name).starts_with('_'); }
+bool Parameters::is_global(Symbol name) const {
+  return symbols_.name(name).starts_with('_');
+}
 
 bool Parameters::predefined(Symbol name, double& value) const {
   const auto* found = std::ranges::find(predefined_names, symbols_.name(name), &Predefined::name);
@@ -157,6 +159,8 @@ void Parameters::enter(const std::vector<double>& arguments) {
   scopes_.push_back(std::move(scope));
 }
 
-void Parameters::leave() { scopes_.pop_back(); }
+void Parameters::leave() {
+  scopes_.pop_back();
+}
 
 }  // namespace passo

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "modal_state.hpp"
+
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/symbols.hpp"
 

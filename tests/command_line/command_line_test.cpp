@@ -1,13 +1,13 @@
 // The program itself, as a user starts it: what it prints, what it leaves behind, and how it exits.
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace {
 
@@ -34,9 +34,7 @@ std::string read(const fs::path& path) {
 // A directory of its own for each test, gone afterwards.
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() {
-    fs::create_directories(dir_);
-  }
+  CommandLine() { fs::create_directories(dir_); }
   ~CommandLine() override { fs::remove_all(dir_); }
 
   std::string path(const std::string& name) const { return (dir_ / name).string(); }
@@ -101,9 +99,9 @@ TEST_F(CommandLine, a_there_and_back_counts_all_steps_and_ends_at_zero) {
 }
 
 TEST_F(CommandLine, pictures_traces_and_reports_are_written_where_they_were_asked_for) {
-  const Outcome outcome = run_text("G21 G1 X1 F600\nM2\n", "--picture " + path("a.png") + " --picture " + path("a.svg") +
-                                                              " --trace " + path("a.vcd") + " --trace " + path("a.csv") +
-                                                              " --report " + path("a.json"));
+  const Outcome outcome =
+      run_text("G21 G1 X1 F600\nM2\n", "--picture " + path("a.png") + " --picture " + path("a.svg") + " --trace " +
+                                           path("a.vcd") + " --trace " + path("a.csv") + " --report " + path("a.json"));
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(read(path("a.png")).substr(1, 3), "PNG");
   EXPECT_NE(read(path("a.svg")).find("<svg"), std::string::npos);
@@ -165,8 +163,8 @@ class BadPrograms : public CommandLine, public testing::WithParamInterface<BadPr
 
 TEST_P(BadPrograms, are_refused_with_their_place_and_leave_nothing_behind) {
   const BadProgram& bad = GetParam();
-  const Outcome outcome = run_text(bad.text, "--picture " + path("a.png") + " --trace " + path("a.csv") + " --report " +
-                                                 path("a.json"));
+  const Outcome outcome =
+      run_text(bad.text, "--picture " + path("a.png") + " --trace " + path("a.csv") + " --report " + path("a.json"));
   EXPECT_EQ(outcome.code, 2) << outcome.err;
   EXPECT_NE(outcome.err.find(std::string("[") + bad.code + "]"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find(std::string("p.ngc") + bad.place), std::string::npos) << outcome.err;
@@ -176,19 +174,24 @@ TEST_P(BadPrograms, are_refused_with_their_place_and_leave_nothing_behind) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, BadPrograms,
-    testing::Values(BadProgram{"empty", "", "file.empty", ": error"},
-                    BadProgram{"binary", "\x7f" "ELF\0\0\0\1\2\3\0\0\0\0\0\0\0\0"s, "file.binary", ""},
-                    BadProgram{"nul", "G21 G90 (a comment that is long enough to be text)\nG0 X1\0Y2\nM2\n"s, "gcode.nul-byte", ":2:6"},
-                    BadProgram{"megabyte", "G21\n(" + std::string(1'000'000, 'x') + ")\nM2\n", "gcode.line-too-long", ":2"},
-                    BadProgram{"missing_feed", "G21\nG1 X1\nM2\n", "gcode.missing-feed", ":2:1"},
-                    BadProgram{"exponent", "G21\nG0 X1e999\nM2\n", "gcode.unused-word", ":2:6"},
-                    BadProgram{"huge_number", "G21\nG0 X1" + std::string(400, '0') + "\nM2\n", "gcode.number-out-of-range", ":2:"},
-                    BadProgram{"past_travel", "G21\nG0 X401\nM2\n", "travel.exceeded", ":2"},
-                    BadProgram{"unknown_code", "G21\nG123 X1\nM2\n", "gcode.unknown-code", ":2:1"},
-                    BadProgram{"cr_only_counts_lines", "G21\rG1 X1\rM2\r", "gcode.missing-feed", ":2:1"},
-                    BadProgram{"crlf_counts_lines", "G21\r\nG1 X1\r\nM2\r\n", "gcode.missing-feed", ":2:1"},
-                    BadProgram{"bom_is_no_column", "\xEF\xBB\xBFG1 X1\nM2\n", "gcode.missing-feed", ":1:1"},
-                    BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.arc-radius-too-small", ":2:11"}),
+    testing::Values(
+        BadProgram{"empty", "", "file.empty", ": error"},
+        BadProgram{"binary",
+                   "\x7f"
+                   "ELF\0\0\0\1\2\3\0\0\0\0\0\0\0\0"s,
+                   "file.binary", ""},
+        BadProgram{"nul", "G21 G90 (a comment that is long enough to be text)\nG0 X1\0Y2\nM2\n"s, "gcode.nul-byte",
+                   ":2:6"},
+        BadProgram{"megabyte", "G21\n(" + std::string(1'000'000, 'x') + ")\nM2\n", "gcode.line-too-long", ":2"},
+        BadProgram{"missing_feed", "G21\nG1 X1\nM2\n", "gcode.missing-feed", ":2:1"},
+        BadProgram{"exponent", "G21\nG0 X1e999\nM2\n", "gcode.unused-word", ":2:6"},
+        BadProgram{"huge_number", "G21\nG0 X1" + std::string(400, '0') + "\nM2\n", "gcode.number-out-of-range", ":2:"},
+        BadProgram{"past_travel", "G21\nG0 X401\nM2\n", "travel.exceeded", ":2"},
+        BadProgram{"unknown_code", "G21\nG123 X1\nM2\n", "gcode.unknown-code", ":2:1"},
+        BadProgram{"cr_only_counts_lines", "G21\rG1 X1\rM2\r", "gcode.missing-feed", ":2:1"},
+        BadProgram{"crlf_counts_lines", "G21\r\nG1 X1\r\nM2\r\n", "gcode.missing-feed", ":2:1"},
+        BadProgram{"bom_is_no_column", "\xEF\xBB\xBFG1 X1\nM2\n", "gcode.missing-feed", ":1:1"},
+        BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.arc-radius-too-small", ":2:11"}),
     [](const testing::TestParamInfo<BadProgram>& param_info) { return param_info.param.name; });
 
 TEST_F(CommandLine, all_errors_of_a_program_come_in_one_go) {

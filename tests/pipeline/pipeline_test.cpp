@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "canon_end.hpp"
+
 #include "passo/controller/job.hpp"
 #include "passo/interpreter/canon.hpp"
 
@@ -69,7 +70,8 @@ oracle::CanonEnd canon_end(ProgramReader program) {
   return end;
 }
 
-// The steps counted are those of the place where the canonical text ends: to the step, but for the text's four decimals.
+// The steps counted are those of the place where the canonical text ends: to the step, but for the text's four
+// decimals.
 void expect_ends_where_canon_says(const fs::path& program, const MachineDescription& machine) {
   SCOPED_TRACE(program.string());
   const Ending ending = run(open(program), machine);

@@ -2,9 +2,10 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "program_input.hpp"
+
 #include "passo/interpreter/canon.hpp"
 #include "passo/report/output_file.hpp"
-#include "program_input.hpp"
 
 namespace passo {
 

@@ -1,10 +1,11 @@
 // passo check: interpret the program and build its path, and say what is wrong. Nothing runs.
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
-#include "passo/controller/job.hpp"
 #include "program_input.hpp"
+#include <nlohmann/json.hpp>
+
+#include "passo/controller/job.hpp"
 
 namespace passo {
 namespace {

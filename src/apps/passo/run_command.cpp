@@ -1,6 +1,4 @@
 // passo run: check the program, run it on the virtual machine, and write what was asked for.
-#include <unistd.h>
-
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -9,12 +7,14 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "program_input.hpp"
+#include "run_outputs.hpp"
+#include <unistd.h>
+
 #include "passo/controller/job.hpp"
 #include "passo/report/progress.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
-#include "program_input.hpp"
-#include "run_outputs.hpp"
 
 namespace passo {
 namespace {

@@ -1,10 +1,10 @@
 #include "run_outputs.hpp"
 
-#include <fmt/format.h>
-
 #include <cctype>
 #include <string_view>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "passo/report/path_recorder.hpp"
 #include "passo/report/picture.hpp"
@@ -81,8 +81,12 @@ RunOutputs::RunOutputs(RunOutputs&&) noexcept = default;
 RunOutputs& RunOutputs::operator=(RunOutputs&&) noexcept = default;
 RunOutputs::~RunOutputs() = default;
 
-bool is_picture_name(const std::string& path) { return picture_format_of(path).has_value(); }
-bool is_trace_name(const std::string& path) { return ends_with(path, ".vcd") || ends_with(path, ".csv"); }
+bool is_picture_name(const std::string& path) {
+  return picture_format_of(path).has_value();
+}
+bool is_trace_name(const std::string& path) {
+  return ends_with(path, ".vcd") || ends_with(path, ".csv");
+}
 
 Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, const MachineDescription& machine) {
   auto state = std::make_unique<State>();

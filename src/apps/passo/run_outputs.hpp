@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+
 #include "passo/base/result.hpp"
 #include "passo/controller/job.hpp"
 #include "passo/machine/machine_observer.hpp"

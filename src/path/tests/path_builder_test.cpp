@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "list_source.hpp"
+#include "kit/stage_test.hpp"
 
 #include "passo/path/path_text.hpp"
 

@@ -3,37 +3,16 @@
 #include <cstdlib>
 #include <random>
 
+#include "kit/stage_test.hpp"
 #include "step_oracle.hpp"
 
 namespace passo {
 namespace {
 
-class ItemList final : public Source<MotionItem> {
- public:
-  explicit ItemList(std::vector<MotionItem> items) : items_(std::move(items)) {}
-  bool next(MotionItem& item) override {
-    if (next_ == items_.size()) return false;
-    item = items_[next_++];
-    return true;
-  }
-
- private:
-  std::vector<MotionItem> items_;
-  std::size_t next_ = 0;
-};
-
 std::vector<BoardItem> generate(const std::vector<MotionItem>& items, const StepOptions& options) {
-  ItemList source(items);
+  test::ListSource<MotionItem> source(items);
   StepGenerator generator(source, options);
-  std::vector<BoardItem> result;
-  BoardItem item;
-  while (generator.next(item)) result.push_back(item);
-  return result;
-}
-
-std::uint64_t seed() {
-  const char* text = std::getenv("PASSO_SEED");
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : 20261121;
+  return test::drain(generator);
 }
 
 // How many random programs: few at every change, many in the slow test.
@@ -86,13 +65,7 @@ Action dwell(double seconds) {
   return action;
 }
 
-Point at(double x, double y, double z = 0) {
-  Point point;
-  point[Axis::x] = x;
-  point[Axis::y] = y;
-  point[Axis::z] = z;
-  return point;
-}
+using test::xyz;
 
 // Every step of every motor: as many as there ought to be, in the right direction, in time.
 void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
@@ -139,14 +112,14 @@ void expect_end(const std::vector<MotionItem>& items, const StepOptions& options
 
 TEST(StepGenerator, one_axis_from_rest_to_rest_steps_at_the_exact_times) {
   const StepOptions options = machine({100});
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(10.003, 0)), 0, 25, 0, 200)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(10.003, 0)), 0, 25, 0, 200)};
   expect_exact(items, options);
   expect_end(items, options);
 }
 
 TEST(StepGenerator, slaves_follow_the_master_within_one_event) {
   const StepOptions options = machine({640, 640, 640});
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(20, 8.123, -0.377)), 0, 100, 0, 800)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(20, 8.123, -0.377)), 0, 100, 0, 800)};
   expect_exact(items, options);
   expect_end(items, options);
 }
@@ -154,7 +127,7 @@ TEST(StepGenerator, slaves_follow_the_master_within_one_event) {
 TEST(StepGenerator, a_full_circle_comes_back_to_its_start) {
   const StepOptions options = machine({640, 640});
   const std::vector<MotionItem> items = {
-      planned(Curve::arc(at(0, 0), at(0, 0), Axis::x, Axis::y, 10, 0, 2 * std::numbers::pi), 0, 60, 0, 500)};
+      planned(Curve::arc(xyz(0, 0), xyz(0, 0), Axis::x, Axis::y, 10, 0, 2 * std::numbers::pi), 0, 60, 0, 500)};
   expect_exact(items, options);
   expect_end(items, options);
 }
@@ -162,17 +135,17 @@ TEST(StepGenerator, a_full_circle_comes_back_to_its_start) {
 TEST(StepGenerator, axes_of_unlike_fineness_share_an_arc) {
   const StepOptions options = machine({10, 3200, 48}, 200e3);
   const std::vector<MotionItem> items = {planned(
-      Curve::arc(at(0, 0), at(3, -3, 1), Axis::x, Axis::y, 3, 0, -1.5 * std::numbers::pi - 2 * std::numbers::pi), 0, 20,
-      0, 300)};
+      Curve::arc(xyz(0, 0), xyz(3, -3, 1), Axis::x, Axis::y, 3, 0, -1.5 * std::numbers::pi - 2 * std::numbers::pi), 0,
+      20, 0, 300)};
   expect_exact(items, options);
   expect_end(items, options);
 }
 
 TEST(StepGenerator, a_corner_at_speed_loses_nothing) {
   const StepOptions options = machine({100, 100});
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(5.0013, 0)), 0, 20, 3, 200),
-                                         planned(Curve::line(at(5.0013, 0), at(5.0013, 4.4471)), 3, 20, 3, 200),
-                                         planned(Curve::line(at(5.0013, 4.4471), at(0, 0)), 3, 20, 0, 200)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(5.0013, 0)), 0, 20, 3, 200),
+                                         planned(Curve::line(xyz(5.0013, 0), xyz(5.0013, 4.4471)), 3, 20, 3, 200),
+                                         planned(Curve::line(xyz(5.0013, 4.4471), xyz(0, 0)), 3, 20, 0, 200)};
   expect_exact(items, options);
   expect_end(items, options);
 }
@@ -180,25 +153,25 @@ TEST(StepGenerator, a_corner_at_speed_loses_nothing) {
 TEST(StepGenerator, a_move_shorter_than_a_step_ends_on_the_nearest_step) {
   const StepOptions options = machine({100, 100});
   for (const double length : {0.001, 0.0049, 0.0051, 0.0149, 0.0151}) {
-    const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(length, -length)), 0, 1, 0, 200)};
+    const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(length, -length)), 0, 1, 0, 200)};
     expect_end(items, options);
   }
 }
 
 TEST(StepGenerator, a_half_step_rounds_away_from_zero) {
   const StepOptions options = machine({100, 100});
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(12.345, -12.345)), 0, 20, 0, 200)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(12.345, -12.345)), 0, 20, 0, 200)};
   expect_end(items, options);
   const std::vector<MotionItem> stays = {items[0],
-                                         planned(Curve::line(at(12.345, -12.345), at(13, -12.345)), 0, 20, 0, 200)};
+                                         planned(Curve::line(xyz(12.345, -12.345), xyz(13, -12.345)), 0, 20, 0, 200)};
   expect_end(stays, options);
 }
 
 TEST(StepGenerator, a_dwell_is_waited_for_without_a_step) {
   const StepOptions options = machine({100});
   const Action pause = dwell(2.5);
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(1, 0)), 0, 10, 0, 200), pause,
-                                         planned(Curve::line(at(1, 0), at(0, 0)), 0, 10, 0, 200)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(1, 0)), 0, 10, 0, 200), pause,
+                                         planned(Curve::line(xyz(1, 0), xyz(0, 0)), 0, 10, 0, 200)};
   expect_exact(items, options);
   const std::vector<BoardItem> alone = generate({pause}, options);
   const oracle::Playback played = oracle::play(alone, options);
@@ -208,13 +181,13 @@ TEST(StepGenerator, a_dwell_is_waited_for_without_a_step) {
 
 TEST(StepGenerator, one_step_in_ten_seconds_comes_on_the_tick) {
   const StepOptions options = machine({1});
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(3, 0)), 0.1, 0.1, 0.1, 1)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(3, 0)), 0.1, 0.1, 0.1, 1)};
   expect_exact(items, options);
 }
 
 TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
   const StepOptions options = machine({640});
-  const std::vector<MotionItem> items = {planned(Curve::line(at(0, 0), at(1000, 0)), 100, 100, 100, 800)};
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(1000, 0)), 100, 100, 100, 800)};
   const oracle::Playback played = oracle::play(generate(items, options), options);
   EXPECT_LE(played.segments, played.events / 250);
 }
@@ -222,10 +195,10 @@ TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
 // Lines and arcs with random corners, speeds and machines.
 class RandomPrograms : public testing::Test {
  protected:
-  std::mt19937_64 random_{seed()};
+  test::Random random_;
 
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
+  double uniform(double low, double high) { return random_.between(low, high); }
+  int below(int n) { return static_cast<int>(random_.between(0, n)); }
 
   StepOptions random_machine() {
     constexpr std::array<double, 7> finenesses = {10, 48, 100, -100, 640, 1000, -3200};
@@ -236,7 +209,7 @@ class RandomPrograms : public testing::Test {
 
   Curve random_curve(const Point& start) {
     const double size = std::pow(10.0, uniform(-2.5, 1));
-    Point end = start + at(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) * size;
+    Point end = start + xyz(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) * size;
     if (below(3) == 0) end[all_axes[static_cast<std::size_t>(below(3))]] = start[Axis::x];
     if (below(3) != 0) return Curve::line(start, end);
     const double center_x = start[Axis::x] + uniform(-1, 1) * size;
@@ -289,7 +262,7 @@ class RandomPrograms : public testing::Test {
 
 TEST_F(RandomPrograms, step_where_and_when_mathematics_puts_it) {
   for (int i = 0; i < runs(); ++i) {
-    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed() << " program " << i);
+    SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << random_.seed() << " program " << i);
     const StepOptions options = random_machine();
     expect_exact(random_program(options), options);
     if (HasFatalFailure()) return;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "../../path/tests/list_source.hpp"
+#include "kit/stage_test.hpp"
 
 #include "passo/trajectory/planner.hpp"
 

@@ -57,7 +57,7 @@ class Job {
   MotionLimits limits_;
 
   // The street.
-  Interpreter interpreter_;  // text -> blocks -> operations
+  Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
   Tap<PathItem> watched_path_;
   Planner planner_;  // segments -> phases

@@ -32,8 +32,8 @@ struct Diagnostic {
   std::string text;      // the source line, for the caret; may be empty
 };
 
-// Collects diagnostics up to a limit of errors; the rest is counted, not kept. The same finding at the same place (a line
-// in a loop) is kept and counted once.
+// Collects diagnostics up to a limit of errors; the rest is counted, not kept. The same finding at the same place (a
+// line in a loop) is kept and counted once.
 class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}

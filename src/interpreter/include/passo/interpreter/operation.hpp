@@ -110,20 +110,22 @@ struct Comment {
 struct Message {
   std::string_view text;
 };
-struct SetSpindleMode {};  // constant revolutions a minute (G97)
+struct SetSpindleMode {};    // constant revolutions a minute (G97)
 struct Reset {};             // ON_RESET: the interpreter (re)starts
 struct SetFeedReference {};  // always XYZ
 
 }  // namespace operation
 
-using OperationKind = std::variant<
-    operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
-    operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
-    operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse, operation::StraightFeed,
-    operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::Dwell,
-    operation::SetSpindleSpeed, operation::TurnSpindle, operation::SetMist, operation::SetFlood, operation::SelectTool,
-    operation::ChangeTool, operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop,
-    operation::ProgramEnd, operation::Comment, operation::Message, operation::SetSpindleMode, operation::Reset, operation::SetFeedReference>;
+using OperationKind =
+    std::variant<operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
+                 operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
+                 operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse,
+                 operation::StraightFeed, operation::ArcFeed, operation::StartSpeedFeedSync,
+                 operation::StopSpeedFeedSync, operation::Dwell, operation::SetSpindleSpeed, operation::TurnSpindle,
+                 operation::SetMist, operation::SetFlood, operation::SelectTool, operation::ChangeTool,
+                 operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop,
+                 operation::ProgramEnd, operation::Comment, operation::Message, operation::SetSpindleMode,
+                 operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {
