@@ -43,8 +43,8 @@ double swept_angle(PlanePoint start, PlanePoint end, PlanePoint center, bool clo
   const double from = std::atan2(start.second - center.second, start.first - center.first);
   const double to = std::atan2(end.second - center.second, end.first - center.first);
   double angle = clockwise ? from - to : to - from;
-  // Start and end in one place are a full turn.
-  if (angle <= 1e-12) angle += turn;
+  // Start and end in one place, within LinuxCNC's millionth of a radian, are a full turn.
+  if (angle < 1e-6) angle += turn;
   return angle + turn * (turns - 1);
 }
 

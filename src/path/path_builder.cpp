@@ -14,6 +14,9 @@ namespace {
 // A coordinate that changes by less (mm or degrees) did not change: what is left of frames and inches after rounding.
 constexpr double still = 1e-9;
 
+// How far the chords of an arc that lies in no plane of the machine may leave it.
+constexpr Mm chord_tolerance{0.001};
+
 // After an error a move needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
 
@@ -63,7 +66,7 @@ bool PathBuilder::next(PathItem& item) {
     item = *std::exchange(held_, std::nullopt);
     return true;
   }
-  bool has_item = false;
+  bool has_item = take_chord(item);
   while (!has_item && operations_.next(operation_)) has_item = take(operation_, item);
   if (outputs() == handed_on_) return has_item;
 
@@ -126,13 +129,8 @@ bool PathBuilder::take_line(const Point& work_end, bool rapid, PathItem& item) {
 }
 
 bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
+  if (rotation_degrees_ != 0 && arc.plane != Plane::xy) return take_tilted_arc(arc, item);
   const auto [first, second] = axes_of(arc.plane);
-  if (rotation_degrees_ != 0 && arc.plane != Plane::xy) {
-    report(Severity::error, "path.rotated-arc",
-           fmt::format("an arc in the plane {}{} while the work frame is turned by {:.3f} degrees about Z",
-                       letter_of(first), letter_of(second), rotation_degrees_),
-           "arcs in the plane XY (G17), or a frame that is not turned");
-  }
   const Point end = machine_end(arc.end);
   Point work_center = arc.end;
   work_center[first] = arc.first_center.value();
@@ -149,6 +147,46 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
   const double sweep =
       sweep_between(std::atan2(start_second, start_first), std::atan2(end_second, end_first), arc.turns);
   return take_curve(Curve::arc(position_, end, first, second, center[first], center[second], sweep), false, item);
+}
+
+// In the work frame the arc lies in its plane as ever; there its angle is swept, and there it is cut.
+bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item) {
+  const auto [first, second] = axes_of(arc.plane);
+  const Point start = frame_.work_from_machine(position_);
+  const double first_center = arc.first_center.value();
+  const double second_center = arc.second_center.value();
+  const auto angle_of = [&](const Point& point) {
+    return std::atan2(point[second] - second_center, point[first] - first_center);
+  };
+  const double radius = std::hypot(start[first] - first_center, start[second] - second_center);
+  if (arc.turns == 0 || radius < still) return take_line(arc.end, false, item);
+  const double sweep = sweep_between(angle_of(start), angle_of(arc.end), arc.turns);
+  // A chord of angle a leaves its arc by r (1 - cos(a/2)).
+  const double chord = 2 * std::acos(std::max(0.0, 1 - chord_tolerance.value() / radius));
+  const auto chords = static_cast<std::uint32_t>(std::ceil(std::abs(sweep) / chord));
+  tilted_ = TiltedArc{.work = Curve::arc(start, arc.end, first, second, first_center, second_center, sweep),
+                      .next = 0,
+                      .chords = std::max(chords, 1U)};
+  return take_chord(item);
+}
+
+bool PathBuilder::take_chord(PathItem& item) {
+  while (tilted_) {
+    TiltedArc& arc = *tilted_;
+    ++arc.next;
+    const bool last = arc.next == arc.chords;
+    const Point end =
+        last ? arc.work.end() : arc.work.at(arc.work.length() * (static_cast<double>(arc.next) / arc.chords));
+    if (last) tilted_.reset();
+    if (!take_line(end, false, item)) continue;
+    if (last) return true;
+    // The corners between chords are not the program's: they do not stop an exact path.
+    auto& segment = std::get<Segment>(item);
+    segment.mode = PathMode::continuous;
+    segment.tolerance = chord_tolerance;
+    return true;
+  }
+  return false;
 }
 
 bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {

@@ -159,6 +159,10 @@ struct BadProgram {
   const char* place;  // file:line:column that must be named, after the file's name
 };
 
+void PrintTo(const BadProgram& bad, std::ostream* out) {
+  *out << bad.name;
+}
+
 class BadPrograms : public CommandLine, public testing::WithParamInterface<BadProgram> {};
 
 TEST_P(BadPrograms, are_refused_with_their_place_and_leave_nothing_behind) {

@@ -174,13 +174,28 @@ TEST_F(PathTest, an_arc_in_a_turned_frame_is_turned) {
   EXPECT_NEAR(curve.arc_data().sweep, pi / 2, 1e-12);
 }
 
-TEST_F(PathTest, an_arc_of_another_plane_in_a_turned_frame_is_refused) {
-  add(operation::SetRotation{10});
+TEST_F(PathTest, an_arc_of_another_plane_in_a_turned_frame_is_walked_in_chords_within_a_thousandth) {
+  add(operation::SetRotation{30});
   feed(10);
   add(operation::ArcFeed{
-      .plane = Plane::zx, .end = xyz(0, 0, 2), .first_center = Mm(1), .second_center = Mm(0), .turns = 1});
-  (void)build();
-  EXPECT_THAT(codes(), testing::ElementsAre("path.rotated-arc"));
+      .plane = Plane::zx, .end = xyz(0, 1, 4), .first_center = Mm(2), .second_center = Mm(0), .turns = 1});
+  const std::vector<Segment> chords = segments();
+  ASSERT_GT(chords.size(), 10U);
+  EXPECT_TRUE(codes().empty());
+  double farthest = 0;
+  Point last;
+  for (const Segment& chord : chords) {
+    EXPECT_EQ(chord.curve.start(), last);
+    last = chord.curve.end();
+    // Turned back, the path is a half circle of 2 mm about Z 2 in the plane ZX, rising in Y.
+    const Point middle = chord.curve.at(chord.curve.length() / 2);
+    const double x = middle[Axis::x] * std::cos(pi / 6) + middle[Axis::y] * std::sin(pi / 6);
+    farthest = std::max(farthest, std::abs(std::hypot(x, middle[Axis::z] - 2) - 2));
+  }
+  EXPECT_LE(farthest, 0.001);
+  EXPECT_NEAR(last[Axis::x], -std::sin(pi / 6), 1e-12);
+  EXPECT_NEAR(last[Axis::y], std::cos(pi / 6), 1e-12);
+  EXPECT_NEAR(last[Axis::z], 4, 1e-12);
 }
 
 TEST_F(PathTest, feeds_follow_their_mode) {

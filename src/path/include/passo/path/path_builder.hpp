@@ -1,5 +1,8 @@
 // PathBuilder: operations -> segments. Follows the frame, keeps geometry exact (no chords), checks the travel.
 //
+// The one exception: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the
+// machine, and is walked in chords within a thousandth of a millimetre.
+//
 // Between the interpreter and the planner. Segments join without gap: each begins, bit for bit, where the one before
 // ended. Moves shorter than a nanometre's thousandth are rounding, not moves, and are dropped. Outputs (spindle,
 // coolant) that change without a move between them become one action.
@@ -46,6 +49,8 @@ class PathBuilder final : public Source<PathItem> {
   bool take(const Operation& operation, PathItem& item);
   bool take_line(const Point& work_end, bool rapid, PathItem& item);
   bool take_arc(const operation::ArcFeed& arc, PathItem& item);
+  bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
+  bool take_chord(PathItem& item);
   bool take_curve(const Curve& curve, bool rapid, PathItem& item);
 
   Point machine_end(const Point& work_end) const;
@@ -66,6 +71,14 @@ class PathBuilder final : public Source<PathItem> {
   Diagnostics& diagnostics_;
   Frame frame_;
   double rotation_degrees_ = 0;
+
+  // An arc in the turned work frame, of which chords are still to come.
+  struct TiltedArc {
+    Curve work;
+    std::uint32_t next = 0;
+    std::uint32_t chords = 0;
+  };
+  std::optional<TiltedArc> tilted_;
 
   Operation operation_;           // the one in hand
   std::optional<PathItem> held_;  // waits while the outputs before it are handed on
