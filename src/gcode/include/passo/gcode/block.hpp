@@ -77,7 +77,7 @@ struct Expression {
 };
 
 struct Word {
-  char letter = 0;  // upper case A…Z, '@' or '^'
+  char letter = 0;  // upper case A…Z, '@', '^' or '$'
   Expression value;
   Span span;  // letter and value
 };
@@ -105,7 +105,7 @@ struct Comment {
     probe_close
   };
   Kind kind = Kind::plain;
-  std::string_view text;  // without the delimiters, and without the keyword ("MSG,") where there is one
+  std::string_view text;  // as written, without the delimiters and without the keyword ("MSG,") where there is one
   Span span;
 };
 
@@ -125,6 +125,7 @@ enum class ControlKind : std::uint8_t {
   endrepeat,
   break_,
   continue_,
+  program,  // the label alone ("O2000"): where a program starts that M98 calls, as Fanuc writes it
 };
 
 // O… line: flow of control.
@@ -149,8 +150,10 @@ struct Block {
   std::vector<Comment> comments;
   std::optional<Control> control;
   std::vector<Instruction> code;  // what all the expressions above point into
+  std::vector<Expression> spare;  // keeps the capacity of control->arguments while there is no control
 
   bool empty() const { return words.empty() && assignments.empty() && comments.empty() && !control && !percent; }
+  // Empty again, capacity kept.
   void clear();
 };
 

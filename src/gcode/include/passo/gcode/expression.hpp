@@ -1,8 +1,11 @@
-// Computing the value of an expression. Never allocates; the depth of the stack is bounded.
+// evaluate: the value of an expression, with RS274/NGC's operations as LinuxCNC defines them.
+//
+// The interpreter calls it for every word and assignment that is not a plain number. Never allocates; the stack of
+// operands is bounded. The value is finite, or there is an error that says what to point at.
 #pragma once
 
-#include <span>
-#include <string>
+#include <cstddef>
+#include <cstdint>
 
 #include "passo/base/result.hpp"
 #include "passo/gcode/block.hpp"
@@ -33,7 +36,12 @@ struct EvaluationError {
   double operand = 0;  // the number that was wrong
 };
 
-inline constexpr std::size_t deepest_expression = 64;  // operands on the stack
+// Operands on the stack, and brackets, signs and # inside one another. BlockParser refuses what goes deeper.
+inline constexpr std::size_t deepest_expression = 64;
+// EQ and NE: two numbers are equal when they differ by less (LinuxCNC's TOLERANCE_EQUAL).
+inline constexpr double equality_tolerance = 1e-6;
+// A number that must be whole (of a parameter, of an O-word) may differ from it by this much.
+inline constexpr double whole_number_tolerance = 1e-4;
 
 using Evaluation = Result<double, EvaluationError>;
 Evaluation evaluate(const Block& block, const Expression& expression, const ParameterValues& parameters);

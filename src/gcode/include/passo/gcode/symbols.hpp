@@ -3,11 +3,12 @@
 // Names are compared as RS274/NGC does: lower case, white space taken out. One table serves a whole job.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <vector>
 
 namespace passo {
 
@@ -20,18 +21,18 @@ struct Symbol {
 class SymbolTable {
  public:
   SymbolTable();
+  SymbolTable(const SymbolTable&) = delete;
+  SymbolTable& operator=(const SymbolTable&) = delete;
+
   // `name` in any case and spacing.
   Symbol intern(std::string_view name);
+  // As it is compared. The view lives as long as the table.
   std::string_view name(Symbol symbol) const { return names_[symbol.id]; }
   std::size_t size() const { return names_.size(); }
 
  private:
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
-  };
-  std::vector<std::string> names_;
-  std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>> ids_;
+  std::deque<std::string> names_;  // by id; a deque, since ids_ and our callers hold views into it
+  std::unordered_map<std::string_view, std::uint32_t> ids_;
 };
 
 }  // namespace passo

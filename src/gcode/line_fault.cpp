@@ -1,0 +1,171 @@
+// LineParser's wording of what is wrong: what was found, what was expected, and the cure where it can be guessed.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "line_parser.hpp"
+#include <fmt/format.h>
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+namespace {
+
+constexpr const char* a_value = "a number, #parameter, [expression] or function";
+
+// At most this much of the line is repeated in a message.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t most = 24;
+  if (text.size() <= most) return std::string(text);
+  std::size_t size = most;
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;  // not through a character
+  return std::string(text.substr(0, size)) + "...";
+}
+
+// The word that was meant: one with a wrong letter, or with two of them swapped.
+std::string_view guess(std::string_view word, const std::vector<std::string_view>& candidates) {
+  const std::string_view near = nearest(word, candidates);
+  if (!near.empty()) return near;
+  for (const std::string_view candidate : candidates) {
+    if (std::ranges::is_permutation(word, candidate)) return candidate;
+  }
+  return {};
+}
+
+}  // namespace
+
+bool LineParser::fail(const char* code, const char* from, std::size_t length, std::string message,
+                      std::string expected) {
+  fault_ = {code, static_cast<std::size_t>(from - begin_), length, std::move(message), std::move(expected)};
+  return false;
+}
+
+bool LineParser::fail_missing_value(const char* owner) {
+  const char c = peek();
+  const std::string whose = to_upper(*owner) == '[' ? "the bracket is empty" : fmt::format("'{}' has no value", *owner);
+  if (at_end() || is_letter(c) || c == '(' || c == ';' || c == ']' || c == '#' || c == '[') {
+    if (c == 'O') return fail_letter_o(at_);
+    const bool round_bracket = c == '(';
+    return fail("gcode.missing-value", owner, 1, whose,
+                round_bracket ? "square brackets: '(' starts a comment" : a_value);
+  }
+  const NamedCharacter found = name_character(rest(at_));
+  std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;
+  if (c == ',') cure = "a decimal point";
+  if (c == '=') cure = "the value right after the letter, as in X5";
+  const bool is_known = std::string_view("=+-*/.%)").find(c) != std::string_view::npos;  // elsewhere it has a meaning
+  return fail(is_known ? "gcode.missing-value" : "gcode.bad-character", at_, found.length,
+              fmt::format("{} where a value should be", found.name), cure);
+}
+
+bool LineParser::fail_unexpected() {
+  const char c = peek();
+  const NamedCharacter found = name_character(rest(at_));
+  if (block_.percent) {
+    return fail("gcode.unexpected-text", at_, found.length, fmt::format("{} after '%'", found.name),
+                "'%' alone on its line");
+  }
+  const char before = token_end_ == begin_ ? '\0' : token_end_[-1];
+  const bool after_number = is_digit(before) || before == '.';
+  if (block_.control) {
+    return fail("gcode.unexpected-text", at_, found.length, fmt::format("{} after an O-word", found.name),
+                "a comment or the end of the line");
+  }
+  switch (c) {
+    case 'O': return fail_letter_o(at_);
+    case 'N':
+      return fail("gcode.unexpected-text", at_, 1, "a line number that is not at the start of its line",
+                  "N as the first word, after '/' if there is one");
+    case ')':
+      return fail("gcode.unexpected-text", at_, 1, "')' without a comment before it", "'(' where the comment starts");
+    case ',':
+      if (after_number) return fail("gcode.bad-character", at_, 1, "',' in a number", "a decimal point");
+      break;
+    case '.':
+      if (after_number) {
+        return fail("gcode.unexpected-text", at_, 1, "a second decimal point in a number", "one decimal point");
+      }
+      break;
+    case '+':
+    case '-':
+    case '*':
+      return fail("gcode.unexpected-text", at_, 1, fmt::format("{} outside brackets", found.name),
+                  "square brackets around an expression, as in X[1+2]");
+    case '/':
+      return fail("gcode.unexpected-text", at_, 1, "'/' that is not at the start of its line",
+                  "block delete as the first character, or square brackets around a division, as in X[1/2]");
+    case '[':
+    case ']':
+    case '=':
+    case '%':
+      return fail("gcode.unexpected-text", at_, 1, fmt::format("{} where a word should start", found.name),
+                  "a letter with a value, #parameter=value or a comment");
+    default: break;
+  }
+  if (is_digit(c)) {
+    return fail("gcode.unexpected-text", at_, 1, "a number without a letter before it",
+                "a letter with a value, as in X12.5");
+  }
+  return fail("gcode.bad-character", at_, found.length, fmt::format("{} has no meaning in G-code", found.name),
+              found.cure);
+}
+
+bool LineParser::fail_in_brackets(const char* open) {
+  const char c = peek();
+  if (at_end()) {
+    return fail("gcode.unclosed-bracket", open, 1, "the bracket that opens here is not closed", "']'");
+  }
+  const NamedCharacter found = name_character(rest(at_));
+  if (c == '(' || c == ')') {
+    return fail("gcode.unexpected-text", at_, 1, fmt::format("{} inside an expression", found.name),
+                "square brackets in expressions: '(' starts a comment");
+  }
+  const bool after_number = is_digit(token_end_[-1]) || token_end_[-1] == '.';
+  if (c == ',' && after_number) return fail("gcode.bad-character", at_, 1, "',' in a number", "a decimal point");
+  std::string expected = "an operator (+ - * / ** MOD EQ NE GT GE LT LE AND OR XOR) or ']'";
+  if (!is_letter(c) && !found.cure.empty()) expected = found.cure;
+  const bool is_plain = static_cast<unsigned char>(c) > 0x20 && static_cast<unsigned char>(c) < 0x7F;
+  return fail(is_plain ? "gcode.unexpected-text" : "gcode.bad-character", at_, found.length,
+              fmt::format("{} inside an expression", found.name), std::move(expected));
+}
+
+bool LineParser::fail_function(const char* name_start, std::string_view name) {
+  std::string upper;
+  std::ranges::transform(name, std::back_inserter(upper), to_upper);
+  const std::string_view meant = guess(upper, {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP",
+                                               "LN", "ROUND", "SIN", "SQRT", "TAN"});
+  return fail("gcode.unknown-function", name_start, name.size(),
+              fmt::format("there is no function {}", shortened(upper)),
+              meant.empty() ? "ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT or TAN"
+                            : fmt::format("{}, perhaps", meant));
+}
+
+bool LineParser::fail_assignment(const char* target) {
+  const Span span = span_from(target);
+  return fail("gcode.unexpected-text", target, span.length,
+              fmt::format("parameter {} is not given a value", shortened({target, span.length})),
+              "'=' and the value, as in #1=2.5, or a letter before the '#', as in X#1");
+}
+
+bool LineParser::fail_letter_o(const char* o) {
+  return fail("gcode.bad-o-word", o, 1, "the letter O inside a line",
+              "the digit 0, or an O-word as the first word of its line");
+}
+
+bool LineParser::fail_control_keyword(const char* start, std::string_view keyword) {
+  constexpr const char* all =
+      "sub, endsub, call, return, if, elseif, else, endif, while, endwhile, do, repeat, endrepeat, break or continue";
+  if (keyword.empty()) {
+    const NamedCharacter found = name_character(rest(at_));
+    return fail("gcode.bad-o-word", at_, found.length, fmt::format("{} after the label of an O-word", found.name), all);
+  }
+  const std::string_view meant =
+      guess(keyword, {"SUB", "ENDSUB", "CALL", "RETURN", "DO", "WHILE", "ENDWHILE", "IF", "ELSEIF", "ELSE", "ENDIF",
+                      "REPEAT", "ENDREPEAT", "BREAK", "CONTINUE"});
+  const std::string written = shortened({start, static_cast<std::size_t>(token_end_ - start)});
+  return fail("gcode.bad-o-word", start, span_from(start).length, fmt::format("an O-word cannot {}", written),
+              meant.empty() ? all : fmt::format("{}, perhaps", meant));
+}
+
+}  // namespace passo

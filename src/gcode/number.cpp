@@ -1,0 +1,93 @@
+#include "number.hpp"
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+
+#include "characters.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr std::uint64_t largest_exact_integer = std::uint64_t{1} << 53;
+constexpr int most_digits_of_mantissa = 18;  // fits std::uint64_t whatever the digits are
+
+// What the fast path cannot round correctly: std::from_chars on a copy without blanks.
+NumberReading read_long_number(const char* first, const char* last, bool negative) {
+  std::array<char, longest_number> digits;
+  std::size_t size = 0;
+  bool before_point = true;
+  bool has_integer_part = false;
+  NumberReading reading{0, last, NumberStatus::good};
+  for (const char* at = first; at != last; ++at) {
+    if (!is_digit(*at) && *at != '.') continue;
+    before_point = before_point && *at != '.';
+    has_integer_part = has_integer_part || (before_point && *at != '0');
+    if (size == 0 && *at == '0') continue;  // leading zeros are free
+    if (size == digits.size()) {
+      reading.status = NumberStatus::too_long;
+      return reading;
+    }
+    digits[size++] = *at;
+  }
+  const auto result = std::from_chars(digits.data(), digits.data() + size, reading.value, std::chars_format::fixed);
+  if (result.ec == std::errc::result_out_of_range) {
+    reading.value = 0;  // too small is zero, too large is an error
+    if (has_integer_part) reading.status = NumberStatus::too_large;
+  }
+  if (negative) reading.value = -reading.value;
+  return reading;
+}
+
+}  // namespace
+
+NumberReading read_number(const char* at, const char* end) {
+  const bool negative = at != end && *at == '-';
+  if (at != end && (*at == '-' || *at == '+')) ++at;
+
+  const char* const first = at;
+  const char* last = at;
+  std::uint64_t mantissa = 0;
+  int taken = 0;  // digits in the mantissa, without leading zeros
+  std::size_t scale = 0;
+  bool point = false;
+  bool any = false;
+  bool all_taken = true;
+  for (; at != end; ++at) {
+    if (is_digit(*at)) {
+      any = true;
+      if (taken < most_digits_of_mantissa) {
+        mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+        taken += mantissa != 0 ? 1 : 0;
+        scale += point ? 1 : 0;
+      } else {
+        all_taken = false;
+      }
+    } else if (*at == '.' && !point) {
+      point = true;
+    } else if (is_blank(*at)) {
+      continue;
+    } else {
+      break;
+    }
+    last = at + 1;
+  }
+  if (!any) return {0, last, NumberStatus::no_digits};
+  // Both operands are exact doubles, so that the one division rounds once: correctly.
+  if (all_taken && mantissa <= largest_exact_integer && scale < powers_of_ten.size()) {
+    const double value = static_cast<double>(mantissa) / powers_of_ten[scale];
+    return {negative ? -value : value, last, NumberStatus::good};
+  }
+  return read_long_number(first, last, negative);
+}
+
+std::string format_number(double value) {
+  std::array<char, longest_number> text;
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  return {text.data(), result.ptr};
+}
+
+}  // namespace passo

@@ -1,0 +1,31 @@
+// Decimal numbers of RS274/NGC: sign, digits, decimal point, blanks anywhere, no exponent.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace passo {
+
+enum class NumberStatus : std::uint8_t {
+  good,
+  no_digits,
+  too_large,  // no finite double
+  too_long,   // more than `longest_number` digits
+};
+
+// Enough for every double written out in full.
+inline constexpr std::size_t longest_number = 1100;
+
+struct NumberReading {
+  double value = 0;
+  const char* end = nullptr;  // after the last digit or the decimal point
+  NumberStatus status = NumberStatus::good;
+};
+
+// Reads the longest number that starts at `at`; correctly rounded. A few nanoseconds up to 15 digits.
+NumberReading read_number(const char* at, const char* end);
+
+// The shortest spelling without an exponent that reads back as the same double.
+std::string format_number(double value);
+
+}  // namespace passo

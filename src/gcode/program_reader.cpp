@@ -1,0 +1,347 @@
+#include "passo/gcode/program_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t buffer_size = 256 * 1024;
+static_assert(buffer_size >= 2 * (longest_line + 2), "a line and its end fit wherever they start");
+
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
+constexpr std::size_t inspected_bytes = 1024;  // what tells text from something else
+
+// A file descriptor that closes itself.
+class File {
+ public:
+  File() = default;
+  explicit File(int descriptor) : descriptor_(descriptor) {}
+  File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  File& operator=(File&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+  }
+  ~File() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  bool is_open() const { return descriptor_ >= 0; }
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_ = -1;
+};
+
+Diagnostic whole_file(std::string code, const std::string& name, std::string message, std::string expected) {
+  Diagnostic diagnostic;
+  diagnostic.code = std::move(code);
+  diagnostic.file = name;
+  diagnostic.message = std::move(message);
+  diagnostic.expected = std::move(expected);
+  return diagnostic;
+}
+
+Diagnostic unreadable(const std::string& name, int error) {
+  return whole_file("file.unreadable", name, fmt::format("cannot be read: {}", std::strerror(error)), "");
+}
+
+// read() that an interrupted call does not end. Negative: errno says why.
+ssize_t read_some(int descriptor, char* to, std::size_t size) {
+  for (;;) {
+    const ssize_t count = ::read(descriptor, to, size);
+    if (count >= 0 || errno != EINTR) return count;
+  }
+}
+
+ssize_t read_at(int descriptor, char* to, std::size_t size, std::uint64_t offset) {
+  for (;;) {
+    const ssize_t count = ::pread(descriptor, to, size, static_cast<off_t>(offset));
+    if (count >= 0 || errno != EINTR) return count;
+  }
+}
+
+bool write_all(int descriptor, const char* from, std::size_t size) {
+  while (size > 0) {
+    const ssize_t count = ::write(descriptor, from, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    from += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+// Loops and subroutines go back, which a pipe cannot: its bytes go to a file without a name first.
+Result<File, Diagnostic> spool(int source, const std::string& name) {
+  std::FILE* const temporary = std::tmpfile();
+  if (temporary == nullptr) return Failure{unreadable(name, errno)};
+  File file(::fcntl(::fileno(temporary), F_DUPFD_CLOEXEC, 0));
+  const int error = errno;
+  std::fclose(temporary);
+  if (!file.is_open()) return Failure{unreadable(name, error)};
+
+  std::vector<char> buffer(buffer_size);
+  for (;;) {
+    const ssize_t count = read_some(source, buffer.data(), buffer.size());
+    if (count < 0) return Failure{unreadable(name, errno)};
+    if (count == 0) return file;
+    if (!write_all(file.get(), buffer.data(), static_cast<std::size_t>(count))) return Failure{unreadable(name, errno)};
+  }
+}
+
+Result<File, Diagnostic> open_file(const std::string& path) {
+  File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.is_open()) {
+    const int error = errno;
+    if (error == ENOENT || error == ENOTDIR) {
+      return Failure{whole_file("file.not-found", path, "there is no such file", "the path of a G-code file")};
+    }
+    return Failure{unreadable(path, error)};
+  }
+  struct stat status = {};
+  if (::fstat(file.get(), &status) != 0) return Failure{unreadable(path, errno)};
+  if (S_ISDIR(status.st_mode)) {
+    return Failure{whole_file("file.is-directory", path, "is a directory", "the path of a G-code file")};
+  }
+  if (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)) return spool(file.get(), path);
+  if (!S_ISREG(status.st_mode)) {
+    return Failure{whole_file("file.unreadable", path, "is a device, not a file", "the path of a G-code file")};
+  }
+  return file;
+}
+
+// What the first bytes of a file say about it.
+enum class Content : std::uint8_t { text, wide_text, binary };
+
+Content inspect(std::string_view first) {
+  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) return Content::wide_text;
+  const auto is_control = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 && (byte < '\t' || byte > '\r') && byte != 0x1A;  // old editors end a file with 0x1A
+  };
+  const auto controls = static_cast<std::size_t>(std::ranges::count_if(first, is_control));
+  // One stray NUL is reported where it stands; a program does not have dozens of them.
+  return controls >= 8 && controls * 32 >= first.size() ? Content::binary : Content::text;
+}
+
+}  // namespace
+
+// The bytes [offset, offset + filled) of the program are in the buffer; `cursor` is the next line's first byte there.
+struct ProgramReader::State {
+  std::string name;
+  File file;  // not open: the whole program is in `buffer`
+  std::vector<char> buffer;
+  std::uint64_t size = 0;
+  std::uint64_t offset = 0;
+  std::size_t filled = 0;
+  std::size_t cursor = 0;
+  std::size_t line_feed = 0;  // the first LF at or after `cursor`, or `filled`; older than `cursor`: not known
+  std::uint32_t line = 1;
+  bool at_file_end = false;  // nothing comes after `filled`
+  bool failed = false;
+
+  enum class Find : std::uint8_t { line, too_long, end };
+
+  bool fill(Diagnostics& diagnostics);
+  Find find_line(std::size_t& end, std::size_t& next, Diagnostics& diagnostics);
+  void skip_long_line(Diagnostics& diagnostics);
+  std::size_t find_line_feed();
+  void report(Diagnostics& diagnostics, std::string code, std::size_t column, std::string message, std::string expected,
+              std::string_view text) const;
+};
+
+// Moves what is not read yet to the front and reads on behind it. False after an error.
+bool ProgramReader::State::fill(Diagnostics& diagnostics) {
+  const std::size_t kept = filled - cursor;
+  if (cursor > 0) {
+    std::memmove(buffer.data(), buffer.data() + cursor, kept);
+    offset += cursor;
+    cursor = 0;
+  }
+  filled = kept;
+  line_feed = 0;
+  while (filled < buffer.size()) {
+    const ssize_t count = read_at(file.get(), buffer.data() + filled, buffer.size() - filled, offset + filled);
+    if (count < 0) {
+      diagnostics.add(unreadable(name, errno));
+      failed = true;
+      return false;
+    }
+    if (count == 0) {
+      at_file_end = true;
+      break;
+    }
+    filled += static_cast<std::size_t>(count);
+  }
+  line_feed = find_line_feed();
+  return true;
+}
+
+std::size_t ProgramReader::State::find_line_feed() {
+  if (cursor == filled) return filled;  // an empty buffer has no address to search at
+  const void* const found = std::memchr(buffer.data() + cursor, '\n', filled - cursor);
+  return found == nullptr ? filled : static_cast<std::size_t>(static_cast<const char*>(found) - buffer.data());
+}
+
+// The line at the cursor is [cursor, end); the one after it starts at `next`.
+ProgramReader::State::Find ProgramReader::State::find_line(std::size_t& end, std::size_t& next,
+                                                           Diagnostics& diagnostics) {
+  for (;;) {
+    if (cursor < filled) {
+      if (line_feed < cursor) line_feed = find_line_feed();
+      const std::size_t limit = std::min(line_feed, cursor + longest_line + 1);
+      const void* const carriage_return = std::memchr(buffer.data() + cursor, '\r', limit - cursor);
+      end = carriage_return == nullptr
+                ? limit
+                : static_cast<std::size_t>(static_cast<const char*>(carriage_return) - buffer.data());
+      if (end - cursor > longest_line) return Find::too_long;
+      const bool is_return = end < filled && buffer[end] == '\r';
+      // A line that touches the buffer's end may go on behind it, and a CR there may have its LF behind it.
+      const bool is_complete = end + (is_return ? 1 : 0) < filled;
+      if (is_complete || at_file_end) {
+        next = std::min(end + 1, filled);
+        if (is_return && next < filled && buffer[next] == '\n') ++next;
+        return Find::line;
+      }
+    } else if (at_file_end) {
+      return Find::end;
+    }
+    if (!fill(diagnostics)) return Find::end;
+  }
+}
+
+// Counts the bytes of a line that is too long without keeping them.
+void ProgramReader::State::skip_long_line(Diagnostics& diagnostics) {
+  std::uint64_t length = 0;
+  for (;;) {
+    const char* const first = buffer.data() + cursor;
+    const char* const last = buffer.data() + filled;
+    const char* const end = std::find_if(first, last, [](char c) { return c == '\n' || c == '\r'; });
+    length += static_cast<std::uint64_t>(end - first);
+    cursor += static_cast<std::size_t>(end - first);
+    if (cursor < filled || at_file_end) break;
+    if (!fill(diagnostics)) return;
+  }
+  report(diagnostics, "gcode.line-too-long", longest_line + 1, fmt::format("the line is {} bytes long", length),
+         fmt::format("at most {} bytes", longest_line), {});
+  if (filled - cursor < 2 && !at_file_end && !fill(diagnostics)) return;
+  const std::string_view rest(buffer.data() + cursor, filled - cursor);
+  cursor += rest.starts_with("\r\n") ? 2 : rest.empty() ? 0 : 1;
+  ++line;
+}
+
+void ProgramReader::State::report(Diagnostics& diagnostics, std::string code, std::size_t column, std::string message,
+                                  std::string expected, std::string_view text) const {
+  Diagnostic diagnostic = whole_file(std::move(code), name, std::move(message), std::move(expected));
+  diagnostic.place = {line, static_cast<std::uint32_t>(column), 1};
+  diagnostic.text = text;
+  diagnostics.add(std::move(diagnostic));
+}
+
+ProgramReader::ProgramReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ProgramReader::ProgramReader(ProgramReader&&) noexcept = default;
+ProgramReader& ProgramReader::operator=(ProgramReader&&) noexcept = default;
+ProgramReader::~ProgramReader() = default;
+
+Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
+  const bool is_standard_input = path == "-";
+  const std::string name = is_standard_input ? "standard input" : path;
+  Result<File, Diagnostic> opened = is_standard_input ? spool(STDIN_FILENO, name) : open_file(path);
+  if (!opened) return Failure{opened.error()};
+
+  auto state = std::make_unique<State>();
+  state->name = name;
+  state->file = std::move(*opened);
+  struct stat status = {};
+  if (::fstat(state->file.get(), &status) != 0) return Failure{unreadable(name, errno)};
+  state->size = static_cast<std::uint64_t>(status.st_size);
+  state->buffer.resize(buffer_size);
+
+  Diagnostics diagnostics;
+  if (!state->fill(diagnostics)) return Failure{diagnostics.all().front()};
+  const std::string_view first(state->buffer.data(), std::min(state->filled, inspected_bytes));
+  if (first.empty() || (first == utf8_mark && state->at_file_end)) {
+    return Failure{whole_file("file.empty", name, "the file is empty", "G-code")};
+  }
+  switch (inspect(first)) {
+    case Content::text: break;
+    case Content::wide_text:
+      return Failure{whole_file("file.binary", name, "the file is UTF-16 text", "the file saved as UTF-8 or ASCII")};
+    case Content::binary:
+      return Failure{whole_file("file.binary", name, "the file is not text", "a G-code program, which is plain text")};
+  }
+  if (first.starts_with(utf8_mark)) state->cursor = utf8_mark.size();
+  return ProgramReader(std::move(state));
+}
+
+ProgramReader ProgramReader::from_text(std::string name, std::string text) {
+  auto state = std::make_unique<State>();
+  state->name = std::move(name);
+  state->buffer.assign(text.begin(), text.end());
+  state->size = state->filled = text.size();
+  state->at_file_end = true;
+  state->line_feed = state->find_line_feed();
+  if (text.starts_with(utf8_mark)) state->cursor = utf8_mark.size();
+  return ProgramReader(std::move(state));
+}
+
+bool ProgramReader::next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics) {
+  State& state = *state_;
+  while (!state.failed) {
+    std::size_t end = 0;
+    std::size_t next = 0;
+    const State::Find found = state.find_line(end, next, diagnostics);
+    if (found == State::Find::end) return false;
+    if (found == State::Find::too_long) {
+      state.skip_long_line(diagnostics);
+      continue;
+    }
+    text = std::string_view(state.buffer.data() + state.cursor, end - state.cursor);
+    line = state.line;
+    const std::size_t nul = text.find('\0');
+    if (nul != std::string_view::npos) {
+      state.report(diagnostics, "gcode.nul-byte", nul + 1, "a NUL byte in the line",
+                   "text; is the file damaged, or not G-code?", text);
+    }
+    state.cursor = next;
+    ++state.line;
+    if (nul == std::string_view::npos) return true;
+  }
+  return false;
+}
+
+ReaderPosition ProgramReader::position() const {
+  return {state_->offset + state_->cursor, state_->line};
+}
+
+void ProgramReader::seek(ReaderPosition position) {
+  State& state = *state_;
+  state.line = position.line;
+  if (position.offset >= state.offset && position.offset <= state.offset + state.filled) {
+    state.cursor = static_cast<std::size_t>(position.offset - state.offset);
+    state.line_feed = state.find_line_feed();
+    return;
+  }
+  state.offset = position.offset;
+  state.cursor = state.filled = state.line_feed = 0;
+  state.at_file_end = false;
+}
+
+const std::string& ProgramReader::name() const {
+  return state_->name;
+}
+
+std::uint64_t ProgramReader::size() const {
+  return state_->size;
+}
+
+}  // namespace passo

@@ -1,0 +1,86 @@
+#include "block_words.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// G code numbers are read as written: 59.1 in binary is not 59.1.
+constexpr double code_tolerance = 1e-4;
+constexpr double code_limit = 1000;
+
+}  // namespace
+
+void BlockWords::clear() {
+  present_ = {};
+  if (groups_ != 0) codes_.fill(nullptr);
+  groups_ = 0;
+}
+
+bool BlockWords::read(const Block& block, const ParameterValues& parameters, Reporter& reporter) {
+  clear();
+  bool good = true;
+  for (const Word& word : block.words) {
+    double value = 0;
+    if (!value_of(block, word.value, parameters, reporter, value)) {
+      good = false;
+    } else if (word.letter == 'G' || word.letter == 'M') {
+      good &= read_code(word, value, reporter);
+    } else {
+      good &= read_number(word, value, reporter);
+    }
+  }
+  return good;
+}
+
+bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
+  const double tenths = std::round(value * 10);
+  const bool in_range = value >= 0 && value < code_limit && std::abs(value * 10 - tenths) < code_tolerance * 10;
+  const CodeEntry* const entry = in_range ? find_code(word.letter, static_cast<CodeNumber>(tenths)) : nullptr;
+  if (entry == nullptr) {
+    const std::string written = word.letter + plain_number(value);
+    const std::string guess = nearest_code(written);
+    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written),
+                   guess.empty() ? "a code of docs/gcode.md" : fmt::format("{}, perhaps", guess));
+    return false;
+  }
+  if (entry->support != Support::yes) {
+    reporter.error("gcode.unsupported-code", word.span,
+                   fmt::format("{} ({}) is not supported yet", spelling(*entry), entry->what),
+                   "a code of docs/gcode.md");
+    return false;
+  }
+  const std::size_t group = index_of(entry->group);
+  // G80 gives way to another motion: `G17 G40 G80 G0` is how many programs begin.
+  if (entry->group == ModalGroup::motion && codes_[group] != nullptr) {
+    if (entry->number == passo::code(80)) return true;
+    if (codes_[group]->number == passo::code(80)) codes_[group] = nullptr;
+  }
+  if (codes_[group] != nullptr) {
+    reporter.error("gcode.modal-conflict", word.span,
+                   fmt::format("{} and {} are of the same group ({}) and cannot be in one block",
+                               spelling(*codes_[group]), spelling(*entry), name_of(entry->group)),
+                   "one of them, or two blocks");
+    return false;
+  }
+  codes_[group] = entry;
+  code_spans_[group] = word.span;
+  groups_ |= std::uint32_t{1} << group;
+  return true;
+}
+
+bool BlockWords::read_number(const Word& word, double value, Reporter& reporter) {
+  if (present_.has(word.letter)) {
+    reporter.error("gcode.repeated-word", word.span, fmt::format("a second {} in one block", word.letter),
+                   "each letter but G and M at most once");
+    return false;
+  }
+  present_.add(word.letter);
+  values_[letter_index(word.letter)] = value;
+  spans_[letter_index(word.letter)] = word.span;
+  return true;
+}
+
+}  // namespace passo

@@ -1,0 +1,65 @@
+// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, numbers by letter.
+#pragma once
+
+#include <array>
+
+#include "code_table.hpp"
+#include "passo/gcode/block.hpp"
+#include "passo/gcode/expression.hpp"
+#include "reporter.hpp"
+
+namespace passo {
+
+class BlockWords {
+ public:
+  // Evaluates the words of `block`. False when one is wrong: unknown, twice there, of a group already seen; all of them
+  // are reported.
+  [[nodiscard]] bool read(const Block& block, const ParameterValues& parameters, Reporter& reporter);
+  void clear();
+
+  bool has(char letter) const { return present_.has(letter); }
+  double operator[](char letter) const { return values_[letter_index(letter)]; }
+  Span span(char letter) const { return spans_[letter_index(letter)]; }
+  LetterSet present() const { return present_; }  // without G, M, N, O
+  bool any_axis() const { return (present_ & (axis_letters | polar_letters)).any(); }
+
+  const CodeEntry* code(ModalGroup group) const { return codes_[index_of(group)]; }
+  bool has_code(ModalGroup group, CodeNumber number) const {
+    const CodeEntry* const entry = code(group);
+    return entry != nullptr && entry->number == number;
+  }
+  Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
+  // Bit g: there is a code of group g.
+  std::uint32_t groups() const { return groups_; }
+
+ private:
+  bool read_code(const Word& word, double value, Reporter& reporter);
+  bool read_number(const Word& word, double value, Reporter& reporter);
+
+  LetterSet present_;
+  std::uint32_t groups_ = 0;
+  // Only what present_ and groups_ speak of is up to date, except codes_.
+  std::array<double, letter_count> values_{};
+  std::array<Span, letter_count> spans_{};
+  std::array<const CodeEntry*, modal_group_count> codes_{};
+  std::array<Span, modal_group_count> code_spans_{};
+};
+
+// The value of an expression, reported when it has none. Most are one number, which costs a look.
+inline bool value_of(const Block& block, const Expression& expression, const ParameterValues& parameters,
+                     Reporter& reporter, double& value) {
+  const Instruction& first = block.code[expression.first];
+  if (expression.count == 1 && first.op == ExpressionOp::number) {
+    value = first.number;
+    return true;
+  }
+  const Evaluation evaluation = evaluate(block, expression, parameters);
+  if (evaluation) {
+    value = *evaluation;
+    return true;
+  }
+  reporter.error(evaluation.error());
+  return false;
+}
+
+}  // namespace passo

@@ -1,0 +1,73 @@
+#include "passo/interpreter/interpreter.hpp"
+
+#include "block_executor.hpp"
+#include "program_flow.hpp"
+
+namespace passo {
+
+class Interpreter::Implementation {
+ public:
+  Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
+      : parameters_(symbols_, state_),
+        reporter_(diagnostics),
+        flow_(std::move(reader), {options.block_delete, options.idle_passes}, state_, parameters_, symbols_, reporter_),
+        executor_(state_, parameters_, operations_, reporter_, symbols_) {
+    executor_.start(options);
+  }
+
+  bool next(Operation& operation) {
+    while (operations_.empty()) {
+      if (finished_) return false;
+      step();
+    }
+    operation = operations_.front();
+    operations_.pop();
+    return true;
+  }
+
+  std::uint64_t offset() const { return flow_.offset(); }
+
+ private:
+  // One block: none, one or several operations.
+  void step() {
+    const Block* const block = executor_.ended() ? nullptr : flow_.next();
+    if (block != nullptr) {
+      executor_.execute(*block);
+      if (!operations_.empty()) flow_.note_progress();
+      return;
+    }
+    finished_ = true;
+    if (!executor_.ended() && flow_.end() == ProgramFlow::End::file && !reporter_.full()) {
+      reporter_.warning("gcode.no-end", {1, 1}, "the program ends without M2, M30 or '%'", "M2 in its last line");
+    }
+    if (executor_.ended()) {
+      executor_.finish(flow_.lacks_closing_percent() ? BlockExecutor::Closing::missing : BlockExecutor::Closing::none);
+    } else {
+      const bool at_percent = flow_.end() == ProgramFlow::End::percent;
+      executor_.finish(at_percent ? BlockExecutor::Closing::percent : BlockExecutor::Closing::none);
+    }
+  }
+
+  SymbolTable symbols_;
+  MachineState state_;
+  Parameters parameters_;
+  Reporter reporter_;
+  OperationQueue operations_;
+  ProgramFlow flow_;
+  BlockExecutor executor_;
+  bool finished_ = false;
+};
+
+Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
+    : implementation_(std::make_unique<Implementation>(std::move(reader), options, diagnostics)) {}
+Interpreter::~Interpreter() = default;
+
+bool Interpreter::next(Operation& operation) {
+  return implementation_->next(operation);
+}
+
+std::uint64_t Interpreter::offset() const {
+  return implementation_->offset();
+}
+
+}  // namespace passo
