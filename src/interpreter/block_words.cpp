@@ -1,123 +1,86 @@
 #include "block_words.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 
-#include "evaluation.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
-std::string code_text(char letter, std::int32_t tenths) {
-  return tenths % 10 == 0 ? fmt::format("{}{}", letter, tenths / 10)
-                          : fmt::format("{}{}.{}", letter, tenths / 10, tenths % 10);
-}
-
-// What LinuxCNC or others have and this release does not.
-bool is_known_elsewhere(char letter, std::int32_t tenths) {
-  constexpr std::array g = {50,  51,  52,  53,  60,  171, 181, 191, 382, 383, 384, 385, 410, 411, 420,
-                            421, 432, 500, 510, 520, 650, 660, 670, 700, 710, 711, 712, 720, 721, 722,
-                            730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890, 960};
-  if (letter == 'G') return std::ranges::binary_search(g, tenths);
-  const std::int32_t m = tenths / 10;
-  return m == 19 || m == 56 || (m >= 50 && m <= 53) || (m >= 62 && m <= 73) || m == 98 || m == 99 ||
-         (m >= 100 && m <= 199);
-}
-
-std::string nearest_code(char letter, std::int32_t tenths) {
-  std::string wanted = code_text(letter, tenths);
-  std::vector<std::string> names;
-  for (const Code& code : all_codes()) {
-    if (code.letter == letter) names.push_back(code_text(code.letter, code.number));
-  }
-  const std::string_view found = nearest(wanted, {names.begin(), names.end()});
-  return found.empty() ? "a word from docs/gcode.md" : fmt::format("perhaps {}; all words are in docs/gcode.md", found);
-}
-
-constexpr std::string_view axis_letters = "XYZABCUVW";
+// G code numbers are read as written: 59.1 in binary is not 59.1.
+constexpr double code_tolerance = 1e-4;
+constexpr double code_limit = 1000;
 
 }  // namespace
 
-bool BlockWords::add_code(const Word& word, double value, const Reporter& reporter) {
-  const double scaled = value * 10;
-  const double rounded = std::round(scaled);
-  const auto tenths = static_cast<std::int32_t>(std::clamp(rounded, -1.0, 1e6));
-  const Code* code = std::fabs(scaled - rounded) < 1e-3 ? find_code(word.letter, tenths) : nullptr;
-  if (code == nullptr) {
-    if (is_known_elsewhere(word.letter, tenths)) {
-      return reporter.error("gcode.unsupported-code", word.span,
-                            fmt::format("{} is not supported by this release", code_text(word.letter, tenths)),
-                            "only words that docs/gcode.md lists");
-    }
-    return reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}{}", word.letter, value),
-                          nearest_code(word.letter, tenths));
-  }
-  CodeWord& place = codes_[static_cast<std::size_t>(code->group)];
-  // Many programs begin with "G80 G0": the end of canned cycles gives way to any motion beside it.
-  if (code->group == ModalGroup::motion && place && code->number == 800) return true;
-  if (code->group == ModalGroup::motion && place.is(800)) place = {};
-  // M7 and M8 may stand together; all other codes of a group exclude each other.
-  if (place && !(code->group == ModalGroup::coolant && !place.is(90) && code->number != 90)) {
-    return reporter.error(
-        "gcode.two-of-a-group", word.span,
-        fmt::format("{} and {} are both of the group \"{}\"", code_text(place.code->letter, place.code->number),
-                    code_text(code->letter, code->number), group_name(code->group)),
-        "one of them, or two blocks");
-  }
-  if (code->group == ModalGroup::coolant) (code->number == 70 ? mist_ : flood_) |= code->number != 90;
-  place = {.code = code, .span = word.span};
-  return true;
+void BlockWords::clear() {
+  present_ = {};
+  if (groups_ != 0) codes_.fill(nullptr);
+  groups_ = 0;
 }
 
-bool BlockWords::gather(const Block& block, const Parameters& parameters, const Reporter& reporter) {
-  *this = BlockWords();
+bool BlockWords::read(const Block& block, const ParameterValues& parameters, Reporter& reporter) {
+  clear();
   bool good = true;
   for (const Word& word : block.words) {
-    if (first_.column == 0) first_ = word.span;
     double value = 0;
-    if (!evaluate(block, word.value, parameters, reporter, value)) {
+    if (!value_of(block, word.value, parameters, reporter, value)) {
       good = false;
-      continue;
+    } else if (word.letter == 'G' || word.letter == 'M') {
+      good &= read_code(word, value, reporter);
+    } else {
+      good &= read_number(word, value, reporter);
     }
-    if (word.letter == 'G' || word.letter == 'M') {
-      good = add_code(word, value, reporter) && good;
-      continue;
-    }
-    if (word.letter == '@' || word.letter == '^') {
-      std::optional<double>& polar = word.letter == '@' ? polar_radius_ : polar_angle_;
-      good = good && (!polar || reporter.error("gcode.word-twice", word.span,
-                                               fmt::format("{} stands twice in this block", word.letter)));
-      polar = value;
-      continue;
-    }
-    if (word.letter < 'A' || word.letter > 'Z') {
-      good = reporter.error("gcode.unsupported-word", word.span,
-                            fmt::format("'{}' is not supported by this release", word.letter),
-                            "only words that docs/gcode.md lists");
-      continue;
-    }
-    if (values_[index(word.letter)]) {
-      good = reporter.error("gcode.word-twice", word.span, fmt::format("{} stands twice in this block", word.letter),
-                            "each letter but G and M once");
-      continue;
-    }
-    values_[index(word.letter)] = value;
-    spans_[index(word.letter)] = word.span;
   }
   return good;
 }
 
-bool BlockWords::has_axis_word() const {
-  return has_polar() || std::ranges::any_of(axis_letters, [this](char letter) { return has(letter); });
+bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
+  const double tenths = std::round(value * 10);
+  const bool in_range = value >= 0 && value < code_limit && std::abs(value * 10 - tenths) < code_tolerance * 10;
+  const CodeEntry* const entry = in_range ? find_code(word.letter, static_cast<CodeNumber>(tenths)) : nullptr;
+  if (entry == nullptr) {
+    const std::string written = word.letter + plain_number(value);
+    const std::string guess = nearest_code(written);
+    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written),
+                   guess.empty() ? "a code of docs/gcode.md" : fmt::format("{}, perhaps", guess));
+    return false;
+  }
+  if (entry->support != Support::yes) {
+    reporter.error("gcode.unsupported-code", word.span,
+                   fmt::format("{} ({}) is not supported yet", spelling(*entry), entry->what),
+                   "a code of docs/gcode.md");
+    return false;
+  }
+  const std::size_t group = index_of(entry->group);
+  // G80 gives way to another motion: `G17 G40 G80 G0` is how many programs begin.
+  if (entry->group == ModalGroup::motion && codes_[group] != nullptr) {
+    if (entry->number == passo::code(80)) return true;
+    if (codes_[group]->number == passo::code(80)) codes_[group] = nullptr;
+  }
+  if (codes_[group] != nullptr) {
+    reporter.error("gcode.modal-conflict", word.span,
+                   fmt::format("{} and {} are of the same group ({}) and cannot be in one block",
+                               spelling(*codes_[group]), spelling(*entry), name_of(entry->group)),
+                   "one of them, or two blocks");
+    return false;
+  }
+  codes_[group] = entry;
+  code_spans_[group] = word.span;
+  groups_ |= std::uint32_t{1} << group;
+  return true;
 }
 
-char BlockWords::unused() const {
-  for (char letter = 'A'; letter <= 'Z'; ++letter) {
-    if (has(letter) && !used_[index(letter)]) return letter;
+bool BlockWords::read_number(const Word& word, double value, Reporter& reporter) {
+  if (present_.has(word.letter)) {
+    reporter.error("gcode.repeated-word", word.span, fmt::format("a second {} in one block", word.letter),
+                   "each letter but G and M at most once");
+    return false;
   }
-  return 0;
+  present_.add(word.letter);
+  values_[letter_index(word.letter)] = value;
+  spans_[letter_index(word.letter)] = word.span;
+  return true;
 }
 
 }  // namespace passo

@@ -1,72 +1,65 @@
-// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, values by
-// letter.
+// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, numbers by letter.
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
 
 #include "code_table.hpp"
-#include "parameters.hpp"
-#include "reporter.hpp"
-
 #include "passo/gcode/block.hpp"
+#include "passo/gcode/expression.hpp"
+#include "reporter.hpp"
 
 namespace passo {
 
-struct CodeWord {
-  const Code* code = nullptr;
-  Span span;
-  explicit operator bool() const { return code != nullptr; }
-  bool is(std::int32_t tenths) const { return code != nullptr && code->number == tenths; }
-};
-
 class BlockWords {
  public:
-  // Evaluates and sorts. False when a word is wrong or stands twice; that is reported.
-  [[nodiscard]] bool gather(const Block& block, const Parameters& parameters, const Reporter& reporter);
+  // Evaluates the words of `block`. False when one is wrong: unknown, twice there, of a group already seen; all of them
+  // are reported.
+  [[nodiscard]] bool read(const Block& block, const ParameterValues& parameters, Reporter& reporter);
+  void clear();
 
-  bool has(char letter) const { return values_[index(letter)].has_value(); }
-  // Asks for a word's value, and takes it as used. Zero where it is not there.
-  double take(char letter) {
-    used_[index(letter)] = true;
-    return values_[index(letter)].value_or(0);
-  }
-  std::optional<double> take_if(char letter) {
-    used_[index(letter)] = true;
-    return values_[index(letter)];
-  }
-  double peek(char letter) const { return values_[index(letter)].value_or(0); }
-  Span span(char letter) const { return spans_[index(letter)]; }
-  bool has_axis_word() const;
-  // A letter that nothing has taken; zero if none.
-  char unused() const;
+  bool has(char letter) const { return present_.has(letter); }
+  double operator[](char letter) const { return values_[letter_index(letter)]; }
+  Span span(char letter) const { return spans_[letter_index(letter)]; }
+  LetterSet present() const { return present_; }  // without G, M, N, O
+  bool any_axis() const { return (present_ & (axis_letters | polar_letters)).any(); }
 
-  const CodeWord& code(ModalGroup group) const { return codes_[static_cast<std::size_t>(group)]; }
-  // The polar words @ (distance) and ^ (angle).
-  const std::optional<double>& polar_radius() const { return polar_radius_; }
-  const std::optional<double>& polar_angle() const { return polar_angle_; }
-  bool has_polar() const { return polar_radius_ || polar_angle_; }
-  // M7 and M8, which may stand together.
-  bool mist() const { return mist_; }
-  bool flood() const { return flood_; }
-  // What the block begins with, for messages about the whole block.
-  Span first() const { return first_; }
+  const CodeEntry* code(ModalGroup group) const { return codes_[index_of(group)]; }
+  bool has_code(ModalGroup group, CodeNumber number) const {
+    const CodeEntry* const entry = code(group);
+    return entry != nullptr && entry->number == number;
+  }
+  Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
+  // Bit g: there is a code of group g.
+  std::uint32_t groups() const { return groups_; }
 
  private:
-  static std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
-  [[nodiscard]] bool add_code(const Word& word, double value, const Reporter& reporter);
+  bool read_code(const Word& word, double value, Reporter& reporter);
+  bool read_number(const Word& word, double value, Reporter& reporter);
 
-  std::array<std::optional<double>, 26> values_;
-  std::array<Span, 26> spans_;
-  std::array<bool, 26> used_{};
-  std::array<CodeWord, modal_group_count> codes_;
-  std::optional<double> polar_radius_;
-  std::optional<double> polar_angle_;
-  bool mist_ = false;
-  bool flood_ = false;
-  Span first_;
+  LetterSet present_;
+  std::uint32_t groups_ = 0;
+  // Only what present_ and groups_ speak of is up to date, except codes_.
+  std::array<double, letter_count> values_{};
+  std::array<Span, letter_count> spans_{};
+  std::array<const CodeEntry*, modal_group_count> codes_{};
+  std::array<Span, modal_group_count> code_spans_{};
 };
+
+// The value of an expression, reported when it has none. Most are one number, which costs a look.
+inline bool value_of(const Block& block, const Expression& expression, const ParameterValues& parameters,
+                     Reporter& reporter, double& value) {
+  const Instruction& first = block.code[expression.first];
+  if (expression.count == 1 && first.op == ExpressionOp::number) {
+    value = first.number;
+    return true;
+  }
+  const Evaluation evaluation = evaluate(block, expression, parameters);
+  if (evaluation) {
+    value = *evaluation;
+    return true;
+  }
+  reporter.error(evaluation.error());
+  return false;
+}
 
 }  // namespace passo

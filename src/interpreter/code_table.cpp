@@ -1,121 +1,205 @@
 #include "code_table.hpp"
 
-#include <algorithm>
 #include <array>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "passo/diagnostics/diagnostic.hpp"
 
 namespace passo {
 namespace {
 
 using enum ModalGroup;
+using enum AxisUse;
+constexpr Support not_yet = Support::not_yet;
+constexpr Support yes = Support::yes;
 
-// Ordered by letter and number: find_code searches by halves.
-constexpr auto codes = std::to_array<Code>({
-    {'G', 0, motion, "rapid"},
-    {'G', 10, motion, "straight feed"},
-    {'G', 20, motion, "arc, clockwise"},
-    {'G', 30, motion, "arc, counterclockwise"},
-    {'G', 40, non_modal, "dwell"},
-    {'G', 70, diameter, "lathe diameters"},
-    {'G', 80, diameter, "lathe radii"},
-    {'G', 100, non_modal, "set offsets"},
-    {'G', 170, plane, "XY plane"},
-    {'G', 180, plane, "ZX plane"},
-    {'G', 190, plane, "YZ plane"},
-    {'G', 200, units, "inches"},
-    {'G', 210, units, "millimetres"},
-    {'G', 280, non_modal, "go to home"},
-    {'G', 281, non_modal, "set home"},
-    {'G', 300, non_modal, "go to second home"},
-    {'G', 301, non_modal, "set second home"},
-    {'G', 330, motion, "spindle-synchronised feed"},
-    {'G', 331, motion, "rigid tapping"},
-    {'G', 400, cutter, "no cutter compensation"},
-    {'G', 430, tool_length, "tool length offset of a tool"},
-    {'G', 431, tool_length, "tool length offset given here"},
-    {'G', 490, tool_length, "no tool length offset"},
-    {'G', 530, non_modal, "machine coordinates"},
-    {'G', 540, work_offset, "work offset 1"},
-    {'G', 550, work_offset, "work offset 2"},
-    {'G', 560, work_offset, "work offset 3"},
-    {'G', 570, work_offset, "work offset 4"},
-    {'G', 580, work_offset, "work offset 5"},
-    {'G', 590, work_offset, "work offset 6"},
-    {'G', 591, work_offset, "work offset 7"},
-    {'G', 592, work_offset, "work offset 8"},
-    {'G', 593, work_offset, "work offset 9"},
-    {'G', 610, path, "exact path"},
-    {'G', 611, path, "exact stop"},
-    {'G', 640, path, "continuous path"},
-    {'G', 800, motion, "no motion mode"},
-    {'G', 900, distance, "absolute distances"},
-    {'G', 901, arc_distance, "absolute arc centres"},
-    {'G', 910, distance, "incremental distances"},
-    {'G', 911, arc_distance, "incremental arc centres"},
-    {'G', 920, non_modal, "shift the frame"},
-    {'G', 921, non_modal, "cancel the shift, forget it"},
-    {'G', 922, non_modal, "cancel the shift, keep it"},
-    {'G', 923, non_modal, "restore the shift"},
-    {'G', 930, feed_mode, "inverse time feed"},
-    {'G', 940, feed_mode, "feed a minute"},
-    {'G', 950, feed_mode, "feed a revolution"},
-    {'G', 970, spindle_mode, "spindle speed in revolutions a minute"},
-    {'G', 980, retract, "canned cycles go back to where they began"},
-    {'G', 990, retract, "canned cycles go back to R"},
-    {'M', 0, stopping, "program stop"},
-    {'M', 10, stopping, "optional stop"},
-    {'M', 20, stopping, "program end"},
-    {'M', 30, spindle, "spindle clockwise"},
-    {'M', 40, spindle, "spindle counterclockwise"},
-    {'M', 50, spindle, "spindle stop"},
-    {'M', 60, tool_change, "tool change"},
-    {'M', 70, coolant, "mist on"},
-    {'M', 80, coolant, "flood on"},
-    {'M', 90, coolant, "coolant off"},
-    {'M', 300, stopping, "program end"},
-    {'M', 480, override_switch, "overrides on"},
-    {'M', 490, override_switch, "overrides off"},
-    {'M', 600, stopping, "pallet change stop"},
-    {'M', 610, tool_change, "set the tool number"},
-});
+constexpr CodeEntry table[] = {
+    {'G', code(0), motion, may, "@^", yes, "rapid move"},
+    {'G', code(1), motion, may, "@^", yes, "feed move"},
+    {'G', code(2), motion, may, "@^IJKRP", yes, "arc, clockwise"},
+    {'G', code(3), motion, may, "@^IJKRP", yes, "arc, counterclockwise"},
+    {'G', code(4), non_modal, none, "P", yes, "dwell"},
+    {'G', code(5), motion, may, "IJPQ", not_yet, "cubic spline"},
+    {'G', code(5, 1), motion, may, "IJ", not_yet, "quadratic spline"},
+    {'G', code(5, 2), motion, may, "PL", not_yet, "NURBS"},
+    {'G', code(5, 3), non_modal, none, "", not_yet, "NURBS"},
+    {'G', code(7), lathe_diameter, none, "", yes, "X words are diameters"},
+    {'G', code(8), lathe_diameter, none, "", yes, "X words are radii"},
+    {'G', code(10), non_modal, may, "LPR", yes, "set a work offset"},
+    {'G', code(17), plane, none, "", yes, "plane XY"},
+    {'G', code(17, 1), plane, none, "", not_yet, "plane UV"},
+    {'G', code(18), plane, none, "", yes, "plane ZX"},
+    {'G', code(18, 1), plane, none, "", not_yet, "plane WU"},
+    {'G', code(19), plane, none, "", yes, "plane YZ"},
+    {'G', code(19, 1), plane, none, "", not_yet, "plane VW"},
+    {'G', code(20), length_units, none, "", yes, "inches"},
+    {'G', code(21), length_units, none, "", yes, "millimetres"},
+    {'G', code(28), non_modal, may, "", yes, "go to the first home position"},
+    {'G', code(28, 1), non_modal, none, "", yes, "store the first home position"},
+    {'G', code(30), non_modal, may, "", yes, "go to the second home position"},
+    {'G', code(30, 1), non_modal, none, "", yes, "store the second home position"},
+    {'G', code(33), motion, must, "@^K", yes, "spindle-synchronised move"},
+    {'G', code(33, 1), motion, must, "@^K", yes, "rigid tapping"},
+    {'G', code(38, 2), motion, must, "", not_yet, "probing"},
+    {'G', code(38, 3), motion, must, "", not_yet, "probing"},
+    {'G', code(38, 4), motion, must, "", not_yet, "probing"},
+    {'G', code(38, 5), motion, must, "", not_yet, "probing"},
+    {'G', code(40), cutter_compensation, none, "", yes, "cutter compensation off"},
+    {'G', code(41), cutter_compensation, none, "D", not_yet, "cutter compensation"},
+    {'G', code(41, 1), cutter_compensation, none, "DL", not_yet, "cutter compensation"},
+    {'G', code(42), cutter_compensation, none, "D", not_yet, "cutter compensation"},
+    {'G', code(42, 1), cutter_compensation, none, "DL", not_yet, "cutter compensation"},
+    {'G', code(43), tool_length, none, "H", yes, "tool offset from the tool table"},
+    {'G', code(43, 1), tool_length, may, "", yes, "tool offset from the axis words"},
+    {'G', code(43, 2), tool_length, none, "H", not_yet, "further tool offset"},
+    {'G', code(49), tool_length, none, "", yes, "no tool offset"},
+    {'G', code(52), non_modal, must, "", yes, "offset of all work systems"},
+    {'G', code(53), non_modal, none, "", yes, "move in machine coordinates"},
+    {'G', code(54), work_system, none, "", yes, "work system 1"},
+    {'G', code(55), work_system, none, "", yes, "work system 2"},
+    {'G', code(56), work_system, none, "", yes, "work system 3"},
+    {'G', code(57), work_system, none, "", yes, "work system 4"},
+    {'G', code(58), work_system, none, "", yes, "work system 5"},
+    {'G', code(59), work_system, none, "", yes, "work system 6"},
+    {'G', code(59, 1), work_system, none, "", yes, "work system 7"},
+    {'G', code(59, 2), work_system, none, "", yes, "work system 8"},
+    {'G', code(59, 3), work_system, none, "", yes, "work system 9"},
+    {'G', code(61), path_mode, none, "", yes, "exact path"},
+    {'G', code(61, 1), path_mode, none, "", yes, "exact stop"},
+    {'G', code(64), path_mode, none, "PQ", yes, "blended path"},
+    {'G', code(70), motion, may, "Q", not_yet, "lathe finishing cycle"},
+    {'G', code(71), motion, may, "DFIKPQR", not_yet, "lathe roughing cycle"},
+    {'G', code(71, 1), motion, may, "DFIKPQR", not_yet, "lathe roughing cycle"},
+    {'G', code(71, 2), motion, may, "DFIKPQR", not_yet, "lathe roughing cycle"},
+    {'G', code(72), motion, may, "DFIKPQR", not_yet, "lathe facing cycle"},
+    {'G', code(72, 1), motion, may, "DFIKPQR", not_yet, "lathe facing cycle"},
+    {'G', code(72, 2), motion, may, "DFIKPQR", not_yet, "lathe facing cycle"},
+    {'G', code(73), motion, may, "RLQ", not_yet, "chip-breaking drilling cycle"},
+    {'G', code(74), motion, may, "RLPK", not_yet, "left-hand tapping cycle"},
+    {'G', code(76), motion, may, "PIJKRQHEL", not_yet, "threading cycle"},
+    {'G', code(80), motion, none, "", yes, "no motion"},
+    {'G', code(81), motion, may, "RLP", not_yet, "drilling cycle"},
+    {'G', code(82), motion, may, "RLP", not_yet, "drilling cycle with dwell"},
+    {'G', code(83), motion, may, "RLQ", not_yet, "peck drilling cycle"},
+    {'G', code(84), motion, may, "RLPK", not_yet, "right-hand tapping cycle"},
+    {'G', code(85), motion, may, "RLP", not_yet, "boring cycle"},
+    {'G', code(86), motion, may, "RLP", not_yet, "boring cycle"},
+    {'G', code(87), motion, may, "RLPIJK", not_yet, "back boring cycle"},
+    {'G', code(88), motion, may, "RLP", not_yet, "boring cycle"},
+    {'G', code(89), motion, may, "RLP", not_yet, "boring cycle"},
+    {'G', code(90), distance, none, "", yes, "absolute distances"},
+    {'G', code(90, 1), arc_distance, none, "", yes, "absolute arc centres"},
+    {'G', code(91), distance, none, "", yes, "incremental distances"},
+    {'G', code(91, 1), arc_distance, none, "", yes, "incremental arc centres"},
+    {'G', code(92), non_modal, must, "", yes, "offset so that this is the given position"},
+    {'G', code(92, 1), non_modal, none, "", yes, "clear the G92 offset"},
+    {'G', code(92, 2), non_modal, none, "", yes, "suspend the G92 offset"},
+    {'G', code(92, 3), non_modal, none, "", yes, "restore the G92 offset"},
+    {'G', code(93), feed_mode, none, "", yes, "inverse time feed"},
+    {'G', code(94), feed_mode, none, "", yes, "feed in units a minute"},
+    {'G', code(95), feed_mode, none, "", yes, "feed in units a revolution"},
+    {'G', code(96), spindle_mode, none, "D", not_yet, "constant surface speed"},
+    {'G', code(97), spindle_mode, none, "", yes, "constant spindle speed"},
+    {'G', code(98), retract, none, "", yes, "cycles retract to where they began"},
+    {'G', code(99), retract, none, "", yes, "cycles retract to R"},
 
-constexpr bool comes_before(const Code& a, const Code& b) {
-  return a.letter != b.letter ? a.letter < b.letter : a.number < b.number;
+    {'M', code(0), stopping, none, "", yes, "stop"},
+    {'M', code(1), stopping, none, "", yes, "optional stop"},
+    {'M', code(2), stopping, none, "", yes, "end of the program"},
+    {'M', code(3), spindle, none, "", yes, "spindle clockwise"},
+    {'M', code(4), spindle, none, "", yes, "spindle counterclockwise"},
+    {'M', code(5), spindle, none, "", yes, "spindle off"},
+    {'M', code(6), tool_change, none, "", yes, "tool change"},
+    {'M', code(7), coolant, none, "", yes, "mist on"},
+    {'M', code(8), coolant, none, "", yes, "flood on"},
+    {'M', code(9), coolant, none, "", yes, "coolant off"},
+    {'M', code(19), spindle, none, "RQP", not_yet, "orient the spindle"},
+    {'M', code(30), stopping, none, "", yes, "end of the program"},
+    {'M', code(48), overrides, none, "", yes, "overrides on"},
+    {'M', code(49), overrides, none, "", yes, "overrides off"},
+    {'M', code(50), overrides, none, "P", not_yet, "feed override"},
+    {'M', code(51), overrides, none, "P", not_yet, "spindle override"},
+    {'M', code(52), overrides, none, "P", not_yet, "adaptive feed"},
+    {'M', code(53), overrides, none, "P", not_yet, "feed hold switch"},
+    {'M', code(60), stopping, none, "", yes, "pallet change and stop"},
+    {'M', code(61), tool_change, none, "Q", yes, "name the tool in the spindle"},
+    {'M', code(62), input_output, none, "P", not_yet, "digital output"},
+    {'M', code(63), input_output, none, "P", not_yet, "digital output"},
+    {'M', code(64), input_output, none, "P", not_yet, "digital output"},
+    {'M', code(65), input_output, none, "P", not_yet, "digital output"},
+    {'M', code(66), input_output, none, "PELQ", not_yet, "wait for an input"},
+    {'M', code(67), input_output, none, "EQ", not_yet, "analog output"},
+    {'M', code(68), input_output, none, "EQ", not_yet, "analog output"},
+    {'M', code(70), spindle, none, "", not_yet, "save the modal state"},
+    {'M', code(71), spindle, none, "", not_yet, "drop the saved modal state"},
+    {'M', code(72), spindle, none, "", not_yet, "restore the modal state"},
+    {'M', code(73), spindle, none, "", not_yet, "save the modal state for the caller"},
+    {'M', code(98), stopping, none, "PL", not_yet, "call of a subprogram"},
+    {'M', code(99), stopping, none, "P", not_yet, "end of a subprogram"},
+};
+
+constexpr std::size_t table_size = std::size(table);
+constexpr CodeNumber number_limit = code(100);
+constexpr std::uint8_t nothing = 0xff;
+static_assert(table_size < nothing);
+
+// From letter and number to a line of the table in one step: this is looked up several times in every block.
+using Index = std::array<std::array<std::uint8_t, static_cast<std::size_t>(number_limit)>, 2>;
+constexpr Index make_index() {
+  Index index{};
+  for (auto& letter : index) letter.fill(nothing);
+  for (std::size_t i = 0; i < table_size; ++i) {
+    index[table[i].letter == 'G' ? 0 : 1][static_cast<std::size_t>(table[i].number)] = static_cast<std::uint8_t>(i);
+  }
+  return index;
 }
-static_assert(std::ranges::is_sorted(codes, comes_before));
+constexpr Index index_of_table = make_index();
 
 }  // namespace
 
-const Code* find_code(char letter, std::int32_t tenths) {
-  const Code wanted{.letter = letter, .number = tenths, .group = motion, .meaning = {}};
-  const auto* found = std::lower_bound(codes.begin(), codes.end(), wanted, comes_before);
-  return found != codes.end() && found->letter == letter && found->number == tenths ? found : nullptr;
+std::string_view name_of(ModalGroup group) {
+  constexpr std::array<std::string_view, modal_group_count> names = {
+      "non-modal codes", "motion",       "planes",        "distance modes",      "arc centre modes",    "feed modes",
+      "length units",    "cutter compensation", "tool length offsets", "retract modes", "work systems", "path modes",
+      "spindle modes",   "lathe modes",  "program stops", "inputs and outputs",  "tool changes",        "spindle codes",
+      "coolant codes",   "override codes", "user codes"};
+  return names[index_of(group)];
 }
 
-std::span<const Code> all_codes() {
-  return codes;
+const CodeEntry* find_code(char letter, CodeNumber number) {
+  if (number < 0 || number >= number_limit) return nullptr;
+  const std::uint8_t at = index_of_table[letter == 'G' ? 0 : 1][static_cast<std::size_t>(number)];
+  return at == nothing ? nullptr : &table[at];
 }
 
-std::string_view group_name(ModalGroup group) {
-  constexpr std::array<std::string_view, modal_group_count> names = {"motion",
-                                                                     "plane",
-                                                                     "distance mode",
-                                                                     "arc distance mode",
-                                                                     "feed mode",
-                                                                     "units",
-                                                                     "cutter compensation",
-                                                                     "tool length",
-                                                                     "retract mode",
-                                                                     "work offset",
-                                                                     "path mode",
-                                                                     "diameter mode",
-                                                                     "spindle mode",
-                                                                     "non-modal",
-                                                                     "stopping",
-                                                                     "tool change",
-                                                                     "spindle",
-                                                                     "coolant",
-                                                                     "override"};
-  return names[static_cast<std::size_t>(group)];
+std::string spelling(char letter, CodeNumber number) {
+  const int whole = number / 10;
+  const int tenth = number % 10;
+  return tenth == 0 ? fmt::format("{}{}", letter, whole) : fmt::format("{}{}.{}", letter, whole, tenth);
+}
+
+std::string nearest_code(std::string_view spelled) {
+  std::vector<std::string> spellings;
+  for (const CodeEntry& entry : table) {
+    if (entry.support == yes) spellings.push_back(spelling(entry));
+  }
+  const std::vector<std::string_view> candidates(spellings.begin(), spellings.end());
+  return std::string(nearest(spelled, candidates));
+}
+
+std::string codes_using(char letter) {
+  const bool axis = (axis_letters | polar_letters).has(letter);
+  std::vector<std::string> users;
+  for (const CodeEntry& entry : table) {
+    if (entry.support != yes) continue;
+    if (entry.letters.has(letter) || (axis && entry.axes != none)) users.push_back(spelling(entry));
+  }
+  if (users.empty()) return {};
+  std::string text = users.front();
+  for (std::size_t i = 1; i < users.size(); ++i) text += (i + 1 == users.size() ? " or " : ", ") + users[i];
+  return text;
 }
 
 }  // namespace passo

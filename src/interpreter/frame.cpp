@@ -2,9 +2,26 @@
 
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 namespace passo {
 namespace {
+
+struct Direction {
+  double cosine = 1;
+  double sine = 0;
+};
+
+// Quarter turns are exact: a frame turned by 90 degrees must not leave 6e-17 of X in Y.
+Direction direction_of(double degrees) {
+  const double quarters = degrees / 90;
+  if (quarters == std::round(quarters) && std::abs(quarters) < 1e9) {
+    constexpr Direction exact[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    return exact[static_cast<unsigned>(static_cast<long>(quarters)) & 3U];
+  }
+  const double radians = degrees * (std::numbers::pi / 180);
+  return {std::cos(radians), std::sin(radians)};
+}
 
 void rotate(Point& point, double cosine, double sine) {
   const double x = point[Axis::x];
@@ -19,30 +36,36 @@ bool Frame::follow(const Operation& operation) {
   if (const auto* work = std::get_if<operation::SetWorkOffset>(&operation.what)) {
     work_offset_ = work->offset;
     work_system_ = work->system;
-  } else if (const auto* g92 = std::get_if<operation::SetG92Offset>(&operation.what)) {
-    g92_offset_ = g92->offset;
-  } else if (const auto* tool = std::get_if<operation::SetToolOffset>(&operation.what)) {
-    tool_offset_ = tool->offset;
-  } else if (const auto* rotation = std::get_if<operation::SetRotation>(&operation.what)) {
-    rotation_degrees_ = rotation->degrees;
-    cosine_ = rotation_degrees_ == 0 ? 1 : std::cos(rotation_degrees_ * std::numbers::pi / 180);
-    sine_ = rotation_degrees_ == 0 ? 0 : std::sin(rotation_degrees_ * std::numbers::pi / 180);
-  } else {
-    return false;
+    return true;
   }
-  return true;
+  if (const auto* g92 = std::get_if<operation::SetG92Offset>(&operation.what)) {
+    g92_offset_ = g92->offset;
+    return true;
+  }
+  if (const auto* rotation = std::get_if<operation::SetRotation>(&operation.what)) {
+    rotation_degrees_ = rotation->degrees;
+    const Direction direction = direction_of(rotation->degrees);
+    cosine_ = direction.cosine;
+    sine_ = direction.sine;
+    return true;
+  }
+  if (const auto* tool = std::get_if<operation::SetToolOffset>(&operation.what)) {
+    tool_offset_ = tool->offset;
+    return true;
+  }
+  return false;
 }
 
 Point Frame::machine_from_work(const Point& work) const {
-  Point machine = work + g92_offset_;
-  if (rotation_degrees_ != 0) rotate(machine, cosine_, sine_);
-  return machine + work_offset_ + tool_offset_;
+  Point point = work + g92_offset_;
+  rotate(point, cosine_, sine_);
+  return point + work_offset_ + tool_offset_;
 }
 
 Point Frame::work_from_machine(const Point& machine) const {
-  Point work = machine - tool_offset_ - work_offset_;
-  if (rotation_degrees_ != 0) rotate(work, cosine_, -sine_);
-  return work - g92_offset_;
+  Point point = machine - work_offset_ - tool_offset_;
+  rotate(point, cosine_, -sine_);
+  return point - g92_offset_;
 }
 
 }  // namespace passo

@@ -1,173 +1,188 @@
-// Executor: what moves the frame. G10, G28, G30, G43, G49, G54 … G59.3, G92.
-#include <cmath>
-
-#include "executor.hpp"
+// BlockExecutor: the codes that move the work frame, and those that need it as a whole.
 #include <fmt/format.h>
+
+#include "block_executor.hpp"
 
 namespace passo {
 namespace {
 
-constexpr std::size_t systems = work_offset_count;
+using enum ModalGroup;
 
-double rotation_of(const ModalState& state, std::size_t system) {
-  return state.rotations[system];
+constexpr int work_systems = 9;
+// G54 … G59, G59.1 … G59.3.
+constexpr int system_of(CodeNumber number) {
+  return number <= code(59) ? number / 10 - 53 : 6 + number % 10;
+}
+constexpr CodeNumber code_of_system(int system) {
+  return system <= 6 ? code(53 + system) : code(59, system - 6);
 }
 
 }  // namespace
 
-void Executor::emit_work_offset() {
-  emit(operation::SetWorkOffset{.system = static_cast<std::uint8_t>(state_.work_system + 1),
-                                .offset = state_.work_offsets[state_.work_system]});
-  emit(operation::SetRotation{rotation_of(state_, state_.work_system)});
+// The tool stays where it is; its position gets other numbers.
+template <class... Operations>
+void BlockExecutor::change_frame(const Operations&... operations) {
+  const Point machine = state_.machine_position();
+  const auto change = [this](const Operation& operation) {
+    operations_.push(operation);
+    state_.frame.follow(operation);
+  };
+  (change(Operation{operations, source_}), ...);
+  state_.position = state_.frame.work_from_machine(machine);
 }
 
-void Executor::work_offset(const BlockWords& words) {
-  const CodeWord& code = words.code(ModalGroup::work_offset);
-  if (!code) return;
-  const std::int32_t number = code.code->number;
-  change_frame([&] {
-    state_.work_system = static_cast<std::size_t>(number <= 590 ? (number - 540) / 10 : 5 + number - 590);
-    emit(operation::SetWorkOffset{.system = static_cast<std::uint8_t>(state_.work_system + 1),
-                                  .offset = state_.work_offsets[state_.work_system]});
-    emit(operation::SetG92Offset{state_.g92_active ? state_.g92_offset : Point()});
-    emit(operation::SetRotation{rotation_of(state_, state_.work_system)});
-  });
-}
-
-bool Executor::tool_length(BlockWords& words) {
-  const CodeWord& code = words.code(ModalGroup::tool_length);
-  if (!code) return true;
+bool BlockExecutor::set_tool_length(CodeNumber number) {
+  state_.modal.set(tool_length, number);
   Point offset;
-  if (code.is(430)) {
-    words.take('H');
-    reporter_.warning("gcode.no-tool-table", code.span,
-                      "there is no tool table yet: the tool's length is taken as zero",
-                      "G43.1 with the length, or a work offset for each tool");
-  }
-  if (code.is(431)) {
-    offset = state_.tool_offset;
+  if (number == code(43, 1)) {
+    offset = state_.frame.tool_offset();
     for (const Axis axis : all_axes) {
-      if (words.has(letter_of(axis))) {
-        offset[axis] = words.take(letter_of(axis)) * (is_rotary(axis) ? 1 : state_.scale());
+      if (words_.has(letter_of(axis))) offset[axis] = axis_word(axis);
+    }
+  } else if (number == code(43)) {
+    std::int32_t tool = state_.tool;
+    if (words_.has('H') && !whole_word('H', 0, 99999, tool)) return false;
+    if (tool != 0 && !std::exchange(missing_tool_table_told_, true)) {
+      reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
+                        fmt::format("the offset of tool {} is taken as zero: there is no tool table yet", tool),
+                        "G43.1 with the offset itself");
+    }
+  }
+  change_frame(operation::SetToolOffset{offset});
+  return true;
+}
+
+bool BlockExecutor::select_work_system(CodeNumber number) {
+  if (state_.modal[work_system] == number) {
+    note("interpreter: continuing to use same coordinate system");
+    return true;
+  }
+  activate_system(system_of(number), true);
+  return true;
+}
+
+void BlockExecutor::activate_system(int system, bool with_g92) {
+  state_.modal.set(work_system, code_of_system(system));
+  parameters_.set(work_system_parameter, system);
+  const operation::SetWorkOffset offset{static_cast<std::uint8_t>(system),
+                                        parameters_.point(work_offset_parameter(system))};
+  const operation::SetRotation rotation{parameters_.get(rotation_parameter(system))};
+  if (with_g92) {
+    change_frame(offset, operation::SetG92Offset{state_.frame.g92_offset()}, rotation);
+  } else {
+    change_frame(offset, rotation);
+  }
+}
+
+// G28 and G30: by way of the given point, then the given axes (or all) to the stored one.
+bool BlockExecutor::go_home(int parameter) {
+  Point end;
+  if (!end_point(end)) return false;
+  emit(operation::StraightTraverse{end});
+  const Point home = state_.frame.work_from_machine(parameters_.point(parameter));
+  for (const Axis axis : all_axes) {
+    if (!words_.any_axis() || words_.has(letter_of(axis))) end[axis] = home[axis];
+  }
+  emit(operation::StraightTraverse{end});
+  state_.position = end;
+  return true;
+}
+
+bool BlockExecutor::store_home(int parameter) {
+  parameters_.set_point(parameter, state_.machine_position());
+  return true;
+}
+
+bool BlockExecutor::check_work_offset_words(int& system) {
+  if (!words_.has('L') || !(words_['L'] == 2 || words_['L'] == 20)) {
+    const bool table = words_.has('L') && (words_['L'] == 1 || words_['L'] == 10 || words_['L'] == 11);
+    return fail(table ? "gcode.unsupported-code" : "gcode.missing-word",
+                words_.has('L') ? words_.span('L') : words_.span(non_modal),
+                table ? fmt::format("G10 L{} (tool table) is not supported yet", plain_number(words_['L']))
+                      : std::string("G10 without L2 or L20"),
+                "G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position");
+  }
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", words_.span(non_modal), "G10 without P",
+                "P, the work system: 1 to 9, or 0 for the active one");
+  }
+  std::int32_t number = 0;
+  if (!whole_word('P', 0, work_systems, number)) return false;
+  if (words_['L'] == 20 && words_.has('R')) {
+    return fail("gcode.unused-word", words_.span('R'), "R with G10 L20", "G10 L2 R… turns a work system");
+  }
+  system = number == 0 ? system_of(state_.modal[work_system]) : number;
+  return true;
+}
+
+// G10 L2: a system's offset is… G10 L20: a system's offset is such that this is the position…
+bool BlockExecutor::set_work_offset() {
+  int system = 0;
+  if (!check_work_offset_words(system)) return false;
+  const int first = work_offset_parameter(system);
+  Point offset = parameters_.point(first);
+  const bool is_active = code_of_system(system) == state_.modal[work_system];
+  if (words_['L'] == 2) {
+    for (const Axis axis : all_axes) {
+      if (words_.has(letter_of(axis))) offset[axis] = axis_word(axis);
+    }
+    if (words_.has('R')) parameters_.set(rotation_parameter(system), words_['R']);
+  } else {
+    Frame frame = state_.frame;
+    frame.follow({operation::SetWorkOffset{static_cast<std::uint8_t>(system), offset}, source_});
+    frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(system))}, source_});
+    frame.follow({operation::SetG92Offset{active_g92()}, source_});
+    const Point here = state_.machine_position();
+    Point wanted = frame.work_from_machine(here);
+    bool any_of_plane = false;
+    for (const Axis axis : all_axes) {
+      if (!words_.has(letter_of(axis))) continue;
+      wanted[axis] = axis_word(axis);
+      any_of_plane |= axis == Axis::x || axis == Axis::y;
+    }
+    const Point moved = offset + (here - frame.machine_from_work(wanted));
+    for (const Axis axis : all_axes) {
+      const bool in_plane = axis == Axis::x || axis == Axis::y;
+      if (words_.has(letter_of(axis)) || (in_plane && any_of_plane && frame.rotation_degrees() != 0)) {
+        offset[axis] = moved[axis];
       }
     }
   }
-  change_frame([&] {
-    state_.tool_offset = offset;
-    emit(operation::SetToolOffset{offset});
-  });
-  return true;
-}
-
-bool Executor::non_modal(BlockWords& words) {
-  const CodeWord& code = words.code(ModalGroup::non_modal);
-  if (!code || code.is(40) || code.is(530)) return true;
-  const Point machine = state_.frame.machine_from_work(state_.work);
-  switch (code.code->number) {
-    case 100: return set_work_offset(words);
-    case 280: return go_home(words, 0);
-    case 300: return go_home(words, 1);
-    case 281: state_.homes[0] = machine; return true;
-    case 301: state_.homes[1] = machine; return true;
-    case 920:
-      if (!words.has_axis_word()) {
-        return reporter_.error("gcode.missing-value", code.span, "G92 says no axis", "at least one axis word");
-      }
-      set_g92(words);
-      return true;
-    default: break;
-  }
-  // G92.1 forgets the shift, G92.2 keeps it for G92.3.
-  change_frame([&] {
-    state_.g92_active = code.is(923);
-    if (code.is(921)) state_.g92_offset = Point();
-    emit(operation::SetG92Offset{state_.g92_active ? state_.g92_offset : Point()});
-  });
-  return true;
-}
-
-void Executor::set_g92(BlockWords& words) {
-  Point offset = state_.g92_active ? state_.g92_offset : Point();
-  Point work = state_.work;
-  for (const Axis axis : all_axes) {
-    if (!words.has(letter_of(axis))) continue;
-    const double value = words.take(letter_of(axis)) * (is_rotary(axis) ? 1 : state_.scale());
-    offset[axis] += work[axis] - value;
-    work[axis] = value;
-  }
-  state_.g92_offset = offset;
-  state_.g92_active = true;
-  emit(operation::SetG92Offset{offset});
-  state_.work = work;
-}
-
-bool Executor::system_of(BlockWords& words, std::size_t& system) {
-  const double p = words.take_if('P').value_or(0);
-  if (p < 0 || p > static_cast<double>(systems) || std::fabs(p - std::round(p)) > whole_number_tolerance) {
-    return reporter_.error("gcode.value-out-of-range", words.span('P'), "P is no number of a work offset",
-                           fmt::format("a whole number from 0 (the active one) to {} (G59.3)", systems));
-  }
-  const auto number = static_cast<std::size_t>(std::lround(p));
-  system = number == 0 ? state_.work_system : number - 1;
-  return true;
-}
-
-// G10 L2 says the offset itself, G10 L20 the work position that the tool is to have.
-bool Executor::set_work_offset(BlockWords& words) {
-  const double l = words.take_if('L').value_or(-1);
-  if (l != 2 && l != 20) {
-    return reporter_.error("gcode.unsupported-code", words.code(ModalGroup::non_modal).span,
-                           words.has('L') ? fmt::format("G10 L{} is not supported by this release", l)
-                                          : std::string("G10 does not say what to set"),
-                           "L2 or L20");
-  }
-  std::size_t system = 0;
-  if (!system_of(words, system)) return false;
-
-  Point offset = state_.work_offsets[system];
-  double rotation = state_.rotations[system];
-  if (const auto r = words.take_if('R'); r && l == 2) rotation = *r;
-
-  // What the tool's work position in that system is, and becomes.
-  Frame frame = state_.frame;
-  frame.follow({.what = operation::SetWorkOffset{.offset = offset}, .source = {}});
-  frame.follow({.what = operation::SetRotation{rotation}, .source = {}});
-  const Point machine = state_.frame.machine_from_work(state_.work);
-  Point work = frame.work_from_machine(machine);
-  for (const Axis axis : all_axes) {
-    if (!words.has(letter_of(axis))) continue;
-    const double value = words.take(letter_of(axis)) * (is_rotary(axis) ? 1 : state_.scale());
-    (l == 2 ? offset : work)[axis] = value;
-  }
-  if (l == 20) offset = offset + machine - frame.machine_from_work(work);
-
-  state_.rotations[system] = rotation;
-  state_.work_offsets[system] = offset;
-  if (system == state_.work_system) {
-    change_frame([this] { emit_work_offset(); });
+  parameters_.set_point(first, offset);
+  if (is_active) {
+    activate_system(system, false);
   } else {
-    emit(operation::Comment{"interpreter: setting coordinate system origin"});
+    note("interpreter: setting coordinate system origin");
   }
   return true;
 }
 
-// By way of the point that the axis words say, to the home of those axes; without any, of all axes.
-bool Executor::go_home(BlockWords& words, std::size_t which) {
-  const bool some = words.has_axis_word();
-  Point home = state_.frame.machine_from_work(state_.work);
-  AxisSet axes;
-  for (const Axis axis : all_axes) {
-    if (!some || words.has(letter_of(axis))) axes.add(axis);
+Point BlockExecutor::active_g92() const {
+  return parameters_.get(g92_active_parameter) != 0 ? parameters_.point(g92_parameter) : Point{};
+}
+
+bool BlockExecutor::set_g92(CodeNumber number) {
+  Point offset;
+  switch (number) {
+    case code(92):
+      offset = state_.frame.g92_offset();
+      for (const Axis axis : all_axes) {
+        if (words_.has(letter_of(axis))) offset[axis] += state_.position[axis] - axis_word(axis);
+      }
+      break;
+    case code(52):
+      offset = state_.frame.g92_offset();
+      for (const Axis axis : all_axes) {
+        if (words_.has(letter_of(axis))) offset[axis] = axis_word(axis);
+      }
+      break;
+    case code(92, 3): offset = parameters_.point(g92_parameter); break;
+    default: break;  // G92.1 and G92.2: none
   }
-  Point by_way;
-  if (!end_point(words, by_way)) return false;
-  home = state_.frame.machine_from_work(by_way);
-  for (const Axis axis : all_axes) {
-    if (axes.has(axis)) home[axis] = state_.homes[which][axis];
-  }
-  emit(operation::StraightTraverse{by_way});
-  state_.work = state_.frame.work_from_machine(home);
-  emit(operation::StraightTraverse{state_.work});
+  const bool active = number == code(92) || number == code(52) || number == code(92, 3);
+  parameters_.set(g92_active_parameter, active ? 1 : 0);
+  if (number != code(92, 2)) parameters_.set_point(g92_parameter, offset);
+  change_frame(operation::SetG92Offset{offset});
   return true;
 }
 

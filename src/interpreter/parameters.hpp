@@ -1,55 +1,88 @@
-// Parameters: #1…#5602 and the named ones, with the scopes of RS274/NGC.
+// Parameters: #1 … #5601, #<name> and #<_name>.
 //
-// #1 to #30 belong to the subroutine that runs; names without an underscore too. The predefined names (#<_x>) and the
-// numbers that tell positions and offsets (#5420) are read from the interpreter's state.
+// Numbered ones are 0 until set. #1 … #30 belong to the sub that runs, and so do names without a leading underscore; names
+// with one are global. Home positions and offsets (#5161, #5181, #5211, #5221 … #5390) *live* here, in millimetres
+// and degrees, whatever the program's units; what the machine does just now (#5420 …, #<_x>, #<_feed> …) is computed
+// when it is read and cannot be set.
+//
+// Looking up a name is an index. A sub that sets a name of its caller's leaves the old value in an undo list.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <functional>
-#include <utility>
+#include <span>
 #include <vector>
 
-#include "modal_state.hpp"
-
+#include "machine_state.hpp"
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/symbols.hpp"
 
 namespace passo {
 
+inline constexpr int highest_parameter = 5601;
+inline constexpr std::size_t sub_parameters = 30;
+
+// Where the offsets live. A work system's ten parameters: nine axes and its rotation.
+inline constexpr int first_home_parameter = 5161;
+inline constexpr int second_home_parameter = 5181;
+inline constexpr int g92_active_parameter = 5210;
+inline constexpr int g92_parameter = 5211;
+inline constexpr int work_system_parameter = 5220;
+inline constexpr int tool_parameter = 5400;
+inline constexpr int tool_offset_parameter = 5401;
+inline constexpr int position_parameter = 5420;
+constexpr int work_offset_parameter(int system) {
+  return 5201 + 20 * system;
+}
+constexpr int rotation_parameter(int system) {
+  return work_offset_parameter(system) + 9;
+}
+
 class Parameters final : public ParameterValues {
  public:
-  static constexpr std::int64_t highest = 5602;
-  static constexpr std::size_t locals = 30;
-
-  Parameters(const ModalState& state, const SymbolTable& symbols);
+  Parameters(SymbolTable& symbols, const MachineState& state);
 
   bool numbered(std::int64_t number, double& value) const override;
   bool named(Symbol name, double& value) const override;
 
-  enum class Setting : std::uint8_t { done, out_of_range, read_only };
-  Setting set_numbered(std::int64_t number, double value);
-  Setting set_named(Symbol name, double value);
+  // False where it cannot be set.
+  [[nodiscard]] bool set_named(Symbol name, double value);
+  static bool is_settable(std::int64_t number);
+  void set(int number, double value) { numbers_[static_cast<std::size_t>(number)] = value; }
+  double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
-  // A subroutine begins: its arguments are #1…, all other locals are zero, and it has no names yet.
-  void enter(const std::vector<double>& arguments);
-  // It ends: the caller's locals are as they were.
-  void leave();
+  Point point(int first) const;
+  void set_point(int first, const Point& point);
+
+  // A sub begins with these arguments, and ends.
+  void enter_sub(std::span<const double> arguments);
+  void leave_sub();
 
  private:
-  struct Scope {
-    std::vector<double> numbers = std::vector<double>(locals);
-    std::vector<std::pair<Symbol, double>> names;
+  struct Named {
+    enum class Kind : std::uint8_t { unseen, local, global, predefined };
+    Kind kind = Kind::unseen;
+    std::uint8_t predefined = 0;  // which
+    std::int32_t depth = -1;      // of the sub that set it; -1: never set
+    double value = 0;
   };
+  struct Undo {
+    std::uint32_t symbol;
+    std::int32_t depth;
+    double value;
+  };
+  struct Caller {
+    std::array<double, sub_parameters> numbers;
+    std::size_t undo_size;
+  };
+  Named& at(Symbol name);
 
-  bool is_global(Symbol name) const;
-  bool predefined(Symbol name, double& value) const;
-  bool of_state(std::int64_t number, double& value) const;
-
-  const ModalState& state_;
-  const SymbolTable& symbols_;
-  std::vector<double> numbers_;
-  std::vector<std::pair<bool, double>> globals_;  // by symbol: set or not, value
-  std::vector<Scope> scopes_;
+  SymbolTable& symbols_;
+  const MachineState& state_;
+  std::array<double, highest_parameter + 1> numbers_{};
+  std::vector<Named> names_;  // by symbol
+  std::vector<Undo> undo_;
+  std::vector<Caller> callers_;
 };
 
 }  // namespace passo

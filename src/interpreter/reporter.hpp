@@ -1,43 +1,49 @@
-// Reporter: turns what is wrong in the block at hand into a Diagnostic.
+// Reporter: says what is wrong in the block that is being read, with its line and the place in it.
 #pragma once
 
 #include <string>
-#include <utility>
+#include <string_view>
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/block.hpp"
+#include "passo/gcode/expression.hpp"
 
 namespace passo {
 
 class Reporter {
  public:
-  Reporter(std::string file, const Block& block, Diagnostics& diagnostics)
-      : file_(std::move(file)), block_(block), diagnostics_(diagnostics) {}
+  explicit Reporter(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Always false, so that a check can end with `return reporter.error(…)`.
-  bool error(const char* code, Span span, std::string message, std::string expected = "") const {
-    report(Severity::error, code, span, std::move(message), std::move(expected));
-    return false;
+  // What follows is about this block of this file, until the next call. Both are borrowed.
+  void look_at(const Block& block, const std::string& file) {
+    block_ = &block;
+    file_ = &file;
   }
-  void warning(const char* code, Span span, std::string message, std::string expected = "") const {
-    report(Severity::warning, code, span, std::move(message), std::move(expected));
-  }
-  const std::string& file() const { return file_; }
+
+  void error(std::string_view code, Span span, std::string message, std::string expected = {});
+  void warning(std::string_view code, Span span, std::string message, std::string expected = {});
+  // About another line than the block's own.
+  void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
+                std::string expected);
+  // An expression that has no value.
+  void error(const EvaluationError& error);
+
+  // What the file says there.
+  std::string quote(Span span) const;
+  const Block& block() const { return *block_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+  bool full() const { return diagnostics_.full(); }
 
  private:
-  void report(Severity severity, const char* code, Span span, std::string message, std::string expected) const {
-    diagnostics_.add({.severity = severity,
-                      .code = code,
-                      .file = file_,
-                      .place = {.line = block_.line, .column = span.column, .length = span.length},
-                      .message = std::move(message),
-                      .expected = std::move(expected),
-                      .text = std::string(block_.text)});
-  }
+  void add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
+           std::string message, std::string expected);
 
-  std::string file_;
-  const Block& block_;
   Diagnostics& diagnostics_;
+  const Block* block_ = nullptr;
+  const std::string* file_ = nullptr;
 };
+
+// A number as a person writes it: "2.5", not "2.500000".
+std::string plain_number(double value);
 
 }  // namespace passo

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +46,34 @@ double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
   return sense * (sweep + full * (std::abs(static_cast<double>(turns)) - 1));
 }
 
+// What others act on. An operation that is new must be named here or handled, else take() does not compile.
+template <class What, class... Others>
+inline constexpr bool is_one_of = (std::is_same_v<What, Others> || ...);
+template <class What>
+concept OfOthers =
+    is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
+              operation::SetRotation, operation::SetToolOffset, operation::SelectPlane, operation::SetMergeTolerance,
+              operation::SetSpindleMode, operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+              operation::StartToolChange, operation::SetToolNumber, operation::PalletShuttle, operation::Finish,
+              operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
+              operation::SetFeedReference>;
+
+constexpr SpindleDirection reversed(SpindleDirection direction) {
+  switch (direction) {
+    case SpindleDirection::clockwise: return SpindleDirection::counterclockwise;
+    case SpindleDirection::counterclockwise: return SpindleDirection::clockwise;
+    case SpindleDirection::off: break;
+  }
+  return SpindleDirection::off;
+}
+
+bool turns_only_rotary_axes(const Curve& curve) {
+  for (const Axis axis : all_axes) {
+    if (!is_rotary(axis) && curve.tangent(Mm(0))[axis] != 0) return false;
+  }
+  return curve.shape() == Curve::Shape::line;
+}
+
 template <class... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;
@@ -67,23 +96,39 @@ bool PathBuilder::next(PathItem& item) {
     return true;
   }
   bool has_item = take_chord(item);
-  while (!has_item && operations_.next(operation_)) has_item = take(operation_, item);
+  while (!has_item && next_operation()) has_item = take(operation_, item);
+  if (!has_item) switch_off();
   if (outputs() == handed_on_) return has_item;
 
-  // The outputs change before the item in hand; at the end of the operations there may be none.
+  // The outputs change before the item in hand; at the end of the operations there is none.
   if (has_item) held_ = item;
   item = outputs_action();
   handed_on_ = outputs();
   return true;
 }
 
+// Some operations stand for several; those come first.
+bool PathBuilder::next_operation() {
+  if (tap_step_ == tap_.size()) return operations_.next(operation_);
+  operation_.what = tap_[tap_step_++];
+  return true;
+}
+
+// In step with the spindle down to the end, and with the spindle reversed back to where it began.
+void PathBuilder::expand(const operation::RigidTap& tap) {
+  tap_ = {operation::StraightFeed{tap.end}, operation::TurnSpindle{reversed(commanded_.spindle)},
+          operation::StraightFeed{frame_.work_from_machine(position_)}, operation::TurnSpindle{commanded_.spindle}};
+  tap_step_ = 0;
+}
+
+// What the program forgot to, wherever it ends.
+void PathBuilder::switch_off() {
+  if (outputs() != OutputState{}) outputs_source_ = operation_.source;
+  commanded_ = OutputState{};
+}
+
 bool PathBuilder::take(const Operation& operation, PathItem& item) {
-  if (frame_.follow(operation)) {
-    if (const auto* rotation = std::get_if<operation::SetRotation>(&operation.what)) {
-      rotation_degrees_ = rotation->degrees;
-    }
-    return false;
-  }
+  if (frame_.follow(operation)) return false;
   const auto act = [&](Action::Kind kind, Seconds dwell = Seconds(0), std::int32_t tool = 0) {
     item = Action{.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .source = operation.source};
     return true;
@@ -99,7 +144,8 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
           [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
-          [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate.rate, false; },
+          [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
+          [&](const operation::RigidTap& tap) { return expand(tap), false; },
           [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
@@ -115,11 +161,10 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::ProgramStop&) { return act(Action::Kind::program_stop); },
           [&](const operation::OptionalProgramStop&) { return act(Action::Kind::optional_stop); },
           [&](const operation::ProgramEnd&) {
-            if (outputs() != OutputState{}) outputs_source_ = operation.source;
-            commanded_ = OutputState{};  // whatever the program forgot to switch off
+            switch_off();
             return act(Action::Kind::program_end);
           },
-          [](const auto&) { return false; },  // comments, and state that the path does not depend on
+          []<OfOthers What>(const What&) { return false; },
       },
       operation.what);
 }
@@ -129,7 +174,7 @@ bool PathBuilder::take_line(const Point& work_end, bool rapid, PathItem& item) {
 }
 
 bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
-  if (rotation_degrees_ != 0 && arc.plane != Plane::xy) return take_tilted_arc(arc, item);
+  if (frame_.rotation_degrees() != 0 && arc.plane != Plane::xy) return take_tilted_arc(arc, item);
   const auto [first, second] = axes_of(arc.plane);
   const Point end = machine_end(arc.end);
   Point work_center = arc.end;
@@ -215,8 +260,8 @@ Point PathBuilder::machine_end(const Point& work_end) const {
 
 MmPerSecond PathBuilder::feed_along(const Curve& curve) {
   if (synchronised_pitch_) return feed_with_spindle(synchronised_pitch_->value());
-  if (feed_mode_ == FeedMode::units_per_revolution) return feed_with_spindle(feed_rate_);
-  const double rate = feed_mode_ == FeedMode::inverse_time ? curve.length().value() * feed_rate_ : feed_rate_;
+  const double rate = turns_only_rotary_axes(curve) ? feed_rate_.rotary_rate : feed_rate_.rate;
+  if (feed_mode_ == FeedMode::units_per_revolution) return feed_with_spindle(rate);
   if (rate > 0) return MmPerSecond(rate);
   report(Severity::error, "path.no-feed", "a feed move without a feed rate", "F above 0 before the move, or on it");
   return speed_after_error;

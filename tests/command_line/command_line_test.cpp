@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadProgram{"cr_only_counts_lines", "G21\rG1 X1\rM2\r", "gcode.missing-feed", ":2:1"},
         BadProgram{"crlf_counts_lines", "G21\r\nG1 X1\r\nM2\r\n", "gcode.missing-feed", ":2:1"},
         BadProgram{"bom_is_no_column", "\xEF\xBB\xBFG1 X1\nM2\n", "gcode.missing-feed", ":1:1"},
-        BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.arc-radius-too-small", ":2:11"}),
+        BadProgram{"impossible_radius", "G21 F100\nG2 X10 Y0 R2\nM2\n", "gcode.impossible-arc", ":2:11"}),
     [](const testing::TestParamInfo<BadProgram>& param_info) { return param_info.param.name; });
 
 TEST_F(CommandLine, all_errors_of_a_program_come_in_one_go) {

@@ -30,7 +30,7 @@ class PathTest : public testing::Test {
   void add(What what) {
     operations_.push_back({.what = what, .source = {.line = static_cast<std::uint32_t>(operations_.size() + 1)}});
   }
-  void feed(double rate) { add(operation::SetFeedRate{rate}); }
+  void feed(double rate) { add(operation::SetFeedRate{rate, rate}); }
   void go(double x, double y, double z = 0) { add(operation::StraightFeed{xyz(x, y, z)}); }
   void arc(double x, double y, double center_x, double center_y, std::int32_t turns) {
     add(operation::ArcFeed{
@@ -199,12 +199,14 @@ TEST_F(PathTest, an_arc_of_another_plane_in_a_turned_frame_is_walked_in_chords_w
 }
 
 TEST_F(PathTest, feeds_follow_their_mode) {
-  feed(20);
+  options_.axes.add(Axis::a);
+  options_.travel[Axis::a] = {.low = -360, .high = 360};
+  add(operation::SetFeedRate{20, 6});
   go(10, 0);
-  add(operation::SetFeedMode{FeedMode::inverse_time});
-  feed(0.5);
-  go(10, 30);
-  arc(10, 30, 10, 31, 1);
+  Point turned = xyz(10, 0);
+  turned[Axis::a] = 90;
+  add(operation::StraightFeed{turned});
+  add(operation::StraightFeed{xyz(10, 30)});
   add(operation::SetSpindleSpeed{600});
   add(operation::TurnSpindle{SpindleDirection::counterclockwise});
   add(operation::SetFeedMode{FeedMode::units_per_revolution});
@@ -220,8 +222,33 @@ TEST_F(PathTest, feeds_follow_their_mode) {
   std::vector<double> speeds;
   for (const Segment& segment : segments()) speeds.push_back(segment.speed.value());
   EXPECT_TRUE(diagnostics_.all().empty()) << render(diagnostics_, false);
-  EXPECT_THAT(speeds,
-              testing::ElementsAre(20, 15, testing::DoubleEq(pi), 2.5, 15, 7, std::numeric_limits<double>::infinity()));
+  EXPECT_THAT(speeds, testing::ElementsAre(20, 6, 20, 2.5, 15, 7, std::numeric_limits<double>::infinity()));
+}
+
+TEST_F(PathTest, a_rigid_tap_goes_down_and_back_with_the_spindle_reversed) {
+  add(operation::SetWorkOffset{.system = 1, .offset = xyz(0.1, 0.2, 0.3)});
+  add(operation::SetSpindleSpeed{600});
+  add(operation::TurnSpindle{SpindleDirection::clockwise});
+  add(operation::StraightTraverse{xyz(5, 5, 2)});
+  add(operation::StartSpeedFeedSync{.pitch = Mm(1.5)});
+  add(operation::RigidTap{xyz(5, 5, -10)});
+  add(operation::StopSpeedFeedSync{});
+  add(operation::ProgramEnd{});
+  test::expect_golden("src/path/tests/golden/rigid_tap.txt", text());
+  const std::vector<Segment> found = segments();
+  EXPECT_EQ(found.at(1).curve.start(), found.at(2).curve.end());
+  EXPECT_TRUE(diagnostics_.all().empty()) << render(diagnostics_, false);
+}
+
+TEST_F(PathTest, a_program_without_an_end_leaves_nothing_on) {
+  add(operation::SetSpindleSpeed{1000});
+  add(operation::TurnSpindle{SpindleDirection::clockwise});
+  feed(10);
+  go(1, 0);
+  const std::vector<PathItem> items = build();
+  ASSERT_EQ(items.size(), 3U);
+  EXPECT_EQ(std::get<Action>(items[2]).kind, Action::Kind::outputs);
+  EXPECT_EQ(std::get<Action>(items[2]).outputs, OutputState{});
 }
 
 TEST_F(PathTest, a_feed_without_rate_and_a_thread_without_spindle_are_diagnosed) {
@@ -272,8 +299,9 @@ TEST_F(PathTest, a_spindle_speed_above_the_machines_is_a_warning_and_cut) {
   add(operation::SetSpindleSpeed{24000});
   add(operation::TurnSpindle{SpindleDirection::clockwise});
   add(operation::SetSpindleSpeed{24000});
+  add(operation::Dwell{Seconds(1)});
   const std::vector<PathItem> items = build();
-  ASSERT_EQ(items.size(), 1U);
+  ASSERT_EQ(items.size(), 3U);  // and off at the end
   EXPECT_EQ(std::get<Action>(items[0]).outputs.revolutions_per_minute, 10000);
   EXPECT_THAT(codes(), testing::ElementsAre("path.spindle-too-fast"));
   EXPECT_FALSE(diagnostics_.any_error());
@@ -320,7 +348,7 @@ TEST_F(PathTest, the_very_end_of_the_travel_may_be_reached) {
 }
 
 TEST_F(PathTest, an_axis_that_the_machine_does_not_have_is_named_once_and_only_if_it_moves) {
-  feed(10);
+  add(operation::SetFeedRate{10, 10});
   Point end = xyz(1, 0);
   add(operation::StraightFeed{end});
   end[Axis::a] = 90;

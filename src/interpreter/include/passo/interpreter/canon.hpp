@@ -1,25 +1,29 @@
-// CanonPrinter: operations as canonical calls, in the very form that `rs274 -g` prints.
+// CanonPrinter: operations as canonical calls, in the very form that `rs274 -g` (LinuxCNC 2.9) prints.
 //
-//      7 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)
-//     16 N....  STRAIGHT_FEED(x, y, z, a, b, c)
+//     7 N..... USE_LENGTH_UNITS(CANON_UNITS_INCHES)
+//     8 N20    STRAIGHT_FEED(1.0000, 0.0000, -0.2500, 0.0000, 0.0000, 0.0000)
+//
+// A counter, the N word of the block, the call; lengths in the program's units at that place. Like there, U V W and
+// spindle numbers but 0 are not shown. Unlike there, a number that rounds to nothing has no sign, and N has no
+// leading zeros.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/operation.hpp"
 
 namespace passo {
 
 class CanonPrinter {
  public:
-  // Appends one line (or none), with its line end, to `out`.
+  // Appends one line, with its line end, to `out`.
   void print(const Operation& operation, std::string& out);
 
  private:
   std::uint64_t count_ = 0;
   LengthUnits units_ = LengthUnits::mm;
+  FeedMode feed_mode_ = FeedMode::units_per_minute;
 };
 
 }  // namespace passo

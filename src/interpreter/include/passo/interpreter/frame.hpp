@@ -1,6 +1,9 @@
 // Frame: how work positions become machine positions. Listens to the operations that move the frame.
 //
-// machine = work offset + rotate(work + G92 offset, rotation about Z) + tool offset      (as LinuxCNC's canon layer)
+// machine = work offset + rotate(work + G92 offset, rotation about Z) + tool offset
+//
+// as in LinuxCNC (find_ends and find_current_in_system of its interpreter): the G92 offset is turned with the work
+// frame, the tool offset is not. The interpreter follows its own operations with a Frame, and so does the path builder.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -17,6 +20,9 @@ class Frame {
   Point work_from_machine(const Point& machine) const;
 
   const Point& work_offset() const { return work_offset_; }
+  const Point& g92_offset() const { return g92_offset_; }
+  const Point& tool_offset() const { return tool_offset_; }
+  double rotation_degrees() const { return rotation_degrees_; }
   int work_system() const { return work_system_; }
 
  private:

@@ -44,9 +44,11 @@ struct SelectPlane {
 struct SetFeedMode {
   FeedMode mode = FeedMode::units_per_minute;
 };
-// Units per minute: millimetres (degrees) a second. Inverse time: moves a second. Per revolution: mm a revolution.
+// Units per minute: millimetres a second. Per revolution: mm a revolution. Inverse time (G93) never gets here: the
+// interpreter knows each move's length and says units per minute, as LinuxCNC's does.
 struct SetFeedRate {
   double rate = 0;
+  double rotary_rate = 0;  // of a move of A B C alone: degrees a second (a revolution), whatever the length units
 };
 struct SetPathMode {
   PathMode mode = PathMode::continuous;
@@ -77,12 +79,20 @@ struct StartSpeedFeedSync {
   bool velocity_mode = false;
 };
 struct StopSpeedFeedSync {};
+// G33.1: in step with the spindle to `end` and, the spindle reversed, back to where it began; then the spindle turns
+// as before. Between StartSpeedFeedSync and StopSpeedFeedSync.
+struct RigidTap {
+  Point end;
+};
 struct Dwell {
   Seconds time;
 };
 struct SetSpindleSpeed {
   double revolutions_per_minute = 0;
 };
+struct SetSpindleMode {
+  double surface_limit = 0;
+};  // G97: 0, constant speed
 struct TurnSpindle {
   SpindleDirection direction = SpindleDirection::off;
 };
@@ -92,9 +102,17 @@ struct SetMist {
 struct SetFlood {
   bool on = false;
 };
+// M48, M49: whether the operator's overrides of feed and spindle speed count.
+struct SetFeedOverride {
+  bool on = true;
+};
+struct SetSpeedOverride {
+  bool on = true;
+};
 struct SelectTool {
   std::int32_t tool = 0;
 };
+struct StartToolChange {};  // M6 begins; ChangeTool follows
 struct ChangeTool {
   std::int32_t tool = 0;
 };
@@ -104,28 +122,39 @@ struct SetToolNumber {
 struct ProgramStop {};          // M0
 struct OptionalProgramStop {};  // M1
 struct ProgramEnd {};           // M2, M30
+struct PalletShuttle {};        // M30, M60
+struct Finish {};               // the program ended at its closing '%'
 struct Comment {
   std::string_view text;
 };
 struct Message {
   std::string_view text;
 };
-struct SetSpindleMode {};    // constant revolutions a minute (G97)
+struct Print {
+  std::string_view text;
+};  // (PRINT,…): a line for the operator
+// (LOG,…) and its like: a line for a file, or which file; never written by the interpreter.
+struct Log {
+  enum class Kind : std::uint8_t { line, open, append, close };
+  Kind kind = Kind::line;
+  std::string_view text;
+};
 struct Reset {};             // ON_RESET: the interpreter (re)starts
 struct SetFeedReference {};  // always XYZ
 
 }  // namespace operation
 
-using OperationKind =
-    std::variant<operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
-                 operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
-                 operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse,
-                 operation::StraightFeed, operation::ArcFeed, operation::StartSpeedFeedSync,
-                 operation::StopSpeedFeedSync, operation::Dwell, operation::SetSpindleSpeed, operation::TurnSpindle,
-                 operation::SetMist, operation::SetFlood, operation::SelectTool, operation::ChangeTool,
-                 operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop,
-                 operation::ProgramEnd, operation::Comment, operation::Message, operation::SetSpindleMode,
-                 operation::Reset, operation::SetFeedReference>;
+using OperationKind = std::variant<
+    operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
+    operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
+    operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse, operation::StraightFeed,
+    operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::RigidTap,
+    operation::Dwell, operation::SetSpindleSpeed, operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist,
+    operation::SetFlood, operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+    operation::StartToolChange, operation::ChangeTool, operation::SetToolNumber, operation::ProgramStop,
+    operation::OptionalProgramStop, operation::ProgramEnd, operation::PalletShuttle, operation::Finish,
+    operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
+    operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {

@@ -11,6 +11,7 @@
 // to be played.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -45,6 +46,9 @@ class PathBuilder final : public Source<PathItem> {
   const Frame& frame() const { return frame_; }
 
  private:
+  bool next_operation();
+  void expand(const operation::RigidTap& tap);
+  void switch_off();
   // Each says whether it wrote an item.
   bool take(const Operation& operation, PathItem& item);
   bool take_line(const Point& work_end, bool rapid, PathItem& item);
@@ -70,7 +74,6 @@ class PathBuilder final : public Source<PathItem> {
   const PathOptions& options_;
   Diagnostics& diagnostics_;
   Frame frame_;
-  double rotation_degrees_ = 0;
 
   // An arc in the turned work frame, of which chords are still to come.
   struct TiltedArc {
@@ -80,12 +83,15 @@ class PathBuilder final : public Source<PathItem> {
   };
   std::optional<TiltedArc> tilted_;
 
-  Operation operation_;           // the one in hand
+
+  Operation operation_;  // the one in hand
+  std::array<OperationKind, 4> tap_;
+  std::size_t tap_step_ = tap_.size();
   std::optional<PathItem> held_;  // waits while the outputs before it are handed on
   Point position_;                // machine
 
   FeedMode feed_mode_ = FeedMode::units_per_minute;
-  double feed_rate_ = 0;
+  operation::SetFeedRate feed_rate_;
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
   Mm tolerance_{0};

@@ -1,0 +1,505 @@
+#include "block_executor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "comment_text.hpp"
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+constexpr double whole_tolerance = 1e-4;
+constexpr double highest_tool = 99999;
+
+// The digits after N, as far as they count; N words may have a fraction and any length.
+std::int64_t line_number_of(const Block& block) {
+  if (!block.line_number) return -1;
+  std::int64_t number = 0;
+  for (const char digit : *block.line_number) {
+    if (digit < '0' || digit > '9' || number > 99'999'999'999) break;
+    number = number * 10 + (digit - '0');
+  }
+  return number;
+}
+
+}  // namespace
+
+// The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
+// mode, F, S, T, M codes, G codes, motion, stops.
+const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
+    {spindle_mode, &BlockExecutor::set_spindle_mode},
+    {feed_mode, &BlockExecutor::set_feed_mode},
+};
+const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
+    {tool_change, &BlockExecutor::change_tool},
+    {spindle, &BlockExecutor::turn_spindle},
+    {coolant, &BlockExecutor::switch_coolant},
+    {overrides, &BlockExecutor::switch_overrides},
+    {non_modal, &BlockExecutor::dwell},
+    {plane, &BlockExecutor::select_plane},
+    {length_units, &BlockExecutor::set_length_units},
+    {lathe_diameter, &BlockExecutor::set_lathe_diameter},
+    {cutter_compensation, &BlockExecutor::end_cutter_compensation},
+    {tool_length, &BlockExecutor::set_tool_length},
+    {work_system, &BlockExecutor::select_work_system},
+    {path_mode, &BlockExecutor::set_path_mode},
+    {distance, &BlockExecutor::set_distance_mode},
+    {arc_distance, &BlockExecutor::set_arc_distance_mode},
+    {retract, &BlockExecutor::set_retract_mode},
+    {non_modal, &BlockExecutor::run_non_modal},
+};
+
+BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, OperationQueue& operations,
+                             Reporter& reporter, SymbolTable& symbols)
+    : state_(state), parameters_(parameters), operations_(operations), reporter_(reporter), symbols_(symbols) {}
+
+void BlockExecutor::start(const InterpreterOptions& options) {
+  state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
+  state_.position = options.start;
+  emit(operation::SetLengthUnits{options.units});
+  emit(operation::SetWorkOffset{1, Point{}});
+  emit(operation::SetG92Offset{});
+  emit(operation::SetRotation{});
+  emit(operation::SetFeedReference{});
+  emit(operation::Reset{});
+}
+
+void BlockExecutor::finish(Closing closing) {
+  source_.line_number = -1;
+  if (closing == Closing::percent) emit(operation::Finish{});
+  if (closing == Closing::missing) note("interpreter: percent sign missing from end of file");
+  emit(operation::Reset{});  // twice, as rs274 does: the end of the program, and of the interpreter
+  emit(operation::Reset{});
+}
+
+void BlockExecutor::execute(const Block& block) {
+  state_.line = block.line;
+  source_ = {block.line, line_number_of(block)};
+  if (!words_.read(block, parameters_, reporter_)) return;
+  if (!resolve_motion() || !check_words_used()) return;
+  if (!block.assignments.empty() && !assign(block)) return;
+  if (!block.comments.empty() && !obey_comments(block)) return;
+  if (block.words.empty() || !execute_words()) return;
+  if (words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
+}
+
+bool BlockExecutor::execute_words() {
+  if (words_.groups() != 0 && !run(steps_before_words)) return false;
+  if (words_.has('F') && !set_feed_rate()) return false;
+  if (words_.has('S') && !set_spindle_speed()) return false;
+  if (words_.has('T') && !select_tool()) return false;
+  if (words_.groups() != 0 && !run(steps_after_words)) return false;
+  return motion_ == nullptr || move(motion_->number);
+}
+
+bool BlockExecutor::run(std::span<const Step> steps) {
+  for (const Step& step : steps) {
+    const CodeEntry* const entry = words_.code(step.group);
+    if (entry != nullptr && !(this->*step.run)(entry->number)) return false;
+  }
+  return true;
+}
+
+// Who takes the axis words: a code of the block that is no motion, the block's motion, or the motion that is active.
+bool BlockExecutor::resolve_motion() {
+  motion_ = words_.code(motion);
+  const CodeEntry* taker = words_.code(non_modal);
+  ModalGroup taker_group = non_modal;
+  if (taker == nullptr || taker->axes == AxisUse::none) {
+    taker = words_.code(tool_length);
+    taker_group = tool_length;
+  }
+  if (taker != nullptr && taker->axes == AxisUse::none) taker = nullptr;
+
+  const bool any_axis = words_.any_axis();
+  if (motion_ != nullptr && motion_->axes != AxisUse::none && taker != nullptr) {
+    return fail("gcode.axis-conflict", words_.span(taker_group),
+                fmt::format("{} and {} both use the axis words of the block", spelling(*taker), spelling(*motion_)),
+                "two blocks");
+  }
+  const CodeEntry* const user = taker != nullptr ? taker : motion_;
+  if (user != nullptr && user->axes == AxisUse::must && !any_axis) {
+    return fail("gcode.missing-axis", words_.span(user->group), fmt::format("{} without axis words", spelling(*user)),
+                "one of X Y Z A B C U V W at least");
+  }
+  if (motion_ != nullptr || taker != nullptr) return true;
+
+  const CodeNumber active = state_.modal[motion];
+  const bool arc_words = words_.present().bits() != 0 && (words_.present() & LetterSet("IJK")).any();
+  if (any_axis || (arc_words && (active == code(2) || active == code(3)))) {
+    if (active == code(80)) {
+      return fail("gcode.missing-motion", motion_span(), "axis words, and no code that moves is active",
+                  "G0, G1, G2, G3 or another motion code before, or in this block");
+    }
+    motion_ = find_code('G', active);
+  }
+  return true;
+}
+
+// Each word must belong to a code. F, S and T stand for themselves.
+bool BlockExecutor::check_words_used() {
+  LetterSet used = "FST";
+  bool axes = false;
+  const auto add = [&](const CodeEntry* entry) {
+    if (entry == nullptr) return;
+    used = used | entry->letters;
+    axes |= entry->axes != AxisUse::none;
+  };
+  if (words_.groups() != 0) {
+    for (std::size_t group = 0; group < modal_group_count; ++group) add(words_.code(static_cast<ModalGroup>(group)));
+  }
+  add(motion_);
+  if (axes) used = used | axis_letters;
+
+  const LetterSet unused = words_.present() - used;
+  if (!unused.any()) return true;
+  for (const Word& word : reporter_.block().words) {
+    if (!unused.has(word.letter)) continue;
+    const std::string users = codes_using(word.letter);
+    reporter_.error("gcode.unused-word", word.span, fmt::format("no code of this block uses the word {}", word.letter),
+                    users.empty() ? fmt::format("no {}: no code that is supported uses it", word.letter)
+                                  : fmt::format("{} with {}", word.letter, users));
+  }
+  return false;
+}
+
+// All values are computed before any is stored: in `#1=2 #2=#1` the second one sees the old #1.
+bool BlockExecutor::assign(const Block& block) {
+  assigned_.clear();
+  for (const Assignment& assignment : block.assignments) {
+    double value = 0;
+    if (!value_of(block, assignment.value, parameters_, reporter_, value)) return false;
+    assigned_.push_back(value);
+  }
+  for (std::size_t i = 0; i < assigned_.size(); ++i) {
+    const Assignment& assignment = block.assignments[i];
+    if (!assignment.index) {
+      if (parameters_.set_named(assignment.symbol, assigned_[i])) continue;
+      return fail("gcode.read-only-parameter", assignment.span,
+                  fmt::format("#<{}> tells what the machine does and cannot be set", symbols_.name(assignment.symbol)),
+                  "another name");
+    }
+    double index = 0;
+    if (!value_of(block, *assignment.index, parameters_, reporter_, index)) return false;
+    const double whole = std::round(index);
+    if (std::abs(index - whole) > whole_tolerance || whole < 1 || whole > highest_parameter) {
+      return fail("gcode.bad-parameter-number", assignment.index->span,
+                  fmt::format("{} is not the number of a parameter", plain_number(index)),
+                  fmt::format("a whole number, 1 to {}", highest_parameter));
+    }
+    if (!Parameters::is_settable(static_cast<std::int64_t>(whole))) {
+      return fail("gcode.read-only-parameter", assignment.span,
+                  fmt::format("#{} tells what the machine does and cannot be set", plain_number(whole)),
+                  "another parameter");
+    }
+    parameters_.set(static_cast<int>(whole), assigned_[i]);
+  }
+  return true;
+}
+
+// As LinuxCNC does: what follows ';' is never obeyed, and of several comments in parentheses the last one is.
+bool BlockExecutor::obey_comments(const Block& block) {
+  const Comment* last = nullptr;
+  for (const Comment& comment : block.comments) {
+    if (comment.text.empty() || block.text[comment.span.column - 1] == ';') continue;
+    if (last != nullptr && last->kind != Comment::Kind::plain) {
+      reporter_.warning("gcode.hidden-comment", last->span, "only the last comment of a block is obeyed",
+                        "one comment a block");
+    }
+    last = &comment;
+  }
+  return last == nullptr || obey(*last);
+}
+
+bool BlockExecutor::obey(const Comment& comment) {
+  using Kind = Comment::Kind;
+  using Log = operation::Log;
+  const auto filled = [&]() -> std::string_view {
+    fill_in_parameters(comment.text, parameters_, symbols_, text_);
+    return text_;
+  };
+  switch (comment.kind) {
+    case Kind::plain:
+      emit(operation::Comment{comment.text.substr(std::min(comment.text.find_first_not_of(" \t"), comment.text.size()))});
+      return true;
+    case Kind::message: emit(operation::Message{comment.text}); return true;
+    case Kind::debug: emit(operation::Message{filled()}); return true;
+    case Kind::print: emit(operation::Print{filled()}); return true;
+    case Kind::log: emit(Log{Log::Kind::line, filled()}); return true;
+    case Kind::log_open: emit(Log{Log::Kind::open, comment.text}); return true;
+    case Kind::log_append: emit(Log{Log::Kind::append, comment.text}); return true;
+    case Kind::log_close: emit(Log{Log::Kind::close, {}}); return true;
+    case Kind::abort:
+      ended_ = true;
+      return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));
+    case Kind::probe_open:
+    case Kind::probe_close:
+      reporter_.warning("gcode.unsupported-comment", comment.span, "probe results are not written to a file yet",
+                        "no (PROBEOPEN…) and (PROBECLOSE)");
+      return true;
+  }
+  return true;
+}
+
+bool BlockExecutor::set_spindle_mode(CodeNumber code) {
+  state_.modal.set(spindle_mode, code);
+  emit(operation::SetSpindleMode{});
+  return true;
+}
+
+bool BlockExecutor::set_feed_mode(CodeNumber number) {
+  state_.modal.set(feed_mode, number);
+  if (number == code(93)) {
+    note("interpreter: feed mode set to inverse time");
+    emit(operation::SetFeedMode{FeedMode::units_per_minute});
+    return true;
+  }
+  const bool per_minute = number == code(94);
+  note(per_minute ? "interpreter: feed mode set to units per minute"
+                  : "interpreter: feed mode set to units per revolution");
+  emit(operation::SetFeedMode{per_minute ? FeedMode::units_per_minute : FeedMode::units_per_revolution});
+  state_.feed = 0;
+  emit_feed_rate(0);
+  return true;
+}
+
+bool BlockExecutor::set_feed_rate() {
+  const double units = words_['F'];
+  if (units < 0) {
+    return fail("gcode.negative-word", words_.span('F'), fmt::format("the feed rate is {}", plain_number(units)),
+                "F of 0 or more");
+  }
+  if (state_.modal.inverse_time()) {
+    if (motion_ == nullptr || motion_->number < code(1) || motion_->number > code(3)) {
+      reporter_.warning("gcode.unused-feed", words_.span('F'),
+                        "F has no effect: in inverse time (G93) it counts for the G1, G2 or G3 of its own block",
+                        "F with each feed move");
+    }
+    return true;  // with the move, whose length it needs
+  }
+  const CodeEntry* const new_units = words_.code(length_units);
+  if (new_units != nullptr && new_units->number != state_.modal[length_units]) {
+    reporter_.warning("gcode.feed-before-units", words_.span('F'),
+                      fmt::format("F is taken in {} a minute: {} of the same block comes after it",
+                                  state_.modal.inches() ? "inches" : "millimetres", spelling(*new_units)),
+                      fmt::format("{} in a block before", spelling(*new_units)));
+  }
+  state_.feed = units * state_.length_unit();
+  missing_feed_told_ = false;
+  emit_feed_rate(units);
+  return true;
+}
+
+void BlockExecutor::emit_feed_rate(double units) {
+  const double time = state_.modal.per_revolution() ? 1 : seconds_per_minute;
+  emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
+}
+
+bool BlockExecutor::set_spindle_speed() {
+  if (words_['S'] < 0) {
+    return fail("gcode.negative-word", words_.span('S'),
+                fmt::format("the spindle speed is {}", plain_number(words_['S'])),
+                "S of 0 or more; M4 turns the other way");
+  }
+  state_.spindle.speed = words_['S'];
+  emit(operation::SetSpindleSpeed{words_['S']});
+  return true;
+}
+
+bool BlockExecutor::select_tool() {
+  if (!whole_word('T', 0, highest_tool, state_.selected_tool)) return false;
+  emit(operation::SelectTool{state_.selected_tool});
+  return true;
+}
+
+bool BlockExecutor::change_tool(CodeNumber number) {
+  if (number == code(61)) {
+    if (!words_.has('Q')) return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool");
+    if (!whole_word('Q', 0, highest_tool, state_.tool)) return false;
+    emit(operation::SetToolNumber{state_.tool});
+  } else {
+    if (state_.selected_tool < 0) {
+      return fail("gcode.missing-tool", words_.span(tool_change), "M6 and no tool was selected",
+                  "T before, or in this block");
+    }
+    state_.tool = state_.selected_tool;
+    state_.spindle.direction = SpindleDirection::off;
+    emit(operation::StartToolChange{});
+    emit(operation::TurnSpindle{});
+    emit(operation::ChangeTool{state_.tool});
+  }
+  parameters_.set(tool_parameter, state_.tool);
+  return true;
+}
+
+bool BlockExecutor::turn_spindle(CodeNumber number) {
+  state_.spindle.direction = number == code(3)   ? SpindleDirection::clockwise
+                             : number == code(4) ? SpindleDirection::counterclockwise
+                                                 : SpindleDirection::off;
+  emit(operation::TurnSpindle{state_.spindle.direction});
+  return true;
+}
+
+bool BlockExecutor::switch_coolant(CodeNumber number) {
+  const bool off = number == code(9);
+  if (number == code(7) || off) emit(operation::SetMist{state_.mist = !off});
+  if (number == code(8) || off) emit(operation::SetFlood{state_.flood = !off});
+  return true;
+}
+
+bool BlockExecutor::switch_overrides(CodeNumber number) {
+  const bool on = number == code(48);
+  state_.feed_override = state_.speed_override = on;
+  emit(operation::SetFeedOverride{on});
+  emit(operation::SetSpeedOverride{on});
+  return true;
+}
+
+bool BlockExecutor::dwell(CodeNumber number) {
+  if (number != code(4)) return true;
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
+  }
+  if (motion_ != nullptr && motion_->letters.has('P')) {
+    return fail("gcode.ambiguous-word", words_.span('P'),
+                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*motion_)), "two blocks");
+  }
+  if (words_['P'] < 0) {
+    return fail("gcode.negative-word", words_.span('P'),
+                fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
+  }
+  emit(operation::Dwell{Seconds(words_['P'])});
+  return true;
+}
+
+bool BlockExecutor::select_plane(CodeNumber number) {
+  state_.modal.set(plane, number);
+  emit(operation::SelectPlane{state_.modal.plane()});
+  return true;
+}
+
+bool BlockExecutor::set_length_units(CodeNumber number) {
+  state_.modal.set(length_units, number);
+  emit(operation::SetLengthUnits{state_.modal.inches() ? LengthUnits::inch : LengthUnits::mm});
+  return true;
+}
+
+bool BlockExecutor::set_lathe_diameter(CodeNumber number) {
+  if (state_.modal[lathe_diameter] == number) return true;
+  state_.modal.set(lathe_diameter, number);
+  note(number == code(7) ? "interpreter: Lathe diameter mode changed to diameter"
+                         : "interpreter: Lathe diameter mode changed to radius");
+  return true;
+}
+
+bool BlockExecutor::end_cutter_compensation(CodeNumber) {
+  note("interpreter: cutter radius compensation off");
+  return true;
+}
+
+bool BlockExecutor::set_path_mode(CodeNumber number) {
+  const double unit = state_.length_unit();
+  state_.modal.set(path_mode, number);
+  if (number == code(64)) {
+    // P alone is also how far points may be merged; negative ones are none, as in LinuxCNC.
+    const double path = words_.has('P') ? std::max(0.0, words_['P']) : 0;
+    const double merge = words_.has('Q') ? std::max(0.0, words_['Q']) : path;
+    emit(operation::SetPathMode{PathMode::continuous, Mm(path * unit)});
+    emit(operation::SetMergeTolerance{Mm(merge * unit)});
+  } else {
+    emit(operation::SetPathMode{number == code(61) ? PathMode::exact_path : PathMode::exact_stop, Mm(0)});
+  }
+  return true;
+}
+
+bool BlockExecutor::set_distance_mode(CodeNumber number) {
+  if (state_.modal[distance] == number) return true;
+  state_.modal.set(distance, number);
+  note(number == code(90) ? "interpreter: distance mode changed to absolute"
+                          : "interpreter: distance mode changed to incremental");
+  return true;
+}
+
+bool BlockExecutor::set_arc_distance_mode(CodeNumber number) {
+  if (state_.modal[arc_distance] == number) return true;
+  state_.modal.set(arc_distance, number);
+  note(number == code(90, 1) ? "interpreter: IJK distance mode changed to absolute"
+                             : "interpreter: IJK distance mode changed to incremental");
+  return true;
+}
+
+bool BlockExecutor::set_retract_mode(CodeNumber number) {
+  state_.modal.set(retract, number);
+  note(number == code(98) ? "interpreter: retract mode set to old_z" : "interpreter: retract mode set to r_plane");
+  return true;
+}
+
+bool BlockExecutor::run_non_modal(CodeNumber number) {
+  switch (number) {
+    case code(10): return set_work_offset();
+    case code(28): return go_home(first_home_parameter);
+    case code(28, 1): return store_home(first_home_parameter);
+    case code(30): return go_home(second_home_parameter);
+    case code(30, 1): return store_home(second_home_parameter);
+    case code(52):
+    case code(92):
+    case code(92, 1):
+    case code(92, 2):
+    case code(92, 3): return set_g92(number);
+    case code(53):
+      if (motion_ != nullptr && (motion_->number == code(0) || motion_->number == code(1))) return true;
+      return fail("gcode.g53-without-move", words_.span(non_modal), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
+    default: return true;  // G4 came before
+  }
+}
+
+bool BlockExecutor::stop(CodeNumber number) {
+  switch (number) {
+    case code(0): emit(operation::ProgramStop{}); return true;
+    case code(1): emit(operation::OptionalProgramStop{}); return true;
+    case code(60):
+      emit(operation::PalletShuttle{});
+      emit(operation::ProgramStop{});
+      return true;
+    default: end_program(number == code(30)); return true;
+  }
+}
+
+// M2 and M30 put the machine back to where programs may expect it.
+void BlockExecutor::end_program(bool pallet) {
+  activate_system(1, false);
+  if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});
+  emit(operation::SetFeedMode{});
+  emit(operation::SetFeedRate{});
+  if (!state_.feed_override) emit(operation::SetFeedOverride{true});
+  if (!state_.speed_override) emit(operation::SetSpeedOverride{true});
+  emit(operation::TurnSpindle{});
+  emit(operation::SetSpindleMode{});
+  if (state_.mist) emit(operation::SetMist{false});
+  if (state_.flood) emit(operation::SetFlood{false});
+  if (pallet) emit(operation::PalletShuttle{});
+  emit(operation::ProgramEnd{});
+  ended_ = true;
+}
+
+bool BlockExecutor::whole_word(char letter, double lowest, double highest, std::int32_t& value) {
+  const double number = words_[letter];
+  const double whole = std::round(number);
+  if (std::abs(number - whole) > whole_tolerance || whole < lowest || whole > highest) {
+    return fail("gcode.not-whole", words_.span(letter), fmt::format("{} is {}", letter, plain_number(number)),
+                fmt::format("a whole number, {} to {}", plain_number(lowest), plain_number(highest)));
+  }
+  value = static_cast<std::int32_t>(whole);
+  return true;
+}
+
+bool BlockExecutor::fail(std::string_view code, Span span, std::string message, std::string expected) {
+  reporter_.error(code, span, std::move(message), std::move(expected));
+  return false;
+}
+
+}  // namespace passo

@@ -1,0 +1,199 @@
+#include <cmath>
+#include <iterator>
+#include <variant>
+
+#include <fmt/compile.h>
+#include <fmt/format.h>
+
+#include "passo/interpreter/canon.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::size_t counter_width = 5;
+constexpr std::size_t line_number_digits = 6;
+
+// What rounds to nothing is 0.0000, never -0.0000: the sign of a rounding error says nothing.
+double clean(double value) {
+  return std::abs(value) < 0.00005 ? 0 : value;
+}
+
+class Line {
+ public:
+  Line(std::string& out, LengthUnits units) : out_(out), scale_(units == LengthUnits::inch ? mm_per_inch : 1) {}
+
+  Line& operator<<(std::string_view text) {
+    out_ += text;
+    return *this;
+  }
+  Line& whole(std::int64_t value) {
+    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{}"), value);
+    return *this;
+  }
+  Line& number(double value) {
+    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{:.4f}"), clean(value));
+    return *this;
+  }
+  Line& six_digits(double value) {
+    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{:.6f}"), value);
+    return *this;
+  }
+  // A length in the program's units.
+  Line& length(double mm) { return number(mm / scale_); }
+  Line& length(const Point& point, Axis axis) { return is_rotary(axis) ? number(point[axis]) : length(point[axis]); }
+  // X Y Z A B C: the axes that rs274 is compiled for.
+  Line& point(const Point& point) {
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) (length(point, axis)) << ", ";
+    return rotary(point);
+  }
+  Line& rotary(const Point& point) {
+    return (((length(point, Axis::a)) << ", ").length(point, Axis::b) << ", ").length(point, Axis::c);
+  }
+  double scale() const { return scale_; }
+
+ private:
+  std::string& out_;
+  double scale_;
+};
+
+const char* name_of(Plane plane) {
+  return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
+}
+
+// Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; "(0, …" is the spindle's number.
+struct Call {
+  Line& line;
+  FeedMode feed_mode;
+
+  void operator()(const operation::SetLengthUnits& set) const {
+    line << (set.units == LengthUnits::inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
+  }
+  void operator()(const operation::SetWorkOffset& set) const {
+    ((line << "SET_G5X_OFFSET(").whole(set.system) << ", ").point(set.offset) << ")";
+  }
+  void operator()(const operation::SetG92Offset& set) const {
+    (line << "SET_G92_OFFSET(").point(set.offset) << ")";
+  }
+  void operator()(const operation::SetRotation& set) const {
+    (line << "SET_XY_ROTATION(").number(set.degrees) << ")";
+  }
+  void operator()(const operation::SetToolOffset& set) const {
+    line << "USE_TOOL_LENGTH_OFFSET(";
+    for (const Axis axis : all_axes) {
+      const bool last_of_three = axis == Axis::z || axis == Axis::c;
+      line.length(set.offset, axis) << (axis == Axis::w ? ")" : last_of_three ? ", " : " ");
+    }
+  }
+  void operator()(const operation::SelectPlane& select) const {
+    line << "SELECT_PLANE(CANON_PLANE_" << name_of(select.plane) << ")";
+  }
+  void operator()(const operation::SetFeedMode& set) const {
+    line << (set.mode == FeedMode::units_per_revolution ? "SET_FEED_MODE(0, 1)" : "SET_FEED_MODE(0, 0)");
+  }
+  void operator()(const operation::SetFeedRate& set) const {
+    const double minutes = feed_mode == FeedMode::units_per_revolution ? 1 : seconds_per_minute;
+    (line << "SET_FEED_RATE(").length(set.rate * minutes) << ")";
+  }
+  void operator()(const operation::SetPathMode& set) const {
+    if (set.mode == PathMode::continuous) {
+      (line << "SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, ").six_digits(set.tolerance.value() / line.scale()) << ")";
+    } else {
+      line << (set.mode == PathMode::exact_path ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"
+                                                : "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)");
+    }
+  }
+  void operator()(const operation::SetMergeTolerance& set) const {
+    (line << "SET_NAIVECAM_TOLERANCE(").length(set.tolerance.value()) << ")";
+  }
+  void operator()(const operation::StraightTraverse& move) const {
+    (line << "STRAIGHT_TRAVERSE(").point(move.end) << ")";
+  }
+  void operator()(const operation::StraightFeed& move) const { (line << "STRAIGHT_FEED(").point(move.end) << ")"; }
+  void operator()(const operation::ArcFeed& arc) const {
+    constexpr Axis axes[][3] = {{Axis::x, Axis::y, Axis::z}, {Axis::z, Axis::x, Axis::y}, {Axis::y, Axis::z, Axis::x}};
+    const Axis* const plane = axes[static_cast<std::size_t>(arc.plane)];
+    (line << "ARC_FEED(").length(arc.end, plane[0]) << ", ";
+    line.length(arc.end, plane[1]) << ", ";
+    line.length(arc.first_center.value()) << ", ";
+    line.length(arc.second_center.value()) << ", ";
+    line.whole(arc.turns) << ", ";
+    line.length(arc.end, plane[2]) << ", ";
+    line.rotary(arc.end) << ")";
+  }
+  void operator()(const operation::StartSpeedFeedSync& start) const {
+    (line << "START_SPEED_FEED_SYNC(").six_digits(start.pitch.value() / line.scale())
+        << (start.velocity_mode ? ",1)" : ",0)");
+  }
+  void operator()(const operation::StopSpeedFeedSync&) const { line << "STOP_SPEED_FEED_SYNCH()"; }
+  void operator()(const operation::RigidTap& tap) const {
+    (line << "RIGID_TAP(").length(tap.end, Axis::x) << ", ";
+    (line.length(tap.end, Axis::y) << ", ").length(tap.end, Axis::z) << ")";
+  }
+  void operator()(const operation::Dwell& dwell) const { (line << "DWELL(").number(dwell.time.value()) << ")"; }
+  void operator()(const operation::SetSpindleSpeed& set) const {
+    (line << "SET_SPINDLE_SPEED(0, ").number(set.revolutions_per_minute) << ")";
+  }
+  void operator()(const operation::SetSpindleMode& set) const {
+    (line << "SET_SPINDLE_MODE(0 ").number(set.surface_limit) << ")";
+  }
+  void operator()(const operation::TurnSpindle& turn) const {
+    constexpr const char* calls[] = {"STOP_SPINDLE_TURNING(0)", "START_SPINDLE_CLOCKWISE(0)",
+                                     "START_SPINDLE_COUNTERCLOCKWISE(0)"};
+    line << calls[static_cast<std::size_t>(turn.direction)];
+  }
+  void operator()(const operation::SetMist& set) const { line << (set.on ? "MIST_ON()" : "MIST_OFF()"); }
+  void operator()(const operation::SetFlood& set) const { line << (set.on ? "FLOOD_ON()" : "FLOOD_OFF()"); }
+  void operator()(const operation::SetFeedOverride& set) const {
+    line << (set.on ? "ENABLE_FEED_OVERRIDE()" : "DISABLE_FEED_OVERRIDE()");
+  }
+  void operator()(const operation::SetSpeedOverride& set) const {
+    line << (set.on ? "ENABLE_SPEED_OVERRIDE(0)" : "DISABLE_SPEED_OVERRIDE(0)");
+  }
+  void operator()(const operation::SelectTool& select) const { (line << "SELECT_TOOL(").whole(select.tool) << ")"; }
+  void operator()(const operation::StartToolChange&) const { line << "START_CHANGE()"; }
+  void operator()(const operation::ChangeTool& change) const { (line << "CHANGE_TOOL(").whole(change.tool) << ")"; }
+  void operator()(const operation::SetToolNumber& set) const { (line << "CHANGE_TOOL_NUMBER(").whole(set.tool) << ")"; }
+  void operator()(const operation::ProgramStop&) const { line << "PROGRAM_STOP()"; }
+  void operator()(const operation::OptionalProgramStop&) const { line << "OPTIONAL_PROGRAM_STOP()"; }
+  void operator()(const operation::ProgramEnd&) const { line << "PROGRAM_END()"; }
+  void operator()(const operation::PalletShuttle&) const { line << "PALLET_SHUTTLE()"; }
+  void operator()(const operation::Finish&) const { line << "FINISH()"; }
+  void operator()(const operation::Comment& comment) const { line << "COMMENT(\"" << comment.text << "\")"; }
+  void operator()(const operation::Message& message) const { line << "MESSAGE(\"" << message.text << "\")"; }
+  void operator()(const operation::Print& print) const { line << print.text; }
+  void operator()(const operation::Log& log) const {
+    switch (log.kind) {
+      case operation::Log::Kind::line: line << "LOG(\"" << log.text << "\")"; return;
+      case operation::Log::Kind::open: line << "LOGOPEN(\"" << log.text << "\")"; return;
+      case operation::Log::Kind::append: line << "LOGAPPEND(\"" << log.text << "\")"; return;
+      case operation::Log::Kind::close: line << "LOGCLOSE()"; return;
+    }
+  }
+  void operator()(const operation::Reset&) const { line << "ON_RESET()"; }
+  void operator()(const operation::SetFeedReference&) const { line << "SET_FEED_REFERENCE(CANON_XYZ)"; }
+};
+
+void print_head(std::uint64_t count, std::int64_t line_number, std::string& out) {
+  fmt::format_to(std::back_inserter(out), FMT_COMPILE("{:>{}} "), count, counter_width);
+  if (line_number < 0) {
+    out += "N..... ";
+  } else {
+    fmt::format_to(std::back_inserter(out), FMT_COMPILE("N{:<{}}"), line_number, line_number_digits);
+  }
+}
+
+}  // namespace
+
+void CanonPrinter::print(const Operation& operation, std::string& out) {
+  if (const auto* set = std::get_if<operation::SetLengthUnits>(&operation.what)) units_ = set->units;
+  if (const auto* set = std::get_if<operation::SetFeedMode>(&operation.what)) feed_mode_ = set->mode;
+  // What (PRINT,…) says goes to the operator as it is: rs274 neither counts nor numbers it.
+  if (!std::holds_alternative<operation::Print>(operation.what)) {
+    print_head(++count_, operation.source.line_number, out);
+  }
+  Line line(out, units_);
+  std::visit(Call{line, feed_mode_}, operation.what);
+  out += '\n';
+}
+
+}  // namespace passo

@@ -1,0 +1,16 @@
+// The text of (DEBUG,…), (PRINT,…) and (LOG,…): #12 and #<name> in it stand for their values.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "passo/gcode/expression.hpp"
+#include "passo/gcode/symbols.hpp"
+
+namespace passo {
+
+// Six decimals, as LinuxCNC writes them; ###### where there is no such parameter.
+void fill_in_parameters(std::string_view text, const ParameterValues& parameters, SymbolTable& symbols,
+                        std::string& out);
+
+}  // namespace passo

@@ -1,0 +1,76 @@
+// MachineState: what the program has set so far. The modal state is one code for each modal group.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "code_table.hpp"
+#include "passo/geometry/axes.hpp"
+#include "passo/interpreter/frame.hpp"
+#include "passo/interpreter/operation.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+class ModalState {
+ public:
+  // As LinuxCNC starts.
+  ModalState() {
+    set(ModalGroup::motion, code(80));
+    set(ModalGroup::plane, code(17));
+    set(ModalGroup::distance, code(90));
+    set(ModalGroup::arc_distance, code(91, 1));
+    set(ModalGroup::feed_mode, code(94));
+    set(ModalGroup::length_units, code(21));
+    set(ModalGroup::cutter_compensation, code(40));
+    set(ModalGroup::tool_length, code(49));
+    set(ModalGroup::retract, code(99));
+    set(ModalGroup::work_system, code(54));
+    set(ModalGroup::path_mode, code(64));
+    set(ModalGroup::spindle_mode, code(97));
+    set(ModalGroup::lathe_diameter, code(8));
+  }
+  CodeNumber operator[](ModalGroup group) const { return active_[index_of(group)]; }
+  void set(ModalGroup group, CodeNumber number) { active_[index_of(group)] = number; }
+
+  Plane plane() const {
+    const CodeNumber active = (*this)[ModalGroup::plane];
+    return active == code(17) ? Plane::xy : active == code(18) ? Plane::zx : Plane::yz;
+  }
+  bool incremental() const { return (*this)[ModalGroup::distance] == code(91); }
+  bool inches() const { return (*this)[ModalGroup::length_units] == code(20); }
+  bool inverse_time() const { return (*this)[ModalGroup::feed_mode] == code(93); }
+  bool per_revolution() const { return (*this)[ModalGroup::feed_mode] == code(95); }
+  bool diameters() const { return (*this)[ModalGroup::lathe_diameter] == code(7); }
+
+ private:
+  std::array<CodeNumber, modal_group_count> active_{};
+};
+
+struct SpindleState {
+  double speed = 0;  // S: revolutions a minute
+  SpindleDirection direction = SpindleDirection::off;
+};
+
+struct MachineState {
+  ModalState modal;
+  Frame frame;
+  Point position;  // work coordinates, millimetres and degrees
+  double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
+  SpindleState spindle;
+  bool mist = false;
+  bool flood = false;
+  bool feed_override = true;
+  bool speed_override = true;
+  std::int32_t tool = 0;           // in the spindle
+  std::int32_t selected_tool = -1;  // by T; -1: none yet
+  std::uint32_t line = 0;          // of the block that is executed
+  int call_depth = 0;
+
+  // Millimetres in one length unit of the program.
+  double length_unit() const { return modal.inches() ? mm_per_inch : 1; }
+  double units_of(Axis axis) const { return is_rotary(axis) ? 1 : length_unit(); }
+  Point machine_position() const { return frame.machine_from_work(position); }
+};
+
+}  // namespace passo

@@ -1,0 +1,127 @@
+#include "predefined.hpp"
+
+namespace passo {
+namespace {
+
+using State = MachineState;
+
+double truth(bool value) {
+  return value ? 1 : 0;
+}
+template <Axis axis>
+double work(const State& state) {
+  return state.position[axis] / state.units_of(axis);
+}
+template <Axis axis>
+double machine(const State& state) {
+  return state.machine_position()[axis] / state.units_of(axis);
+}
+// As LinuxCNC tells codes: ten times their number.
+template <ModalGroup group>
+double active(const State& state) {
+  return state.modal[group];
+}
+template <ModalGroup group, CodeNumber number>
+double is_active(const State& state) {
+  return truth(state.modal[group] == number);
+}
+template <bool State::*flag>
+double flag_of(const State& state) {
+  return truth(state.*flag);
+}
+double current_feed(const State& state) {
+  return state.feed / state.length_unit();
+}
+double call_level(const State& state) {
+  return state.call_depth;
+}
+double current_line(const State& state) {
+  return state.line;
+}
+double spindle_speed(const State& state) {
+  return state.spindle.speed;
+}
+double spindle_on(const State& state) {
+  return truth(state.spindle.direction != SpindleDirection::off);
+}
+double spindle_clockwise(const State& state) {
+  return truth(state.spindle.direction == SpindleDirection::clockwise);
+}
+double current_tool(const State& state) {
+  return state.tool;
+}
+double selected_tool(const State& state) {
+  return state.selected_tool < 0 ? 0 : state.selected_tool;
+}
+double tool_offset_on(const State& state) {
+  return truth(state.modal[ModalGroup::tool_length] != code(49));
+}
+// The language's version, LinuxCNC 2.9: programs ask it to know what they may use.
+double major_version(const State&) {
+  return 2.9;
+}
+double minor_version(const State&) {
+  return 0;
+}
+
+constexpr PredefinedParameter table[] = {
+    {"_vmajor", major_version},
+    {"_vminor", minor_version},
+    {"_line", current_line},
+    {"_call_level", call_level},
+    {"_motion_mode", active<ModalGroup::motion>},
+    {"_plane", active<ModalGroup::plane>},
+    {"_ccomp", active<ModalGroup::cutter_compensation>},
+    {"_coord_system", active<ModalGroup::work_system>},
+    {"_metric", is_active<ModalGroup::length_units, code(21)>},
+    {"_imperial", is_active<ModalGroup::length_units, code(20)>},
+    {"_absolute", is_active<ModalGroup::distance, code(90)>},
+    {"_incremental", is_active<ModalGroup::distance, code(91)>},
+    {"_ijk_absolute_mode", is_active<ModalGroup::arc_distance, code(90, 1)>},
+    {"_inverse_time", is_active<ModalGroup::feed_mode, code(93)>},
+    {"_units_per_minute", is_active<ModalGroup::feed_mode, code(94)>},
+    {"_units_per_rev", is_active<ModalGroup::feed_mode, code(95)>},
+    {"_lathe_diameter_mode", is_active<ModalGroup::lathe_diameter, code(7)>},
+    {"_lathe_radius_mode", is_active<ModalGroup::lathe_diameter, code(8)>},
+    {"_retract_old_z", is_active<ModalGroup::retract, code(98)>},
+    {"_retract_r_plane", is_active<ModalGroup::retract, code(99)>},
+    {"_spindle_rpm_mode", is_active<ModalGroup::spindle_mode, code(97)>},
+    {"_spindle_css_mode", is_active<ModalGroup::spindle_mode, code(96)>},
+    {"_tool_offset", tool_offset_on},
+    {"_feed", current_feed},
+    {"_rpm", spindle_speed},
+    {"_spindle_on", spindle_on},
+    {"_spindle_cw", spindle_clockwise},
+    {"_mist", flag_of<&State::mist>},
+    {"_flood", flag_of<&State::flood>},
+    {"_feed_override", flag_of<&State::feed_override>},
+    {"_speed_override", flag_of<&State::speed_override>},
+    {"_current_tool", current_tool},
+    {"_selected_tool", selected_tool},
+    {"_x", work<Axis::x>},
+    {"_y", work<Axis::y>},
+    {"_z", work<Axis::z>},
+    {"_a", work<Axis::a>},
+    {"_b", work<Axis::b>},
+    {"_c", work<Axis::c>},
+    {"_u", work<Axis::u>},
+    {"_v", work<Axis::v>},
+    {"_w", work<Axis::w>},
+    {"_abs_x", machine<Axis::x>},
+    {"_abs_y", machine<Axis::y>},
+    {"_abs_z", machine<Axis::z>},
+    {"_abs_a", machine<Axis::a>},
+    {"_abs_b", machine<Axis::b>},
+    {"_abs_c", machine<Axis::c>},
+    {"_abs_u", machine<Axis::u>},
+    {"_abs_v", machine<Axis::v>},
+    {"_abs_w", machine<Axis::w>},
+};
+
+}  // namespace
+
+std::span<const PredefinedParameter> predefined_parameters() {
+  return table;
+}
+
+}  // namespace passo

@@ -1,0 +1,18 @@
+// The predefined #<_names>: what the machine does just now. One line each.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "machine_state.hpp"
+
+namespace passo {
+
+struct PredefinedParameter {
+  std::string_view name;
+  double (*value)(const MachineState&);
+};
+
+std::span<const PredefinedParameter> predefined_parameters();
+
+}  // namespace passo

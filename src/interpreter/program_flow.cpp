@@ -1,0 +1,436 @@
+#include "program_flow.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ControlKind;
+
+constexpr double whole_tolerance = 1e-4;
+
+// 'O' first, after white space, '/' and N with its number: all that is looked at in a line that is skipped.
+bool may_be_control(std::string_view text) {
+  std::size_t i = 0;
+  const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
+  while (at(" \t/")) ++i;
+  if (at("nN")) {
+    ++i;
+    while (at(" \t0123456789.")) ++i;
+  }
+  return at("oO");
+}
+
+bool is_deleted(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first != std::string_view::npos && text[first] == '/';
+}
+
+std::string_view name_of(ControlKind kind) {
+  switch (kind) {
+    case sub: return "sub";
+    case if_: return "if";
+    case while_: return "while";
+    case do_: return "do";
+    case repeat: return "repeat";
+    default: return "block";
+  }
+}
+std::string_view name_of_end(ControlKind kind) {
+  switch (kind) {
+    case sub: return "endsub";
+    case if_: return "endif";
+    case while_: return "endwhile";
+    case do_: return "while";
+    default: return "endrepeat";
+  }
+}
+
+}  // namespace
+
+ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineState& state, Parameters& parameters,
+                         SymbolTable& symbols, Reporter& reporter)
+    : options_(options),
+      state_(state),
+      parameters_(parameters),
+      symbols_(symbols),
+      reporter_(reporter),
+      value_name_(symbols.intern("_value")),
+      returned_name_(symbols.intern("_value_returned")) {
+  files_.push_back(std::make_unique<File>(std::move(reader), symbols_));
+  file_ = files_.front().get();
+  (void)parameters_.set_named(value_name_, 0);
+  (void)parameters_.set_named(returned_name_, 0);
+  reporter_.look_at(block_, file_->name);
+}
+
+const Block* ProgramFlow::next() {
+  while (end_ == End::none) {
+    switch (read()) {
+      case Read::end:
+        while (any_open()) {
+          report_unclosed(open_.back());
+          open_.pop_back();
+        }
+        if (!frames_.empty()) report_unclosed({sub, frames_.back().sub, {}, frames_.back().sub_at, 0});
+        return finish(End::file);
+      case Read::skipped: continue;
+      case Read::block: break;
+    }
+    if (block_.percent) {
+      if (is_percent_end()) return finish(End::percent);
+      continue;
+    }
+    if (!block_.control) {
+      begun_ = begun_ || !block_.words.empty() || !block_.assignments.empty();
+      return &block_;
+    }
+    begun_ = true;
+    state_.line = block_.line;
+    obey(*block_.control);
+  }
+  return nullptr;
+}
+
+ProgramFlow::Read ProgramFlow::read() {
+  std::string_view text;
+  std::uint32_t line = 0;
+  block_at_ = file_->reader.position();
+  if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
+  if (options_.block_delete && is_deleted(text)) return Read::skipped;
+  return file_->parser.parse(text, line, block_, reporter_.diagnostics()) ? Read::block : Read::skipped;
+}
+
+// A '%' before everything else opens the program, the next one closes it.
+bool ProgramFlow::is_percent_end() {
+  const bool ends = std::exchange(begun_, true);
+  opened_percent_ = opened_percent_ || !ends;
+  return ends;
+}
+
+bool ProgramFlow::lacks_closing_percent() {
+  if (!opened_percent_) return false;
+  ProgramReader& reader = files_.front()->reader;
+  if (!frames_.empty()) reader.seek(frames_.front().return_to);
+  std::string_view text;
+  std::uint32_t line = 0;
+  while (reader.next_line(text, line, reporter_.diagnostics())) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%') return false;
+  }
+  return true;
+}
+
+const Block* ProgramFlow::finish(End end) {
+  end_ = end;
+  return nullptr;
+}
+
+void ProgramFlow::obey(const Control& control) {
+  Symbol label;
+  if (!label_of(control, label)) return;
+  switch (control.kind) {
+    case sub: return begin_sub(label, control);
+    case ControlKind::call: return call(label, control);
+    case return_:
+    case endsub: return leave_sub(label, control);
+    case if_: return begin_if(label, control);
+    case elseif:
+    case else_:
+    case endif: return next_branch(label, control);
+    case while_: return innermost(do_, label) != nullptr ? end_do(label, control) : begin_while(label, control);
+    case endwhile: return end_while(label, control);
+    case do_: push(do_, label); return;
+    case repeat: return begin_repeat(label, control);
+    case endrepeat: return end_repeat(label, control);
+    case break_:
+    case continue_: return leave_or_continue_loop(label, control);
+    default:
+      reporter_.error("gcode.unsupported-o-word", control.span, "numbered programs (O and a number alone) are not supported yet",
+                      "o… sub and o… call");
+  }
+}
+
+void ProgramFlow::begin_sub(Symbol label, const Control& control) {
+  if (!frames_.empty()) {
+    stray(control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)), "endsub before the next sub");
+    return;
+  }
+  const ReaderPosition after = file_->reader.position();
+  const auto [known, added] = file_->subs.try_emplace(label.id, after);
+  if (!added && known->second.offset != after.offset) {
+    stray(control, fmt::format("a second sub {}; the first one ends at line {}", label_text(label), known->second.line - 1),
+          "another name");
+  }
+  skip_to({sub, label, block_at_, after, 0}, kinds({endsub}));
+}
+
+void ProgramFlow::leave_sub(Symbol label, const Control& control) {
+  if (frames_.empty() || frames_.back().sub != label) {
+    stray(control, fmt::format("no sub {} is running", label_text(label)), "endsub and return with the label of their sub");
+    return;
+  }
+  double value = 0;
+  if (!control.arguments.empty() && !value_of(block_, control.arguments.front(), parameters_, reporter_, value)) return;
+  const Frame frame = frames_.back();
+  if (control.kind == endsub) {
+    for (std::size_t i = frame.first_open; i < open_.size(); ++i) report_unclosed(open_[i]);
+  }
+  (void)parameters_.set_named(value_name_, value);
+  (void)parameters_.set_named(returned_name_, control.arguments.empty() ? 0 : 1);
+  open_.resize(frame.first_open);
+  frames_.pop_back();
+  parameters_.leave_sub();
+  state_.call_depth = static_cast<int>(frames_.size());
+  file_ = frame.caller;
+  file_->reader.seek(frame.return_to);
+  reporter_.look_at(block_, file_->name);
+}
+
+void ProgramFlow::begin_if(Symbol label, const Control& control) {
+  const Open& open = push(if_, label);
+  double condition = 0;
+  if (!argument(control, condition)) {
+    if (skip_to(open, kinds({endif}))) open_.pop_back();
+  } else if (condition == 0) {
+    skip_branch(open);
+  }
+}
+
+// From a branch that was not taken to the one that is, or behind the endif.
+bool ProgramFlow::skip_branch(const Open& from) {
+  while (skip_to(from, kinds({elseif, else_, endif}))) {
+    const Control& control = *block_.control;
+    double condition = 1;
+    if (control.kind == endif) return open_.pop_back(), true;
+    if (control.kind == else_) return true;
+    if (!argument(control, condition)) {
+      if (skip_to(from, kinds({endif}))) open_.pop_back();
+      return false;
+    }
+    if (condition != 0) return true;
+  }
+  return false;
+}
+
+// elseif, else and endif at the end of the branch that was taken.
+void ProgramFlow::next_branch(Symbol label, const Control& control) {
+  const Open* const open = require_innermost(if_, label, control);
+  if (open == nullptr) return;
+  if (control.kind == endif || skip_to(*open, kinds({endif}))) open_.pop_back();
+}
+
+void ProgramFlow::begin_while(Symbol label, const Control& control) {
+  Open* open = innermost(while_, label);
+  const bool again = open != nullptr && open->at.offset == block_at_.offset;
+  if (!again) open = &push(while_, label);
+  double condition = 0;
+  if (argument(control, condition) && condition != 0) return;
+  if (skip_to(*open, kinds({endwhile}))) open_.pop_back();
+}
+
+void ProgramFlow::end_while(Symbol label, const Control& control) {
+  const Open* const open = require_innermost(while_, label, control);
+  if (open != nullptr && go_round(*open)) file_->reader.seek(open->at);  // its condition is asked again
+}
+
+void ProgramFlow::end_do(Symbol label, const Control& control) {
+  const Open* const open = require_innermost(do_, label, control);
+  double condition = 0;
+  if (open == nullptr) return;
+  if (argument(control, condition) && condition != 0) {
+    if (go_round(*open)) file_->reader.seek(open->after);
+  } else {
+    open_.pop_back();
+  }
+}
+
+void ProgramFlow::begin_repeat(Symbol label, const Control& control) {
+  constexpr double most_passes = 1e15;
+  Open& open = push(repeat, label);
+  double passes = 0;
+  if (argument(control, passes) && std::round(passes) >= 1) {
+    open.passes_left = static_cast<std::uint64_t>(std::min(std::round(passes), most_passes));
+  } else if (skip_to(open, kinds({endrepeat}))) {
+    open_.pop_back();
+  }
+}
+
+void ProgramFlow::end_repeat(Symbol label, const Control& control) {
+  Open* const open = require_innermost(repeat, label, control);
+  if (open == nullptr) return;
+  if (--open->passes_left == 0) {
+    open_.pop_back();
+  } else if (go_round(*open)) {
+    file_->reader.seek(open->after);
+  }
+}
+
+void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
+  const bool leave = control.kind == break_;  // the block goes when its end is searched for
+  while (any_open()) {
+    const Open open = open_.back();
+    if (open.kind == if_ || open.label != label) {
+      open_.pop_back();
+      continue;
+    }
+    if (!skip_to(open, end_of(open.kind))) return;
+    if (leave) {
+      open_.pop_back();
+    } else {
+      file_->reader.seek(block_at_);  // the loop's end decides
+    }
+    return;
+  }
+  stray(control, fmt::format("no loop {} is running", label_text(label)), "break and continue with the label of their loop");
+}
+
+ProgramFlow::Kinds ProgramFlow::end_of(ControlKind construct) {
+  switch (construct) {
+    case sub: return kinds({endsub});
+    case if_: return kinds({endif});
+    case while_: return kinds({endwhile});
+    case do_: return kinds({while_});
+    default: return kinds({endrepeat});
+  }
+}
+
+ProgramFlow::Open& ProgramFlow::push(ControlKind kind, Symbol label) {
+  return open_.emplace_back(Open{kind, label, block_at_, file_->reader.position(), 0});
+}
+
+ProgramFlow::Open* ProgramFlow::innermost(ControlKind kind, Symbol label) {
+  if (!any_open()) return nullptr;
+  Open& open = open_.back();
+  return open.kind == kind && open.label == label ? &open : nullptr;
+}
+
+// What an O-word ends, out of those that are open; those inside it that were not closed are told and left.
+ProgramFlow::Open* ProgramFlow::require_innermost(ControlKind kind, Symbol label, const Control& control) {
+  for (std::size_t i = open_.size(); i > first_open(); --i) {
+    if (open_[i - 1].kind != kind || open_[i - 1].label != label) continue;
+    for (; open_.size() > i; open_.pop_back()) report_unclosed(open_.back());
+    return &open_[i - 1];
+  }
+  stray(control, fmt::format("no {} {} is open", name_of(kind), label_text(label)),
+        fmt::format("o{} {} before", label_text(label), name_of(kind)));
+  return nullptr;
+}
+
+// Once more round a loop, unless it went round too often for nothing.
+bool ProgramFlow::go_round(const Open& loop) {
+  if (++idle_passes_ <= options_.idle_passes) return true;
+  file_->reader.seek(loop.at);
+  (void)read();
+  reporter_.error("gcode.endless-loop", block_.control ? block_.control->span : Span{1, 1},
+                  fmt::format("the loop went round {} times without any operation", options_.idle_passes),
+                  "a loop that ends, or that moves");
+  finish(End::error);
+  return false;
+}
+
+// Reads on to the line with an O-word of `from`'s label and one of the wanted kinds; block_ is then that line. A
+// construct of the same label and kind inside is passed over whole.
+bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
+  const Open opening = from;  // `from` may be in open_
+  int inside = 0;
+  for (;;) {
+    Symbol label;
+    if (!read_control(label)) {
+      if (end_ == End::none && !reporter_.full()) report_unclosed(opening);
+      while (any_open()) open_.pop_back();
+      finish(End::error);
+      return false;
+    }
+    const ControlKind kind = block_.control->kind;
+    if (!frames_.empty() && kind == endsub && label == frames_.back().sub && opening.kind != sub) {
+      report_unclosed(opening);
+      while (any_open()) open_.pop_back();
+      file_->reader.seek(block_at_);  // the sub ends here
+      return false;
+    }
+    if (label != opening.label) continue;
+    const bool closes = (end_of(opening.kind) >> static_cast<unsigned>(kind) & 1U) != 0;
+    if (kind == opening.kind && !closes) {
+      ++inside;
+    } else if (inside > 0) {
+      if (closes) --inside;
+    } else if ((wanted >> static_cast<unsigned>(kind) & 1U) != 0) {
+      return true;
+    }
+  }
+}
+
+// The next O-word, whatever stands before it.
+bool ProgramFlow::read_control(Symbol& label) {
+  for (;;) {
+    std::string_view text;
+    std::uint32_t line = 0;
+    block_at_ = file_->reader.position();
+    if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
+    if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
+    if (!file_->parser.parse(text, line, block_, reporter_.diagnostics()) || !block_.control) continue;
+    if (label_of(*block_.control, label)) return true;
+  }
+}
+
+bool ProgramFlow::label_of(const Control& control, Symbol& label) {
+  label = control.label;
+  if (!control.computed_label) return true;
+  double value = 0;
+  if (!value_of(block_, *control.computed_label, parameters_, reporter_, value)) return false;
+  const double whole = std::round(value);
+  if (std::abs(value - whole) > whole_tolerance || whole < 0 || whole > 1e9) {
+    reporter_.error("gcode.bad-label", control.computed_label->span,
+                    fmt::format("the label is {}", plain_number(value)), "a whole number, 0 or more");
+    return false;
+  }
+  label = symbols_.intern(plain_number(whole));
+  return true;
+}
+
+bool ProgramFlow::argument(const Control& control, double& value) {
+  if (!control.arguments.empty()) return value_of(block_, control.arguments.front(), parameters_, reporter_, value);
+  reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] behind it");
+  return false;
+}
+
+void ProgramFlow::report_unclosed(const Open& open) {
+  const ReaderPosition here = file_->reader.position();
+  std::string_view text;
+  std::uint32_t line = open.at.line;
+  file_->reader.seek(open.at);
+  (void)file_->reader.next_line(text, line, reporter_.diagnostics());
+  const std::size_t first = text.find_first_of("oO");
+  const Span span = first == std::string_view::npos
+                        ? Span{1, 1}
+                        : Span{static_cast<std::uint32_t>(first + 1), static_cast<std::uint32_t>(text.size() - first)};
+  reporter_.error_at("gcode.unclosed-o-word", line, text, span,
+                     fmt::format("{} {} is never closed", name_of(open.kind), label_text(open.label)),
+                     fmt::format("o{} {}", label_text(open.label), name_of_end(open.kind)));
+  reread_block_text();
+  file_->reader.seek(here);
+}
+
+// After a look elsewhere in the file: the block's text is the reader's, and gone.
+void ProgramFlow::reread_block_text() {
+  std::uint32_t line = 0;
+  file_->reader.seek(block_at_);
+  if (!file_->reader.next_line(block_.text, line, reporter_.diagnostics())) block_.text = {};
+}
+
+bool ProgramFlow::stray(const Control& control, std::string message, std::string expected) {
+  reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
+  return false;
+}
+
+// As it is written behind the O: 100, <name>.
+std::string ProgramFlow::label_text(Symbol label) const {
+  const std::string_view name = symbols_.name(label);
+  const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
+  return number ? std::string(name) : fmt::format("<{}>", name);
+}
+
+}  // namespace passo

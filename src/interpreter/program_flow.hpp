@@ -1,0 +1,151 @@
+// ProgramFlow: which block comes next. Reads lines, obeys O-words, goes back for loops and away for subs.
+//
+// Constant memory: what is remembered are places in the file, of the constructs that are open and of the subs that were
+// met. What is skipped (a branch not taken, the body of a sub where it stands) is read line by line and only its O-words
+// are parsed; a construct is told from others inside it by its label, as RS274/NGC does. A sub that is called before it
+// was met is looked for once to the end of the file, then in NAME.ngc beside the program.
+//
+// Bounded: calls nest 100 deep, and a program that goes round its loops without any operation is stopped.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "block_words.hpp"
+#include "machine_state.hpp"
+#include "parameters.hpp"
+#include "passo/gcode/block_parser.hpp"
+#include "passo/gcode/program_reader.hpp"
+#include "reporter.hpp"
+
+namespace passo {
+
+inline constexpr std::size_t deepest_call = 100;
+
+class ProgramFlow {
+ public:
+  struct Options {
+    bool block_delete = false;
+    std::uint64_t idle_passes = 0;
+  };
+  enum class End : std::uint8_t { none, file, percent, error };
+
+  ProgramFlow(ProgramReader reader, const Options& options, MachineState& state, Parameters& parameters,
+              SymbolTable& symbols, Reporter& reporter);
+
+  // The next block to execute; null at the end of the program.
+  const Block* next();
+  End end() const { return end_; }
+  // There was an operation since the last block: the loops do something.
+  void note_progress() { idle_passes_ = 0; }
+
+  // After M2 in a program that began with '%': whether the closing '%' is missing from the rest of the file.
+  bool lacks_closing_percent();
+
+  std::uint64_t offset() const { return files_.front()->reader.position().offset; }
+
+ private:
+  // A file of the program: the main one, or one with a sub.
+  struct File {
+    File(ProgramReader opened, SymbolTable& symbols)
+        : reader(std::move(opened)), name(reader.name()), parser(name, symbols) {}
+    ProgramReader reader;
+    std::string name;
+    BlockParser parser;
+    std::unordered_map<std::uint32_t, ReaderPosition> subs;  // by label: the line after it
+    ReaderPosition seen;                                     // subs before this place are known
+    bool seen_all = false;
+  };
+  // A construct that was entered and not yet left.
+  struct Open {
+    ControlKind kind = ControlKind::if_;
+    Symbol label;
+    ReaderPosition at;     // its line
+    ReaderPosition after;  // the line after it
+    std::uint64_t passes_left = 0;  // repeat
+  };
+  struct Frame {
+    File* caller = nullptr;  // where to go on
+    ReaderPosition return_to;
+    Symbol sub;
+    ReaderPosition sub_at;  // the line after the sub's O-word
+    std::size_t first_open = 0;
+  };
+
+  // Lines.
+  enum class Read : std::uint8_t { block, skipped, end };
+  Read read();
+  bool is_percent_end();
+  const Block* finish(End end);
+
+  // O-words.
+  void obey(const Control& control);
+  void begin_sub(Symbol label, const Control& control);
+  void call(Symbol label, const Control& control);
+  void leave_sub(Symbol label, const Control& control);
+  void begin_if(Symbol label, const Control& control);
+  void next_branch(Symbol label, const Control& control);
+  void begin_while(Symbol label, const Control& control);
+  void end_while(Symbol label, const Control& control);
+  void end_do(Symbol label, const Control& control);
+  void begin_repeat(Symbol label, const Control& control);
+  void end_repeat(Symbol label, const Control& control);
+  void leave_or_continue_loop(Symbol label, const Control& control);
+
+  // The constructs that are open in the sub that runs.
+  Open& push(ControlKind kind, Symbol label);
+  Open* innermost(ControlKind kind, Symbol label);
+  Open* require_innermost(ControlKind kind, Symbol label, const Control& control);
+  bool any_open() const { return open_.size() > first_open(); }
+  std::size_t first_open() const { return frames_.empty() ? 0 : frames_.back().first_open; }
+  bool go_round(const Open& loop);
+
+  // Going on to the line with an O-word of this label, out of those inside `from`.
+  using Kinds = std::uint32_t;
+  static constexpr Kinds kinds(std::initializer_list<ControlKind> list) {
+    Kinds bits = 0;
+    for (const ControlKind kind : list) bits |= Kinds{1} << static_cast<unsigned>(kind);
+    return bits;
+  }
+  bool skip_to(const Open& from, Kinds wanted);
+  bool read_control(Symbol& label);
+  bool skip_branch(const Open& from);
+  static Kinds end_of(ControlKind construct);
+
+  // Subs.
+  File* find_sub(Symbol label);
+  bool find_in(File& file, Symbol label);
+  File* open_beside(Symbol label);
+
+  bool label_of(const Control& control, Symbol& label);
+  bool argument(const Control& control, double& value);
+  void report_unclosed(const Open& open);
+  void reread_block_text();
+  bool stray(const Control& control, std::string message, std::string expected);
+  std::string label_text(Symbol label) const;
+
+  Options options_;
+  MachineState& state_;
+  Parameters& parameters_;
+  SymbolTable& symbols_;
+  Reporter& reporter_;
+  Symbol value_name_;     // #<_value>: what the last sub returned
+  Symbol returned_name_;  // #<_value_returned>
+
+  std::vector<std::unique_ptr<File>> files_;
+  File* file_ = nullptr;  // the one that is read
+  Block block_;
+  ReaderPosition block_at_;  // the line of block_
+  std::vector<Open> open_;
+  std::vector<Frame> frames_;
+  std::uint64_t idle_passes_ = 0;
+  bool begun_ = false;           // something else than a comment or an empty line was read
+  bool opened_percent_ = false;  // the program began with '%'
+  End end_ = End::none;
+};
+
+}  // namespace passo

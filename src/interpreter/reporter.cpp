@@ -1,0 +1,67 @@
+#include "reporter.hpp"
+
+#include <fmt/format.h>
+
+namespace passo {
+
+void Reporter::error(std::string_view code, Span span, std::string message, std::string expected) {
+  add(Severity::error, code, block_->line, block_->text, span, std::move(message), std::move(expected));
+}
+
+void Reporter::warning(std::string_view code, Span span, std::string message, std::string expected) {
+  add(Severity::warning, code, block_->line, block_->text, span, std::move(message), std::move(expected));
+}
+
+void Reporter::error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span,
+                        std::string message, std::string expected) {
+  add(Severity::error, code, line, text, span, std::move(message), std::move(expected));
+}
+
+void Reporter::error(const EvaluationError& error) {
+  using Kind = EvaluationError::Kind;
+  const std::string what = quote(error.span);
+  const std::string operand = plain_number(error.operand);
+  switch (error.kind) {
+    case Kind::unknown_parameter:
+      return this->error("gcode.unknown-parameter", error.span, fmt::format("{} has no value", what),
+                         "a parameter that was set before; #1 to #5601, #<name>, or a predefined #<_name>");
+    case Kind::bad_parameter_number:
+      return this->error("gcode.bad-parameter-number", error.span,
+                         fmt::format("{} is not the number of a parameter", operand), "a whole number, 1 to 5601");
+    case Kind::division_by_zero:
+      return this->error("gcode.division-by-zero", error.span, fmt::format("{} divides by zero", what),
+                         "a divisor that is not zero");
+    case Kind::domain:
+      return this->error("gcode.bad-operand", error.span, fmt::format("{} has no value for {}", what, operand),
+                         "SQRT of 0 or more, LN of more than 0, ACOS and ASIN of -1 to 1, whole powers of negatives");
+    case Kind::not_finite:
+      return this->error("gcode.overflow", error.span, fmt::format("{} is too large to compute", what), {});
+    case Kind::too_deep:
+      return this->error("gcode.too-deep", error.span, "the expression is nested too deep",
+                         fmt::format("at most {} values waiting for their operator", deepest_expression));
+  }
+}
+
+std::string Reporter::quote(Span span) const {
+  constexpr std::size_t longest_quote = 40;
+  if (span.column == 0 || span.column > block_->text.size()) return {};
+  const std::string_view text = block_->text.substr(span.column - 1, span.length);
+  return text.size() <= longest_quote ? std::string(text) : std::string(text.substr(0, longest_quote)) + "...";
+}
+
+void Reporter::add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
+                   std::string message, std::string expected) {
+  diagnostics_.add({.severity = severity,
+                    .code = std::string(code),
+                    .file = *file_,
+                    .place = {line, span.column, span.length == 0 ? 1 : span.length},
+                    .message = std::move(message),
+                    .expected = std::move(expected),
+                    .text = std::string(text)});
+}
+
+std::string plain_number(double value) {
+  return fmt::format("{:.10g}", value);
+}
+
+}  // namespace passo

@@ -1,0 +1,95 @@
+// ProgramFlow: calling subs, and finding them.
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "program_flow.hpp"
+
+namespace passo {
+
+void ProgramFlow::call(Symbol label, const Control& control) {
+  if (frames_.size() >= deepest_call) {
+    reporter_.error("gcode.calls-too-deep", control.span,
+                    fmt::format("calls are nested more than {} deep", deepest_call), "a sub that does not call itself for ever");
+    finish(End::error);
+    return;
+  }
+  if (control.arguments.size() > sub_parameters) {
+    reporter_.error("gcode.too-many-arguments", control.span,
+                    fmt::format("a call with {} arguments", control.arguments.size()), "30 at most: #1 to #30");
+    return;
+  }
+  std::array<double, sub_parameters> arguments{};
+  for (std::size_t i = 0; i < control.arguments.size(); ++i) {
+    if (!value_of(block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
+  }
+
+  Frame frame{file_, file_->reader.position(), label, {}, open_.size()};
+  File* const file = find_sub(label);
+  if (file == nullptr) {
+    reporter_.error("gcode.unknown-sub", control.span, fmt::format("there is no sub {}", label_text(label)),
+                    fmt::format("o{} sub in this file, or in a file {}.ngc beside the program", label_text(label),
+                                symbols_.name(label)));
+    return;
+  }
+  frame.sub_at = file->subs.at(label.id);
+  parameters_.enter_sub({arguments.data(), control.arguments.size()});
+  frames_.push_back(frame);
+  state_.call_depth = static_cast<int>(frames_.size());
+  file_ = file;
+  file_->reader.seek(frame.sub_at);
+  reporter_.look_at(block_, file_->name);
+}
+
+ProgramFlow::File* ProgramFlow::find_sub(Symbol label) {
+  if (find_in(*file_, label)) return file_;
+  for (const auto& file : files_) {
+    if (file.get() != file_ && find_in(*file, label)) return file.get();
+  }
+  return open_beside(label);
+}
+
+// Whether the file has the sub. Reads on from where subs are known, once, and comes back.
+bool ProgramFlow::find_in(File& file, Symbol label) {
+  if (file.subs.contains(label.id)) return true;
+  if (file.seen_all) return false;
+  File* const reading = file_;
+  const Block current = block_;  // the call's, which the search overwrites
+  const ReaderPosition here = file.reader.position();
+  const ReaderPosition call_at = block_at_;
+  file_ = &file;
+  file.reader.seek(file.seen);
+  Symbol found;
+  while (!file.seen_all && !file.subs.contains(label.id)) {
+    if (!read_control(found)) {
+      file.seen_all = true;
+    } else if (block_.control->kind == ControlKind::sub) {
+      file.subs.try_emplace(found.id, file.reader.position());
+    }
+  }
+  file.seen = file.reader.position();
+  file.reader.seek(here);
+  file_ = reading;
+  block_ = current;
+  block_at_ = call_at;
+  if (&file == file_) {
+    reread_block_text();
+    file.reader.seek(here);
+  }
+  return file.subs.contains(label.id);
+}
+
+ProgramFlow::File* ProgramFlow::open_beside(Symbol label) {
+  constexpr std::size_t most_files = 64;
+  if (files_.size() >= most_files) return nullptr;
+  const std::filesystem::path folder = std::filesystem::path(files_.front()->name).parent_path();
+  const std::filesystem::path path = folder / (std::string(symbols_.name(label)) + ".ngc");
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem)) return nullptr;
+  auto reader = ProgramReader::open(path.string());
+  if (!reader) return nullptr;
+  files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
+  return find_in(*files_.back(), label) ? files_.back().get() : nullptr;
+}
+
+}  // namespace passo
