@@ -1,0 +1,78 @@
+// A program from text to canonical calls, for tests.
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "passo/interpreter/canon.hpp"
+#include "passo/interpreter/interpreter.hpp"
+
+namespace passo {
+
+struct Interpreted {
+  std::string canon;                // as `rs274 -g` prints it
+  std::vector<Operation> operations;  // without borrowed text
+  Diagnostics diagnostics{1000};
+
+  std::string rendered() const { return render(diagnostics, false); }
+  // The calls alone, one a line: no counter, no N column, without the six that start every program and what ends it.
+  std::string calls() const;
+  template <class What>
+  std::vector<What> all() const {
+    std::vector<What> found;
+    for (const Operation& operation : operations) {
+      if (const What* what = std::get_if<What>(&operation.what)) found.push_back(*what);
+    }
+    return found;
+  }
+  template <class What>
+  What last() const {
+    const std::vector<What> found = all<What>();
+    return found.empty() ? What{} : found.back();
+  }
+};
+
+inline void interpret(ProgramReader reader, const InterpreterOptions& options, Interpreted& result) {
+  Interpreter interpreter(std::move(reader), options, result.diagnostics);
+  CanonPrinter printer;
+  Operation operation;
+  while (interpreter.next(operation)) {
+    printer.print(operation, result.canon);
+    const bool borrows = std::holds_alternative<operation::Comment>(operation.what) ||
+                         std::holds_alternative<operation::Message>(operation.what) ||
+                         std::holds_alternative<operation::Print>(operation.what) ||
+                         std::holds_alternative<operation::Log>(operation.what);
+    if (!borrows) result.operations.push_back(operation);
+  }
+}
+
+inline Interpreted interpret_text(const std::string& text, const InterpreterOptions& options = {}) {
+  Interpreted result;
+  interpret(ProgramReader::from_text("test.ngc", text), options, result);
+  return result;
+}
+
+inline std::string Interpreted::calls() const {
+  std::string calls;
+  std::size_t line = 0;
+  for (std::size_t at = 0; at < canon.size(); ++line) {
+    const std::size_t end = canon.find('\n', at);
+    const std::string text = canon.substr(at, end - at);
+    at = end + 1;
+    constexpr std::size_t head = 13;  // "    7 N..... "
+    const bool counted = text.size() > head && text[5] == ' ' && text[6] == 'N';
+    const std::string call = counted ? text.substr(head) : text;
+    if (line >= 6 && call != "ON_RESET()") calls += call + "\n";
+  }
+  return calls;
+}
+
+inline std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace passo
