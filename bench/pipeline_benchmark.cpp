@@ -68,6 +68,7 @@ struct Cost {
 };
 Cost cost_of(const std::vector<std::string>& command) {
   const auto start = std::chrono::steady_clock::now();
+  std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
     std::vector<char*> arguments;

@@ -13,10 +13,10 @@ cmake --preset release "${tests_off[@]}"
 cmake --build build/release --target passo --parallel "$(nproc)"
 
 mkdir -p out
-first_job=(build/release/src/apps/passo run examples/engrave.ngc
+first_job=(build/release/passo run examples/engrave.ngc
   --machine examples/machines/pantograph.toml
   --picture out/engrave.png
-  --json out/report.json)
+  --report out/report.json)
 echo "+ ${first_job[*]}"
 "${first_job[@]}"
 

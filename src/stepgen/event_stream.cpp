@@ -47,11 +47,11 @@ void EventStream::start_move(const PlannedMove& move) {
   path_ = MotorPath(move_.segment.curve, options_);
   clock_ = PhaseClock(move_);
   in_move_ = true;
-  s_ = 0;
+  spot_ = path_.at(0);
   moment_ = clock_.at(0);
   here_ = end_;
   for (unsigned m = 0; m < options_.motor_count; ++m) end_[m] = place_of(options_.motors[m], move_.segment.curve.end());
-  in_stretch_ = in_stretch_ && master_leads(0) && rate_fits(0);
+  in_stretch_ = in_stretch_ && master_leads(spot_) && rate_fits();
 }
 
 // The speed one step from here: close to rest it is that which counts, and it is the same on both sides of a stop.
@@ -61,18 +61,18 @@ double EventStream::speed_nearby(double slope) const {
 }
 
 // No motor is faster than the master, which still goes its way.
-bool EventStream::master_leads(double s) const {
-  const double slope = path_.slope(stretch_.master, s) * stretch_.sign;
+bool EventStream::master_leads(const MotorPath::Spot& spot) const {
+  const double slope = path_.slope(stretch_.master, spot) * stretch_.sign;
   if (slope <= 0) return false;
   for (unsigned m = 0; m < options_.motor_count; ++m) {
-    if (std::fabs(path_.slope(m, s)) > slope * takeover) return false;
+    if (std::fabs(path_.slope(m, spot)) > slope * takeover) return false;
   }
   return true;
 }
 
 // Events come neither so slowly nor so fast that another division would be better.
-bool EventStream::rate_fits(double s) const {
-  const double slope = std::fabs(path_.slope(stretch_.master, s));
+bool EventStream::rate_fits() const {
+  const double slope = std::fabs(path_.slope(stretch_.master, spot_));
   const double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
   if (rate > rate_before_coarser * slow_rate_ && stretch_.grid < coarsest_grid(stretch_.master)) return false;
   return rate > rate_before_finer * slow_rate_ || stretch_.grid == finest_grid;
@@ -101,7 +101,7 @@ EventStream::Fastest EventStream::fastest() const {
     best = {};
     bool arrives = path_.is_straight();
     for (unsigned m = 0; m < options_.motor_count; ++m) {
-      const double length = path_.travel(m, distance, s_);
+      const double length = path_.travel(m, distance, spot_.s);
       if (distance > best.slope * length) best = {.motor = m, .slope = distance / length};
       arrives = arrives || (length < infinity && path_.is_turning(m));
     }
@@ -113,13 +113,13 @@ EventStream::Fastest EventStream::fastest() const {
 EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   const auto [master, slope] = fastest();
   if (slope == 0) return Start::nothing_moves;
-  stretch_ = {.master = master, .sign = path_.slope(master, s_) > 0 ? 1 : -1, .grid = coarsest_grid(master)};
+  stretch_ = {.master = master, .sign = path_.slope(master, spot_) > 0 ? 1 : -1, .grid = coarsest_grid(master)};
   double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
   for (; rate < slow_rate_ && stretch_.grid > finest_grid; rate *= 2) stretch_.grid /= 2;
-  master_place_ = path_.place(master, s_);
-  if (path_.crossing(master, next_target(), s_) == infinity) {
+  master_place_ = path_.place(master, spot_);
+  if (path_.crossing(master, next_target(), spot_) == infinity) {
     // It turns back before the next line: what comes first is on the way back.
-    const double turn = path_.turning_point(master, s_);
+    const double turn = path_.turning_point(master, spot_.s);
     if (!(turn < path_.length())) return Start::nothing_moves;
     go_to(turn);
     return Start::turned;
@@ -156,23 +156,23 @@ void EventStream::push(EventBuffer::Event event, EventBuffer& events) {
 }
 
 void EventStream::go_to(double s) {
-  s_ = s;
-  moment_ = clock_.at(s_);
-  for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, s_);
+  spot_ = path_.at(s);
+  moment_ = clock_.at(s);
+  for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, spot_);
 }
 
-void EventStream::push_master(double target, double s, EventBuffer& events) {
-  moment_ = clock_.at(s);
-  s_ = s;
+void EventStream::push_master(double target, const MotorPath::Spot& spot, EventBuffer& events) {
+  moment_ = clock_.at(spot.s);
+  spot_ = spot;
   EventBuffer::Event event{.time = fixed_time(moment_.time)};
   for (unsigned m = 0; m < options_.motor_count; ++m) {
-    event.place[m] = m == stretch_.master ? target : path_.place(m, s);
+    event.place[m] = m == stretch_.master ? target : path_.place(m, spot);
   }
   master_place_ = target;
   push(event, events);
   // Going down, the step is the crossing itself: from here on the place lies below the line.
   if (stretch_.sign < 0) at_last_event_[stretch_.master] = here_[stretch_.master] -= 0.5;
-  in_stretch_ = rate_fits(s);
+  in_stretch_ = rate_fits();
 }
 
 EventStream::Stop EventStream::finish_move() {
@@ -191,19 +191,20 @@ EventStream::Stop EventStream::fill(EventBuffer& events) {
       if (start == Start::turned) continue;
     }
     const double target = next_target();
-    const double s = path_.crossing(stretch_.master, target, s_);
+    const double s = path_.crossing(stretch_.master, target, spot_);
     if (s == infinity) {  // turns back before: choose again
       in_stretch_ = false;
       continue;
     }
     if (s > path_.length()) return finish_move();
     // On an arc another motor may have become the faster one on the way.
-    const bool leads = path_.is_straight() || master_leads(s);
+    const MotorPath::Spot spot = path_.at(s);
+    const bool leads = path_.is_straight() || master_leads(spot);
     if (!leads && !events.empty()) {
       in_stretch_ = false;
       continue;
     }
-    push_master(target, s, events);
+    push_master(target, spot, events);
     in_stretch_ = in_stretch_ && leads;
   }
   return Stop::full;

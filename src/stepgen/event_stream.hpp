@@ -56,11 +56,11 @@ class EventStream {
   Fastest fastest() const;
   Start start_stretch(EventBuffer& events);
   bool push_border(EventBuffer& events);
-  void push_master(double target, double s, EventBuffer& events);
+  void push_master(double target, const MotorPath::Spot& spot, EventBuffer& events);
   void push(EventBuffer::Event event, EventBuffer& events);
   void go_to(double s);
-  bool master_leads(double s) const;
-  bool rate_fits(double s) const;
+  bool master_leads(const MotorPath::Spot& spot) const;
+  bool rate_fits() const;
   std::int64_t coarsest_grid(unsigned motor) const;
   double speed_nearby(double slope) const;
   double next_target() const;
@@ -81,9 +81,9 @@ class EventStream {
   MotorPath path_;
   PhaseClock clock_;
   bool in_move_ = false;
-  double s_ = 0;
+  MotorPath::Spot spot_;  // where on the curve we are
   PhaseClock::Moment moment_;
-  std::array<double, max_motors> here_{};  // exact places at s_
+  std::array<double, max_motors> here_{};  // exact places at spot_
   std::array<double, max_motors> at_last_event_{};
   std::array<double, max_motors> end_{};  // and at the end of the last move
 

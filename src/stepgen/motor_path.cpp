@@ -19,6 +19,7 @@ MotorPath::MotorPath(const Curve& curve, const StepOptions& options)
   const Curve::ArcData& arc = curve.arc_data();
   if (!straight_) {
     turn_ = arc.sweep / length_;
+    angle_ = arc.start_angle;
     radius_ = arc.start_radius;
     growth_ = (arc.end_radius - arc.start_radius) / length_;
   }
@@ -28,6 +29,7 @@ MotorPath::MotorPath(const Curve& curve, const StepOptions& options)
     const bool first = !straight_ && motor.axis == arc.first;
     const bool second = !straight_ && motor.axis == arc.second;
     term.turning = first || second;
+    term.on_cosine = first;
     if (term.turning) {
       term.scale = motor.steps_per_unit * place_per_step;
       term.base = (first ? arc.first_center : arc.second_center) * term.scale + 0.5 * place_per_step;
@@ -40,10 +42,16 @@ MotorPath::MotorPath(const Curve& curve, const StepOptions& options)
   }
 }
 
-double MotorPath::place(unsigned motor, double s) const {
+MotorPath::Spot MotorPath::at(double s) const {
+  if (straight_) return {.s = s};
+  const double angle = angle_ + turn_ * s;
+  return {.s = s, .cosine = std::cos(angle), .sine = std::sin(angle)};
+}
+
+double MotorPath::place(unsigned motor, const Spot& spot) const {
   const Term& term = terms_[motor];
-  if (!term.turning) return term.base + term.scale * s;
-  return term.base + term.scale * radius_at(s) * std::sin(angle_at(term, s));
+  if (!term.turning) return term.base + term.scale * spot.s;
+  return term.base + term.scale * radius_at(spot.s) * (term.on_cosine ? spot.cosine : spot.sine);
 }
 
 double MotorPath::reach(unsigned motor) const {
@@ -51,14 +59,16 @@ double MotorPath::reach(unsigned motor) const {
   return term.turning ? std::fabs(term.scale) * radius_ : infinity;
 }
 
-double MotorPath::slope(unsigned motor, double s) const {
+double MotorPath::slope(unsigned motor, const Spot& spot) const {
   const Term& term = terms_[motor];
   if (!term.turning) return term.scale;
-  const double angle = angle_at(term, s);
-  return term.scale * (growth_ * std::sin(angle) + radius_at(s) * turn_ * std::cos(angle));
+  const double speed = radius_at(spot.s) * turn_;
+  return term.scale *
+         (term.on_cosine ? growth_ * spot.cosine - speed * spot.sine : growth_ * spot.sine + speed * spot.cosine);
 }
 
-double MotorPath::crossing(unsigned motor, double target, double from) const {
+double MotorPath::crossing(unsigned motor, double target, const Spot& spot) const {
+  const double from = spot.s;
   const Term& term = terms_[motor];
   if (!term.turning) {
     if (term.scale == 0) return infinity;
@@ -68,7 +78,7 @@ double MotorPath::crossing(unsigned motor, double target, double from) const {
   if (!(std::fabs(sine) <= 1)) return infinity;
   // The sine rises on one half of the turn and falls on the other: stay on the half where `from` is.
   const double here = angle_at(term, from);
-  const bool sine_rises = (slope(motor, from) > 0) == (term.scale * turn_ > 0);
+  const bool sine_rises = (slope(motor, spot) > 0) == (term.scale * turn_ > 0);
   const double principal = sine_rises ? std::asin(sine) : pi - std::asin(sine);
   const double turns = std::round((here - principal) / (2 * pi));
   double s = (principal + turns * 2 * pi - term.angle) / turn_;
@@ -81,16 +91,16 @@ double MotorPath::crossing(unsigned motor, double target, double from) const {
 double MotorPath::crossing_on_spiral(unsigned motor, double target, double from, double guess) const {
   const double turn = turning_point(motor, from);
   double s = guess;
-  for (int i = 0; i < 4; ++i) s -= (place(motor, s) - target) / slope(motor, s);
-  if (s >= from && s <= turn && std::fabs(place(motor, s) - target) < 0.5) return s;
+  for (int i = 0; i < 4; ++i) s -= (place(motor, at(s)) - target) / slope(motor, at(s));
+  if (s >= from && s <= turn && std::fabs(place(motor, at(s)) - target) < 0.5) return s;
 
   double low = from;
   double high = turn;
-  const bool rising = place(motor, high) > place(motor, low);
-  if ((place(motor, low) < target) != rising || (place(motor, high) > target) != rising) return infinity;
+  const bool rising = place(motor, at(high)) > place(motor, at(low));
+  if ((place(motor, at(low)) < target) != rising || (place(motor, at(high)) > target) != rising) return infinity;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
-    ((place(motor, middle) < target) == rising ? low : high) = middle;
+    ((place(motor, at(middle)) < target) == rising ? low : high) = middle;
   }
   return high;
 }
@@ -109,11 +119,12 @@ double MotorPath::turning_point(unsigned motor, double from) const {
 double MotorPath::travel(unsigned motor, double distance, double from) const {
   const Term& term = terms_[motor];
   if (!term.turning) return term.scale == 0 ? infinity : distance / std::fabs(term.scale);
-  const double here = place(motor, from);
-  const double step = slope(motor, from) > 0 ? distance : -distance;
-  const double ahead = crossing(motor, here + step, from);
+  const Spot spot = at(from);
+  const double here = place(motor, spot);
+  const double step = slope(motor, spot) > 0 ? distance : -distance;
+  const double ahead = crossing(motor, here + step, spot);
   if (ahead < infinity) return ahead - from;
-  return crossing(motor, here - step, turning_point(motor, from)) - from;
+  return crossing(motor, here - step, at(turning_point(motor, from))) - from;
 }
 
 }  // namespace passo

@@ -23,13 +23,21 @@ class MotorPath {
   MotorPath() = default;
   MotorPath(const Curve& curve, const StepOptions& options);
 
-  double place(unsigned motor, double s) const;
+  // A place on the curve with what all motors need of it, computed once: on an arc, where it stands on its circle.
+  struct Spot {
+    double s = 0;
+    double cosine = 1;
+    double sine = 0;
+  };
+  Spot at(double s) const;
+
+  double place(unsigned motor, const Spot& spot) const;
   // d place / ds: negative where the motor counts down.
-  double slope(unsigned motor, double s) const;
+  double slope(unsigned motor, const Spot& spot) const;
 
   // The first s >= from where the motor's place, going on in the direction it has at `from`, reaches `target`.
   // Infinity if it turns back before, or stands still. May lie beyond the end of the curve.
-  double crossing(unsigned motor, double target, double from) const;
+  double crossing(unsigned motor, double target, const Spot& from) const;
   // Just behind the first place after `from` where the motor turns back; infinity if it never does.
   double turning_point(unsigned motor, double from) const;
   // How much s it takes until the motor is `distance` away from where it is at `from`, turning back or not: what "fast"
@@ -43,12 +51,13 @@ class MotorPath {
   double length() const { return length_; }
 
  private:
-  // place = center + scale * radius(s) * sin(angle(s)), or start + slope * s.
+  // place = center + scale * radius(s) * cos or sin(angle(s)), or start + slope * s.
   struct Term {
     bool turning = false;
-    double base = 0;   // place at s = 0, or of the centre
-    double scale = 0;  // slope, or places a millimetre of radius
-    double angle = 0;  // at s = 0, as the argument of the sine
+    bool on_cosine = false;  // the first axis of the plane
+    double base = 0;         // place at s = 0, or of the centre
+    double scale = 0;        // slope, or places a millimetre of radius
+    double angle = 0;        // at s = 0, as the argument of a sine for both axes
   };
   double crossing_on_spiral(unsigned motor, double target, double from, double guess) const;
   double angle_at(const Term& term, double s) const { return term.angle + turn_ * s; }
@@ -57,6 +66,7 @@ class MotorPath {
   std::array<Term, max_motors> terms_;
   bool straight_ = true;
   double length_ = 0;
+  double angle_ = 0;   // at s = 0
   double turn_ = 0;    // radians a millimetre of s
   double radius_ = 0;  // at s = 0
   double growth_ = 0;  // of the radius, a millimetre of s

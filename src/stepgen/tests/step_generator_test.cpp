@@ -6,6 +6,8 @@
 #include "kit/stage_test.hpp"
 #include "step_oracle.hpp"
 
+#include "passo/stepgen/board_text.hpp"
+
 namespace passo {
 namespace {
 
@@ -190,6 +192,14 @@ TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
   const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(1000, 0)), 100, 100, 100, 800)};
   const oracle::Playback played = oracle::play(generate(items, options), options);
   EXPECT_LE(played.segments, played.events / 250);
+}
+
+TEST(BoardText, a_short_move_from_rest_to_rest_and_a_dwell_read_as_they_are_played) {
+  const StepOptions options = machine({100, 100, 100}, 50e3);
+  const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(0.4, -0.1)), 0, 10, 0, 200), dwell(0.5)};
+  std::string text;
+  for (const BoardItem& item : generate(items, options)) text += to_text(item, options);
+  test::expect_golden("src/stepgen/tests/golden/short_move.txt", text);
 }
 
 // Lines and arcs with random corners, speeds and machines.

@@ -1,0 +1,55 @@
+#include "passo/stepgen/board_text.hpp"
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+double in_steps(const BoardSegment& segment, unsigned motor) {
+  const bool down = (segment.directions >> motor & 1U) != 0;
+  const bool flip = (segment.flips >> motor & 1U) != 0;
+  const double fraction = segment.increments[motor] / 65536.0;
+  if (!flip) return fraction;
+  return down ? fraction - 1 : 1;
+}
+
+std::string text_of(const BoardSegment& segment, const StepOptions& options) {
+  std::string text = fmt::format("segment {} events, {:.8g} ticks, change {:.8g}", segment.events,
+                                 segment.interval / 65536.0, segment.change / 65536.0);
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    const double increment = in_steps(segment, m);
+    text += fmt::format("{} {} ", m == 0 ? "," : "", letter_of(options.motors[m].axis));
+    text += increment == 0 ? "0" : fmt::format("{:+.6g}", increment);
+  }
+  return text + "\n";
+}
+
+std::string text_of(const Action& action) {
+  switch (action.kind) {
+    case Action::Kind::dwell: return fmt::format("dwelt {:.6g} s\n", action.dwell.value());
+    case Action::Kind::program_stop: return "program stop\n";
+    case Action::Kind::optional_stop: return "optional stop\n";
+    case Action::Kind::tool_change: return fmt::format("tool change {}\n", action.tool);
+    case Action::Kind::program_end: return "program end\n";
+    case Action::Kind::outputs: break;
+  }
+  const OutputState& outputs = action.outputs;
+  std::string text = "outputs spindle off";
+  if (outputs.spindle != SpindleDirection::off) {
+    text = fmt::format("outputs spindle {} {:.6g} rpm",
+                       outputs.spindle == SpindleDirection::clockwise ? "clockwise" : "counterclockwise",
+                       outputs.revolutions_per_minute);
+  }
+  if (outputs.mist) text += ", mist";
+  if (outputs.flood) text += ", flood";
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const BoardItem& item, const StepOptions& options) {
+  const auto* segment = std::get_if<BoardSegment>(&item);
+  return segment != nullptr ? text_of(*segment, options) : text_of(std::get<Action>(item));
+}
+
+}  // namespace passo

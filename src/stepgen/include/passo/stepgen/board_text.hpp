@@ -1,0 +1,16 @@
+// Board items as text, one line each: the seam between the motion and the wire, for golden files and for reading.
+//
+//   segment 200 events, 250.5 ticks, change 0.125, X +1 Y -0.40002 Z 0
+//   outputs spindle clockwise 1000 rpm, flood
+#pragma once
+
+#include <string>
+
+#include "passo/stepgen/step_generator.hpp"
+
+namespace passo {
+
+// With a line end. Increments are in steps an event, in the sense of the axis's motor.
+std::string to_text(const BoardItem& item, const StepOptions& options);
+
+}  // namespace passo
