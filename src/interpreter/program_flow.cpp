@@ -100,7 +100,16 @@ ProgramFlow::Read ProgramFlow::read() {
   block_at_ = file_->reader.position();
   if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
   if (options_.block_delete && is_deleted(text)) return Read::skipped;
-  return file_->parser.parse(text, line, block_, reporter_.diagnostics()) ? Read::block : Read::skipped;
+  return parse(text, line) ? Read::block : Read::skipped;
+}
+
+// A line that is no G-code is told once, however often a loop comes by.
+bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
+  std::set<std::uint32_t>& unreadable = file_->unreadable;
+  if (!unreadable.empty() && unreadable.contains(line)) return false;
+  if (file_->parser.parse(text, line, block_, reporter_.diagnostics())) return true;
+  unreadable.insert(line);
+  return false;
 }
 
 // A '%' before everything else opens the program, the next one closes it.
@@ -371,7 +380,7 @@ bool ProgramFlow::read_control(Symbol& label) {
     block_at_ = file_->reader.position();
     if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
     if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
-    if (!file_->parser.parse(text, line, block_, reporter_.diagnostics()) || !block_.control) continue;
+    if (!parse(text, line) || !block_.control) continue;
     if (label_of(*block_.control, label)) return true;
   }
 }
@@ -383,7 +392,7 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   if (!value_of(block_, *control.computed_label, parameters_, reporter_, value)) return false;
   const double whole = std::round(value);
   if (std::abs(value - whole) > whole_tolerance || whole < 0 || whole > 1e9) {
-    reporter_.error("gcode.bad-label", control.computed_label->span,
+    reporter_.error("gcode.bad-o-word", control.computed_label->span,
                     fmt::format("the label is {}", plain_number(value)), "a whole number, 0 or more");
     return false;
   }

@@ -10,7 +10,7 @@
 
 #include <array>
 #include <memory>
-#include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -59,6 +59,7 @@ class ProgramFlow {
     std::unordered_map<std::uint32_t, ReaderPosition> subs;  // by label: the line after it
     ReaderPosition seen;                                     // subs before this place are known
     bool seen_all = false;
+    std::set<std::uint32_t> unreadable;  // lines that are no G-code
   };
   // A construct that was entered and not yet left.
   struct Open {
@@ -79,6 +80,7 @@ class ProgramFlow {
   // Lines.
   enum class Read : std::uint8_t { block, skipped, end };
   Read read();
+  bool parse(std::string_view text, std::uint32_t line);
   bool is_percent_end();
   const Block* finish(End end);
 
