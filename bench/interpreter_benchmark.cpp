@@ -17,7 +17,8 @@ std::string straight_lines(bool modal) {
   for (int i = 0; i < program_lines; ++i) {
     const double x = i % 997 * 0.1037;
     const double y = i % 463 * 0.2071;
-    text += modal ? fmt::format("X{:.4f} Y{:.4f}\n", x, y) : fmt::format("G1 X{:.4f} Y{:.4f} Z{:.3f}\n", x, y, -0.001 * (i % 50));
+    text += modal ? fmt::format("X{:.4f} Y{:.4f}\n", x, y)
+                  : fmt::format("G1 X{:.4f} Y{:.4f} Z{:.3f}\n", x, y, -0.001 * (i % 50));
   }
   return text + "M2\n";
 }
@@ -41,7 +42,8 @@ std::string loop_with_trigonometry() {
 // Five lines a call.
 std::string sub_calls() {
   return fmt::format(
-      "G21 G90 F1000\no<hop> sub\nG1 X#1 Y#2\no<hop> endsub\no100 repeat [{}]\no<hop> call [1.5] [2.5]\no100 endrepeat\n"
+      "G21 G90 F1000\no<hop> sub\nG1 X#1 Y#2\no<hop> endsub\no100 repeat [{}]\no<hop> call [1.5] [2.5]\no100 "
+      "endrepeat\n"
       "M2\n",
       program_lines / 5);
 }

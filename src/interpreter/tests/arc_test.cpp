@@ -3,10 +3,9 @@
 #include <numbers>
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "../arc_center.hpp"
 #include "interpreted.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {
@@ -62,8 +61,7 @@ TEST(Arc, that_ends_where_it_starts_is_a_full_circle) {
 }
 
 TEST(Arc, has_its_centre_in_the_axes_of_its_plane) {
-  const Interpreted result = interpret_text(
-      "G21 F100 G18\nG0 X0 Z0\nG2 X2 Z2 I1 K1\nG19 G3 Y4 Z2 J2 Y4\nM2\n");
+  const Interpreted result = interpret_text("G21 F100 G18\nG0 X0 Z0\nG2 X2 Z2 I1 K1\nG19 G3 Y4 Z2 J2 Y4\nM2\n");
   EXPECT_TRUE(result.diagnostics.any_error());  // Y twice
   const Interpreted good = interpret_text("G21 F100 G18\nG0 X0 Z0\nG2 X2 Z2 I1 K1\nG19 G3 Y4 Z2 J2\nM2\n");
   const auto arcs = good.all<operation::ArcFeed>();

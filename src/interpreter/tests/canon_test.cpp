@@ -4,9 +4,8 @@
 #include <fstream>
 #include <set>
 
-#include <gtest/gtest.h>
-
 #include "interpreted.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {

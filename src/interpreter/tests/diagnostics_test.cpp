@@ -1,8 +1,7 @@
 // What is wrong in a program: the code, the line, the column and how much of the line it is about.
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "interpreted.hpp"
 
 namespace passo {
 namespace {

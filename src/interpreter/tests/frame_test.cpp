@@ -1,12 +1,12 @@
+#include "passo/interpreter/frame.hpp"
+
 #include <cmath>
 #include <cstdlib>
 #include <random>
 
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "interpreted.hpp"
-#include "passo/interpreter/frame.hpp"
 
 namespace passo {
 namespace {
@@ -91,9 +91,9 @@ TEST(Frame, agrees_with_the_interpreter_about_machine_positions) {
   const auto n = [&] { return std::to_string(number(random)); };
   for (int i = 0; i < 200; ++i) {
     const std::string x = n(), y = n(), z = n(), a = n(), u = n();
-    const std::string text = "G21\nG10 L2 P1 X" + n() + " Y" + n() + " Z" + n() + " R" + n() + "\nG0 X" + n() + " Y" + n() +
-                             "\nG43.1 Z" + n() + " X" + n() + " A" + n() + "\nG92 X" + n() + " Y" + n() + " U" + n() +
-                             "\nG10 L2 P4 X" + n() + " A" + n() + " R" + n() + "\nG57\nG10 L20 P4 X" + n() +
+    const std::string text = "G21\nG10 L2 P1 X" + n() + " Y" + n() + " Z" + n() + " R" + n() + "\nG0 X" + n() + " Y" +
+                             n() + "\nG43.1 Z" + n() + " X" + n() + " A" + n() + "\nG92 X" + n() + " Y" + n() + " U" +
+                             n() + "\nG10 L2 P4 X" + n() + " A" + n() + " R" + n() + "\nG57\nG10 L20 P4 X" + n() +
                              "\nG53 G0 X" + x + " Y" + y + " Z" + z + " A" + a + " U" + u + "\n(debug,#5420)\nM2\n";
     const Interpreted result = interpret_text(text);
     ASSERT_FALSE(result.diagnostics.any_error()) << text << result.rendered();

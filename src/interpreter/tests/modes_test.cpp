@@ -1,8 +1,7 @@
 // What is modal, what comes before what, and what a block may say together.
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "interpreted.hpp"
 
 namespace passo {
 namespace {
@@ -15,12 +14,13 @@ Point end_of(const Interpreted& result) {
 
 TEST(Modes, a_program_starts_in_millimetres_and_with_linuxcncs_six_calls) {
   const Interpreted result = interpret_text("M2\n");
-  EXPECT_THAT(result.canon, testing::StartsWith("    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"
-                                                "    2 N..... SET_G5X_OFFSET(1, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
-                                                "    3 N..... SET_G92_OFFSET(0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
-                                                "    4 N..... SET_XY_ROTATION(0.0000)\n"
-                                                "    5 N..... SET_FEED_REFERENCE(CANON_XYZ)\n"
-                                                "    6 N..... ON_RESET()\n"));
+  EXPECT_THAT(result.canon,
+              testing::StartsWith("    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"
+                                  "    2 N..... SET_G5X_OFFSET(1, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
+                                  "    3 N..... SET_G92_OFFSET(0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
+                                  "    4 N..... SET_XY_ROTATION(0.0000)\n"
+                                  "    5 N..... SET_FEED_REFERENCE(CANON_XYZ)\n"
+                                  "    6 N..... ON_RESET()\n"));
 }
 
 TEST(Modes, the_start_is_a_machine_position_and_the_units_an_option) {
@@ -66,8 +66,7 @@ TEST(Modes, units_of_a_block_hold_for_its_axis_words_and_not_for_its_feed) {
 }
 
 TEST(Modes, a_block_is_executed_in_the_order_of_rs274) {
-  const Interpreted result =
-      interpret_text("G21 T1\nM2 G1 G54 X1 G90 G61 G18 G4 P1 M8 M3 M6 S100 F200 G94 (note)\n");
+  const Interpreted result = interpret_text("G21 T1\nM2 G1 G54 X1 G90 G61 G18 G4 P1 M8 M3 M6 S100 F200 G94 (note)\n");
   const std::string calls = result.calls();
   std::size_t at = 0;
   for (const char* const call :

@@ -2,10 +2,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "interpreted.hpp"
 
 namespace passo {
 namespace {
@@ -25,7 +24,8 @@ std::string path(const std::string& program) {
 
 TEST(OWords, if_takes_one_branch) {
   for (const auto& [value, expected] : {std::pair{"1", "a."}, {"2", "b."}, {"3", "c."}, {"4", "d."}}) {
-    EXPECT_EQ(path(std::string("#1=") + value + "\no1 if [#1 EQ 1]\n(a)\no1 elseif [#1 EQ 2]\n(b)\no1 elseif [#1 EQ 3]\n(c)\n"
+    EXPECT_EQ(path(std::string("#1=") + value +
+                   "\no1 if [#1 EQ 1]\n(a)\no1 elseif [#1 EQ 2]\n(b)\no1 elseif [#1 EQ 3]\n(c)\n"
                    "o1 else\n(d)\no1 endif\n(.)\n"),
               expected);
   }
@@ -43,8 +43,9 @@ TEST(OWords, while_asks_before_each_pass_and_do_after) {
 }
 
 TEST(OWords, a_while_may_stand_in_a_do) {
-  EXPECT_EQ(path("#1=0\no1 do\n#2=0\no2 while [#2 LT 2]\n(x)\n#2=[#2+1]\no2 endwhile\n(-)\n#1=[#1+1]\no1 while [#1 LT 2]\n"),
-            "xx-xx-");
+  EXPECT_EQ(
+      path("#1=0\no1 do\n#2=0\no2 while [#2 LT 2]\n(x)\n#2=[#2+1]\no2 endwhile\n(-)\n#1=[#1+1]\no1 while [#1 LT 2]\n"),
+      "xx-xx-");
 }
 
 TEST(OWords, repeat_counts_rounded) {
@@ -58,10 +59,13 @@ TEST(OWords, break_and_continue_go_out_of_ifs_to_the_loop_they_name) {
   EXPECT_EQ(path("#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [#1 GT 3]\no1 break\n"
                  "o3 endif\n(x)\no1 endwhile\n(.)\n"),
             "xx.");
-  EXPECT_EQ(path("#1=0\no1 repeat [5]\no2 do\n#1=[#1+1]\no3 if [#1 EQ 3]\no1 break\no3 endif\n(x)\no2 while [0]\no1 endrepeat\n(.)\n"),
+  EXPECT_EQ(path("#1=0\no1 repeat [5]\no2 do\n#1=[#1+1]\no3 if [#1 EQ 3]\no1 break\no3 endif\n(x)\no2 while [0]\no1 "
+                 "endrepeat\n(.)\n"),
             "xx.");
-  EXPECT_EQ(path("#1=0\no1 do\n#1=[#1+1]\no3 if [#1 EQ 2]\no1 continue\no3 endif\n(x)\no1 while [#1 LT 4]\n(.)\n"), "xxx.");
-  EXPECT_EQ(path("#1=0\no1 repeat [4]\n#1=[#1+1]\no3 if [#1 EQ 2]\no1 continue\no3 endif\n(x)\no1 endrepeat\n(.)\n"), "xxx.");
+  EXPECT_EQ(path("#1=0\no1 do\n#1=[#1+1]\no3 if [#1 EQ 2]\no1 continue\no3 endif\n(x)\no1 while [#1 LT 4]\n(.)\n"),
+            "xxx.");
+  EXPECT_EQ(path("#1=0\no1 repeat [4]\n#1=[#1+1]\no3 if [#1 EQ 2]\no1 continue\no3 endif\n(x)\no1 endrepeat\n(.)\n"),
+            "xxx.");
 }
 
 TEST(OWords, labels_may_be_numbers_names_and_computed) {
@@ -79,7 +83,8 @@ TEST(OWords, a_sub_returns_from_inside_its_loops) {
 }
 
 TEST(OWords, the_same_labels_may_be_used_in_several_subs) {
-  EXPECT_EQ(path("o1 sub\no9 if [0]\n(a)\no9 else\n(b)\no9 endif\no1 endsub\no2 sub\no9 repeat [2]\n(c)\no1 call\no9 endrepeat\n"
+  EXPECT_EQ(path("o1 sub\no9 if [0]\n(a)\no9 else\n(b)\no9 endif\no1 endsub\no2 sub\no9 repeat [2]\n(c)\no1 call\no9 "
+                 "endrepeat\n"
                  "o2 endsub\no2 call\n"),
             "cbcb");
 }
@@ -103,8 +108,9 @@ TEST(OWords, a_sub_is_found_in_a_file_beside_the_program) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "passo_subs";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "main.ngc") << "o<other> call [4]\no<other> call [5]\n(debug,#<_value>)\nM2\n";
-  std::ofstream(folder / "other.ngc") << "(a file with a sub)\no<other> sub\nG0 X#1\no<inner> call\no<other> endsub [#1]\n"
-                                         "o<inner> sub\nG0 Y1\no<inner> endsub\n";
+  std::ofstream(folder / "other.ngc")
+      << "(a file with a sub)\no<other> sub\nG0 X#1\no<inner> call\no<other> endsub [#1]\n"
+         "o<inner> sub\nG0 Y1\no<inner> endsub\n";
   auto reader = ProgramReader::open((folder / "main.ngc").string());
   ASSERT_TRUE(reader);
   Interpreted result;
@@ -132,8 +138,8 @@ TEST(OWords, errors_in_a_sub_of_another_file_name_that_file) {
 TEST(OWords, a_long_loop_is_not_idle_while_it_does_something) {
   InterpreterOptions options;
   options.idle_passes = 10;
-  const Interpreted result =
-      interpret_text("#1=0\no1 while [#1 LT 100]\n#1=[#1+1]\no2 if [#1 MOD 8 EQ 0]\nG0 X#1\no2 endif\no1 endwhile\nM2\n", options);
+  const Interpreted result = interpret_text(
+      "#1=0\no1 while [#1 LT 100]\n#1=[#1+1]\no2 if [#1 MOD 8 EQ 0]\nG0 X#1\no2 endif\no1 endwhile\nM2\n", options);
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
   EXPECT_EQ(result.all<operation::StraightTraverse>().size(), 12U);
 }

@@ -1,7 +1,6 @@
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "interpreted.hpp"
 
 namespace passo {
 namespace {
@@ -74,9 +73,10 @@ TEST(Offsets, tool_length_moves_the_numbers_and_not_the_tool) {
 }
 
 TEST(Offsets, live_in_parameters_in_millimetres) {
-  const Interpreted result = interpret_text("G20\nG10 L2 P2 X1 A90 R45\n(debug,#5241 #5244 #5250)\nG0 X2\nG92 X1\n"
-                                            "(debug,#5210 #5211)\n#5261=25.4\nG56\n(debug,#5420 #5220)\nG28.1\n"
-                                            "(debug,#5161)\nM2\n");
+  const Interpreted result = interpret_text(
+      "G20\nG10 L2 P2 X1 A90 R45\n(debug,#5241 #5244 #5250)\nG0 X2\nG92 X1\n"
+      "(debug,#5210 #5211)\n#5261=25.4\nG56\n(debug,#5420 #5220)\nG28.1\n"
+      "(debug,#5161)\nM2\n");
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"25.400000 90.000000 45.000000\")"));
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"1.000000 25.400000\")"));
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"0.000000 3.000000\")"));

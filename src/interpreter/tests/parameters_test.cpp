@@ -1,10 +1,10 @@
+#include "../parameters.hpp"
+
 #include <array>
 
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "../parameters.hpp"
-#include "interpreted.hpp"
 
 namespace passo {
 namespace {
@@ -51,7 +51,8 @@ TEST(Parameters, of_a_sub_are_its_own_and_those_of_the_caller_come_back) {
 }
 
 TEST(Parameters, local_names_of_a_caller_are_not_seen_in_a_sub) {
-  EXPECT_EQ(says("o1 sub\n#40=EXISTS[#<mine>]\no1 endsub\n#<mine>=7\no1 call\n(debug,#40 #<mine>)\n"), "0.000000 7.000000");
+  EXPECT_EQ(says("o1 sub\n#40=EXISTS[#<mine>]\no1 endsub\n#<mine>=7\no1 call\n(debug,#40 #<mine>)\n"),
+            "0.000000 7.000000");
 }
 
 TEST(Parameters, of_a_recursive_sub_are_those_of_each_call) {
