@@ -38,7 +38,7 @@ struct EvaluationError {
 
 // Operands on the stack, and brackets, signs and # inside one another. BlockParser refuses what goes deeper.
 inline constexpr std::size_t deepest_expression = 64;
-// EQ and NE: two numbers are equal when they differ by less (LinuxCNC's TOLERANCE_EQUAL).
+// EQ and NE: two numbers are equal when they differ by less (LinuxCNC's TOLERANCE_EQUAL; 1e-4 in old versions).
 inline constexpr double equality_tolerance = 1e-6;
 // A number that must be whole (of a parameter, of an O-word) may differ from it by this much.
 inline constexpr double whole_number_tolerance = 1e-4;
