@@ -52,7 +52,8 @@ ArcCenter center_from_radius(PlanePoint start, PlanePoint end, double radius, bo
   const double side = clockwise == (radius > 0) ? -height : height;
   const double along_first = (end.first - start.first) / (2 * half);
   const double along_second = (end.second - start.second) / (2 * half);
-  arc.center = {(start.first + end.first) / 2 - side * along_second, (start.second + end.second) / 2 + side * along_first};
+  arc.center = {(start.first + end.first) / 2 - side * along_second,
+                (start.second + end.second) / 2 + side * along_first};
   arc.start_radius = arc.end_radius = std::max(size, half);
   return arc;
 }

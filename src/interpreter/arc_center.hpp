@@ -15,8 +15,8 @@ struct PlanePoint {
 };
 
 struct ArcTolerance {
-  double radius;           // a radius below is none; R may fall this short of half the chord
-  double absolute_spiral;  // start and end radius may differ by this much…
+  double radius;                                    // a radius below is none; R may fall this short of half the chord
+  double absolute_spiral;                           // start and end radius may differ by this much…
   static constexpr double relative_spiral = 0.001;  // …or by this part, up to a hundred times as much
 };
 inline constexpr double square_root_of_two = 1.41421356237309504880;

@@ -1,9 +1,9 @@
 // BlockExecutor: one block of words -> operations, in RS274/NGC's order of execution.
 //
 // A block is checked first as a whole (one code of each modal group, every word used, one taker of the axis words) and
-// executed then, group by group in a fixed order (block_executor.cpp); motion is in motion.cpp, what moves the frame in
-// offsets.cpp. A block with an error does nothing from the error on, but the position goes where it was meant to go, so
-// that one slip does not make errors of all that follows.
+// executed then, group by group in a fixed order (block_executor.cpp). What sets and switches is in settings.cpp,
+// motion in motion.cpp, what moves the frame in offsets.cpp. A block with an error does nothing from the error on, but
+// the position goes where it was meant to go, so that one slip does not make errors of all that follows.
 //
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once
@@ -15,13 +15,15 @@
 #include "block_words.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
+#include "reporter.hpp"
+
 #include "passo/base/ring.hpp"
 #include "passo/interpreter/interpreter.hpp"
-#include "reporter.hpp"
 
 namespace passo {
 
 using OperationQueue = Ring<Operation, 64>;
+inline constexpr double highest_tool = 99999;
 
 class BlockExecutor {
  public:

@@ -1,12 +1,14 @@
-// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, numbers by letter.
+// BlockWords: the words of one block with their values, sorted by what they are: codes by modal group, numbers by
+// letter.
 #pragma once
 
 #include <array>
 
 #include "code_table.hpp"
+#include "reporter.hpp"
+
 #include "passo/gcode/block.hpp"
 #include "passo/gcode/expression.hpp"
-#include "reporter.hpp"
 
 namespace passo {
 

@@ -66,17 +66,14 @@ struct Call {
   FeedMode feed_mode;
 
   void operator()(const operation::SetLengthUnits& set) const {
-    line << (set.units == LengthUnits::inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
+    line << (set.units == LengthUnits::inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)"
+                                            : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
   }
   void operator()(const operation::SetWorkOffset& set) const {
     ((line << "SET_G5X_OFFSET(").whole(set.system) << ", ").point(set.offset) << ")";
   }
-  void operator()(const operation::SetG92Offset& set) const {
-    (line << "SET_G92_OFFSET(").point(set.offset) << ")";
-  }
-  void operator()(const operation::SetRotation& set) const {
-    (line << "SET_XY_ROTATION(").number(set.degrees) << ")";
-  }
+  void operator()(const operation::SetG92Offset& set) const { (line << "SET_G92_OFFSET(").point(set.offset) << ")"; }
+  void operator()(const operation::SetRotation& set) const { (line << "SET_XY_ROTATION(").number(set.degrees) << ")"; }
   void operator()(const operation::SetToolOffset& set) const {
     line << "USE_TOOL_LENGTH_OFFSET(";
     for (const Axis axis : all_axes) {

@@ -161,10 +161,12 @@ constexpr Index index_of_table = make_index();
 
 std::string_view name_of(ModalGroup group) {
   constexpr std::array<std::string_view, modal_group_count> names = {
-      "non-modal codes", "motion",       "planes",        "distance modes",      "arc centre modes",    "feed modes",
-      "length units",    "cutter compensation", "tool length offsets", "retract modes", "work systems", "path modes",
-      "spindle modes",   "lathe modes",  "program stops", "inputs and outputs",  "tool changes",        "spindle codes",
-      "coolant codes",   "override codes", "user codes"};
+      "non-modal codes",     "motion",        "planes",        "distance modes",
+      "arc centre modes",    "feed modes",    "length units",  "cutter compensation",
+      "tool length offsets", "retract modes", "work systems",  "path modes",
+      "spindle modes",       "lathe modes",   "program stops", "inputs and outputs",
+      "tool changes",        "spindle codes", "coolant codes", "override codes",
+      "user codes"};
   return names[index_of(group)];
 }
 

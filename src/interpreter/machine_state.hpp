@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "code_table.hpp"
+
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/operation.hpp"
@@ -55,16 +56,16 @@ struct SpindleState {
 struct MachineState {
   ModalState modal;
   Frame frame;
-  Point position;  // work coordinates, millimetres and degrees
+  Point position;   // work coordinates, millimetres and degrees
   double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
   SpindleState spindle;
   bool mist = false;
   bool flood = false;
   bool feed_override = true;
   bool speed_override = true;
-  std::int32_t tool = 0;           // in the spindle
+  std::int32_t tool = 0;            // in the spindle
   std::int32_t selected_tool = -1;  // by T; -1: none yet
-  std::uint32_t line = 0;          // of the block that is executed
+  std::uint32_t line = 0;           // of the block that is executed
   int call_depth = 0;
 
   // Millimetres in one length unit of the program.

@@ -2,9 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "block_executor.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -152,7 +151,8 @@ bool BlockExecutor::check_feed() {
   }
   if (state_.feed <= 0) {
     if (std::exchange(missing_feed_told_, true)) return false;  // once, not at every move that follows
-    return fail("gcode.missing-feed", motion_span(), "no feed rate is set", "F before the first feed move, or in its block");
+    return fail("gcode.missing-feed", motion_span(), "no feed rate is set",
+                "F before the first feed move, or in its block");
   }
   if (state_.modal.per_revolution() && state_.spindle.speed == 0) {
     return fail("gcode.missing-speed", motion_span(), "a feed for each revolution (G95) and no spindle speed",
@@ -258,9 +258,10 @@ bool BlockExecutor::report_arc(const ArcCenter& arc) {
                               arc.end_radius / unit),
                   "a centre as far from the start as from the end");
     case ArcFault::radius_too_small:
-      return fail("gcode.impossible-arc", words_.span('R'),
-                  fmt::format("no arc with a radius of {} reaches from the start to the end", plain_number(words_['R'])),
-                  "half the distance at least");
+      return fail(
+          "gcode.impossible-arc", words_.span('R'),
+          fmt::format("no arc with a radius of {} reaches from the start to the end", plain_number(words_['R'])),
+          "half the distance at least");
     case ArcFault::ends_at_start:
       return fail("gcode.impossible-arc", words_.span('R'), "an arc with R that ends where it starts",
                   "a full circle is written with I J K");
@@ -274,10 +275,12 @@ bool BlockExecutor::threading(bool tapping) {
   const Point start = state_.position;
   if (!end_point(state_.position)) return false;
   if (!words_.has('K')) {
-    return fail("gcode.missing-word", motion_span(), fmt::format("{} without K", name), "K, the length of one revolution");
+    return fail("gcode.missing-word", motion_span(), fmt::format("{} without K", name),
+                "K, the length of one revolution");
   }
   if (words_.has('F')) {
-    return fail("gcode.unused-word", words_.span('F'), fmt::format("F with {}, whose speed is the spindle's", name), "no F");
+    return fail("gcode.unused-word", words_.span('F'), fmt::format("F with {}, whose speed is the spindle's", name),
+                "no F");
   }
   if (state_.spindle.direction == SpindleDirection::off) {
     return fail("gcode.spindle-off", motion_span(), fmt::format("{} while the spindle does not turn", name),
@@ -298,7 +301,8 @@ bool BlockExecutor::threading(bool tapping) {
 Span BlockExecutor::motion_span() const {
   if (words_.code(motion) != nullptr) return words_.span(motion);
   for (const Word& word : reporter_.block().words) {
-    if ((axis_letters | polar_letters | LetterSet("IJK")).has(word.letter) && word.letter != 'G' && word.letter != 'M') {
+    if ((axis_letters | polar_letters | LetterSet("IJK")).has(word.letter) && word.letter != 'G' &&
+        word.letter != 'M') {
       return word.span;
     }
   }

@@ -1,7 +1,6 @@
 // BlockExecutor: the codes that move the work frame, and those that need it as a whole.
-#include <fmt/format.h>
-
 #include "block_executor.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -41,7 +40,7 @@ bool BlockExecutor::set_tool_length(CodeNumber number) {
     }
   } else if (number == code(43)) {
     std::int32_t tool = state_.tool;
-    if (words_.has('H') && !whole_word('H', 0, 99999, tool)) return false;
+    if (words_.has('H') && !whole_word('H', 0, highest_tool, tool)) return false;
     if (tool != 0 && !std::exchange(missing_tool_table_told_, true)) {
       reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
                         fmt::format("the offset of tool {} is taken as zero: there is no tool table yet", tool),

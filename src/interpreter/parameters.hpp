@@ -1,9 +1,9 @@
 // Parameters: #1 … #5601, #<name> and #<_name>.
 //
-// Numbered ones are 0 until set. #1 … #30 belong to the sub that runs, and so do names without a leading underscore; names
-// with one are global. Home positions and offsets (#5161, #5181, #5211, #5221 … #5390) *live* here, in millimetres
-// and degrees, whatever the program's units; what the machine does just now (#5420 …, #<_x>, #<_feed> …) is computed
-// when it is read and cannot be set.
+// Numbered ones are 0 until set. #1 … #30 belong to the sub that runs, and so do names without a leading underscore;
+// names with one are global. Home positions and offsets (#5161, #5181, #5211, #5221 … #5390) *live* here, in
+// millimetres and degrees, whatever the program's units; what the machine does just now (#5420 …, #<_x>, #<_feed> …) is
+// computed when it is read and cannot be set.
 //
 // Looking up a name is an index. A sub that sets a name of its caller's leaves the old value in an undo list.
 #pragma once
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "machine_state.hpp"
+
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/symbols.hpp"
 

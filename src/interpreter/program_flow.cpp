@@ -74,7 +74,8 @@ const Block* ProgramFlow::next() {
           report_unclosed(open_.back());
           open_.pop_back();
         }
-        if (!frames_.empty()) report_unclosed({sub, frames_.back().sub, {}, frames_.back().sub_at, 0});
+        if (!frames_.empty()) report_unclosed({sub, frames_.back().sub, frames_.back().place.at, {}, 0});
+        block_.text = {};  // the reader's, and gone
         return finish(End::file);
       case Read::skipped: continue;
       case Read::block: break;
@@ -100,7 +101,16 @@ ProgramFlow::Read ProgramFlow::read() {
   block_at_ = file_->reader.position();
   if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
   if (options_.block_delete && is_deleted(text)) return Read::skipped;
-  return file_->parser.parse(text, line, block_, reporter_.diagnostics()) ? Read::block : Read::skipped;
+  return parse(text, line) ? Read::block : Read::skipped;
+}
+
+// A line that is no G-code is told once, however often a loop comes by.
+bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
+  std::set<std::uint32_t>& unreadable = file_->unreadable;
+  if (!unreadable.empty() && unreadable.contains(line)) return false;
+  if (file_->parser.parse(text, line, block_, reporter_.diagnostics())) return true;
+  unreadable.insert(line);
+  return false;
 }
 
 // A '%' before everything else opens the program, the next one closes it.
@@ -148,20 +158,22 @@ void ProgramFlow::obey(const Control& control) {
     case break_:
     case continue_: return leave_or_continue_loop(label, control);
     default:
-      reporter_.error("gcode.unsupported-o-word", control.span, "numbered programs (O and a number alone) are not supported yet",
-                      "o… sub and o… call");
+      reporter_.error("gcode.unsupported-o-word", control.span,
+                      "numbered programs (O and a number alone) are not supported yet", "o… sub and o… call");
   }
 }
 
 void ProgramFlow::begin_sub(Symbol label, const Control& control) {
   if (!frames_.empty()) {
-    stray(control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)), "endsub before the next sub");
+    stray(control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)),
+          "endsub before the next sub");
     return;
   }
   const ReaderPosition after = file_->reader.position();
-  const auto [known, added] = file_->subs.try_emplace(label.id, after);
-  if (!added && known->second.offset != after.offset) {
-    stray(control, fmt::format("a second sub {}; the first one ends at line {}", label_text(label), known->second.line - 1),
+  const auto [known, added] = file_->subs.try_emplace(label.id, SubPlace{block_at_, after});
+  if (!added && known->second.after.offset != after.offset) {
+    stray(control,
+          fmt::format("a second sub {}; the first one is at line {}", label_text(label), known->second.at.line),
           "another name");
   }
   skip_to({sub, label, block_at_, after, 0}, kinds({endsub}));
@@ -169,7 +181,8 @@ void ProgramFlow::begin_sub(Symbol label, const Control& control) {
 
 void ProgramFlow::leave_sub(Symbol label, const Control& control) {
   if (frames_.empty() || frames_.back().sub != label) {
-    stray(control, fmt::format("no sub {} is running", label_text(label)), "endsub and return with the label of their sub");
+    stray(control, fmt::format("no sub {} is running", label_text(label)),
+          "endsub and return with the label of their sub");
     return;
   }
   double value = 0;
@@ -284,7 +297,8 @@ void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
     }
     return;
   }
-  stray(control, fmt::format("no loop {} is running", label_text(label)), "break and continue with the label of their loop");
+  stray(control, fmt::format("no loop {} is running", label_text(label)),
+        "break and continue with the label of their loop");
 }
 
 ProgramFlow::Kinds ProgramFlow::end_of(ControlKind construct) {
@@ -371,7 +385,7 @@ bool ProgramFlow::read_control(Symbol& label) {
     block_at_ = file_->reader.position();
     if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
     if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
-    if (!file_->parser.parse(text, line, block_, reporter_.diagnostics()) || !block_.control) continue;
+    if (!parse(text, line) || !block_.control) continue;
     if (label_of(*block_.control, label)) return true;
   }
 }
@@ -383,7 +397,7 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   if (!value_of(block_, *control.computed_label, parameters_, reporter_, value)) return false;
   const double whole = std::round(value);
   if (std::abs(value - whole) > whole_tolerance || whole < 0 || whole > 1e9) {
-    reporter_.error("gcode.bad-label", control.computed_label->span,
+    reporter_.error("gcode.bad-o-word", control.computed_label->span,
                     fmt::format("the label is {}", plain_number(value)), "a whole number, 0 or more");
     return false;
   }

@@ -1,16 +1,16 @@
 // ProgramFlow: which block comes next. Reads lines, obeys O-words, goes back for loops and away for subs.
 //
 // Constant memory: what is remembered are places in the file, of the constructs that are open and of the subs that were
-// met. What is skipped (a branch not taken, the body of a sub where it stands) is read line by line and only its O-words
-// are parsed; a construct is told from others inside it by its label, as RS274/NGC does. A sub that is called before it
-// was met is looked for once to the end of the file, then in NAME.ngc beside the program.
+// met. What is skipped (a branch not taken, the body of a sub where it stands) is read line by line and only its
+// O-words are parsed; a construct is told from others inside it by its label, as RS274/NGC does. A sub that is called
+// before it was met is looked for once to the end of the file, then in NAME.ngc beside the program.
 //
 // Bounded: calls nest 100 deep, and a program that goes round its loops without any operation is stopped.
 #pragma once
 
 #include <array>
 #include <memory>
-#include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,9 +18,10 @@
 #include "block_words.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
+#include "reporter.hpp"
+
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/program_reader.hpp"
-#include "reporter.hpp"
 
 namespace passo {
 
@@ -49,6 +50,10 @@ class ProgramFlow {
   std::uint64_t offset() const { return files_.front()->reader.position().offset; }
 
  private:
+  struct SubPlace {
+    ReaderPosition at;     // its O-word's line
+    ReaderPosition after;  // the line after it
+  };
   // A file of the program: the main one, or one with a sub.
   struct File {
     File(ProgramReader opened, SymbolTable& symbols)
@@ -56,29 +61,31 @@ class ProgramFlow {
     ProgramReader reader;
     std::string name;
     BlockParser parser;
-    std::unordered_map<std::uint32_t, ReaderPosition> subs;  // by label: the line after it
-    ReaderPosition seen;                                     // subs before this place are known
+    std::unordered_map<std::uint32_t, SubPlace> subs;  // by label
+    ReaderPosition seen;                               // subs before this place are known
     bool seen_all = false;
+    std::set<std::uint32_t> unreadable;  // lines that are no G-code
   };
   // A construct that was entered and not yet left.
   struct Open {
     ControlKind kind = ControlKind::if_;
     Symbol label;
-    ReaderPosition at;     // its line
-    ReaderPosition after;  // the line after it
+    ReaderPosition at;              // its line
+    ReaderPosition after;           // the line after it
     std::uint64_t passes_left = 0;  // repeat
   };
   struct Frame {
     File* caller = nullptr;  // where to go on
     ReaderPosition return_to;
     Symbol sub;
-    ReaderPosition sub_at;  // the line after the sub's O-word
+    SubPlace place;
     std::size_t first_open = 0;
   };
 
   // Lines.
   enum class Read : std::uint8_t { block, skipped, end };
   Read read();
+  bool parse(std::string_view text, std::uint32_t line);
   bool is_percent_end();
   const Block* finish(End end);
 

@@ -1,16 +1,16 @@
 // ProgramFlow: calling subs, and finding them.
 #include <filesystem>
 
-#include <fmt/format.h>
-
 #include "program_flow.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 
 void ProgramFlow::call(Symbol label, const Control& control) {
   if (frames_.size() >= deepest_call) {
     reporter_.error("gcode.calls-too-deep", control.span,
-                    fmt::format("calls are nested more than {} deep", deepest_call), "a sub that does not call itself for ever");
+                    fmt::format("calls are nested more than {} deep", deepest_call),
+                    "a sub that does not call itself for ever");
     finish(End::error);
     return;
   }
@@ -32,12 +32,12 @@ void ProgramFlow::call(Symbol label, const Control& control) {
                                 symbols_.name(label)));
     return;
   }
-  frame.sub_at = file->subs.at(label.id);
+  frame.place = file->subs.at(label.id);
   parameters_.enter_sub({arguments.data(), control.arguments.size()});
   frames_.push_back(frame);
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = file;
-  file_->reader.seek(frame.sub_at);
+  file_->reader.seek(frame.place.after);
   reporter_.look_at(block_, file_->name);
 }
 
@@ -64,7 +64,7 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
     if (!read_control(found)) {
       file.seen_all = true;
     } else if (block_.control->kind == ControlKind::sub) {
-      file.subs.try_emplace(found.id, file.reader.position());
+      file.subs.try_emplace(found.id, SubPlace{block_at_, file.reader.position()});
     }
   }
   file.seen = file.reader.position();

@@ -13,7 +13,7 @@
 namespace passo {
 
 struct Interpreted {
-  std::string canon;                // as `rs274 -g` prints it
+  std::string canon;                  // as `rs274 -g` prints it
   std::vector<Operation> operations;  // without borrowed text
   Diagnostics diagnostics{1000};
 

@@ -7,10 +7,9 @@
 #include <set>
 #include <sstream>
 
+#include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "interpreted.hpp"
 
 namespace passo {
 namespace {
@@ -133,10 +132,13 @@ TEST(Peers, every_motion_program_runs_to_its_end_or_is_wrong_on_purpose) {
 
 TEST(Peers, sample_programs_print_the_canonical_calls_of_linuxcnc) {
   SKIP_WITHOUT_PEERS();
-  const std::map<std::string, std::string> outside = {
-      {"gridprobe.ngc", "probing"},     {"smartprobe.ngc", "probing"},     {"lathe_g7x_quadrants.ngc", "lathe cycles"},
-      {"polar.ngc", "drilling cycles"}, {"skeleton.ngc", "a tool table"}, {"systems.ngc", "splines"},
-      {"x-trim.ngc", "a sub in a file that is not there"}};
+  const std::map<std::string, std::string> outside = {{"gridprobe.ngc", "probing"},
+                                                      {"smartprobe.ngc", "probing"},
+                                                      {"lathe_g7x_quadrants.ngc", "lathe cycles"},
+                                                      {"polar.ngc", "drilling cycles"},
+                                                      {"skeleton.ngc", "a tool table"},
+                                                      {"systems.ngc", "splines"},
+                                                      {"x-trim.ngc", "a sub in a file that is not there"}};
   std::size_t same = 0;
   for (const auto& entry : fs::directory_iterator(peers / "programs-canon")) {
     if (entry.path().extension() != ".canon") continue;

@@ -1,0 +1,255 @@
+// BlockExecutor: the codes and words that set something, switch something or stop.
+#include <algorithm>
+
+#include "block_executor.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+}  // namespace
+
+bool BlockExecutor::set_spindle_mode(CodeNumber code) {
+  state_.modal.set(spindle_mode, code);
+  emit(operation::SetSpindleMode{});
+  return true;
+}
+
+bool BlockExecutor::set_feed_mode(CodeNumber number) {
+  state_.modal.set(feed_mode, number);
+  if (number == code(93)) {
+    note("interpreter: feed mode set to inverse time");
+    emit(operation::SetFeedMode{FeedMode::units_per_minute});
+    return true;
+  }
+  const bool per_minute = number == code(94);
+  note(per_minute ? "interpreter: feed mode set to units per minute"
+                  : "interpreter: feed mode set to units per revolution");
+  emit(operation::SetFeedMode{per_minute ? FeedMode::units_per_minute : FeedMode::units_per_revolution});
+  state_.feed = 0;
+  emit_feed_rate(0);
+  return true;
+}
+
+bool BlockExecutor::set_feed_rate() {
+  const double units = words_['F'];
+  if (units < 0) {
+    return fail("gcode.negative-word", words_.span('F'), fmt::format("the feed rate is {}", plain_number(units)),
+                "F of 0 or more");
+  }
+  if (state_.modal.inverse_time()) {
+    if (motion_ == nullptr || motion_->number < code(1) || motion_->number > code(3)) {
+      reporter_.warning("gcode.unused-feed", words_.span('F'),
+                        "F has no effect: in inverse time (G93) it counts for the G1, G2 or G3 of its own block",
+                        "F with each feed move");
+    }
+    return true;  // with the move, whose length it needs
+  }
+  const CodeEntry* const new_units = words_.code(length_units);
+  if (new_units != nullptr && new_units->number != state_.modal[length_units]) {
+    reporter_.warning("gcode.feed-before-units", words_.span('F'),
+                      fmt::format("F is taken in {} a minute: {} of the same block comes after it",
+                                  state_.modal.inches() ? "inches" : "millimetres", spelling(*new_units)),
+                      fmt::format("{} in a block before", spelling(*new_units)));
+  }
+  state_.feed = units * state_.length_unit();
+  missing_feed_told_ = false;
+  emit_feed_rate(units);
+  return true;
+}
+
+void BlockExecutor::emit_feed_rate(double units) {
+  const double time = state_.modal.per_revolution() ? 1 : seconds_per_minute;
+  emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
+}
+
+bool BlockExecutor::set_spindle_speed() {
+  if (words_['S'] < 0) {
+    return fail("gcode.negative-word", words_.span('S'),
+                fmt::format("the spindle speed is {}", plain_number(words_['S'])),
+                "S of 0 or more; M4 turns the other way");
+  }
+  state_.spindle.speed = words_['S'];
+  emit(operation::SetSpindleSpeed{words_['S']});
+  return true;
+}
+
+bool BlockExecutor::select_tool() {
+  if (!whole_word('T', 0, highest_tool, state_.selected_tool)) return false;
+  emit(operation::SelectTool{state_.selected_tool});
+  return true;
+}
+
+bool BlockExecutor::change_tool(CodeNumber number) {
+  if (number == code(61)) {
+    if (!words_.has('Q')) return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool");
+    if (!whole_word('Q', 0, highest_tool, state_.tool)) return false;
+    emit(operation::SetToolNumber{state_.tool});
+  } else {
+    if (state_.selected_tool < 0) {
+      return fail("gcode.missing-tool", words_.span(tool_change), "M6 and no tool was selected",
+                  "T before, or in this block");
+    }
+    state_.tool = state_.selected_tool;
+    state_.spindle.direction = SpindleDirection::off;
+    emit(operation::StartToolChange{});
+    emit(operation::TurnSpindle{});
+    emit(operation::ChangeTool{state_.tool});
+  }
+  parameters_.set(tool_parameter, state_.tool);
+  return true;
+}
+
+bool BlockExecutor::turn_spindle(CodeNumber number) {
+  state_.spindle.direction = number == code(3)   ? SpindleDirection::clockwise
+                             : number == code(4) ? SpindleDirection::counterclockwise
+                                                 : SpindleDirection::off;
+  emit(operation::TurnSpindle{state_.spindle.direction});
+  return true;
+}
+
+bool BlockExecutor::switch_coolant(CodeNumber number) {
+  const bool off = number == code(9);
+  if (number == code(7) || off) emit(operation::SetMist{state_.mist = !off});
+  if (number == code(8) || off) emit(operation::SetFlood{state_.flood = !off});
+  return true;
+}
+
+bool BlockExecutor::switch_overrides(CodeNumber number) {
+  const bool on = number == code(48);
+  state_.feed_override = state_.speed_override = on;
+  emit(operation::SetFeedOverride{on});
+  emit(operation::SetSpeedOverride{on});
+  return true;
+}
+
+bool BlockExecutor::dwell(CodeNumber number) {
+  if (number != code(4)) return true;
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
+  }
+  if (motion_ != nullptr && motion_->letters.has('P')) {
+    return fail("gcode.ambiguous-word", words_.span('P'),
+                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*motion_)), "two blocks");
+  }
+  if (words_['P'] < 0) {
+    return fail("gcode.negative-word", words_.span('P'),
+                fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
+  }
+  emit(operation::Dwell{Seconds(words_['P'])});
+  return true;
+}
+
+bool BlockExecutor::select_plane(CodeNumber number) {
+  state_.modal.set(plane, number);
+  emit(operation::SelectPlane{state_.modal.plane()});
+  return true;
+}
+
+bool BlockExecutor::set_length_units(CodeNumber number) {
+  state_.modal.set(length_units, number);
+  emit(operation::SetLengthUnits{state_.modal.inches() ? LengthUnits::inch : LengthUnits::mm});
+  return true;
+}
+
+bool BlockExecutor::set_lathe_diameter(CodeNumber number) {
+  if (state_.modal[lathe_diameter] == number) return true;
+  state_.modal.set(lathe_diameter, number);
+  note(number == code(7) ? "interpreter: Lathe diameter mode changed to diameter"
+                         : "interpreter: Lathe diameter mode changed to radius");
+  return true;
+}
+
+bool BlockExecutor::end_cutter_compensation(CodeNumber) {
+  note("interpreter: cutter radius compensation off");
+  return true;
+}
+
+bool BlockExecutor::set_path_mode(CodeNumber number) {
+  const double unit = state_.length_unit();
+  state_.modal.set(path_mode, number);
+  if (number == code(64)) {
+    // P alone is also how far points may be merged; negative ones are none, as in LinuxCNC.
+    const double path = words_.has('P') ? std::max(0.0, words_['P']) : 0;
+    const double merge = words_.has('Q') ? std::max(0.0, words_['Q']) : path;
+    emit(operation::SetPathMode{PathMode::continuous, Mm(path * unit)});
+    emit(operation::SetMergeTolerance{Mm(merge * unit)});
+  } else {
+    emit(operation::SetPathMode{number == code(61) ? PathMode::exact_path : PathMode::exact_stop, Mm(0)});
+  }
+  return true;
+}
+
+bool BlockExecutor::set_distance_mode(CodeNumber number) {
+  if (state_.modal[distance] == number) return true;
+  state_.modal.set(distance, number);
+  note(number == code(90) ? "interpreter: distance mode changed to absolute"
+                          : "interpreter: distance mode changed to incremental");
+  return true;
+}
+
+bool BlockExecutor::set_arc_distance_mode(CodeNumber number) {
+  if (state_.modal[arc_distance] == number) return true;
+  state_.modal.set(arc_distance, number);
+  note(number == code(90, 1) ? "interpreter: IJK distance mode changed to absolute"
+                             : "interpreter: IJK distance mode changed to incremental");
+  return true;
+}
+
+bool BlockExecutor::set_retract_mode(CodeNumber number) {
+  state_.modal.set(retract, number);
+  note(number == code(98) ? "interpreter: retract mode set to old_z" : "interpreter: retract mode set to r_plane");
+  return true;
+}
+
+bool BlockExecutor::run_non_modal(CodeNumber number) {
+  switch (number) {
+    case code(10): return set_work_offset();
+    case code(28): return go_home(first_home_parameter);
+    case code(28, 1): return store_home(first_home_parameter);
+    case code(30): return go_home(second_home_parameter);
+    case code(30, 1): return store_home(second_home_parameter);
+    case code(52):
+    case code(92):
+    case code(92, 1):
+    case code(92, 2):
+    case code(92, 3): return set_g92(number);
+    case code(53):
+      if (motion_ != nullptr && (motion_->number == code(0) || motion_->number == code(1))) return true;
+      return fail("gcode.g53-without-move", words_.span(non_modal), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
+    default: return true;  // G4 came before
+  }
+}
+
+bool BlockExecutor::stop(CodeNumber number) {
+  switch (number) {
+    case code(0): emit(operation::ProgramStop{}); return true;
+    case code(1): emit(operation::OptionalProgramStop{}); return true;
+    case code(60):
+      emit(operation::PalletShuttle{});
+      emit(operation::ProgramStop{});
+      return true;
+    default: end_program(number == code(30)); return true;
+  }
+}
+
+// M2 and M30 put the machine back to where programs may expect it.
+void BlockExecutor::end_program(bool pallet) {
+  activate_system(1, false);
+  if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});
+  emit(operation::SetFeedMode{});
+  emit(operation::SetFeedRate{});
+  if (!state_.feed_override) emit(operation::SetFeedOverride{true});
+  if (!state_.speed_override) emit(operation::SetSpeedOverride{true});
+  emit(operation::TurnSpindle{});
+  emit(operation::SetSpindleMode{});
+  if (state_.mist) emit(operation::SetMist{false});
+  if (state_.flood) emit(operation::SetFlood{false});
+  if (pallet) emit(operation::PalletShuttle{});
+  emit(operation::ProgramEnd{});
+  ended_ = true;
+}
+
+}  // namespace passo

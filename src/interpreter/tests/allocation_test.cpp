@@ -1,0 +1,52 @@
+// Counts every allocation of the test program: a warm interpreter makes none a line.
+#include <cstdlib>
+#include <new>
+
+#include "interpreted.hpp"
+#include <gtest/gtest.h>
+
+namespace {
+std::size_t allocations = 0;
+}  // namespace
+
+// Not inlined, since g++ takes new and free in one function for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+
+namespace passo {
+namespace {
+
+TEST(Interpreting, allocates_nothing_a_line_once_warm) {
+  std::string program = "G21 G90 F1000 M3 S1000\no1 sub\n#<a>=[#1+1]\nG1 X#<a>\no1 endsub\n";
+  const std::string pass =
+      "N10 G1 X12.345 Y-3.21 Z0.5 (comment)\nX1\nG2 X5 Y0 R10\nG3 X1 Y0 I-2 J0\no2 if [#5420 GT 0]\n#5=[#5+SIN[30]]\n"
+      "o2 endif\no1 call [4]\no3 repeat [3]\nG0 X2 Y2\no3 endrepeat\n(debug,at #5420 and #<_x>)\nG55 G91 G0 X1\nG54 "
+      "G90\n";
+  for (int i = 0; i < 50; ++i) program += pass;
+  program += "M2\n";
+
+  Diagnostics diagnostics;
+  const InterpreterOptions options;
+  Interpreter interpreter(ProgramReader::from_text("test.ngc", program), options, diagnostics);
+  Operation operation;
+  std::size_t operations = 0;
+  std::size_t warm = 0;
+  while (interpreter.next(operation)) {
+    if (++operations == 200) warm = allocations;
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  EXPECT_GT(operations, 800U);
+  EXPECT_EQ(allocations - warm, 0U);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,193 @@
+// What is wrong in a program: the code, the line, the column and how much of the line it is about.
+#include "interpreted.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+struct Wrong {
+  const char* program;
+  const char* code;
+  std::uint32_t line;
+  std::uint32_t column;
+  std::uint32_t length;
+};
+
+const Wrong wrongs[] = {
+    {"G21\nG1 X10\n", "gcode.missing-feed", 2, 1, 2},
+    {"G21 G1\nX10 Y2\n", "gcode.missing-feed", 1, 5, 2},
+    {"G93\nF5 G1 X1\nX2\n", "gcode.missing-feed", 3, 1, 2},
+    {"G95 F1\nG1 X1\n", "gcode.missing-speed", 2, 1, 2},
+    {"G12 X1\n", "gcode.unknown-code", 1, 1, 3},
+    {"G0 G0.5\n", "gcode.unknown-code", 1, 4, 4},
+    {"M200\n", "gcode.unknown-code", 1, 1, 4},
+    {"G-1\n", "gcode.unknown-code", 1, 1, 3},
+    {"G0 X1\nG81 Z1 R2\n", "gcode.unsupported-code", 2, 1, 3},
+    {"G41 D1\n", "gcode.unsupported-code", 1, 1, 3},
+    {"G10 L1 P1 Z5\n", "gcode.unsupported-code", 1, 5, 2},
+    {"G0 G1 X1 F1\n", "gcode.modal-conflict", 1, 4, 2},
+    {"G17 G18\n", "gcode.modal-conflict", 1, 5, 3},
+    {"M3 S1 M5\n", "gcode.modal-conflict", 1, 7, 2},
+    {"M7 M8\n", "gcode.modal-conflict", 1, 4, 2},
+    {"G4 P1 G92 X1\n", "gcode.modal-conflict", 1, 7, 3},
+    {"G0 X1 Y2 X3\n", "gcode.repeated-word", 1, 10, 2},
+    {"G0 X1 K2\n", "gcode.unused-word", 1, 7, 2},
+    {"G0 X1 D1\n", "gcode.unused-word", 1, 7, 2},
+    {"H1\n", "gcode.unused-word", 1, 1, 2},
+    {"P1\n", "gcode.unused-word", 1, 1, 2},
+    {"G80 X1\n", "gcode.unused-word", 1, 5, 2},
+    {"X1\n", "gcode.missing-motion", 1, 1, 2},
+    {"G0\nG80\n  Y1\n", "gcode.missing-motion", 3, 3, 2},
+    {"G92\n", "gcode.missing-axis", 1, 1, 3},
+    {"G0 Z1 M3 S1\nG33 K1\n", "gcode.missing-axis", 2, 1, 3},
+    {"G0 G92 X1\n", "gcode.axis-conflict", 1, 4, 3},
+    {"G28 G1 F1 X1\n", "gcode.axis-conflict", 1, 1, 3},
+    {"G43.1 G0 Z1\n", "gcode.axis-conflict", 1, 1, 5},
+    {"F-10\n", "gcode.negative-word", 1, 1, 4},
+    {"M3 S-1\n", "gcode.negative-word", 1, 4, 3},
+    {"G4 P-1\n", "gcode.negative-word", 1, 4, 3},
+    {"G4\n", "gcode.missing-word", 1, 1, 2},
+    {"M61\n", "gcode.missing-word", 1, 1, 3},
+    {"G10 P1 X1\n", "gcode.missing-word", 1, 1, 3},
+    {"G10 L2 X1\n", "gcode.missing-word", 1, 1, 3},
+    {"M3\nG33 Z1\n", "gcode.missing-word", 2, 1, 3},
+    {"G10 L2 P10 X1\n", "gcode.not-whole", 1, 8, 3},
+    {"T1.5\n", "gcode.not-whole", 1, 1, 4},
+    {"T-1\n", "gcode.not-whole", 1, 1, 3},
+    {"G43 H1.5\n", "gcode.not-whole", 1, 5, 4},
+    {"F1 G2 X1 I.5 P1.5\n", "gcode.not-whole", 1, 14, 4},
+    {"F1 G2 X1 I.5 P0\n", "gcode.not-whole", 1, 14, 2},
+    {"M6\n", "gcode.missing-tool", 1, 1, 2},
+    {"G53 X1\n", "gcode.missing-motion", 1, 5, 2},
+    {"G53\n", "gcode.g53-without-move", 1, 1, 3},
+    {"F1 G53 G2 X1 I.5\n", "gcode.g53-without-move", 1, 4, 3},
+    {"G91\nG53 G0 X1\n", "gcode.g53-incremental", 2, 1, 3},
+    {"F1\nG2 X1\n", "gcode.missing-center", 2, 1, 2},
+    {"F1 G90.1\nG2 X1 I1\n", "gcode.missing-center", 2, 1, 2},
+    {"F1\nG2 X1 I1 R2\n", "gcode.mixed-arc", 2, 10, 2},
+    {"F1\nG2 X1 I.5 K1\n", "gcode.wrong-center", 2, 11, 2},
+    {"F1\nG2 X1 I.7\n", "gcode.arc-radii-differ", 2, 1, 2},
+    {"F1\nG3 X1 Y1 I0\n", "gcode.zero-arc", 2, 1, 2},
+    {"F1\nG2 X10 R4\n", "gcode.impossible-arc", 2, 8, 2},
+    {"F1\nG2 X0 Y0 R4\n", "gcode.impossible-arc", 2, 10, 2},
+    {"F1\nG33 Z1 K1\n", "gcode.spindle-off", 2, 1, 3},
+    {"M3\nG33 Z1 K1 F1\n", "gcode.unused-word", 2, 11, 2},
+    {"G4 P1 G2 X1 I.5 F1\n", "gcode.ambiguous-word", 1, 4, 2},
+    {"G0 X1 @5\n", "gcode.bad-polar", 1, 7, 2},
+    {"G0 @5\n", "gcode.bad-polar", 1, 4, 2},
+    {"#1=[1/0]\n", "gcode.division-by-zero", 1, 0, 0},
+    {"G0 X#<nothing>\n", "gcode.unknown-parameter", 1, 5, 10},
+    {"G0 X#5602\n", "gcode.unknown-parameter", 1, 5, 5},
+    {"#5602=1\n", "gcode.bad-parameter-number", 1, 0, 0},
+    {"#0=1\n", "gcode.bad-parameter-number", 1, 0, 0},
+    {"#[1.5]=1\n", "gcode.bad-parameter-number", 1, 0, 0},
+    {"#5420=1\n", "gcode.read-only-parameter", 1, 1, 7},
+    {"#<_x>=1\n", "gcode.read-only-parameter", 1, 1, 7},
+    {"(abort, no stock)\n", "gcode.abort", 1, 1, 17},
+    {"G0 X1\no100 while [1]\nG4 P0\nM0\n", "gcode.unclosed-o-word", 2, 1, 0},
+    {"G0 X1\n  o100 if [0]\nG4 P0\n", "gcode.unclosed-o-word", 2, 3, 0},
+    {"o<mine> sub\nG0 X1\n", "gcode.unclosed-o-word", 1, 1, 0},
+    {"o1 repeat [2]\no2 if [1]\no1 endrepeat\nM2\n", "gcode.unclosed-o-word", 2, 1, 0},
+    {"o1 sub\no2 while [1]\no1 endsub\no1 call\nM2\n", "gcode.unclosed-o-word", 2, 1, 0},
+    {"o1 endwhile\n", "gcode.stray-o-word", 1, 1, 0},
+    {"o1 endif\n", "gcode.stray-o-word", 1, 1, 0},
+    {"o1 break\n", "gcode.stray-o-word", 1, 1, 0},
+    {"o1 return\n", "gcode.stray-o-word", 1, 1, 0},
+    {"o1 sub\no1 endsub\no1 sub\no1 endsub\nM2\n", "gcode.stray-o-word", 3, 1, 0},
+    {"o1 call\n", "gcode.unknown-sub", 1, 1, 0},
+    {"G0 X1\no1 sub\no1 call\no1 endsub\no1 call\nM2\n", "gcode.calls-too-deep", 3, 1, 0},
+    {"o1 repeat [5]\no2 while [1]\n#1=1\no2 endwhile\no1 endrepeat\n", "gcode.endless-loop", 2, 1, 0},
+    {"o1 do\no1 while [1]\n", "gcode.endless-loop", 1, 1, 0},
+    {"#1=0.5\no[#1] call\n", "gcode.bad-o-word", 2, 0, 0},
+    {"o[0.5] call\n", "gcode.bad-o-word", 1, 0, 0},
+};
+
+TEST(Diagnostics, say_what_is_wrong_and_where) {
+  InterpreterOptions options;
+  options.idle_passes = 100;
+  for (const Wrong& wrong : wrongs) {
+    const Interpreted result = interpret_text(wrong.program, options);
+    const Diagnostic* first = nullptr;
+    for (const Diagnostic& diagnostic : result.diagnostics.all()) {
+      if (diagnostic.severity == Severity::error && first == nullptr) first = &diagnostic;
+    }
+    ASSERT_NE(first, nullptr) << wrong.program;
+    EXPECT_EQ(result.diagnostics.errors(), 1U) << wrong.program << result.rendered();
+    EXPECT_EQ(first->code, wrong.code) << wrong.program << result.rendered();
+    EXPECT_EQ(first->file, "test.ngc");
+    EXPECT_EQ(first->place.line, wrong.line) << wrong.program << result.rendered();
+    if (wrong.column != 0) {
+      EXPECT_EQ(first->place.column, wrong.column) << wrong.program << result.rendered();
+    }
+    if (wrong.length != 0) {
+      EXPECT_EQ(first->place.length, wrong.length) << wrong.program << result.rendered();
+    }
+    EXPECT_FALSE(first->message.empty());
+    EXPECT_FALSE(first->message.ends_with('.')) << first->message;
+    EXPECT_FALSE(first->text.empty()) << wrong.program;
+  }
+}
+
+TEST(Diagnostics, all_errors_of_a_program_are_told_in_one_go) {
+  const Interpreted result = interpret_text("G21 F100\nG1 X1 K1\nG12\nG2 X5\nT1.5\no9 endif\nG1 X2\nM2\n");
+  EXPECT_EQ(result.diagnostics.errors(), 5U) << result.rendered();
+  std::vector<std::uint32_t> lines;
+  for (const Diagnostic& diagnostic : result.diagnostics.all()) lines.push_back(diagnostic.place.line);
+  EXPECT_THAT(lines, testing::ElementsAre(2, 3, 4, 5, 6));
+  EXPECT_EQ(result.all<operation::StraightFeed>().size(), 1U);
+}
+
+TEST(Diagnostics, a_wrong_line_in_a_loop_is_told_once) {
+  const Interpreted result = interpret_text("G21\no1 repeat [50]\nG0 X1 K1\nno G-code\nG0 X2\no1 endrepeat\nM2\n");
+  EXPECT_EQ(result.diagnostics.errors(), 2U) << result.rendered();
+}
+
+TEST(Diagnostics, one_wrong_arc_does_not_make_the_next_one_wrong) {
+  const Interpreted result = interpret_text("G21 F100\nG2 X10 I2\nG2 X20 I5\nG2 X30 I5\nM2\n");
+  EXPECT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
+}
+
+TEST(Diagnostics, a_missing_feed_is_told_once_and_not_at_every_move) {
+  const Interpreted result = interpret_text("G21\nG1 X1\nX2\nX3\nG94\nX4\nM2\n");
+  EXPECT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
+}
+
+TEST(Diagnostics, the_nearest_code_is_suggested) {
+  const Interpreted result = interpret_text("G59.4\n");
+  EXPECT_EQ(result.diagnostics.all().front().expected.substr(0, 4), "G59.") << result.rendered();
+}
+
+TEST(Diagnostics, an_unused_word_tells_which_codes_use_it) {
+  const Interpreted result = interpret_text("G0 X1 K1\nM2\n");
+  EXPECT_EQ(result.diagnostics.all().front().expected, "K with G2, G3, G33 or G33.1");
+}
+
+TEST(Diagnostics, reading_stops_when_there_are_enough) {
+  std::string program = "G21\n";
+  for (int i = 0; i < 1000; ++i) program += "G12\n";
+  Diagnostics diagnostics(20);
+  const InterpreterOptions options;
+  Interpreter interpreter(ProgramReader::from_text("test.ngc", program), options, diagnostics);
+  Operation operation;
+  while (interpreter.next(operation)) {
+  }
+  EXPECT_TRUE(diagnostics.full());
+  EXPECT_LT(interpreter.offset(), 200U);
+}
+
+TEST(Diagnostics, an_offset_without_a_tool_table_is_a_warning_and_told_once) {
+  const Interpreted result = interpret_text("T2 M6\nG43\nG43 H5\nM2\n");
+  ASSERT_EQ(result.diagnostics.all().size(), 1U) << result.rendered();
+  EXPECT_EQ(result.diagnostics.all().front().severity, Severity::warning);
+  EXPECT_EQ(result.diagnostics.all().front().code, "gcode.no-tool-table");
+}
+
+TEST(Diagnostics, a_message_that_linuxcnc_would_hide_is_a_warning) {
+  const Interpreted result = interpret_text("G0 X1 (msg,look) (note)\nM2\n");
+  ASSERT_EQ(result.diagnostics.all().size(), 1U) << result.rendered();
+  EXPECT_EQ(result.diagnostics.all().front().code, "gcode.hidden-comment");
+}
+
+}  // namespace
+}  // namespace passo
