@@ -21,6 +21,8 @@ class Interpreter::Implementation {
       step();
     }
     operation = operations_.front();
+    operation.file = reporter_.file();
+    operation.text = text_;
     operations_.pop();
     return true;
   }
@@ -31,6 +33,7 @@ class Interpreter::Implementation {
   // One block: none, one or several operations.
   void step() {
     const Block* const block = executor_.ended() ? nullptr : flow_.next();
+    text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {
       executor_.execute(*block);
       if (!operations_.empty()) flow_.note_progress();
@@ -55,6 +58,7 @@ class Interpreter::Implementation {
   OperationQueue operations_;
   ProgramFlow flow_;
   BlockExecutor executor_;
+  std::string_view text_;  // of the block at hand
   bool finished_ = false;
 };
 

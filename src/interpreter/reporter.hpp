@@ -31,6 +31,7 @@ class Reporter {
   // What the file says there.
   std::string quote(Span span) const;
   const Block& block() const { return *block_; }
+  std::string_view file() const { return file_ == nullptr ? std::string_view() : *file_; }
   Diagnostics& diagnostics() { return diagnostics_; }
   bool full() const { return diagnostics_.full(); }
 

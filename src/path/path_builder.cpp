@@ -74,6 +74,26 @@ bool turns_only_rotary_axes(const Curve& curve) {
   return curve.shape() == Curve::Shape::line;
 }
 
+// Where the word with this letter stands in a line of G-code; where there is none, the line as a whole.
+SourcePlace place_of_word(std::string_view text, char letter, std::uint32_t line) {
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  const std::size_t code_end = std::min(text.find_first_of("(;"), text.size());
+  const std::size_t first = std::min(text.find_first_not_of(" \t/"), code_end);
+  std::size_t begin = first;
+  std::size_t end = code_end;
+  for (std::size_t i = 0; i < code_end; ++i) {
+    if (letter == 0 || (text[i] != letter && text[i] != letter - 'A' + 'a')) continue;
+    begin = i;
+    end = i + 1;
+    while (end < code_end && !is_letter(text[end])) ++end;
+    break;
+  }
+  while (end > begin + 1 && (text[end - 1] == ' ' || text[end - 1] == '\t' || text[end - 1] == '\r')) --end;
+  if (end <= begin) return {.line = line, .column = 0, .length = 1};
+  return {
+      .line = line, .column = static_cast<std::uint32_t>(begin + 1), .length = static_cast<std::uint32_t>(end - begin)};
+}
+
 template <class... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;
@@ -285,7 +305,7 @@ void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
   report(Severity::warning, "path.spindle-too-fast",
          fmt::format("the program asks for {:.0f} rpm, and the spindle turns at {:.0f} at most, which is used",
                      revolutions_per_minute, limit),
-         fmt::format("S up to {:.0f}", limit));
+         fmt::format("S up to {:.0f}", limit), 'S');
 }
 
 // G61 and G61.1 leave the path nowhere: their tolerance is 0.
@@ -309,14 +329,14 @@ Action PathBuilder::outputs_action() const {
       .kind = Action::Kind::outputs, .dwell = Seconds(0), .outputs = outputs(), .tool = 0, .source = outputs_source_};
 }
 
-void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected) {
+void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected, char letter) {
   diagnostics_.add({.severity = severity,
                     .code = std::move(code),
-                    .file = options_.file,
-                    .place = {.line = operation_.source.line, .column = 0, .length = 1},
+                    .file = operation_.file.empty() ? options_.file : std::string(operation_.file),
+                    .place = place_of_word(operation_.text, letter, operation_.source.line),
                     .message = std::move(message),
                     .expected = std::move(expected),
-                    .text = {}});
+                    .text = std::string(operation_.text)});
 }
 
 }  // namespace passo

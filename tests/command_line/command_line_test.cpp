@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadProgram{"missing_feed", "G21\nG1 X1\nM2\n", "gcode.missing-feed", ":2:1"},
         BadProgram{"exponent", "G21\nG0 X1e999\nM2\n", "gcode.unused-word", ":2:6"},
         BadProgram{"huge_number", "G21\nG0 X1" + std::string(400, '0') + "\nM2\n", "gcode.number-out-of-range", ":2:"},
-        BadProgram{"past_travel", "G21\nG0 X401\nM2\n", "travel.exceeded", ":2"},
+        BadProgram{"past_travel", "G21\nG0 Y1 X401 (too far)\nM2\n", "travel.exceeded", ":2:7"},
         BadProgram{"unknown_code", "G21\nG123 X1\nM2\n", "gcode.unknown-code", ":2:1"},
         BadProgram{"cr_only_counts_lines", "G21\rG1 X1\rM2\r", "gcode.missing-feed", ":2:1"},
         BadProgram{"crlf_counts_lines", "G21\r\nG1 X1\r\nM2\r\n", "gcode.missing-feed", ":2:1"},

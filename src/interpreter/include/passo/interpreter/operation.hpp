@@ -166,6 +166,9 @@ struct OperationSource {
 struct Operation {
   OperationKind what;
   OperationSource source;
+  // The file and the line it comes from, for diagnostics; borrowed, until the next operation is asked for.
+  std::string_view file{};
+  std::string_view text{};
 };
 
 }  // namespace passo

@@ -68,7 +68,8 @@ class PathBuilder final : public Source<PathItem> {
   void check_travel(const Curve& curve);
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
   void check_axes(const Curve& curve);
-  void report(Severity severity, std::string code, std::string message, std::string expected);
+  // `letter` says which word of the block is meant; 0: all of it.
+  void report(Severity severity, std::string code, std::string message, std::string expected, char letter = 0);
 
   Source<Operation>& operations_;
   const PathOptions& options_;
@@ -82,7 +83,6 @@ class PathBuilder final : public Source<PathItem> {
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
-
 
   Operation operation_;  // the one in hand
   std::array<OperationKind, 4> tap_;
