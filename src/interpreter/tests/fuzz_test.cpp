@@ -46,111 +46,40 @@ void run(const std::string& program) {
   ASSERT_EQ(rendered.empty(), diagnostics.all().empty());
 }
 
+constexpr std::string_view word_list =
+    "G0|G1|G2|G3|G4|G10|L2|L20|G17|G18|G19|G20|G21|G28|G28.1|G30|G33|G33.1|G40|G43|G43.1|G49|G52|"
+    "G53|G54|G55|G59.3|G61|G64|G7|G8|G80|G90|G90.1|G91|G91.1|G92|G92.1|G92.2|G92.3|G93|G94|G95|M0|"
+    "M2|M3|M5|M6|M7|M9|M49|M61|X1|X-2.5|Y3|Z.5|A90|U2|I1|J-1|K.5|R5|R-7|P1|P2|Q.1|F100|S200|T3|@5|"
+    "^30|X#1|Y[#2+1]|#1=3|#2=[#1*2]|#<a>=1|X#<a>|(msg,x)|(debug,#1 #<a>)|;c|/|N10|H2|D1|%|G81|Z1e3|"
+    "X99999999999";
+constexpr std::string_view control_list =
+    "o1 sub|o1 endsub|o1 call|o1 call [1] [2]|o1 return [3]|o2 if [#1]|o2 elseif [1]|o2 else|"
+    "o2 endif|o3 while [#1 LT 5]|o3 endwhile|o4 do|o4 while [0]|o4 while [1]|o5 repeat [3]|"
+    "o5 endrepeat|o3 break|o5 continue|o4 break|o[#1] call|o<b> sub|o<b> endsub|o<b> call [#1]|"
+    "o3 continue|o6";
+
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const std::size_t bar = list.find('|');
+    parts.emplace_back(list.substr(0, bar));
+    if (bar == std::string_view::npos) return parts;
+    list.remove_prefix(bar + 1);
+  }
+}
+
 TEST(Fuzz, random_blocks_are_interpreted_or_refused) {
-  const char* const words[] = {"G0",
-                               "G1",
-                               "G2",
-                               "G3",
-                               "G4",
-                               "G10",
-                               "L2",
-                               "L20",
-                               "G17",
-                               "G18",
-                               "G19",
-                               "G20",
-                               "G21",
-                               "G28",
-                               "G28.1",
-                               "G30",
-                               "G33",
-                               "G33.1",
-                               "G40",
-                               "G43",
-                               "G43.1",
-                               "G49",
-                               "G52",
-                               "G53",
-                               "G54",
-                               "G55",
-                               "G59.3",
-                               "G61",
-                               "G64",
-                               "G7",
-                               "G8",
-                               "G80",
-                               "G90",
-                               "G90.1",
-                               "G91",
-                               "G91.1",
-                               "G92",
-                               "G92.1",
-                               "G92.2",
-                               "G92.3",
-                               "G93",
-                               "G94",
-                               "G95",
-                               "M0",
-                               "M2",
-                               "M3",
-                               "M5",
-                               "M6",
-                               "M7",
-                               "M9",
-                               "M49",
-                               "M61",
-                               "X1",
-                               "X-2.5",
-                               "Y3",
-                               "Z.5",
-                               "A90",
-                               "U2",
-                               "I1",
-                               "J-1",
-                               "K.5",
-                               "R5",
-                               "R-7",
-                               "P1",
-                               "P2",
-                               "Q.1",
-                               "F100",
-                               "S200",
-                               "T3",
-                               "@5",
-                               "^30",
-                               "X#1",
-                               "Y[#2+1]",
-                               "#1=3",
-                               "#2=[#1*2]",
-                               "#<a>=1",
-                               "X#<a>",
-                               "(msg,x)",
-                               "(debug,#1 #<a>)",
-                               ";c",
-                               "/",
-                               "N10",
-                               "H2",
-                               "D1",
-                               "%",
-                               "G81",
-                               "Z1e3",
-                               "X99999999999"};
-  const char* const controls[] = {
-      "o1 sub",       "o1 endsub",     "o1 call",        "o1 call [1] [2]", "o1 return [3]",
-      "o2 if [#1]",   "o2 elseif [1]", "o2 else",        "o2 endif",        "o3 while [#1 LT 5]",
-      "o3 endwhile",  "o4 do",         "o4 while [0]",   "o4 while [1]",    "o5 repeat [3]",
-      "o5 endrepeat", "o3 break",      "o5 continue",    "o4 break",        "o[#1] call",
-      "o<b> sub",     "o<b> endsub",   "o<b> call [#1]", "o3 continue",     "o6"};
+  const std::vector<std::string> words = split(word_list);
+  const std::vector<std::string> controls = split(control_list);
   Random random(seed());
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed()));
   for (int i = 0; i < 3000; ++i) {
     std::string program = below(random, 2) == 0 ? "G21 F100 S1 M3\n" : "";
     for (std::size_t line = 1 + below(random, 25); line > 0; --line) {
       if (below(random, 3) == 0) {
-        program += controls[below(random, std::size(controls))];
+        program += controls[below(random, controls.size())];
       } else {
-        for (std::size_t word = below(random, 5); word > 0; --word)
-          program += std::string(words[below(random, std::size(words))]) + " ";
+        for (std::size_t word = below(random, 5); word > 0; --word) program += words[below(random, words.size())] + " ";
       }
       program += "\n";
     }
