@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
 #include "passo/base/source.hpp"
@@ -54,11 +55,7 @@ inline void expect_golden(const std::string& path, const std::string& text) {
 
 class Random {
  public:
-  Random() {
-    const char* given = std::getenv("PASSO_SEED");
-    seed_ = given != nullptr ? std::strtoull(given, nullptr, 10) : std::uint64_t{20261121};
-    engine_.seed(seed_);
-  }
+  Random() : seed_(test::seed()), engine_(seed_) {}
   std::uint64_t seed() const { return seed_; }
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   bool chance(double share) { return between(0, 1) < share; }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "kit/seed.hpp"
+
 namespace passo {
 namespace {
 
@@ -66,8 +68,7 @@ TEST(Player, a_third_of_a_step_an_event_steps_at_every_third_with_the_first_one_
 
 // The definition in board_segment.hpp: a position that never wraps, with a step where its whole part changes.
 TEST(Player, steps_where_the_whole_part_of_the_position_changes) {
-  const char* given = std::getenv("PASSO_SEED");
-  const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   std::uniform_int_distribution<std::int64_t> any_increment(-whole_step, whole_step);

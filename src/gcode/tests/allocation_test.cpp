@@ -1,25 +1,6 @@
 // Counts every allocation of the test program: a warm parser makes none.
-#include <cstdlib>
-#include <new>
-
+#include "kit/allocation_count.hpp"
 #include "parsed_line.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Not inlined, since g++ takes new and free in one function for a mistake.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
 
 namespace passo {
 namespace {
@@ -40,9 +21,9 @@ TEST(Parsing, allocates_nothing_once_warm) {
     for (const std::string& line : lines) ASSERT_TRUE(parser.parse(line, 1, block, diagnostics));
   };
   parse_all();
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations;
   parse_all();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations, before);
   EXPECT_GT(before, 0U);  // they are counted
 }
 

@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "kit/seed.hpp"
 #include "parsed_line.hpp"
-#include "random_seed.hpp"
 
 namespace passo {
 namespace {
@@ -272,7 +272,7 @@ class RandomExpression {
 };
 
 TEST(Expressions, have_the_value_of_an_oracle_that_works_off_operators_tier_by_tier) {
-  RandomExpression random(random_seed());
+  RandomExpression random(test::seed());
   int compared = 0;
   for (int i = 0; i < 20'000; ++i) {
     const auto [text, expected] = random.make(3);

@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <random>
 
+#include "kit/seed.hpp"
 #include "parsed_line.hpp"
-#include "random_seed.hpp"
 
 namespace passo {
 namespace {
@@ -54,7 +54,7 @@ TEST(Numbers, round_correctly_where_the_digits_are_more_than_a_double_holds) {
 }
 
 TEST(Numbers, equal_the_c_librarys_for_random_digits) {
-  std::mt19937_64 random(random_seed());
+  std::mt19937_64 random(test::seed());
   const auto digits = [&random](int most) {
     std::string text;
     for (int n = static_cast<int>(random() % static_cast<unsigned>(most + 1)); n > 0; --n) {

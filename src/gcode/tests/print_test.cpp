@@ -2,8 +2,8 @@
 #include <random>
 
 #include "block_equality.hpp"
+#include "kit/seed.hpp"
 #include "parsed_line.hpp"
-#include "random_seed.hpp"
 
 #include "passo/gcode/program_reader.hpp"
 
@@ -123,7 +123,7 @@ class RandomLine {
 };
 
 TEST(Print, of_a_random_block_parses_to_the_same_block) {
-  RandomLine random(random_seed());
+  RandomLine random(test::seed());
   SymbolTable symbols;
   const BlockParser parser("part.ngc", symbols);
   Diagnostics diagnostics;

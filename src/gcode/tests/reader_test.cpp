@@ -4,7 +4,7 @@
 #include <random>
 #include <thread>
 
-#include "random_seed.hpp"
+#include "kit/seed.hpp"
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -75,7 +75,7 @@ TEST(Reader, an_empty_text_has_no_lines) {
 }
 
 TEST(Reader, gives_the_same_lines_from_a_file_as_from_memory_wherever_its_buffer_ends) {
-  std::mt19937_64 random(random_seed());
+  std::mt19937_64 random(test::seed());
   const char* const ends[] = {"\n", "\r\n", "\r"};
   for (int round = 0; round < 4; ++round) {
     std::string text;
@@ -121,7 +121,7 @@ TEST(Reader, goes_back_to_any_line_it_has_been_at) {
   while (reader->next_line(line, number, diagnostics));
   EXPECT_EQ(positions.back().offset, text.size());
 
-  std::mt19937_64 random(random_seed());
+  std::mt19937_64 random(test::seed());
   for (int i = 0; i < 2000; ++i) {
     const auto index = random() % 60'000;
     reader->seek(positions[index]);
@@ -211,7 +211,7 @@ TEST(Reader, refuses_binary_files_with_one_error) {
       "\xFF\xFEG\0"
       "0\0"s);
   EXPECT_EQ(refusal(wide.path), "file.binary");
-  std::mt19937_64 random(random_seed());
+  std::mt19937_64 random(test::seed());
   std::string noise;
   for (int i = 0; i < 5000; ++i) noise += static_cast<char>(random());
   const TemporaryFile compressed(noise);

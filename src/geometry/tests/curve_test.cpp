@@ -6,6 +6,8 @@
 #include <numbers>
 #include <random>
 
+#include "kit/seed.hpp"
+
 namespace passo {
 namespace {
 
@@ -53,8 +55,7 @@ struct Drawn {
 class RandomArcs : public testing::Test {
  protected:
   RandomArcs() {
-    const char* given = std::getenv("PASSO_SEED");
-    seed_ = given != nullptr ? std::strtoull(given, nullptr, 10) : std::uint64_t{std::random_device{}()};
+    seed_ = test::seed();
     random_.seed(seed_);
     RecordProperty("seed", std::to_string(seed_));
   }

@@ -1,26 +1,7 @@
 // Counts every allocation of the test program: a warm interpreter makes none a line.
-#include <cstdlib>
-#include <new>
-
 #include "interpreted.hpp"
+#include "kit/allocation_count.hpp"
 #include <gtest/gtest.h>
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Not inlined, since g++ takes new and free in one function for a mistake.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
 
 namespace passo {
 namespace {
@@ -41,11 +22,11 @@ TEST(Interpreting, allocates_nothing_a_line_once_warm) {
   std::size_t operations = 0;
   std::size_t warm = 0;
   while (interpreter.next(operation)) {
-    if (++operations == 200) warm = allocations;
+    if (++operations == 200) warm = test::allocations;
   }
   EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
   EXPECT_GT(operations, 800U);
-  EXPECT_EQ(allocations - warm, 0U);
+  EXPECT_EQ(test::allocations - warm, 0U);
 }
 
 }  // namespace

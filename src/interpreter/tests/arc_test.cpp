@@ -5,6 +5,7 @@
 
 #include "../arc_center.hpp"
 #include "interpreted.hpp"
+#include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -12,14 +13,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-unsigned long seed() {
-  const char* const given = std::getenv("PASSO_SEED");
-  return given != nullptr ? std::strtoul(given, nullptr, 10) : 4711UL;
-}
-
 TEST(Arc, with_a_radius_has_its_ends_on_the_circle_and_is_the_short_or_the_long_way_as_r_says) {
-  std::mt19937_64 random(seed());
-  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed()));
+  std::mt19937_64 random(test::seed());
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
   std::uniform_real_distribution<double> coordinate(-50, 50);
   std::uniform_real_distribution<double> excess(1.0, 20.0);
   for (int i = 0; i < 2000; ++i) {

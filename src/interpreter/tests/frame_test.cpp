@@ -5,16 +5,12 @@
 #include <random>
 
 #include "interpreted.hpp"
+#include "kit/seed.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace passo {
 namespace {
-
-unsigned long seed() {
-  const char* const given = std::getenv("PASSO_SEED");
-  return given != nullptr ? std::strtoul(given, nullptr, 10) : 20240611UL;
-}
 
 Point random_point(std::mt19937_64& random) {
   std::uniform_real_distribution<double> coordinate(-200, 200);
@@ -29,7 +25,7 @@ void expect_near(const Point& a, const Point& b, double tolerance) {
 
 TEST(Frame, is_the_identity_until_it_is_moved) {
   const Frame frame;
-  std::mt19937_64 random(seed());
+  std::mt19937_64 random(test::seed());
   const Point point = random_point(random);
   EXPECT_EQ(frame.machine_from_work(point), point);
   EXPECT_EQ(frame.work_from_machine(point), point);
@@ -70,8 +66,8 @@ TEST(Frame, quarter_turns_are_exact) {
 }
 
 TEST(Frame, goes_there_and_back) {
-  std::mt19937_64 random(seed());
-  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed()));
+  std::mt19937_64 random(test::seed());
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
   for (int i = 0; i < 1000; ++i) {
     Frame frame;
     frame.follow({operation::SetWorkOffset{1, random_point(random)}, {}});
@@ -85,8 +81,8 @@ TEST(Frame, goes_there_and_back) {
 
 // Whatever the offsets: where the frame that follows the operations ends is where G53 was told to go.
 TEST(Frame, agrees_with_the_interpreter_about_machine_positions) {
-  std::mt19937_64 random(seed());
-  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed()));
+  std::mt19937_64 random(test::seed());
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
   std::uniform_real_distribution<double> number(-100, 100);
   const auto n = [&] { return std::to_string(number(random)); };
   for (int i = 0; i < 200; ++i) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "interpreted.hpp"
+#include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -12,11 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Random = std::mt19937_64;
-
-unsigned long seed() {
-  const char* const given = std::getenv("PASSO_SEED");
-  return given != nullptr ? std::strtoul(given, nullptr, 10) : 987654321UL;
-}
 
 std::size_t below(Random& random, std::size_t limit) {
   return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
@@ -71,8 +67,8 @@ std::vector<std::string> split(std::string_view list) {
 TEST(Fuzz, random_blocks_are_interpreted_or_refused) {
   const std::vector<std::string> words = split(word_list);
   const std::vector<std::string> controls = split(control_list);
-  Random random(seed());
-  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed()));
+  Random random(test::seed());
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
   for (int i = 0; i < 3000; ++i) {
     std::string program = below(random, 2) == 0 ? "G21 F100 S1 M3\n" : "";
     for (std::size_t line = 1 + below(random, 25); line > 0; --line) {
@@ -89,8 +85,8 @@ TEST(Fuzz, random_blocks_are_interpreted_or_refused) {
 }
 
 TEST(Fuzz, damaged_programs_are_interpreted_or_refused) {
-  Random random(seed());
-  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed()));
+  Random random(test::seed());
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(test::seed()));
   const char letters[] = "GMXYZIJKRPO0123456789.-[]#<>()/% \n=+*";
   for (const auto& entry : fs::directory_iterator(fs::path(PASSO_SOURCE_DIR) / "src/interpreter/tests/golden")) {
     if (entry.path().extension() != ".ngc") continue;

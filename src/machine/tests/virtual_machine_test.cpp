@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "kit/seed.hpp"
+
 #include "passo/link/in_process_link.hpp"
 
 namespace passo {
@@ -169,8 +171,7 @@ class Oracle {
 };
 
 TEST(VirtualMachine, makes_the_very_steps_that_random_segments_ask_for) {
-  const char* given = std::getenv("PASSO_SEED");
-  const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   for (std::uint8_t motors = 1; motors <= max_motors; ++motors) {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "kit/seed.hpp"
 #include "machine_text.hpp"
 
 namespace passo {
@@ -82,13 +83,6 @@ TEST(MachineReader, a_velocity_that_needs_just_every_event_is_allowed) {
             MmPerSecond(500));
 }
 
-std::uint64_t seed() {
-  const char* given = std::getenv("PASSO_SEED");
-  const std::uint64_t value = given != nullptr ? std::strtoull(given, nullptr, 10) : 20'240'601;
-  std::printf("PASSO_SEED=%llu\n", static_cast<unsigned long long>(value));
-  return value;
-}
-
 // What a description promises, checked without a look at the file.
 void expect_sound(const MachineDescription& machine, const std::string& text) {
   ASSERT_FALSE(machine.axes.empty()) << text;
@@ -105,7 +99,7 @@ void expect_sound(const MachineDescription& machine, const std::string& text) {
 }
 
 TEST(MachineReader, a_spoiled_file_gives_a_sound_machine_or_diagnostics_and_never_both) {
-  std::mt19937_64 random(seed());
+  std::mt19937_64 random(test::seed());
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   static const std::string spice = "=[]{}\".,#-+e0159_\n\r\t nXYZ'\\\0\x80\xff";
   int sound = 0;

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "golden.hpp"
+#include "kit/seed.hpp"
 #include "motion.hpp"
 #include <nlohmann/json.hpp>
 
@@ -154,10 +155,9 @@ SampledPeaks sample(const PlannedMove& move) {
 }
 
 TEST(SummaryBuilder, peaks_on_arcs_helices_and_spirals_are_those_of_the_motion) {
-  const char* given = std::getenv("PASSO_SEED");
-  const unsigned seed = given != nullptr ? static_cast<unsigned>(std::atoi(given)) : 20260101U;
+  const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
-  std::mt19937 random(seed);
+  std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "kit/seed.hpp"
+
 namespace passo {
 namespace {
 
@@ -80,8 +82,7 @@ TEST(TraceCsv, stays_exact_after_a_year) {
 }
 
 TEST(TraceCsv, tells_the_nearest_nanosecond_for_random_clocks_and_times) {
-  const char* given = std::getenv("PASSO_SEED");
-  const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   for (int i = 0; i < 2000; ++i) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/seed.hpp"
 #include "vcd_reader.hpp"
 
 namespace passo {
@@ -153,8 +154,7 @@ std::vector<ShownStep> steps_of(const Vcd& vcd, const std::string& axis, std::ui
 }
 
 TEST(TraceVcd, random_jobs_have_every_step_at_its_time_and_every_pulse_closed_before_the_next) {
-  const char* given = std::getenv("PASSO_SEED");
-  const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
   std::mt19937_64 random(seed);
   struct Clock {

@@ -58,7 +58,7 @@ WireFrame message_in(const Bytes& bytes) {
 class RandomFrames : public testing::Test {
  protected:
   RandomFrames()
-      : seed_(test_seed()), random_(seed_), trace_(__FILE__, __LINE__, "PASSO_SEED=" + std::to_string(seed_)) {}
+      : seed_(test::seed()), random_(seed_), trace_(__FILE__, __LINE__, "PASSO_SEED=" + std::to_string(seed_)) {}
 
   // Is a frame heard from these bytes, and with its very last byte?
   static bool ends_with(const Heard& heard, const Bytes& bytes, const WireFrame& message) {

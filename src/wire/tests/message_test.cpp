@@ -17,7 +17,7 @@ WireFrame carried(const std::uint8_t* frame, std::uint8_t size, std::uint8_t mot
 }
 
 TEST(Message, a_segment_keeps_every_field_for_every_number_of_motors) {
-  const std::uint64_t seed = test_seed();
+  const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
   RandomMessages random(seed);
   for (int i = 0; i < 8000; ++i) {

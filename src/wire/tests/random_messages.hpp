@@ -9,17 +9,13 @@
 #include <variant>
 #include <vector>
 
+#include "kit/seed.hpp"
+
 #include "passo/wire/message.hpp"
 
 namespace passo {
 
 using Bytes = std::vector<std::uint8_t>;
-
-// The same every time where none is asked for: one line of noise in a million holds a right CRC by chance.
-inline std::uint64_t test_seed() {
-  const char* given = std::getenv("PASSO_SEED");
-  return given != nullptr ? std::strtoull(given, nullptr, 10) : 1;
-}
 
 class RandomMessages {
  public:

@@ -1,0 +1,23 @@
+// Counts every allocation of a test program. In one file of it only: it replaces operator new.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace passo::test {
+inline std::size_t allocations = 0;
+}  // namespace passo::test
+
+// Not inlined, since g++ takes new and free in one function for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++passo::test::allocations;
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
