@@ -216,20 +216,20 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
 
 // In the work frame the arc lies in its plane as ever; there its angle is swept, and there it is cut.
 bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item) {
-  const auto [first, second] = axes_of(arc.plane);
+  const PlaneAxes axes = axes_of(arc.plane);
   const Point start = frame_.work_from_machine(position_);
   const double first_center = arc.first_center.value();
   const double second_center = arc.second_center.value();
   const auto angle_of = [&](const Point& point) {
-    return std::atan2(point[second] - second_center, point[first] - first_center);
+    return std::atan2(point[axes.second] - second_center, point[axes.first] - first_center);
   };
-  const double radius = std::hypot(start[first] - first_center, start[second] - second_center);
+  const double radius = std::hypot(start[axes.first] - first_center, start[axes.second] - second_center);
   if (arc.turns == 0 || radius < still) return take_line(arc.end, false, item);
   const double sweep = sweep_between(angle_of(start), angle_of(arc.end), arc.turns);
   // A chord of angle a leaves its arc by r (1 - cos(a/2)).
   const double chord = 2 * std::acos(std::max(0.0, 1 - chord_tolerance.value() / radius));
   const auto chords = static_cast<std::uint32_t>(std::ceil(std::abs(sweep) / chord));
-  tilted_ = TiltedArc{.work = Curve::arc(start, arc.end, first, second, first_center, second_center, sweep),
+  tilted_ = TiltedArc{.work = Curve::arc(start, arc.end, axes.first, axes.second, first_center, second_center, sweep),
                       .next = 0,
                       .chords = std::max(chords, 1U)};
   return take_chord(item);

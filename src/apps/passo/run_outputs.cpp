@@ -1,6 +1,7 @@
 #include "run_outputs.hpp"
 
 #include <cctype>
+#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -128,7 +129,8 @@ bool RunOutputs::failed() const {
 Status<OutputError> RunOutputs::commit(const RunSummary& summary) {
   for (State::TraceFile& trace : state_->traces) trace.trace->finish(state_->machine->now());
   for (State::PictureFile& picture : state_->pictures) {
-    const PictureOptions options{.format = picture.format, .program = summary.program, .machine = summary.machine};
+    const std::string title = std::filesystem::path(summary.program).filename();
+    const PictureOptions options{.format = picture.format, .program = title, .machine = summary.machine};
     const Status<OutputError> drawn = draw_picture(state_->recorder, options, picture.file);
     if (!drawn) return drawn;
   }
