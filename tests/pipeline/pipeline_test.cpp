@@ -5,8 +5,11 @@
 #include <optional>
 
 #include "canon_end.hpp"
+#include "kit/stage_test.hpp"
+#include "kit/step_oracle.hpp"
 
 #include "passo/controller/job.hpp"
+#include "passo/controller/stage_options.hpp"
 #include "passo/interpreter/canon.hpp"
 
 namespace passo {
@@ -93,6 +96,28 @@ TEST(Pipeline, every_example_ends_where_its_canonical_text_says_on_every_example
       SCOPED_TRACE(machine);
       expect_ends_where_canon_says(source_dir / "examples" / program, example_machine(machine));
     }
+  }
+}
+
+// The motion of a program as the planner hands it to the step generator.
+std::vector<MotionItem> motion_of(const fs::path& program, const MachineDescription& machine) {
+  Diagnostics diagnostics;
+  Interpreter interpreter(open(program), InterpreterOptions(), diagnostics);
+  const PathOptions options = path_options(machine, program.string());
+  PathBuilder path(interpreter, options, diagnostics);
+  Planner planner(path, motion_limits(machine));
+  std::vector<MotionItem> items = test::drain(planner);
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  return items;
+}
+
+TEST(Pipeline, every_step_of_the_examples_falls_where_and_when_its_phases_put_it) {
+  // With 48 steps a millimetre no coordinate of three decimals lies just between two steps: nothing depends on how
+  // such a half is rounded.
+  const MachineDescription machine = example_machine("forty-eight");
+  for (const char* program : {"engrave.ngc", "drill-board.ngc", "pocket.ngc"}) {
+    SCOPED_TRACE(program);
+    oracle::expect_exact(motion_of(source_dir / "examples" / program, machine), step_options(machine));
   }
 }
 

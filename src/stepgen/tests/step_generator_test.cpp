@@ -4,18 +4,14 @@
 #include <random>
 
 #include "kit/stage_test.hpp"
-#include "step_oracle.hpp"
+#include "kit/step_oracle.hpp"
 
 #include "passo/stepgen/board_text.hpp"
 
 namespace passo {
 namespace {
 
-std::vector<BoardItem> generate(const std::vector<MotionItem>& items, const StepOptions& options) {
-  test::ListSource<MotionItem> source(items);
-  StepGenerator generator(source, options);
-  return test::drain(generator);
-}
+using oracle::generate;
 
 // How many random programs: few at every change, many in the slow test.
 int runs() {
@@ -69,34 +65,7 @@ Action dwell(double seconds) {
 
 using test::xyz;
 
-// Every step of every motor: as many as there ought to be, in the right direction, in time.
-void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
-  const std::vector<BoardItem> board = generate(items, options);
-  const oracle::Playback played = oracle::play(board, options);
-  const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
-  EXPECT_GE(static_cast<double>(played.shortest_interval) + 1, shortest);
-  for (unsigned m = 0; m < options.motor_count; ++m) {
-    const std::vector<oracle::ExactStep> exact = oracle::exact_steps(items, options, m);
-    const std::vector<oracle::PlayedStep>& steps = played.steps[m];
-    const auto left_out = [&](std::size_t i) {
-      return i + 1 < exact.size() && oracle::may_be_left_out(exact[i], exact[i + 1], played.event_ticks);
-    };
-    std::size_t i = 0;
-    for (const oracle::PlayedStep& step : steps) {
-      const auto interval = static_cast<long double>(step.interval);
-      const long double allowed = step.held_back ? interval + shortest + 1 : step.of_master ? 1 : interval + 1;
-      const auto error = [&] { return std::fabs(static_cast<long double>(step.tick) - exact[i].time); };
-      while (left_out(i) && (exact[i].direction != step.direction || error() > allowed)) i += 2;
-      ASSERT_LT(i, exact.size()) << "motor " << m << ": a step too many at tick " << step.tick;
-      ASSERT_EQ(step.direction, exact[i].direction) << "motor " << m << " step " << i << " at tick " << step.tick;
-      ASSERT_LE(error(), allowed) << "motor " << m << " step " << i << " at tick " << step.tick << " of "
-                                  << exact[i].time << (step.of_master ? " (master)" : "");
-      ++i;
-    }
-    while (left_out(i)) i += 2;
-    ASSERT_EQ(i, exact.size()) << "motor " << m << ": steps are missing";
-  }
-}
+using oracle::expect_exact;
 
 void expect_end(const std::vector<MotionItem>& items, const StepOptions& options) {
   const oracle::Playback played = oracle::play(generate(items, options), options);

@@ -6,7 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <vector>
+
+#include "kit/stage_test.hpp"
+#include <gtest/gtest.h>
 
 #include "passo/stepgen/step_generator.hpp"
 
@@ -106,12 +110,17 @@ inline std::vector<long double> monotone_pieces(const Motor& motor, const Curve&
   return ends;
 }
 
+inline std::int64_t whole_place(long double place) {
+  return static_cast<std::int64_t>(std::floor(place));
+}
+
 inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, const StepOptions& options,
                                           unsigned m) {
   std::vector<ExactStep> steps;
   const Motor& motor = options.motors[m];
   const long double ticks = options.clock.tick_rate.value();
-  long double start = 0;  // seconds
+  long double start = 0;              // seconds
+  std::optional<std::int64_t> count;  // steps so far
   for (const MotionItem& item : items) {
     if (const auto* action = std::get_if<Action>(&item)) {
       start += action->dwell.value();
@@ -120,19 +129,16 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
     const auto& move = std::get<PlannedMove>(item);
     const Curve& curve = move.segment.curve;
     const std::vector<long double> pieces = monotone_pieces(motor, curve);
+    if (!count) count = whole_place(exact_place(motor, curve, 0));
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-      const long double from = exact_place(motor, curve, pieces[i]);
-      const long double to = exact_place(motor, curve, pieces[i + 1]);
-      const auto low = static_cast<std::int64_t>(std::floor(std::min(from, to)));
-      const auto high = static_cast<std::int64_t>(std::floor(std::max(from, to)));
-      for (std::int64_t k = 0; k < high - low; ++k) {
-        const std::int64_t line = to > from ? low + 1 + k : high - k;
-        const long double s = bisect(
-            [&](long double at) {
-              return (exact_place(motor, curve, at) < static_cast<long double>(line)) == (to > from);
-            },
-            pieces[i], pieces[i + 1]);
-        steps.push_back({.time = (start + exact_time(move, s)) * ticks, .direction = to > from ? 1 : -1});
+      const bool rises = exact_place(motor, curve, pieces[i + 1]) > exact_place(motor, curve, pieces[i]);
+      const std::int64_t last = whole_place(exact_place(motor, curve, pieces[i + 1]));
+      // The count runs on from move to move: a line on which two moves meet is crossed once.
+      for (; rises ? *count < last : *count > last; *count += rises ? 1 : -1) {
+        const auto line = static_cast<long double>(rises ? *count + 1 : *count);
+        const long double s = bisect([&](long double at) { return (exact_place(motor, curve, at) < line) == rises; },
+                                     pieces[i], pieces[i + 1]);
+        steps.push_back({.time = (start + exact_time(move, s)) * ticks, .direction = rises ? 1 : -1});
       }
     }
     for (const Phase& phase : move) start += phase.duration.value();
@@ -219,6 +225,41 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
   for (const std::int64_t p : place) result.counts.push_back(p >> 16);
   result.end_tick = time >> 16;
   return result;
+}
+
+inline std::vector<BoardItem> generate(const std::vector<MotionItem>& items, const StepOptions& options) {
+  test::ListSource<MotionItem> source(items);
+  StepGenerator generator(source, options);
+  return test::drain(generator);
+}
+
+// Every step of every motor: as many as there ought to be, in the right direction, in time.
+inline void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
+  const std::vector<BoardItem> board = generate(items, options);
+  const Playback played = play(board, options);
+  const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
+  EXPECT_GE(static_cast<double>(played.shortest_interval) + 1, shortest);
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    const std::vector<ExactStep> exact = exact_steps(items, options, m);
+    const std::vector<PlayedStep>& steps = played.steps[m];
+    const auto left_out = [&](std::size_t i) {
+      return i + 1 < exact.size() && may_be_left_out(exact[i], exact[i + 1], played.event_ticks);
+    };
+    std::size_t i = 0;
+    for (const PlayedStep& step : steps) {
+      const auto interval = static_cast<long double>(step.interval);
+      const long double allowed = step.held_back ? interval + shortest + 1 : step.of_master ? 1 : interval + 1;
+      const auto error = [&] { return std::fabs(static_cast<long double>(step.tick) - exact[i].time); };
+      while (left_out(i) && (exact[i].direction != step.direction || error() > allowed)) i += 2;
+      ASSERT_LT(i, exact.size()) << "motor " << m << ": a step too many at tick " << step.tick;
+      ASSERT_EQ(step.direction, exact[i].direction) << "motor " << m << " step " << i << " at tick " << step.tick;
+      ASSERT_LE(error(), allowed) << "motor " << m << " step " << i << " at tick " << step.tick << " of "
+                                  << exact[i].time << (step.of_master ? " (master)" : "");
+      ++i;
+    }
+    while (left_out(i)) i += 2;
+    ASSERT_EQ(i, exact.size()) << "motor " << m << ": steps are missing";
+  }
 }
 
 }  // namespace passo::oracle
