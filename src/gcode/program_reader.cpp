@@ -15,7 +15,7 @@
 namespace passo {
 namespace {
 
-constexpr std::size_t buffer_size = 256 * 1024;
+constexpr std::size_t buffer_size = std::size_t{256} * 1024;
 static_assert(buffer_size >= 2 * (longest_line + 2), "a line and its end fit wherever they start");
 
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";

@@ -131,7 +131,7 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary) {
   for (State::PictureFile& picture : state_->pictures) {
     const std::string title = std::filesystem::path(summary.program).filename();
     const PictureOptions options{.format = picture.format, .program = title, .machine = summary.machine};
-    const Status<OutputError> drawn = draw_picture(state_->recorder, options, picture.file);
+    Status<OutputError> drawn = draw_picture(state_->recorder, options, picture.file);
     if (!drawn) return drawn;
   }
   if (state_->report) state_->report->write(state_->report_is_json ? to_json(summary) : to_text(summary, false));
@@ -141,7 +141,7 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary) {
   for (State::PictureFile& picture : state_->pictures) files.push_back(&picture.file);
   if (state_->report) files.push_back(&*state_->report);
   for (OutputFile* file : files) {
-    const Status<OutputError> committed = file->commit();
+    Status<OutputError> committed = file->commit();
     if (!committed) return committed;
   }
   return Unit{};

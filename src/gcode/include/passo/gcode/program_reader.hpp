@@ -15,7 +15,7 @@
 
 namespace passo {
 
-inline constexpr std::size_t longest_line = 64 * 1024;
+inline constexpr std::size_t longest_line = std::size_t{64} * 1024;
 
 // A place to come back to, for loops and subroutines.
 struct ReaderPosition {
