@@ -1,15 +1,13 @@
-// Tests feed a stage from a list, compare its text with a golden file, and draw from seeded randomness.
+// Tests feed a stage from a list, compare its text with a golden file (golden.hpp), and draw from seeded randomness.
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "kit/golden.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
@@ -38,19 +36,6 @@ std::vector<T> drain(Source<T>& source) {
   std::vector<T> items;
   for (T item; source.next(item);) items.push_back(item);
   return items;
-}
-
-// `path` below the checkout. PASSO_UPDATE_GOLDEN=1 writes it.
-inline void expect_golden(const std::string& path, const std::string& text) {
-  const std::string full = std::string(PASSO_SOURCE_DIR "/") + path;
-  if (std::getenv("PASSO_UPDATE_GOLDEN") != nullptr) {
-    std::ofstream(full, std::ios::binary) << text;
-    return;
-  }
-  std::ifstream file(full, std::ios::binary);
-  ASSERT_TRUE(file) << full << " is missing; PASSO_UPDATE_GOLDEN=1 writes it";
-  const std::string golden{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(text, golden) << full;
 }
 
 class Random {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "interpreted.hpp"
+#include "kit/golden.hpp"
 #include <gtest/gtest.h>
 
 namespace passo {
@@ -18,11 +19,9 @@ class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, program_prints_its_canonical_calls) {
   const fs::path program = golden / (GetParam() + ".ngc");
-  const fs::path expected = golden / (GetParam() + ".canon");
   const Interpreted result = interpret_text(contents(program.string()));
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
-  if (std::getenv("PASSO_UPDATE_GOLDEN") != nullptr) std::ofstream(expected, std::ios::binary) << result.canon;
-  EXPECT_EQ(result.canon, contents(expected.string()));
+  test::expect_golden("src/interpreter/tests/golden/" + GetParam() + ".canon", result.canon);
 }
 
 std::set<std::string> golden_programs() {

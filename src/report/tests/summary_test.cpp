@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "golden.hpp"
+#include "kit/golden.hpp"
 #include "kit/seed.hpp"
 #include "motion.hpp"
 #include <nlohmann/json.hpp>
@@ -40,11 +40,11 @@ RunSummary small_job() {
 }
 
 TEST(RunSummary, reads_as_a_person_wants_it) {
-  expect_golden("small_summary.txt", to_text(small_job(), false));
+  test::expect_golden("src/report/tests/golden/small_summary.txt", to_text(small_job(), false));
 }
 
 TEST(RunSummary, is_json_for_programs) {
-  expect_golden("small_summary.json", to_json(small_job()));
+  test::expect_golden("src/report/tests/golden/small_summary.json", to_json(small_job()));
 }
 
 TEST(RunSummary, colour_adds_nothing_but_escapes) {
