@@ -1,0 +1,22 @@
+// Pulse: what every interpolator gives, one beat at a time: which axes step, and which way.
+//
+// An interpolator is a value type with
+//   bool done() const;   the end is reached, exactly
+//   Pulse next();        the next beat; only when not done(). A beat in which nothing moves is a pulse too (DDA).
+//
+// Bit a belongs to axis a. Additions, comparisons and shifts only; what divides, divides once, before the first pulse.
+// Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+inline constexpr uint8_t most_axes = 8;
+
+struct Pulse {
+  uint8_t steps = 0;       // the axes that make one step
+  uint8_t directions = 0;  // the axes that count down when they step
+};
+
+}  // namespace passo
