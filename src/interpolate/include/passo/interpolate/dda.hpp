@@ -1,0 +1,70 @@
+// Dda: a line by digital integration. Each axis has a register of N bits with its length in it, 2ᴺ > the longest, and an
+// accumulator of N bits; 2ᴺ iterations each add the register to the accumulator, and an overflow is a step.
+//
+// Sum over all: 2ᴺ·length, so each axis makes its length in steps and the accumulators end where they started. They
+// start at 0 (steps come late, error just below one step) or half full (the error is centred: half a step).
+//
+// Shifting all registers left until the top bit of the longest is set saves the idle iterations of a short move in a
+// long register; that is the same as the fewest bits that hold it, and the default here. More bits are for comparison.
+//
+// The N bits stand at the top of the word, so that the overflow is the carry of the addition.
+// Any number of axes, lengths up to 2³¹−1. Pulses in which nothing moves are part of the method.
+// Portable. Cost: docs/interpolation/costs.md.
+#pragma once
+
+#include "passo/interpolate/line.hpp"
+
+namespace passo {
+
+enum class DdaLoad : uint8_t { zero, half };
+
+// The fewest bits that hold `length`: the least N with 2ᴺ > length.
+template <class Length>
+constexpr uint8_t fewest_bits(Length length) {
+  uint8_t bits = 0;
+  for (; length != 0; length = static_cast<Length>(length >> 1)) ++bits;
+  return bits;
+}
+
+template <uint8_t axes, class Length = uint32_t>
+class Dda {
+ public:
+  static constexpr uint8_t most_bits = LengthTraits<Length>::bits - 1;
+
+  constexpr explicit Dda(const int32_t (&distances)[axes], DdaLoad load = DdaLoad::zero)
+      : Dda(distances, load, fewest_bits(Line<axes, Length>(distances).longest)) {}
+  // `register_bits`: from the fewest that hold the longest axis to most_bits.
+  constexpr Dda(const int32_t (&distances)[axes], DdaLoad load, uint8_t register_bits)
+      : line_(distances), shift_(static_cast<uint8_t>(LengthTraits<Length>::bits - register_bits)) {
+    if (line_.longest == 0) return;
+    left_ = static_cast<Length>(Length{1} << register_bits);
+    for (uint8_t axis = 0; axis < axes; ++axis) {
+      line_.lengths[axis] = static_cast<Length>(line_.lengths[axis] << shift_);
+      accumulator_[axis] = load == DdaLoad::half ? static_cast<Length>(Length{1} << most_bits) : Length{0};
+    }
+  }
+
+  constexpr bool done() const { return left_ == 0; }
+  constexpr Pulse next() {
+    uint8_t steps = 0;
+    for (uint8_t axis = 0; axis < axes; ++axis) {
+      const Length sum = static_cast<Length>(accumulator_[axis] + line_.lengths[axis]);
+      if (sum < line_.lengths[axis]) steps = static_cast<uint8_t>(steps | axis_bit(axis));  // the carry
+      accumulator_[axis] = sum;
+    }
+    --left_;
+    return {steps, line_.directions};
+  }
+
+  constexpr uint32_t accumulator(uint8_t axis) const {
+    return line_.longest == 0 ? 0 : static_cast<uint32_t>(accumulator_[axis] >> shift_);
+  }
+
+ private:
+  Line<axes, Length> line_;  // the lengths are the registers
+  uint8_t shift_;
+  Length left_ = 0;
+  Length accumulator_[axes] = {};
+};
+
+}  // namespace passo

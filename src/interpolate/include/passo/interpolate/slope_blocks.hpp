@@ -1,0 +1,57 @@
+// SlopeBlocks: a line of two axes as blocks of pulses, one for each step of the shorter axis. Seen from the first
+// octant, with q = length div height: q div 2 plain steps, one diagonal, q − 1 − q div 2 plain ones; each of the first
+// (length mod height) blocks has one plain step more.
+//
+// Between two diagonals there is only a count-down; the one division is done before the first pulse. The remainder is
+// not spread but spent at the start: the error grows with it, up to about a quarter of the height; exact, within half
+// a step, where the height divides the length.
+// Lengths up to 2³¹−1.
+// Portable.
+#pragma once
+
+#include "passo/interpolate/line.hpp"
+
+namespace passo {
+
+template <class Length = uint32_t>
+class SlopeBlocks {
+ public:
+  constexpr explicit SlopeBlocks(const int32_t (&distances)[2])
+      : octant_(distances), left_(octant_.length), blocks_(octant_.height) {
+    if (blocks_ == 0) return;
+    pulses_ = static_cast<Length>(octant_.length / octant_.height);
+    longer_ = static_cast<Length>(octant_.length % octant_.height);
+    plain_ = static_cast<Length>(pulses_ / 2);
+  }
+
+  constexpr bool done() const { return left_ == 0; }
+  constexpr Pulse next() {
+    --left_;
+    if (plain_ != 0 || blocks_ == 0) {
+      --plain_;
+      return octant_.along;
+    }
+    // The rest of this block and the beginning of the next.
+    plain_ = static_cast<Length>(pulses_ - 1);
+    if (longer_ != 0) {
+      ++plain_;
+      --longer_;
+    }
+    --blocks_;
+    return octant_.both;
+  }
+
+  // Plain steps before the next diagonal; blocks whose diagonal is still to come.
+  constexpr uint32_t plain() const { return blocks_ == 0 ? left_ : plain_; }
+  constexpr uint32_t blocks() const { return blocks_; }
+
+ private:
+  Octant<Length> octant_;
+  Length left_;
+  Length blocks_;      // diagonals to come
+  Length pulses_ = 0;  // q
+  Length longer_ = 0;  // blocks to come that have one plain step more
+  Length plain_ = 0;   // plain steps before the next diagonal
+};
+
+}  // namespace passo
