@@ -2,10 +2,9 @@
 // octant, with q = length div height: q div 2 plain steps, one diagonal, q − 1 − q div 2 plain ones; each of the first
 // (length mod height) blocks has one plain step more.
 //
-// Between two diagonals there is only a count-down; the one division is done before the first pulse. The remainder is
-// not spread but spent at the start: the error grows with it, up to about a quarter of the height; exact, within half
-// a step, where the height divides the length.
-// Lengths up to 2³¹−1.
+// Between two diagonals there is only a count-down; the one division is done before the first pulse. The remainder r is
+// not spread but spent at the start, so the tool falls behind by up to r·(height − r)/length steps, and half a step more
+// within a block. Lengths up to 2³¹−1.
 // Portable.
 #pragma once
 
@@ -28,7 +27,7 @@ class SlopeBlocks {
   constexpr Pulse next() {
     --left_;
     if (plain_ != 0 || blocks_ == 0) {
-      --plain_;
+      --plain_;  // past the last diagonal nobody looks at it
       return octant_.along;
     }
     // The rest of this block and the beginning of the next.

@@ -16,23 +16,19 @@ namespace passo {
 template <class Length = uint32_t>
 class SlopeRecalculated {
  public:
-  constexpr explicit SlopeRecalculated(const int32_t (&distances)[2]) : octant_(distances), left_(octant_.length) {
-    // Both slopes are equal at the start, and a plain step is wanted there, but for slope 1. Height 0 has no diagonal.
-    if (octant_.height != octant_.length || left_ == 0) excess_ = -1;
-    first_ = excess_ < 0 && octant_.height != 0;
+  constexpr explicit SlopeRecalculated(const int32_t (&distances)[2])
+      : octant_(distances), left_(octant_.length), starting_(octant_.height != octant_.length) {
+    if (octant_.height == 0) excess_ = -1;  // and stays there: no diagonals
   }
 
   constexpr bool done() const { return left_ == 0; }
   constexpr Pulse next() {
     --left_;
-    if (excess_ >= 0) {
+    if (excess_ >= 0 && !starting_) {
       excess_ = static_cast<Signed>(excess_ + static_cast<Signed>(octant_.height - octant_.length));
       return octant_.both;
     }
-    if (first_) {
-      first_ = false;
-      excess_ = 0;
-    }
+    starting_ = false;
     excess_ = static_cast<Signed>(excess_ + static_cast<Signed>(octant_.height));
     return octant_.along;
   }
@@ -44,8 +40,8 @@ class SlopeRecalculated {
 
   Octant<Length> octant_;
   Length left_;
+  bool starting_;  // both slopes are equal, and yet a plain step is wanted
   Signed excess_ = 0;
-  bool first_ = false;
 };
 
 }  // namespace passo

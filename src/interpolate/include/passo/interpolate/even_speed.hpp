@@ -1,0 +1,96 @@
+// PulseDurations: how long each pulse of a line lasts, so that the tool moves at an even speed.
+//
+// Two rules, both spend the time T of the move over its pulses:
+//
+//   by_roots   a pulse of two axes moves the tool √2 times as far as a plain one, of three √3 times: with N1, N2, N3 …
+//              pulses of each kind a plain one lasts T / (N1 + N2·√2 + N3·√3 …). Any path, if its pulses are counted.
+//              The tool's speed is even; the ideal path is not met in time.
+//   exact      the foot of the tool on the ideal line moves at constant speed: a step of an axis with length d moves it
+//              by d/L, so it lasts T·d/L² (L² = Σd²), and a pulse lasts the sum of its axes. Σ d·T·d/L² = T. Any line
+//              method.
+//
+// In ticks of a timer, 32.32 fixed point: over 2³¹ pulses the sum is within a tick of T. next() hands out whole ticks
+// and carries the fraction on. Divisions by shift and subtract, before the first pulse only.
+// T below 2³² ticks; Σd² below 2⁶⁴ (four axes of full length).
+// Portable.
+#pragma once
+
+#include "passo/interpolate/line.hpp"
+
+namespace passo {
+
+// numerator / denominator in 32.32, rounded to nearest. The quotient is below 2³²; denominator > 0.
+constexpr uint64_t fixed_quotient(uint64_t numerator, uint64_t denominator) {
+  uint64_t quotient = numerator / denominator;
+  uint64_t rest = numerator % denominator;
+  for (uint8_t bit = 0; bit < 33; ++bit) {  // the last one rounds
+    const bool carry = (rest >> 63) != 0;
+    rest <<= 1;
+    const bool one = carry || rest >= denominator;
+    if (one) rest -= denominator;
+    if (bit == 32) return quotient + (one ? 1 : 0);
+    quotient = quotient << 1 | (one ? 1 : 0);
+  }
+  return quotient;
+}
+
+template <uint8_t axes>
+class PulseDurations {
+ public:
+  // √n in 2.30 fixed point.
+  static constexpr uint32_t root(uint8_t n) {
+    constexpr uint32_t roots[most_axes + 1] = {0,          1073741824, 1518500250, 1859775393, 2147483648,
+                                               2400959708, 2630119584, 2840853838, 3037000500};
+    return roots[n];
+  }
+
+  // `pulses[n]`: how many pulses move n axes; some do.
+  static constexpr PulseDurations by_roots(uint32_t ticks, const uint32_t (&pulses)[axes + 1]) {
+    PulseDurations durations(true);
+    uint64_t length = 0;
+    for (uint8_t n = 1; n <= axes; ++n) length += static_cast<uint64_t>(pulses[n]) * root(n);
+    for (uint8_t n = 1; n <= axes; ++n) {
+      durations.share_[n - 1] = fixed_quotient(static_cast<uint64_t>(ticks) * root(n), length);
+    }
+    return durations;
+  }
+  // Some distance is not zero.
+  static constexpr PulseDurations exact(uint32_t ticks, const int32_t (&distances)[axes]) {
+    PulseDurations durations(false);
+    const Line<axes, uint32_t> line(distances);
+    uint64_t square = 0;
+    for (const uint32_t length : line.lengths) square += static_cast<uint64_t>(length) * length;
+    for (uint8_t axis = 0; axis < axes; ++axis) {
+      durations.share_[axis] = fixed_quotient(static_cast<uint64_t>(ticks) * line.lengths[axis], square);
+    }
+    return durations;
+  }
+
+  // Of a pulse, in 32.32 ticks: 0 where nothing moves.
+  constexpr uint64_t of(Pulse pulse) const {
+    uint64_t sum = 0;
+    uint8_t count = 0;
+    for (uint8_t axis = 0; axis < axes; ++axis) {
+      if ((pulse.steps & axis_bit(axis)) == 0) continue;
+      sum += share_[axis];
+      ++count;
+    }
+    if (!by_count_) return sum;
+    return count == 0 ? 0 : share_[count - 1];
+  }
+  // The same as whole ticks of a running timer.
+  constexpr uint32_t next(Pulse pulse) {
+    const uint64_t sum = of(pulse) + fraction_;
+    fraction_ = static_cast<uint32_t>(sum);
+    return static_cast<uint32_t>(sum >> 32);
+  }
+
+ private:
+  constexpr explicit PulseDurations(bool by_count) : by_count_(by_count) {}
+
+  bool by_count_;
+  uint64_t share_[axes] = {};  // of a pulse of n + 1 axes, or of axis n
+  uint32_t fraction_ = uint32_t{1} << 31;  // half a tick: the running time is rounded, not cut
+};
+
+}  // namespace passo
