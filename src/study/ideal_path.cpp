@@ -1,4 +1,4 @@
-#include "ideal_path.hpp"
+#include "passo/study/ideal_path.hpp"
 
 #include <cmath>
 
@@ -34,6 +34,24 @@ IdealPath::IdealPath(const StepMove& move) : move_(move), before_(move.from) {
   if (move.arc->clockwise) sweep_ = -sweep_;
   if (sweep_ <= 0) sweep_ += full_turn;
   length_ = radius_ * sweep_;
+}
+
+std::array<double, most_axes> IdealPath::at(double share) const {
+  std::array<double, most_axes> point{};
+  if (!move_.arc) {
+    for (std::size_t axis = 0; axis < move_.axes(); ++axis) {
+      const auto start = static_cast<double>(move_.from[axis]);
+      point[axis] = start + share * (static_cast<double>(move_.to[axis]) - start);
+    }
+    return point;
+  }
+  const Place& centre = move_.arc->centre;
+  const double turned = move_.arc->clockwise ? -share * sweep_ : share * sweep_;
+  const double angle = turned + std::atan2(static_cast<double>(move_.from[1] - centre[1]),
+                                           static_cast<double>(move_.from[0] - centre[0]));
+  point[0] = static_cast<double>(centre[0]) + radius_ * std::cos(angle);
+  point[1] = static_cast<double>(centre[1]) + radius_ * std::sin(angle);
+  return point;
 }
 
 double IdealPath::line_progress(const Place& place) const {

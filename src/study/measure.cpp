@@ -4,19 +4,13 @@
 #include <bit>
 #include <cmath>
 
-#include "ideal_path.hpp"
+#include "passo/study/ideal_path.hpp"
 
 namespace passo {
 namespace {
 
-double way_of(Pulse pulse) {
-  return std::sqrt(static_cast<double>(std::popcount(pulse.steps)));
-}
-
-struct Count {
-  double pulses = 0;
-  double way = 0;  // sum of the roots
-};
+// How often the watch hears of it: every so many pulses.
+constexpr std::int64_t pulses_between_looks = 1 << 18;
 
 // Fastest and slowest step, and the lag, under one rule. Times run from 0 to 1 over the move.
 class EvennessBuilder {
@@ -52,41 +46,66 @@ void apply(Pulse pulse, Place& place) {
   }
 }
 
-Result<Measures, std::string> measure(const Method& method, const StepMove& move) {
-  auto counted = start(method, move);
-  if (!counted) return Failure{counted.error()};
-  Count total;
-  for (; !(*counted)->done(); ++total.pulses) total.way += way_of((*counted)->next());
+double way_of(Pulse pulse) {
+  return std::sqrt(static_cast<double>(std::popcount(pulse.steps)));
+}
 
+SpeedClock::SpeedClock(SpeedRule rule, std::int64_t pulses, double way)
+    : rule_(rule), total_(rule == SpeedRule::beats ? static_cast<double>(pulses) : way) {}
+
+double SpeedClock::after(const Followed& followed) {
+  if (rule_ == SpeedRule::exact) return followed.progress;
+  done_ += rule_ == SpeedRule::beats ? 1 : way_of(followed.pulse);
+  return done_ / total_;
+}
+
+Status<std::string> follow(const Method& method, const StepMove& move,
+                           const std::function<void(const Followed&)>& visit) {
   auto source = start(method, move);
-  Measures found;
+  if (!source) return Failure{source.error()};
   IdealPath path(move);
   Place place = move.from;
-  Count now;
-  double deviations = 0;
-  std::array<EvennessBuilder, speed_rules> evenness;
   while (!(*source)->done()) {
     const Pulse pulse = (*source)->next();
-    const double way = way_of(pulse);
     apply(pulse, place);
-    ++found.pulses;
-    ++now.pulses;
-    now.way += way;
-    if (std::popcount(pulse.steps) > 1) ++found.together;
-    if (pulse.steps == 0) ++found.idle;
-    if (pulse.steps != 0) {
-      const double deviation = path.distance(place);
-      found.largest_deviation = std::max(found.largest_deviation, deviation);
-      deviations += deviation;
-    }
-    const double progress = path.progress(place);
-    evenness[0].add(now.pulses / total.pulses, way, progress);
-    evenness[1].add(now.way / total.way, way, progress);
-    evenness[2].add(progress, way, progress);
+    visit({.pulse = pulse, .place = place, .progress = path.progress(place), .deviation = path.distance(place)});
   }
+  return Unit{};
+}
+
+Result<Measures, std::string> measure(const Method& method, const StepMove& move,
+                                      const std::function<void(double)>& watch) {
+  auto counted = start(method, move);
+  if (!counted) return Failure{counted.error()};
+  Measures found;
+  double way = 0;
+  for (; !(*counted)->done(); ++found.pulses) way += way_of((*counted)->next());
+
+  std::array<SpeedClock, speed_rules> clocks = {SpeedClock(SpeedRule::beats, found.pulses, way),
+                                                SpeedClock(SpeedRule::roots, found.pulses, way),
+                                                SpeedClock(SpeedRule::exact, found.pulses, way)};
+  std::array<EvennessBuilder, speed_rules> evenness;
+  double deviations = 0;
+  std::int64_t pulses = 0;
+  const Status<std::string> followed = follow(method, move, [&](const Followed& now) {
+    if (std::popcount(now.pulse.steps) > 1) ++found.together;
+    if (now.pulse.steps == 0) ++found.idle;
+    if (now.pulse.steps != 0) {
+      found.largest_deviation = std::max(found.largest_deviation, now.deviation);
+      deviations += now.deviation;
+    }
+    for (std::size_t rule = 0; rule < speed_rules; ++rule) {
+      evenness[rule].add(clocks[rule].after(now), way_of(now.pulse), now.progress);
+    }
+    if (++pulses % pulses_between_looks == 0 && watch) {
+      watch(static_cast<double>(pulses) / static_cast<double>(found.pulses));
+    }
+  });
+  if (!followed) return Failure{followed.error()};
   const std::int64_t moving = found.pulses - found.idle;
   if (moving != 0) found.mean_deviation = deviations / static_cast<double>(moving);
-  for (std::size_t rule = 0; rule < speed_rules; ++rule) found.evenness[rule] = evenness[rule].result(path.length());
+  const double length = IdealPath(move).length();
+  for (std::size_t rule = 0; rule < speed_rules; ++rule) found.evenness[rule] = evenness[rule].result(length);
   return found;
 }
 

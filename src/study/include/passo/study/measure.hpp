@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "passo/base/result.hpp"
@@ -38,9 +39,38 @@ struct Measures {
   std::array<Evenness, speed_rules> evenness;  // by SpeedRule
 };
 
-// Runs the method twice over the move: the first time its pulses are counted.
-Result<Measures, std::string> measure(const Method& method, const StepMove& move);
+// What there is to see after a pulse.
+struct Followed {
+  Pulse pulse;
+  const Place& place;
+  double progress = 0;   // of the foot on the ideal path, 0 … 1
+  double deviation = 0;  // steps
+};
 
+// Runs the method over the move, or says why it does not take it.
+Status<std::string> follow(const Method& method, const StepMove& move,
+                           const std::function<void(const Followed&)>& visit);
+
+// Runs the method twice over the move: the first time its pulses are counted. `watch` hears now and then what share of
+// the work is done.
+Result<Measures, std::string> measure(const Method& method, const StepMove& move,
+                                      const std::function<void(double)>& watch = nullptr);
+
+// The time after each pulse under one rule, 0 … 1 over the move.
+class SpeedClock {
+ public:
+  // `pulses` and `way`: of the whole move; `way` is the sum of way_of() over its pulses.
+  SpeedClock(SpeedRule rule, std::int64_t pulses, double way);
+  double after(const Followed& followed);
+
+ private:
+  SpeedRule rule_;
+  double total_;
+  double done_ = 0;
+};
+
+// √n for a pulse of n axes: how far it moves the tool.
+double way_of(Pulse pulse);
 // One pulse on.
 void apply(Pulse pulse, Place& place);
 

@@ -1,7 +1,7 @@
-// IdealPath: the curve that the pulses stand for, followed along with the tool. Private to study/.
+// IdealPath: the curve that the pulses stand for, and where the tool is beside it.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "passo/study/step_move.hpp"
 
@@ -12,6 +12,8 @@ class IdealPath {
   explicit IdealPath(const StepMove& move);
 
   double length() const { return length_; }  // steps
+  // The point after a share of the path, 0 … 1; axes that the move lacks are 0.
+  std::array<double, most_axes> at(double share) const;
   // The tool stands at `place` now; called for each place in turn, for a full circle has more than one answer.
   // How much of the path lies behind the tool's foot on it, 0 at the start, 1 at the end.
   double progress(const Place& place);
