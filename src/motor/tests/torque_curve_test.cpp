@@ -1,0 +1,1 @@
+#include "passo/motor/torque_curve.hpp"
