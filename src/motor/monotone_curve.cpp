@@ -23,7 +23,7 @@ double inner_slope(const Piece& left, const Piece& right) {
   if (!(left.slope * right.slope > 0)) return 0;
   const double left_weight = left.width + 2 * right.width;
   const double right_weight = 2 * left.width + right.width;
-  return (left_weight + right_weight) / (right_weight / left.slope + left_weight / right.slope);
+  return (left_weight + right_weight) / (left_weight / left.slope + right_weight / right.slope);
 }
 
 // Of the parabola through the last three points, held back so that the end piece does not turn.

@@ -29,21 +29,15 @@ std::optional<double> end_of(const Holds& holds) {
   return low;
 }
 
-// How much a rotor may lose to the field before it is lost, in units of torque a tooth: from 2 without friction down
-// to 0 with as much friction as torque.
-double catching_energy(double friction_share) {
-  const double lag = std::asin(friction_share);
-  return 2 * std::sqrt(1 - friction_share * friction_share) - friction_share * (std::numbers::pi - 2 * lag);
-}
-
-// The share of friction at which just `energy` is left; catching_energy() falls.
+// The share cos β of the torque that friction may take if `energy`, in units of torque a tooth, has to be left to catch
+// the rotor: 2·(sin β − β·cos β), which rises from 0 to 2 while β goes from 0 to a quarter turn.
 double friction_share_for(double energy) {
   double low = 0;
-  double high = 1;
-  for (double middle = 0.5; middle > low && middle < high; middle = (low + high) / 2) {
-    (catching_energy(middle) >= energy ? low : high) = middle;
+  double high = std::numbers::pi / 2;
+  for (double middle = high / 2; middle > low && middle < high; middle = (low + high) / 2) {
+    (2 * (std::sin(middle) - middle * std::cos(middle)) < energy ? low : high) = middle;
   }
-  return low;
+  return std::cos(low);
 }
 
 double up_to_the_last_point(const MonotoneCurve& curve, double x) {

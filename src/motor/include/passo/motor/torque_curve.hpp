@@ -10,10 +10,10 @@
 // moves back at ω, and it is a pendulum: it is caught if its energy does not carry it over the top, half a period of
 // the torque behind. With T = pull-out at ω, N rotor teeth, friction F and the inertia J of rotor and load
 //
-//   ½·J·ω² ≤ (T/N)·[2·√(1 − τ²) − τ·(π − 2·asin τ)]        τ = F/T
+//   ½·J·ω² ≤ (2·T/N)·(sin β − β·cos β)        cos β = F/T
 //
-// (the equal-area criterion of synchronous machines, from the lag asin τ at which the rotor breaks loose). Where T is
-// flat that is ω_s = ω_s0/√(1 + J_load/J_rotor), the rule of the data sheets, and by this rule pull-in points, which
+// (the equal-area criterion of synchronous machines, from the lag at which the rotor breaks loose). Where T is flat
+// that is ω_s = ω_s0/√(1 + J_load/J_rotor), the rule of the data sheets, and by this rule pull-in points, which
 // hold for the rotor alone, are carried over to a load. It is an upper bound: damping left out errs on the one side,
 // currents that lag, resonance and the jerk of whole first steps on the other, so take no more than part of it.
 //
