@@ -28,8 +28,7 @@ double inner_slope(const Piece& left, const Piece& right) {
 
 // Of the parabola through the last three points, held back so that the end piece does not turn.
 double end_slope(const Piece& end, const Piece& next) {
-  const double slope =
-      ((2 * end.width + next.width) * end.slope - end.width * next.slope) / (end.width + next.width);
+  const double slope = ((2 * end.width + next.width) * end.slope - end.width * next.slope) / (end.width + next.width);
   if (!(slope * end.slope > 0)) return 0;
   if (!(end.slope * next.slope > 0) && std::abs(slope) > 3 * std::abs(end.slope)) return 3 * end.slope;
   return slope;
@@ -48,8 +47,8 @@ Result<MonotoneCurve, CurveError> MonotoneCurve::through(std::vector<CurvePoint>
   }
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].x > points[i - 1].x) continue;
-    return Failure{CurveError{fmt::format("the points must go up along the curve, and {:g} comes after {:g}",
-                                          points[i].x, points[i - 1].x)}};
+    return Failure{CurveError{
+        fmt::format("the points must go up along the curve, and {:g} comes after {:g}", points[i].x, points[i - 1].x)}};
   }
   return MonotoneCurve(std::move(points));
 }

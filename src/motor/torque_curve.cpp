@@ -50,12 +50,13 @@ Result<MonotoneCurve, MotorError> falling_curve(const char* name, const Rotor& r
   for (const TorquePoint& point : points) {
     const double rate = point.rate.value();
     if (!(rate >= 0) || !(point.torque.value >= 0)) {
-      return Failure{MotorError{fmt::format("{}: rate and torque cannot be negative, as in {:g}:{:g}", name, rate,
-                                            point.torque.value)}};
+      return Failure{MotorError{
+          fmt::format("{}: rate and torque cannot be negative, as in {:g}:{:g}", name, rate, point.torque.value)}};
     }
     if (!plain.empty() && point.torque.value > plain.back().y) {
-      return Failure{MotorError{fmt::format("{}: torque falls with the rate, but rises to {:g} N\u00B7m at {:g} steps/s",
-                                            name, point.torque.value, rate)}};
+      return Failure{
+          MotorError{fmt::format("{}: torque falls with the rate, but rises to {:g} N\u00B7m at {:g} steps/s", name,
+                                 point.torque.value, rate)}};
     }
     plain.push_back({rate * 2 * std::numbers::pi / rotor.steps_per_revolution, point.torque.value});
   }
@@ -72,15 +73,15 @@ Result<MonotoneCurve, MotorError> falling_curve(const char* name, const Rotor& r
 Status<MotorError> check(const Load& load) {
   const auto good = [](double value) { return std::isfinite(value) && value >= 0; };
   if (!good(load.inertia.value)) {
-    return Failure{
-        MotorError{fmt::format("the load's inertia cannot be below 0 kg\u00B7m\u00B2, as {:g} is", load.inertia.value)}};
+    return Failure{MotorError{
+        fmt::format("the load's inertia cannot be below 0 kg\u00B7m\u00B2, as {:g} is", load.inertia.value)}};
   }
   if (!good(load.friction.value)) {
     return Failure{MotorError{fmt::format("friction cannot be below 0 N\u00B7m, as {:g} is", load.friction.value)}};
   }
   if (!good(load.friction_per_speed.value)) {
-    return Failure{MotorError{
-        fmt::format("friction cannot fall with the speed, as {:g} N\u00B7m\u00B7s/rad says", load.friction_per_speed.value)}};
+    return Failure{MotorError{fmt::format("friction cannot fall with the speed, as {:g} N\u00B7m\u00B7s/rad says",
+                                          load.friction_per_speed.value)}};
   }
   return Unit{};
 }
@@ -98,8 +99,8 @@ Result<TorqueCurve, MotorError> TorqueCurve::from_points(const Rotor& rotor, con
   if (!inner) return Failure{inner.error()};
   for (const TorquePoint& point : pull_in) {
     if (point.torque <= curve.pull_out(curve.speed_at(point.rate))) continue;
-    return Failure{MotorError{
-        fmt::format("pull-in cannot be above pull-out, as it is at {:g} steps/s", point.rate.value())}};
+    return Failure{
+        MotorError{fmt::format("pull-in cannot be above pull-out, as it is at {:g} steps/s", point.rate.value())}};
   }
   curve.pull_in_ = std::move(*inner);
   return curve;
@@ -142,9 +143,7 @@ double TorqueCurve::computed_pull_in(double speed, double inertia) const {
 }
 
 RadiansPerSecond TorqueCurve::maximum_starting_speed(const Load& load) const {
-  const auto starts = [&](double speed) {
-    return pull_in({speed}, load.inertia) > load.friction_at({speed});
-  };
+  const auto starts = [&](double speed) { return pull_in({speed}, load.inertia) > load.friction_at({speed}); };
   // Inertia always ends it.
   return {end_of(starts).value_or(beyond_any_motor)};
 }

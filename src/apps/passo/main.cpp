@@ -1,10 +1,11 @@
 // passo: from a drawing to motor phases, on the command line.
 //
-// The only place that knows CLI11 (it compiles slowly). What the commands do is in a file each.
+// Only this and *_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file each.
 #include <cstdio>
 #include <exception>
 
 #include "commands.hpp"
+#include "motor_options.hpp"
 #include <CLI/CLI.hpp>
 
 namespace {
@@ -22,6 +23,7 @@ constexpr const char* examples = R"(Examples:
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo canon part.ngc                                        what it means, as canonical calls
   passo machine router.toml                                   what a machine file says
+  passo motor --help                                          what a stepping motor can do at each speed
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -69,6 +71,9 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
 
+  MotorArguments motor_arguments;
+  CLI::App& motor_command = add_motor_command(app, motor_arguments);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -77,6 +82,7 @@ int parse_and_run(int argc, char** argv) {
   if (run_command.parsed()) return run(run_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
+  if (motor_command.parsed()) return motor(motor_arguments);
   return machine(machine_arguments);
 }
 

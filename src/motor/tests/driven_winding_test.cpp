@@ -131,7 +131,9 @@ TEST(DrivenWinding, a_half_coil_is_a_quarter_of_the_inductance_at_the_same_heat)
   EXPECT_DOUBLE_EQ(half.inductance.value, 2.8e-3 / 4);
   EXPECT_DOUBLE_EQ(half.rated_current.value, 1.7 * sqrt2);
   EXPECT_DOUBLE_EQ(half.holding_torque.value, 0.45 / sqrt2);
-  const auto heat = [](const MotorData& motor) { return motor.rated_current.value * motor.rated_current.value * motor.resistance.value; };
+  const auto heat = [](const MotorData& motor) {
+    return motor.rated_current.value * motor.rated_current.value * motor.resistance.value;
+  };
   EXPECT_DOUBLE_EQ(heat(half), heat(whole));
   const MotorData back = as_wound(half, Winding::whole_coil);
   EXPECT_DOUBLE_EQ(back.inductance.value, whole.inductance.value);
@@ -169,8 +171,10 @@ TEST(MotorData, is_refused_with_the_value_that_is_wrong) {
             "a two-phase motor makes a multiple of 4 full steps a revolution, not 0");
   EXPECT_EQ(message([](MotorData& m) { m.rotor.inertia = {0}; }),
             "the rotor's inertia must be above 0 kg\u00B7m\u00B2, not 0");
-  EXPECT_EQ(message([](MotorData& m) { m.holding_torque = {-1}; }), "the holding torque must be above 0 N\u00B7m, not -1");
-  EXPECT_EQ(message([](MotorData& m) { m.rated_current = {std::nan("")}; }), "the rated current must be above 0 A, not nan");
+  EXPECT_EQ(message([](MotorData& m) { m.holding_torque = {-1}; }),
+            "the holding torque must be above 0 N\u00B7m, not -1");
+  EXPECT_EQ(message([](MotorData& m) { m.rated_current = {std::nan("")}; }),
+            "the rated current must be above 0 A, not nan");
   EXPECT_EQ(message([](MotorData& m) { m.resistance = {0}; }), "the resistance must be above 0 ohm, not 0");
   EXPECT_EQ(message([](MotorData& m) { m.inductance = {1 / 0.0}; }), "the inductance must be above 0 H, not inf");
   EXPECT_EQ(check(Drive{.supply = {0}}).error().message, "the supply voltage must be above 0 V, not 0");

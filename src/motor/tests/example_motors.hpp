@@ -38,11 +38,12 @@ inline Driven random_motor(std::mt19937_64& random) {
   };
   const double current = between(0.3, 5);
   const double resistance = between(1, 6) / current;
-  MotorData motor{.rotor = {.steps_per_revolution = 4 * static_cast<int>(between(6, 101)), .inertia = {between(1e-6, 3e-4)}},
-                  .holding_torque = {between(0.05, 4)},
-                  .rated_current = {current},
-                  .resistance = {resistance},
-                  .inductance = {resistance * between(5e-4, 4e-3)}};
+  MotorData motor{
+      .rotor = {.steps_per_revolution = 4 * static_cast<int>(between(6, 101)), .inertia = {between(1e-6, 3e-4)}},
+      .holding_torque = {between(0.05, 4)},
+      .rated_current = {current},
+      .resistance = {resistance},
+      .inductance = {resistance * between(5e-4, 4e-3)}};
   return {motor, {.supply = {current * resistance * between(1.2, 20)}}};
 }
 

@@ -39,8 +39,8 @@ struct Coils {
   double speed = 0;      // of the rotor, rad/s
 };
 
-// The mean torque in the steady state. `source(angle, current)` tells the voltages at the drive for the drive's angle and
-// the currents that flow; it is ahead of the rotor's back-EMF by `lead`.
+// The mean torque in the steady state. `source(angle, current)` tells the voltages at the drive for the drive's angle
+// and the currents that flow; it is ahead of the rotor's back-EMF by `lead`.
 template <class Source>
 double mean_torque(const Coils& coils, const Source& source, double lead, double fastest_change) {
   const double period = 2 * pi / coils.frequency;
@@ -121,10 +121,11 @@ struct Bench {
   double resistive(double speed) const {
     Coils turning = at(speed);
     turning.resistance = supply / current;
-    const auto source = [this](double angle, Pair) { return Pair{-supply * std::sin(angle), supply * std::cos(angle)}; };
-    return most_torque([&](double lead) {
-      return mean_torque(turning, source, lead, turning.inductance / turning.resistance);
-    });
+    const auto source = [this](double angle, Pair) {
+      return Pair{-supply * std::sin(angle), supply * std::cos(angle)};
+    };
+    return most_torque(
+        [&](double lead) { return mean_torque(turning, source, lead, turning.inductance / turning.resistance); });
   }
   // Full steps: the supply is switched, never turned.
   double resistive_full_steps(double speed) const {
@@ -133,9 +134,8 @@ struct Bench {
     const auto source = [this](double angle, Pair) {
       return Pair{std::sin(angle) < 0 ? supply : -supply, std::cos(angle) < 0 ? -supply : supply};
     };
-    return most_torque([&](double lead) {
-      return mean_torque(turning, source, lead, turning.inductance / turning.resistance);
-    });
+    return most_torque(
+        [&](double lead) { return mean_torque(turning, source, lead, turning.inductance / turning.resistance); });
   }
   // A regulator that follows sines of the rated current and has no more than the supply to do it, in the sum of both
   // phases (`together`) or in each.
@@ -159,8 +159,8 @@ struct Bench {
 
 // Around where the supply is used up, which is where the curve bends.
 std::vector<double> speeds_of(const Bench& bench) {
-  const double corner = bench.supply / (bench.teeth * bench.current * bench.coils.inductance +
-                                        bench.coils.torque_constant);
+  const double corner =
+      bench.supply / (bench.teeth * bench.current * bench.coils.inductance + bench.coils.torque_constant);
   return {0.1 * corner, 0.5 * corner, 0.8 * corner, corner, 1.5 * corner, 3 * corner};
 }
 

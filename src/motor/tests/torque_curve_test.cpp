@@ -153,8 +153,7 @@ TEST(TorqueCurve, a_simulated_rotor_starts_just_below_the_computed_speed_and_not
     const double torque = 0.05 + share(random);
     const double friction = torque * 0.95 * share(random);
     const double load = rotor.inertia.value * 4 * share(random);
-    const double computed =
-        flat(torque).maximum_starting_speed({.inertia = {load}, .friction = {friction}}).value;
+    const double computed = flat(torque).maximum_starting_speed({.inertia = {load}, .friction = {friction}}).value;
     const double inertia = rotor.inertia.value + load;
     EXPECT_TRUE(rotor_starts(torque, friction, inertia, 50, 0.995 * computed)) << friction / torque;
     EXPECT_FALSE(rotor_starts(torque, friction, inertia, 50, 1.005 * computed)) << friction / torque;

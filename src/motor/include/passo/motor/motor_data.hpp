@@ -53,10 +53,10 @@ struct Rotor {
 
 struct MotorData {
   Rotor rotor = {};
-  NewtonMetres holding_torque = {};  // both phases on at the rated current
-  Amperes rated_current = {};        // of a phase, both on
-  Ohms resistance = {};              // of a phase
-  Henries inductance = {};           // of a phase
+  NewtonMetres holding_torque = {};       // both phases on at the rated current
+  Amperes rated_current = {};             // of a phase, both on
+  Ohms resistance = {};                   // of a phase
+  Henries inductance = {};                // of a phase
   Winding winding = Winding::whole_coil;  // what the four above were measured on
 };
 
