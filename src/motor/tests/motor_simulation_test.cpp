@@ -88,7 +88,7 @@ double most_torque(const Torque& torque) {
       best = angle;
     }
   }
-  for (; width > 0.004; width /= 2) {
+  for (; width > 0.02; width /= 2) {
     for (const double angle : {best - width / 2, best + width / 2}) {
       const double here = torque(angle);
       if (here > most) {
