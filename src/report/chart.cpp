@@ -75,8 +75,9 @@ void Chart::draw_frame() {
 std::vector<Spot> Chart::spots(const Function& function, double end) const {
   std::vector<Spot> all;
   const double last = std::min(end, x_.end);
-  // A spot a pixel, and the very end: a curve may stop with a step there.
-  const int count = std::max(1, static_cast<int>(std::ceil(area_.width * last / x_.end)));
+  // As close as the eye asks for, and the very end: a curve may stop with a step there.
+  constexpr double distance = 2;
+  const int count = std::max(1, static_cast<int>(std::ceil(area_.width * last / x_.end / distance)));
   for (int i = 0; i <= count; ++i) {
     const double x = last * i / count;
     all.push_back(at(x, std::clamp(function(x), 0.0, y_.end)));

@@ -57,11 +57,14 @@ struct Functions {
   const MotorScene& scene;
 };
 
-// Words on a backing, so that curves pass behind them; left of `spot` where the frame ends on its right.
+// Words on a backing, so that lines pass behind them: right of `spot` and above it, or left and below where there is no
+// room on the right. A falling curve passes on the other sides.
 void draw_note(Canvas& canvas, const Chart& chart, Spot spot, const std::string& text) {
+  const Area& frame = chart.area();
   const double width = canvas.text_width(text, caption);
-  const bool left = spot.x + 12 + width + 8 > chart.area().right();
-  const Spot begin{left ? spot.x - 12 - width : spot.x + 12, std::max(spot.y - 20, chart.area().y + 16)};
+  const bool left = spot.x + 12 + width + 8 > frame.right();
+  const Spot begin{left ? spot.x - 14 - width : spot.x + 12,
+                   std::clamp(left ? spot.y + 20 : spot.y - 20, frame.y + 16, frame.bottom() - 16)};
   const Area backing{begin.x - 5, begin.y - 10, width + 10, 20};
   canvas.fill({{backing.x, backing.y},
                {backing.right(), backing.y},

@@ -12,12 +12,12 @@ constexpr const char* description =
 constexpr const char* examples = R"(Give the motor's data and its supply, or points of its data sheet's curve.
 
 Examples:
-  A small motor (1.7 A, 0.45 N·m) on 24 V, that moves as much inertia again against 0.05 N·m:
+  A small motor (1.7 A, 0.45 N·m) on 24 V, that moves as much inertia again against 0.1 N·m:
     passo motor --holding-torque 0.45 --current 1.7 --resistance 1.5 --inductance 2.8 --rotor-inertia 68 \
-      --supply 24 --load-inertia 68 --friction 0.05 --picture motor.svg
+      --supply 24 --load-inertia 68 --friction 0.1 --picture motor.svg
   The same on 12 V through a resistor; how fast it starts and runs:
     passo motor --holding-torque 0.45 --current 1.7 --resistance 1.5 --inductance 2.8 --rotor-inertia 68 \
-      --supply 12 --regulation resistive --friction 0.05 --json
+      --supply 12 --regulation resistive --friction 0.1 --json
   From points of a data sheet, as a table:
     passo motor --curve 0:0.40,1000:0.36,2000:0.25,4000:0.10,6000:0.04 --rotor-inertia 68
 

@@ -71,7 +71,7 @@ TEST(MonotoneCurve, random_falling_points_make_a_falling_curve_without_corners) 
     const auto count = 2 + static_cast<int>(random() % 10);
     while (static_cast<int>(points.size()) < count) {
       const double drop = random() % 4 == 0 ? 0 : std::pow(share(random), 4) * 30;
-      points.push_back({points.back().x + 0.01 + 3 * share(random), points.back().y - drop});
+      points.push_back({points.back().x + 0.1 + 3 * share(random), points.back().y - drop});
     }
     const MonotoneCurve curve = through(points);
     double last = points.front().y;
