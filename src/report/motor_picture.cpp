@@ -16,7 +16,6 @@ const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
 const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
 const Font caption{.size = 14};
 const Colour paper{1, 1, 1};
-const Colour ink{0.25, 0.27, 0.30};
 // Blue and orange: told apart by every eye, and in grey.
 const Pen pull_out_pen{.colour = {0.10, 0.33, 0.60}, .width = 2.6};
 const Pen pull_in_pen{.colour = {0.80, 0.40, 0.05}, .width = 2.6};

@@ -14,8 +14,9 @@
 //
 // (the equal-area criterion of synchronous machines, from the lag at which the rotor breaks loose). Where T is flat
 // that is ω_s = ω_s0/√(1 + J_load/J_rotor), the rule of the data sheets, and by this rule pull-in points, which
-// hold for the rotor alone, are carried over to a load. It is an upper bound: damping left out errs on the one side,
-// currents that lag, resonance and the jerk of whole first steps on the other, so take no more than part of it.
+// hold for the rotor alone, are carried over to a load. It is an estimate: damping, currents that lag, resonance and
+// the jerk of whole first steps are left out, so take no more than part of it. docs/ramps/torque.md says how far it is
+// right.
 //
 // Invariant: pull-out never rises, and pull-in is never above it. Speeds are ≥ 0. Rates are full steps a second.
 //

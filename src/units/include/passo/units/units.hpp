@@ -70,7 +70,7 @@ struct Radians {
 // What turns a motor, and what it turns: per second are radians, not revolutions.
 struct RadiansPerSecond {
   double value = 0;
-  friend constexpr auto operator<=>(RadiansPerSecond, RadiansPerSecond) = default;
+  friend constexpr auto operator<=>(RadiansPerSecond, RadiansPerSecond) = default;  // NOLINT(modernize-use-nullptr)
 };
 struct RadiansPerSecond2 {
   double value = 0;
@@ -78,7 +78,7 @@ struct RadiansPerSecond2 {
 };
 struct NewtonMetres {
   double value = 0;
-  friend constexpr auto operator<=>(NewtonMetres, NewtonMetres) = default;
+  friend constexpr auto operator<=>(NewtonMetres, NewtonMetres) = default;  // NOLINT(modernize-use-nullptr)
 };
 struct KilogramMetres2 {
   double value = 0;
