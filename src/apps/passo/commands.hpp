@@ -2,6 +2,7 @@
 // code.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,5 +68,30 @@ struct InterpolateArguments {
   double steps_per_mm = 100;
 };
 int interpolate(const InterpolateArguments& arguments);
+
+// In the units of data sheets, which are also those of the options.
+struct MotorArguments {
+  std::vector<std::string> pull_out;  // "rate:torque" each
+  std::vector<std::string> pull_in;
+  int steps_per_revolution = 200;
+  double rotor_inertia = 0;              // g·cm²
+  std::optional<double> holding_torque;  // N·m
+  std::optional<double> current;         // A
+  std::optional<double> resistance;      // ohm
+  std::optional<double> inductance;      // mH
+  std::optional<double> supply;          // V
+  std::string drive = "bipolar";         // or unipolar
+  std::string data;                      // what of both the values are for; empty: as the drive
+  std::string regulation = "chopper";    // or resistive
+  double load_inertia = 0;               // g·cm²
+  double friction = 0;                   // N·m
+  double friction_per_speed = 0;         // N·m·s/rad
+  double margin = 1;
+  std::optional<double> max_rate;  // full steps/s, where tables and pictures end
+  int rows = 101;
+  std::vector<std::string> pictures;  // .svg or .png
+  bool json = false;
+};
+int motor(const MotorArguments& arguments);
 
 }  // namespace passo

@@ -1,10 +1,11 @@
 // passo: from a drawing to motor phases, on the command line.
 //
-// The only place that knows CLI11 (it compiles slowly). What the commands do is in a file each.
+// Only this and *_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file each.
 #include <cstdio>
 #include <exception>
 
 #include "commands.hpp"
+#include "motor_options.hpp"
 #include <CLI/CLI.hpp>
 
 namespace {
@@ -23,6 +24,7 @@ constexpr const char* examples = R"(Examples:
   passo canon part.ngc                                        what it means, as canonical calls
   passo machine router.toml                                   what a machine file says
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
+  passo motor --help                                          what a stepping motor can do at each speed
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -101,6 +103,8 @@ int parse_and_run(int argc, char** argv) {
   InterpolateArguments interpolate_arguments;
   CLI::App& interpolate_command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
   add_interpolate(interpolate_command, interpolate_arguments);
+  MotorArguments motor_arguments;
+  CLI::App& motor_command = add_motor_command(app, motor_arguments);
 
   try {
     app.parse(argc, argv);
@@ -111,6 +115,7 @@ int parse_and_run(int argc, char** argv) {
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
+  if (motor_command.parsed()) return motor(motor_arguments);
   return machine(machine_arguments);
 }
 

@@ -67,6 +67,24 @@ struct Radians {
   friend constexpr auto operator<=>(Radians, Radians) = default;
 };
 
+// What turns a motor, and what it turns: per second are radians, not revolutions.
+struct RadiansPerSecond {
+  double value = 0;
+  friend constexpr auto operator<=>(RadiansPerSecond, RadiansPerSecond) = default;  // NOLINT(modernize-use-nullptr)
+};
+struct RadiansPerSecond2 {
+  double value = 0;
+  friend constexpr auto operator<=>(RadiansPerSecond2, RadiansPerSecond2) = default;
+};
+struct NewtonMetres {
+  double value = 0;
+  friend constexpr auto operator<=>(NewtonMetres, NewtonMetres) = default;  // NOLINT(modernize-use-nullptr)
+};
+struct KilogramMetres2 {
+  double value = 0;
+  friend constexpr auto operator<=>(KilogramMetres2, KilogramMetres2) = default;
+};
+
 // Counted, not measured: motor steps, and counts of the board's timer.
 struct Steps {
   std::int64_t count = 0;

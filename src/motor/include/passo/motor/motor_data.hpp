@@ -1,0 +1,83 @@
+// MotorData and Drive: what a data sheet says of a two-phase hybrid (or permanent-magnet) stepping motor, and what
+// drives it.
+//
+// The electrical values of a sheet belong to a way of connecting the motor. A bipolar drive pushes current through the
+// whole coil of each phase, in both directions. A unipolar one has the coil tapped in its middle and pushes current
+// through one half for one direction, through the other half for the other: half of the copper is always idle. Four
+// leads: the sheet is for whole coils. Five or six: it is nearly always for half coils. `as_wound` converts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "passo/base/result.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+struct Volts {
+  double value = 0;
+  friend constexpr auto operator<=>(Volts, Volts) = default;
+};
+struct Amperes {
+  double value = 0;
+  friend constexpr auto operator<=>(Amperes, Amperes) = default;
+};
+struct Ohms {
+  double value = 0;
+  friend constexpr auto operator<=>(Ohms, Ohms) = default;
+};
+struct Henries {
+  double value = 0;
+  friend constexpr auto operator<=>(Henries, Henries) = default;
+};
+
+enum class Winding : std::uint8_t {
+  whole_coil,  // bipolar
+  half_coil,   // unipolar
+};
+
+enum class Regulation : std::uint8_t {
+  chopper,    // holds the rated current by switching, as long as the supply can push it
+  resistive,  // the supply through a resistor that lets the rated current flow at standstill (an L/R drive)
+};
+
+struct Rotor {
+  // Full steps. Two phases have four of them a rotor tooth, so that it is a multiple of four.
+  int steps_per_revolution = 200;
+  KilogramMetres2 inertia = {};
+
+  // Periods of the winding's current a revolution.
+  double teeth() const { return steps_per_revolution / 4.0; }
+};
+
+struct MotorData {
+  Rotor rotor = {};
+  NewtonMetres holding_torque = {};       // both phases on at the rated current
+  Amperes rated_current = {};             // of a phase, both on
+  Ohms resistance = {};                   // of a phase
+  Henries inductance = {};                // of a phase
+  Winding winding = Winding::whole_coil;  // what the four above were measured on
+};
+
+struct Drive {
+  Volts supply = {};
+  Winding winding = Winding::whole_coil;
+  Regulation regulation = Regulation::chopper;
+};
+
+struct MotorError {
+  std::string message;  // "the rotor's inertia must be above 0 kg·m², not -1"
+};
+
+// Each value is finite and above zero, the steps a multiple of four.
+Status<MotorError> check(const Rotor& rotor);
+Status<MotorError> check(const MotorData& data);
+Status<MotorError> check(const Drive& drive);
+
+// The same motor, its values for `winding`, at the same heat in the copper: a half coil has half the turns, so half the
+// resistance and torque per ampere, a quarter of the inductance, and takes √2 of the current; it holds 1/√2 of the
+// torque. (The resistance halves with the length of the wire; inductance goes with the turns squared.)
+MotorData as_wound(const MotorData& data, Winding winding);
+
+}  // namespace passo

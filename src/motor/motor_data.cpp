@@ -1,0 +1,61 @@
+#include "passo/motor/motor_data.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+struct Quantified {
+  const char* name;
+  double value;
+  const char* unit;
+};
+
+Status<MotorError> check_positive(std::initializer_list<Quantified> all) {
+  for (const Quantified& one : all) {
+    if (std::isfinite(one.value) && one.value > 0) continue;
+    return Failure{MotorError{fmt::format("{} must be above 0 {}, not {:g}", one.name, one.unit, one.value)}};
+  }
+  return Unit{};
+}
+
+}  // namespace
+
+Status<MotorError> check(const Rotor& rotor) {
+  if (rotor.steps_per_revolution < 4 || rotor.steps_per_revolution % 4 != 0) {
+    return Failure{MotorError{fmt::format("a two-phase motor makes a multiple of 4 full steps a revolution, not {}",
+                                          rotor.steps_per_revolution)}};
+  }
+  return check_positive({{"the rotor's inertia", rotor.inertia.value, "kg\u00B7m\u00B2"}});
+}
+
+Status<MotorError> check(const MotorData& data) {
+  Status<MotorError> rotor = check(data.rotor);
+  if (!rotor) return rotor;
+  return check_positive({{"the holding torque", data.holding_torque.value, "N\u00B7m"},
+                         {"the rated current", data.rated_current.value, "A"},
+                         {"the resistance", data.resistance.value, "ohm"},
+                         {"the inductance", data.inductance.value, "H"}});
+}
+
+Status<MotorError> check(const Drive& drive) {
+  return check_positive({{"the supply voltage", drive.supply.value, "V"}});
+}
+
+MotorData as_wound(const MotorData& data, Winding winding) {
+  if (data.winding == winding) return data;
+  const double turns = winding == Winding::half_coil ? 0.5 : 2.0;
+  const double root = std::sqrt(turns);
+  MotorData other = data;
+  other.winding = winding;
+  other.resistance.value *= turns;
+  other.inductance.value *= turns * turns;
+  other.rated_current.value /= root;
+  other.holding_torque.value *= root;  // (torque per ampere) × turns, × current / √turns
+  return other;
+}
+
+}  // namespace passo

@@ -1,0 +1,50 @@
+// Motors for the tests: one of each size from typical data sheets, and random ones.
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "passo/motor/motor_data.hpp"
+
+namespace passo::test {
+
+// 1.8 degrees, 42 mm square, 48 mm long: the motor of many small machines.
+inline MotorData small_motor() {
+  return {.rotor = {.steps_per_revolution = 200, .inertia = {6.8e-6}},
+          .holding_torque = {0.45},
+          .rated_current = {1.7},
+          .resistance = {1.5},
+          .inductance = {2.8e-3}};
+}
+
+// 57 mm square, 76 mm long.
+inline MotorData large_motor() {
+  return {.rotor = {.steps_per_revolution = 200, .inertia = {48e-6}},
+          .holding_torque = {1.9},
+          .rated_current = {2.8},
+          .resistance = {1.13},
+          .inductance = {3.6e-3}};
+}
+
+struct Driven {
+  MotorData motor;
+  Drive drive;
+};
+
+// Values that a motor may have, each over its decade or more, evenly in the logarithm.
+inline Driven random_motor(std::mt19937_64& random) {
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));
+  };
+  const double current = between(0.3, 5);
+  const double resistance = between(1, 6) / current;
+  MotorData motor{
+      .rotor = {.steps_per_revolution = 4 * static_cast<int>(between(6, 101)), .inertia = {between(1e-6, 3e-4)}},
+      .holding_torque = {between(0.05, 4)},
+      .rated_current = {current},
+      .resistance = {resistance},
+      .inductance = {resistance * between(5e-4, 4e-3)}};
+  return {motor, {.supply = {current * resistance * between(1.2, 20)}}};
+}
+
+}  // namespace passo::test

@@ -1,0 +1,23 @@
+// A picture of what a motor can do with its load: torque over speed with the start/stop region and the friction, and
+// below it the acceleration that is left.
+//
+// Rates are full steps a second.
+#pragma once
+
+#include "passo/base/result.hpp"
+#include "passo/motor/torque_curve.hpp"
+#include "passo/report/picture.hpp"
+
+namespace passo {
+
+struct MotorScene {
+  TorqueCurve curve;
+  Load load = {};
+  double margin = 1;  // of the torque, to accelerate with
+  Hertz end;          // of the axis of rates, at least
+};
+
+// `options.program` is the title, `options.machine` the line below it. Into `file`, which the caller commits.
+Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOptions& options, OutputFile& file);
+
+}  // namespace passo

@@ -1,0 +1,177 @@
+#include "passo/report/motor_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "axis_ticks.hpp"
+#include "cairo_canvas.hpp"
+#include "chart.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
+const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
+const Font caption{.size = 14};
+const Colour paper{1, 1, 1};
+// Blue and orange: told apart by every eye, and in grey.
+const Pen pull_out_pen{.colour = {0.10, 0.33, 0.60}, .width = 2.6};
+const Pen pull_in_pen{.colour = {0.80, 0.40, 0.05}, .width = 2.6};
+const Pen friction_pen{.colour = {0.45, 0.20, 0.45}, .width = 1.8, .opacity = 1, .dashes = {9, 6}};
+const Pen acceleration_pen{.colour = {0.10, 0.45, 0.30}, .width = 2.6};
+const Pen guide{.colour = {0.45, 0.47, 0.50}, .width = 1, .opacity = 1, .dashes = {2, 4}};
+const Colour start_shade{0.99, 0.87, 0.70};
+const Colour ramp_shade{0.86, 0.92, 0.98};
+const Colour acceleration_shade{0.87, 0.95, 0.90};
+constexpr double margin = 48;
+
+// All as functions of the rate, which is what the charts have along x.
+struct Functions {
+  explicit Functions(const MotorScene& motor) : scene(motor) {}
+  RadiansPerSecond speed(double rate) const { return scene.curve.speed_at(Hertz(rate)); }
+  double pull_out(double rate) const { return scene.curve.pull_out(speed(rate)).value; }
+  double pull_in(double rate) const { return scene.curve.pull_in(speed(rate), scene.load.inertia).value; }
+  double friction(double rate) const { return scene.load.friction_at(speed(rate)).value; }
+  bool has_friction() const { return scene.load.friction.value > 0 || scene.load.friction_per_speed.value > 0; }
+  double acceleration(double rate) const {
+    return scene.curve.available_acceleration(speed(rate), scene.load, scene.margin).value;
+  }
+  double starting_rate() const { return scene.curve.rate_at(scene.curve.maximum_starting_speed(scene.load)).value(); }
+  // Of the load; nothing where the model knows no end.
+  std::optional<double> fastest_rate() const {
+    const auto speed = scene.curve.fastest_speed(scene.load);
+    return speed ? std::optional(scene.curve.rate_at(*speed).value()) : std::nullopt;
+  }
+  // Where a curve ends: with a step down where only points are known.
+  double end_of_pull_out() const {
+    const auto speed = scene.curve.fastest_speed({});
+    return speed ? scene.curve.rate_at(*speed).value() : HUGE_VAL;
+  }
+  double end_of_pull_in() const {
+    return scene.curve.rate_at(scene.curve.maximum_starting_speed({.inertia = scene.load.inertia})).value();
+  }
+
+  const MotorScene& scene;
+};
+
+// Words on a backing, so that lines pass behind them: right of `spot` and above it, or left and below where there is no
+// room on the right. A falling curve passes on the other sides.
+void draw_note(Canvas& canvas, const Chart& chart, Spot spot, const std::string& text) {
+  const Area& frame = chart.area();
+  const double width = canvas.text_width(text, caption);
+  const bool left = spot.x + 12 + width + 8 > frame.right();
+  const Spot begin{left ? spot.x - 14 - width : spot.x + 12,
+                   std::clamp(left ? spot.y + 20 : spot.y - 20, frame.y + 16, frame.bottom() - 16)};
+  const Area backing{begin.x - 5, begin.y - 10, width + 10, 20};
+  canvas.fill({{backing.x, backing.y},
+               {backing.right(), backing.y},
+               {backing.right(), backing.bottom()},
+               {backing.x, backing.bottom()}},
+              paper, 0.85);
+  canvas.text(begin, text, caption);
+}
+
+void draw_dot(Canvas& canvas, Spot spot, const Colour& colour) {
+  canvas.disc(spot, 5.5, paper);
+  canvas.disc(spot, 4, colour);
+}
+
+std::string rate_text(double rate) {
+  return fmt::format("{:.0f} steps/s", rate);
+}
+
+void draw_torque(Chart& chart, const Functions& motor) {
+  const auto pull_out = [&](double rate) { return motor.pull_out(rate); };
+  const auto pull_in = [&](double rate) { return motor.pull_in(rate); };
+  const auto zero = [](double) { return 0.0; };
+  chart.draw_grid(false);
+  chart.draw_upper_scale("rev/min", motor.scene.curve.rotor().steps_per_revolution / seconds_per_minute);
+  chart.fill_between(zero, pull_out, motor.end_of_pull_out(), ramp_shade, 0.75);
+  chart.fill_between(zero, pull_in, motor.end_of_pull_in(), start_shade, 0.9);
+  chart.curve(pull_in, pull_in_pen, motor.end_of_pull_in());
+  chart.curve(pull_out, pull_out_pen, motor.end_of_pull_out());
+  if (motor.has_friction()) chart.curve([&](double rate) { return motor.friction(rate); }, friction_pen);
+  chart.draw_frame();
+}
+
+// The two rates that count, through both charts.
+void draw_rates(Canvas& canvas, const Chart& torque, const Chart& acceleration, const Functions& motor, double end) {
+  const double starting = motor.starting_rate();
+  const std::optional<double> fastest = motor.fastest_rate();
+  const auto draw = [&](double rate, const Pen& pen, const std::string& words) {
+    const Spot upper = torque.at(rate, motor.friction(rate));
+    canvas.line(upper, torque.at(rate, 0), guide);
+    canvas.line({upper.x, acceleration.area().y}, acceleration.at(rate, 0), guide);
+    draw_dot(canvas, upper, pen.colour);
+    draw_note(canvas, torque, upper, words + rate_text(rate));
+  };
+  if (starting > 0 && starting <= end) draw(starting, pull_in_pen, "starts and stops at once up to ");
+  if (fastest && *fastest > 0 && *fastest <= end) draw(*fastest, pull_out_pen, "runs up to ");
+}
+
+void draw_acceleration(Chart& chart, const Functions& motor) {
+  const auto acceleration = [&](double rate) { return motor.acceleration(rate); };
+  const double end = std::min(motor.end_of_pull_out(), motor.fastest_rate().value_or(HUGE_VAL));
+  chart.draw_grid();
+  chart.fill_between([](double) { return 0.0; }, acceleration, end, acceleration_shade);
+  chart.curve(acceleration, acceleration_pen, end);
+  chart.draw_frame();
+}
+
+void draw_legend(Canvas& canvas, const Functions& motor, Spot place) {
+  double x = place.x;
+  const auto words = [&](const std::string& text) {
+    canvas.text({x, place.y}, text, caption);
+    x += canvas.text_width(text, caption) + 44;
+  };
+  const auto line = [&](const Pen& pen, const std::string& text) {
+    canvas.line({x, place.y}, {x + 40, place.y}, pen);
+    x += 52;
+    words(text);
+  };
+  const auto patch = [&](const Colour& colour, const std::string& text) {
+    canvas.fill({x, place.y - 8, 28, 16}, colour);
+    canvas.frame({x, place.y - 8, 28, 16}, {.colour = {0.75, 0.77, 0.80}, .width = 0.8});
+    x += 40;
+    words(text);
+  };
+  line(pull_out_pen, "Pull-out");
+  line(pull_in_pen,
+       motor.scene.load.inertia.value > 0 ? "Pull-in with the load's inertia" : "Pull-in, no inertia but the rotor's");
+  if (motor.has_friction()) line(friction_pen, "Friction");
+  patch(start_shade, "starts and stops without a ramp");
+  patch(ramp_shade, "runs, but needs a ramp");
+}
+
+}  // namespace
+
+Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOptions& options, OutputFile& file) {
+  Canvas canvas(options, file);
+  const double width = options.width;
+  const double height = options.height;
+  canvas.fill({0, 0, width, height}, {1, 1, 1});
+  canvas.text({margin, 42}, options.program, title);
+  canvas.text({margin, 74}, options.machine, subtitle);
+
+  const Functions motor(scene);
+  const double rates = axis_end(scene.end.value());
+  const double torques = axis_end(1.08 * std::max(motor.pull_out(0), motor.friction(0)));
+  const double accelerations = axis_end(1.08 * motor.acceleration(0));
+  constexpr double left = margin + 52;
+  constexpr double upper = 148;
+  const double space = height - upper - 130;  // of both charts and what is between them
+  const Area upper_area{left, upper, width - left - margin, 0.64 * space};
+  const Area lower_area{left, upper_area.bottom() + 48, upper_area.width, space - upper_area.height - 48};
+  Chart torque(canvas, upper_area, {.title = "", .end = rates}, {.title = "Torque, N\u00B7m", .end = torques});
+  Chart acceleration(canvas, lower_area, {.title = "Rate, full steps/s", .end = rates},
+                     {.title = "Acceleration left over, rad/s\u00B2", .end = accelerations});
+  draw_torque(torque, motor);
+  draw_acceleration(acceleration, motor);
+  draw_rates(canvas, torque, acceleration, motor, rates);
+  draw_legend(canvas, motor, {left, height - 46});
+  return canvas.finish();
+}
+
+}  // namespace passo
