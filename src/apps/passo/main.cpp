@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo canon part.ngc                                        what it means, as canonical calls
   passo machine router.toml                                   what a machine file says
+  passo ramp --limit --table-size 256 --steps-per-rev 200 --max-rate 1000      what a ramp table can do
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -33,6 +34,36 @@ void add_program(CLI::App& command, ProgramArguments& arguments) {
 
 void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
+}
+
+void add_ramp(CLI::App& command, RampArguments& arguments) {
+  command.add_option("--method", arguments.method, "exact, recursive or table")
+      ->check(CLI::IsMember({"exact", "recursive", "table"}));
+  command.add_option("--clock", arguments.clock, "the timer's clock, Hz");
+  command.add_option("--steps-per-rev", arguments.steps_per_turn, "of the motor");
+  command.add_option("--accel", arguments.acceleration, "rad/s\u00B2");
+  command.add_option("--max-rate", arguments.max_rate, "the wanted rate, steps/s; without it: as fast as it gets");
+  command.add_option("--start-rate", arguments.start_rate, "what the motor starts and stops with at once, steps/s");
+  command.add_option("--steps", arguments.steps, "the first N intervals of the ramp up");
+  command.add_option("--move", arguments.move, "a whole move of N steps, from rest to rest");
+  command.add_option("--jerk", arguments.jerk, "bounds the jerk of a --move, rad/s\u00B3");
+  command.add_option("--table-size", arguments.table_size, "entries of the table; without it: as many as needed");
+  command.add_flag("--whole-ticks", arguments.whole_ticks, "exact, recursive: as the chip plays it");
+  command.add_flag("--limit", arguments.limit, "what a table can do: the acceleration --max-rate needs, the rate --accel"
+                                               " reaches");
+  command.add_option("-p,--picture", arguments.picture, "draw all methods (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the intervals to a file");
+  command.add_flag("--json", arguments.json, "the answer of --limit as JSON");
+  command.footer(
+      R"(Prints a line a step: its number, the timer counts to the next step, and the counts from rest to there.
+
+Examples:
+  passo ramp --method exact --clock 1000000 --steps-per-rev 200 --accel 10 --steps 20
+  passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --max-rate 1500 --move 1000
+  passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 50 --max-rate 1500 --move 1000 --jerk 500
+  passo ramp --clock 250000 --steps-per-rev 400 --accel 50 --steps 24 --picture ramp.svg
+  passo ramp --limit --table-size 256 --steps-per-rev 100 --max-rate 280      the acceleration that it takes
+  passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that is reached)");
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -69,6 +100,10 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
 
+  RampArguments ramp_arguments;
+  CLI::App& ramp_command = *app.add_subcommand("ramp", "when a motor steps: ramps and whole moves, by any method");
+  add_ramp(ramp_command, ramp_arguments);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -77,6 +112,7 @@ int parse_and_run(int argc, char** argv) {
   if (run_command.parsed()) return run(run_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
+  if (ramp_command.parsed()) return ramp(ramp_arguments);
   return machine(machine_arguments);
 }
 
