@@ -25,6 +25,8 @@ class RampSequence::Walk {
   Walk(const Walk&) = delete;
   Walk& operator=(const Walk&) = delete;
   virtual double next() = 0;
+  virtual void stop() = 0;
+  virtual bool done() const = 0;
 };
 
 namespace {
@@ -60,6 +62,8 @@ class RampWalk final : public RampSequence::Walk {
   explicit RampWalk(const Ramp& ramp) : move_(ramp) {}
   RampMove<Ramp>& move() { return move_; }
   double next() override { return move_.next(); }
+  void stop() override { move_.stop(); }
+  bool done() const override { return move_.done(); }
 
  private:
   RampMove<Ramp> move_;
@@ -75,6 +79,8 @@ class SCurveWalk final : public RampSequence::Walk {
     const Ticks interval = move_.next();
     return whole_ticks_ ? static_cast<double>(interval.count) : move_.real_interval();
   }
+  void stop() override { move_.stop(); }
+  bool done() const override { return move_.done(); }
 
  private:
   SCurveMove move_;
@@ -116,7 +122,11 @@ Started walk(const Ramp& ramp, const RampRequest& request) {
 
 Started start_table(const RampRequest& request) {
   const double first = first_interval(request.setup);
-  const std::int64_t needed = request.whole_move ? (request.steps + 1) / 2 : request.steps;
+  // To the middle of a move; and what lies before the first index in the start/stop region is there too.
+  const double share = request.start.value() / request.setup.clock.value() * first;
+  const double before = std::min(share * share / 4, static_cast<double>(RampSequence::largest_table));
+  const std::int64_t needed =
+      (request.whole_move ? (request.steps + 1) / 2 : request.steps) + static_cast<std::int64_t>(std::ceil(before));
   const std::int64_t size = request.table_size > 0
                                 ? request.table_size
                                 : std::min<std::int64_t>(needed, RampSequence::largest_table);
@@ -175,6 +185,7 @@ Started start_walk(const RampRequest& request) {
 RampSequence::RampSequence(std::unique_ptr<Walk> walk, const RampRequest& request)
     : walk_(std::move(walk)),
       left_(request.steps),
+      to_stop_(request.whole_move ? request.stop_after : 0),
       whole_ticks_(request.whole_ticks || request.method == RampMethod::table) {}
 RampSequence::RampSequence(RampSequence&&) noexcept = default;
 RampSequence& RampSequence::operator=(RampSequence&&) noexcept = default;
@@ -186,9 +197,15 @@ Result<RampSequence, RampError> RampSequence::start(const RampRequest& request) 
   return RampSequence(std::move(*started), request);
 }
 
+bool RampSequence::done() const {
+  return left_ == 0 || walk_->done();
+}
+
 double RampSequence::next() {
   --left_;
-  return walk_->next();
+  const double interval = walk_->next();
+  if (to_stop_ > 0 && --to_stop_ == 0) walk_->stop();
+  return interval;
 }
 
 }  // namespace passo

@@ -18,11 +18,12 @@ constexpr double margin = 48;
 // More intervals than this and single ones cannot be told apart.
 constexpr std::size_t most_single = 120;
 
-// Blue, orange and green: told apart by every eye, and drawn in this order, the widest below.
-const std::array<Pen, 3> trace_pens = {Pen{.colour = {0.10, 0.33, 0.60}, .width = 2.4},
-                                       Pen{.colour = {0.80, 0.40, 0.05}, .width = 2.0},
-                                       Pen{.colour = {0.10, 0.55, 0.35}, .width = 1.4}};
-const Pen ideal_pen{.colour = {0.45, 0.47, 0.50}, .width = 1.4, .dashes = {7, 5}};
+// Blue, orange and green: told apart by every eye. The first is broad and pale, so that a curve on top of it leaves it
+// to be seen.
+const std::array<Pen, 3> trace_pens = {Pen{.colour = {0.52, 0.70, 0.90}, .width = 5},
+                                       Pen{.colour = {0.80, 0.40, 0.05}, .width = 2},
+                                       Pen{.colour = {0.05, 0.42, 0.25}, .width = 1.4}};
+const Pen ideal_pen{.colour = {0.35, 0.37, 0.40}, .width = 1.2, .dashes = {7, 5}};
 const Pen one_tick_pen{.colour = {0.45, 0.47, 0.50}, .width = 1, .dashes = {2, 4}};
 const Pen acceleration_pen{.colour = {0.55, 0.20, 0.45}, .width = 2.2};
 constexpr double least_error = 0.001;  // ticks
@@ -85,8 +86,12 @@ void draw_rates(Canvas& canvas, const Area& area, const RampScene& scene, const 
   chart.draw_frame();
 }
 
-void draw_dots(Canvas& canvas, const Chart& chart, const std::vector<Spot>& values, const Pen& pen) {
-  for (const Spot& value : values) canvas.disc(chart.at(value.x, value.y), 1 + pen.width, pen.colour);
+void draw_dots(Canvas& canvas, const Chart& chart, const std::vector<Spot>& values, double radius,
+               const Colour& colour) {
+  for (const Spot& value : values) canvas.disc(chart.at(value.x, value.y), radius, colour);
+}
+double radius_of(const Pen& pen) {
+  return 1.4 + pen.width * 0.7;
 }
 
 double power_below(double value) {
@@ -108,9 +113,14 @@ void draw_intervals(Canvas& canvas, const Area& area, const RampScene& scene, co
     std::vector<Spot> line;
     for (const RampSample& sample : scene.traces[i].samples) line.push_back({sample.n, std::max(sample.ticks, low)});
     chart.polyline(line, trace_pens[i]);
-    if (single(scene)) draw_dots(canvas, chart, line, trace_pens[i]);
+    if (single(scene)) draw_dots(canvas, chart, line, radius_of(trace_pens[i]), trace_pens[i].colour);
   }
   chart.draw_frame();
+}
+
+// What only rounds jumps from step to step: dots show its band, a line would fill it.
+bool smooth_errors(const RampTrace& trace) {
+  return std::ranges::any_of(trace.samples, [](const RampSample& sample) { return std::abs(sample.error) > 3; });
 }
 
 void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const Extent& extent) {
@@ -123,19 +133,18 @@ void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const
   chart.draw_grid();
   chart.polyline({{0, 1}, {steps, 1}}, one_tick_pen);
   for (std::size_t i = 0; i < scene.traces.size(); ++i) {
+    const Pen& pen = trace_pens[i];
+    const bool smooth = smooth_errors(scene.traces[i]);
     std::vector<Spot> line;
     for (const RampSample& sample : scene.traces[i].samples) {
-      line.push_back({sample.n, std::max(std::abs(sample.error), least_error)});
+      const double error = std::abs(sample.error);
+      if (error >= least_error) line.push_back({sample.n, error});
+      // No error has no place on this scale: the line is lifted.
+      if (error >= least_error && &sample != &scene.traces[i].samples.back()) continue;
+      if (smooth && line.size() > 1) chart.polyline(line, pen);
+      if (smooth) line.clear();
     }
-    // What only rounds jumps from step to step: dots show its band, a line would fill it.
-    Pen pen = trace_pens[i];
-    const bool smooth = std::ranges::any_of(line, [](const Spot& spot) { return spot.y > 5; });
-    if (smooth) {
-      chart.polyline(line, pen);
-    } else {
-      pen.width = single(scene) ? pen.width : 0.4;
-      draw_dots(canvas, chart, line, pen);
-    }
+    if (!smooth) draw_dots(canvas, chart, line, single(scene) ? radius_of(pen) : 1.6 + pen.width * 0.1, pen.colour);
   }
   chart.draw_frame();
 }

@@ -64,6 +64,7 @@ struct RampArguments {
   std::optional<std::int32_t> table_size;
   std::optional<std::int64_t> steps;
   std::optional<std::int64_t> move;
+  std::optional<std::int64_t> stop_after;
   bool whole_ticks = false;
   bool limit = false;
   bool json = false;

@@ -46,6 +46,7 @@ void add_ramp(CLI::App& command, RampArguments& arguments) {
   command.add_option("--start-rate", arguments.start_rate, "what the motor starts and stops with at once, steps/s");
   command.add_option("--steps", arguments.steps, "the first N intervals of the ramp up");
   command.add_option("--move", arguments.move, "a whole move of N steps, from rest to rest");
+  command.add_option("--stop-after", arguments.stop_after, "the --move is told to stop after N steps");
   command.add_option("--jerk", arguments.jerk, "bounds the jerk of a --move, rad/s\u00B3");
   command.add_option("--table-size", arguments.table_size, "entries of the table; without it: as many as needed");
   command.add_flag("--whole-ticks", arguments.whole_ticks, "exact, recursive: as the chip plays it");
@@ -61,6 +62,7 @@ Examples:
   passo ramp --method exact --clock 1000000 --steps-per-rev 200 --accel 10 --steps 20
   passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --max-rate 1500 --move 1000
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 50 --max-rate 1500 --move 1000 --jerk 500
+  passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --move 1000 --stop-after 40
   passo ramp --clock 250000 --steps-per-rev 400 --accel 50 --steps 24 --picture ramp.svg
   passo ramp --limit --table-size 256 --steps-per-rev 100 --max-rate 280      the acceleration that it takes
   passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that is reached)");

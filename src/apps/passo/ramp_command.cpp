@@ -40,7 +40,8 @@ std::string wrong_number(const RampArguments& arguments) {
     if (!number.value || (std::isfinite(*number.value) && *number.value > 0)) continue;
     return fmt::format("{} {:g}: expected more than 0 {}", number.option, *number.value, number.unit);
   }
-  const auto counts = {std::pair("--steps", arguments.steps), std::pair("--move", arguments.move)};
+  const auto counts = {std::pair("--steps", arguments.steps), std::pair("--move", arguments.move),
+                       std::pair("--stop-after", arguments.stop_after)};
   for (const auto& [option, value] : counts) {
     if (!value || (*value >= 1 && *value <= RampRequest::most_steps)) continue;
     return fmt::format("{} {}: expected 1 to {} steps", option, *value, RampRequest::most_steps);
@@ -97,6 +98,7 @@ RampRequest request_of(const RampArguments& arguments) {
   request.rate = Hertz(arguments.max_rate.value_or(0));
   request.start = Hertz(arguments.start_rate.value_or(0));
   request.jerk = {arguments.jerk.value_or(0)};
+  request.stop_after = arguments.stop_after.value_or(0);
   request.table_size = arguments.table_size.value_or(0);
   return request;
 }
@@ -187,6 +189,7 @@ int ramp(const RampArguments& arguments) {
   if (arguments.steps && arguments.move) {
     return fail(exit_bad_program, "--steps is a ramp up, --move is a whole move: expected one of them");
   }
+  if (arguments.stop_after && !arguments.move) return fail(exit_bad_program, "--stop-after is for a --move");
   const RampRequest request = request_of(arguments);
   if (!arguments.picture.empty()) {
     if (!picture_format_of(arguments.picture)) {

@@ -15,7 +15,7 @@ constexpr std::int64_t most_samples = 3000;
 
 bool shown(const RampRequest& request, std::int64_t n) {
   const std::int64_t stride = 1 + request.steps / most_samples;
-  return n % stride == 0 || n + 1 == request.steps;
+  return n % stride == 0;
 }
 
 RampRequest by(RampMethod method, RampRequest request, bool whole_ticks) {
@@ -37,10 +37,10 @@ Result<RampTrace, RampError> trace_of(const std::string& name, const RampRequest
   long double total = 0;
   for (std::int64_t n = 0; !sequence->done(); ++n) {
     const double interval = sequence->next();
-    const double real = exact->next();
+    const double real = exact->done() ? interval : exact->next();
     const double begin = static_cast<double>(total) * tick;
     total += interval;
-    if (!shown(request, n)) continue;
+    if (!shown(request, n) && !sequence->done()) continue;
     trace.samples.push_back({.n = static_cast<double>(n),
                              .begin = begin,
                              .end = static_cast<double>(total) * tick,
@@ -86,7 +86,8 @@ void add_s_curve(const RampRequest& request, RampScene& scene) {
   for (std::int64_t n = 0; !move.done(); ++n) {
     move.next();
     time += move.real_interval() / request.setup.clock.value();
-    if (!shown(request, n)) continue;
+    if (n + 1 == request.stop_after) move.stop();
+    if (!shown(request, n) && !move.done()) continue;
     const double now = move.done() ? std::min(request.start.value(), rate) : move.rate().value();
     scene.ideal.push_back({time, now});
     scene.acceleration.push_back({time, move.acceleration().value});
@@ -122,23 +123,25 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
   // Where K_b is too long for a table, the others are shown without it, unless it was asked for.
   const Status<RampError> table = add("table", by(RampMethod::table, request, true));
   if (!table && request.method == RampMethod::table) return Failure{table.error()};
-  if (!table) scene.ideal_name = "ideal; no table: K_b is more than 16 bits";
-  if (table) scene.ideal_name = "ideal";
+  if (request.stop_after > 0) return scene;  // what was meant is not what came
+  scene.ideal_name = "ideal";
   scene.ideal = ideal_rates(request, scene.traces.front().samples.back().end);
   return scene;
 }
 
 std::string ramp_title(const RampRequest& request) {
   if (!request.whole_move) return fmt::format("A ramp up: the first {} steps", request.steps);
-  return fmt::format("A move of {} steps{}", request.steps, request.jerk.value > 0 ? " with bounded jerk" : "");
+  return fmt::format("A move of {} steps{}", request.steps, request.jerk.value > 0 ? " with bounded jerk" : "") +
+         (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "");
 }
 
 std::string ramp_words(const RampRequest& request) {
   const char* const dot = "   \u00B7   ";
   std::string words =
-      fmt::format("clock {:g} Hz{}{} steps/rev{}{:g} rad/s\u00B2{}K_b = {:.1f} ticks", request.setup.clock.value(), dot,
+      fmt::format("clock {:.12g} Hz{}{} steps/rev{}{:g} rad/s\u00B2{}K_b = {:.1f} ticks", request.setup.clock.value(), dot,
                   request.setup.steps_per_turn, dot, request.setup.acceleration.value, dot,
                   first_interval(request.setup));
+  if (first_interval(request.setup) >= 65536 && !(request.jerk.value > 0)) words += ", too long for a table";
   if (request.rate > Hertz(0)) words += fmt::format("{}up to {:g} steps/s", dot, request.rate.value());
   if (request.start > Hertz(0)) words += fmt::format("{}starts at {:g} steps/s", dot, request.start.value());
   if (request.jerk.value > 0) words += fmt::format("{}{:g} rad/s\u00B3", dot, request.jerk.value);

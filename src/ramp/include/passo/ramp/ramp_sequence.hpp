@@ -27,6 +27,7 @@ struct RampRequest {
   Hertz start{0};             // of the start/stop region; 0: none
   RadiansPerSecond3 jerk;     // bounded in a whole move; 0: not
   std::int32_t table_size = 0;  // 0: as many entries as the steps need
+  std::int64_t stop_after = 0;  // a whole move is told to stop after so many steps; 0: not
 };
 
 struct RampError {
@@ -43,7 +44,7 @@ class RampSequence {
   RampSequence& operator=(RampSequence&&) noexcept;
   ~RampSequence();
 
-  bool done() const { return left_ == 0; }
+  bool done() const;
   // The next interval, in ticks. Only when not done().
   double next();
   bool whole_ticks() const { return whole_ticks_; }
@@ -55,6 +56,7 @@ class RampSequence {
 
   std::unique_ptr<Walk> walk_;
   std::int64_t left_ = 0;
+  std::int64_t to_stop_ = 0;  // steps until the move is told to; 0: it is not
   bool whole_ticks_ = false;
 };
 
