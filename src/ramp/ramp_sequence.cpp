@@ -105,8 +105,8 @@ Started walk(const Ramp& ramp, const RampRequest& request) {
   using Interval = typename Ramp::Interval;
   auto walk = std::make_unique<RampWalk<Ramp>>(ramp);
   const bool limited = request.rate > Hertz(0);
-  const Interval cruise = limited ? std::max(interval_of<Interval>(request.rate, request.setup), ramp.fastest())
-                                  : ramp.fastest();
+  const Interval cruise =
+      limited ? std::max(interval_of<Interval>(request.rate, request.setup), ramp.fastest()) : ramp.fastest();
   const Interval start = request.start > Hertz(0) ? interval_of<Interval>(request.start, request.setup) : Interval{0};
   if (!walk->move().set_rates(start, cruise)) {
     return Failure{because(fmt::format(
@@ -127,9 +127,8 @@ Started start_table(const RampRequest& request) {
   const double before = std::min(share * share / 4, static_cast<double>(RampSequence::largest_table));
   const std::int64_t needed =
       (request.whole_move ? (request.steps + 1) / 2 : request.steps) + static_cast<std::int64_t>(std::ceil(before));
-  const std::int64_t size = request.table_size > 0
-                                ? request.table_size
-                                : std::min<std::int64_t>(needed, RampSequence::largest_table);
+  const std::int64_t size =
+      request.table_size > 0 ? request.table_size : std::min<std::int64_t>(needed, RampSequence::largest_table);
   TableRamp<TableOfAnySize> ramp(TableOfAnySize(static_cast<std::size_t>(size)));
   const double limit = TableRamp<TableOfAnySize>::longest_first_interval;
   if (!ramp.set_first_interval(static_cast<std::uint32_t>(std::min(first, limit + 1)))) {
@@ -151,9 +150,10 @@ Started start_whole_ticks(const RampRequest& request) {
   const double square = std::round(first_interval_squared(request.setup));
   constexpr double most = 4'294'967'295.0;
   if (square < 1 || square > most * most) {
-    return Failure{because(fmt::format(
-        "the first interval K_b = f \u221A(2\u03B1/a) = {:.6g} ticks is outside of what whole ticks can do, 1 to {:.0f}",
-        std::sqrt(square), most))};
+    return Failure{
+        because(fmt::format("the first interval K_b = f \u221A(2\u03B1/a) = {:.6g} ticks is outside of what whole "
+                            "ticks can do, 1 to {:.0f}",
+                            std::sqrt(square), most))};
   }
   const auto whole = static_cast<std::uint64_t>(square);
   if (request.method == RampMethod::exact) return walk(ExactRamp(whole), request);

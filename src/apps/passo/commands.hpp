@@ -54,7 +54,7 @@ struct MachineArguments {
 int machine(const MachineArguments& arguments);
 
 struct RampArguments {
-  std::string method;  // exact, recursive, table
+  std::string method;                  // exact, recursive, table
   std::optional<double> clock;         // Hz
   std::optional<double> acceleration;  // rad/s²
   std::optional<double> max_rate;      // steps/s, as the next

@@ -50,8 +50,9 @@ void add_ramp(CLI::App& command, RampArguments& arguments) {
   command.add_option("--jerk", arguments.jerk, "bounds the jerk of a --move, rad/s\u00B3");
   command.add_option("--table-size", arguments.table_size, "entries of the table; without it: as many as needed");
   command.add_flag("--whole-ticks", arguments.whole_ticks, "exact, recursive: as the chip plays it");
-  command.add_flag("--limit", arguments.limit, "what a table can do: the acceleration --max-rate needs, the rate --accel"
-                                               " reaches");
+  command.add_flag("--limit", arguments.limit,
+                   "what a table can do: the acceleration --max-rate needs, the rate --accel"
+                   " reaches");
   command.add_option("-p,--picture", arguments.picture, "draw all methods (FILE.svg or FILE.png)");
   command.add_option("-o,--output", arguments.output, "write the intervals to a file");
   command.add_flag("--json", arguments.json, "the answer of --limit as JSON");

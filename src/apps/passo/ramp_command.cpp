@@ -50,8 +50,7 @@ std::string wrong_number(const RampArguments& arguments) {
     return fmt::format("--steps-per-rev {}: expected a whole number above 0, as 200", *arguments.steps_per_turn);
   }
   if (arguments.table_size && (*arguments.table_size < 1 || *arguments.table_size > RampSequence::largest_table)) {
-    return fmt::format("--table-size {}: expected 1 to {} entries", *arguments.table_size,
-                       RampSequence::largest_table);
+    return fmt::format("--table-size {}: expected 1 to {} entries", *arguments.table_size, RampSequence::largest_table);
   }
   return {};
 }
@@ -91,7 +90,7 @@ RampRequest request_of(const RampArguments& arguments) {
   if (arguments.method == "recursive") request.method = RampMethod::recursive;
   if (arguments.method == "table") request.method = RampMethod::table;
   request.whole_move = arguments.move.has_value();
-  request.steps = arguments.move     ? *arguments.move
+  request.steps = arguments.move    ? *arguments.move
                   : arguments.steps ? *arguments.steps
                                     : natural_steps(arguments, request.setup);
   request.whole_ticks = arguments.whole_ticks;
@@ -132,7 +131,8 @@ void print_limit(const RampArguments& arguments) {
   }
   if (arguments.acceleration) {
     const double reached = reached_rate({*arguments.acceleration}, size, steps).value();
-    fmt::print("  with {:g} rad/s\u00B2 it reaches {:.15g} Hz, and goes on at that\n", *arguments.acceleration, reached);
+    fmt::print("  with {:g} rad/s\u00B2 it reaches {:.15g} Hz, and goes on at that\n", *arguments.acceleration,
+               reached);
   }
 }
 

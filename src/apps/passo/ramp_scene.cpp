@@ -137,10 +137,9 @@ std::string ramp_title(const RampRequest& request) {
 
 std::string ramp_words(const RampRequest& request) {
   const char* const dot = "   \u00B7   ";
-  std::string words =
-      fmt::format("clock {:.12g} Hz{}{} steps/rev{}{:g} rad/s\u00B2{}K_b = {:.1f} ticks", request.setup.clock.value(), dot,
-                  request.setup.steps_per_turn, dot, request.setup.acceleration.value, dot,
-                  first_interval(request.setup));
+  std::string words = fmt::format("clock {:.12g} Hz{}{} steps/rev{}{:g} rad/s\u00B2{}K_b = {:.1f} ticks",
+                                  request.setup.clock.value(), dot, request.setup.steps_per_turn, dot,
+                                  request.setup.acceleration.value, dot, first_interval(request.setup));
   if (first_interval(request.setup) >= 65536 && !(request.jerk.value > 0)) words += ", too long for a table";
   if (request.rate > Hertz(0)) words += fmt::format("{}up to {:g} steps/s", dot, request.rate.value());
   if (request.start > Hertz(0)) words += fmt::format("{}starts at {:g} steps/s", dot, request.start.value());

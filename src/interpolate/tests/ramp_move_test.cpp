@@ -1,4 +1,6 @@
 // Whole moves: whatever is asked for, the count of steps is exact and the intervals are those of the ramp.
+#include "passo/interpolate/ramp_move.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <random>
@@ -7,7 +9,6 @@
 #include "kit/seed.hpp"
 
 #include "passo/interpolate/exact_ramp.hpp"
-#include "passo/interpolate/ramp_move.hpp"
 #include "passo/interpolate/ramp_table.hpp"
 #include "passo/interpolate/table_ramp.hpp"
 
@@ -196,7 +197,8 @@ TEST(RampMove, stopped_and_turned_at_random_steps_it_keeps_to_the_ramp_and_its_c
     for (int i = 0; i < 300; ++i, table.rise()) ramp.push_back(table.interval());
     const auto start = static_cast<uint16_t>(random() % 2 == 0 ? 0 : ramp[random() % 40] - random() % 10);
     const uint16_t cruise = static_cast<uint16_t>(ramp[40 + random() % 200]);
-    std::replace_if(ramp.begin(), ramp.end(), [&](uint32_t c) { return c < cruise; }, cruise);
+    std::replace_if(
+        ramp.begin(), ramp.end(), [&](uint32_t c) { return c < cruise; }, cruise);
     RampMove<Table> wide(table_of(first));
     ASSERT_TRUE(wide.set_rates(start, cruise));
     expect_a_safe_walk(wide, start, ramp, random);

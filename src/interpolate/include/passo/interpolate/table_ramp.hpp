@@ -1,8 +1,9 @@
 // TableRamp: constant acceleration from a table, with one 16 × 16 multiplication a step: c_n = (K_b · k_n) >> 16.
 //
 // A walk over the index n, one step up or down at a time, so that a motor brakes with the intervals that it started
-// with. An error stays in its own interval, which is less than K_b/65536 + 1 ticks short, so less than two; where a real
-// K_b was cut off to a whole number, k_n ticks more. Never long: a run is early by as much as all its steps are short.
+// with. An error stays in its own interval, which is less than K_b/65536 + 1 ticks short, so less than two; where a
+// real K_b was cut off to a whole number, k_n ticks more. Never long: a run is early by as much as all its steps are
+// short.
 //
 // Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused, never wrapped; a slower timer clock or another
 // method is then the way. Where the table ends the motor goes on at the speed it has.

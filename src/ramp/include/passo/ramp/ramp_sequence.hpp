@@ -20,12 +20,12 @@ struct RampRequest {
 
   RampSetup setup;
   RampMethod method = RampMethod::exact;
-  std::int64_t steps = 0;     // 1…most_steps
-  bool whole_move = false;    // to rest again; else upwards only
-  bool whole_ticks = false;   // as a chip plays it; a table always does
-  Hertz rate{0};              // the greatest; 0: none
-  Hertz start{0};             // of the start/stop region; 0: none
-  RadiansPerSecond3 jerk;     // bounded in a whole move; 0: not
+  std::int64_t steps = 0;       // 1…most_steps
+  bool whole_move = false;      // to rest again; else upwards only
+  bool whole_ticks = false;     // as a chip plays it; a table always does
+  Hertz rate{0};                // the greatest; 0: none
+  Hertz start{0};               // of the start/stop region; 0: none
+  RadiansPerSecond3 jerk;       // bounded in a whole move; 0: not
   std::int32_t table_size = 0;  // 0: as many entries as the steps need
   std::int64_t stop_after = 0;  // a whole move is told to stop after so many steps; 0: not
 };

@@ -39,8 +39,7 @@ constexpr RadiansPerSecond2 least_acceleration(Hertz rate, std::int64_t table_si
 }
 // The rate after N steps from rest, with which the motor goes on: f = √(2aN/α).
 inline Hertz reached_rate(RadiansPerSecond2 acceleration, std::int64_t table_size, std::int32_t steps_per_turn) {
-  const double square =
-      2 * acceleration.value * static_cast<double>(table_size) / step_angle(steps_per_turn).value;
+  const double square = 2 * acceleration.value * static_cast<double>(table_size) / step_angle(steps_per_turn).value;
   return Hertz(std::sqrt(square));
 }
 

@@ -32,11 +32,11 @@ struct RampPoint {
 };
 
 struct RampScene {
-  std::vector<RampTrace> traces;        // at most three
-  std::vector<RampPoint> ideal;         // the rate as it is meant
-  std::string ideal_name;
-  std::vector<RampPoint> acceleration;  // of the first trace; empty: the errors are drawn instead
-  double tick = 1;                      // s
+  std::vector<RampTrace> traces = {};  // at most three
+  std::vector<RampPoint> ideal = {};   // the rate as it is meant
+  std::string ideal_name = {};
+  std::vector<RampPoint> acceleration = {};  // of the first trace; empty: the errors are drawn instead
+  double tick = 1;                           // s
 };
 
 // options.program is the title, options.machine the line below it.
