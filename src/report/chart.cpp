@@ -30,7 +30,7 @@ std::vector<Tick> ticks_of(const Chart::Axis& axis, double length,
   if (!axis.logarithmic) return ticks(axis.begin, axis.end, length / (axis.end - axis.begin), room);
   std::vector<Tick> all;
   for (double value = axis.begin; value < axis.end * 1.5; value *= 10) {
-    all.push_back({value, fmt::format("{:.6g}", value)});
+    all.push_back({value, fmt::format("{:.12g}", value)});
   }
   return all;
 }

@@ -159,7 +159,7 @@ void draw_acceleration(Canvas& canvas, const Area& area, const RampScene& scene,
   }
   const double end = axis_end(most * 1.05);
   Chart chart(canvas, area, {.title = scale > 1 ? "Time, ms" : "Time, s", .end = axis_end(extent.time * scale)},
-              {.title = "Acceleration, rad/s\u00B2", .end = end, .begin = -end});
+              {.title = "Acceleration at the steps, rad/s\u00B2", .end = end, .begin = -end});
   chart.draw_grid();
   chart.polyline({{0, 0}, {axis_end(extent.time * scale), 0}}, one_tick_pen);
   chart.polyline(line, acceleration_pen);
