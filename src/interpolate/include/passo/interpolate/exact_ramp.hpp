@@ -4,7 +4,8 @@
 // T_n is known with its remainder R_n = K_b² n − T_n², so that nothing drifts: from one step to the next R grows by
 // K_b² (or shrinks, on the way down), T is moved by a guess of the interval, and as long as R says that T is not the
 // rounded root, −T < R <= T, T is corrected by R / 2T (Newton). The guess is c_(n+1) = c_n − 2 c_n / (4n + 5), so good
-// that after the first dozen steps a correction is a single tick or none: one 32-bit division a step.
+// that nearly all corrections are a single tick or none. That makes one 32-bit division a step; 64-bit ones, three at
+// the most, in 49 of the first 10 000 steps for K_b = 10^4, in 166 for K_b = 10^5, most of them at the beginning.
 //
 // Errors: each T_n within half a tick and each interval within one tick of the real one, for ever. K_b² is given as a
 // whole number; rounding a real one shifts t_n by √n / 4K_b ticks more.
