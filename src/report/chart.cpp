@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "axis_ticks.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -16,6 +17,23 @@ const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Font label{.size = 12};
 const Font heading{.size = 14, .colour = quiet_ink};
 constexpr double mark = 5;  // length of a tick
+
+// Where a value stands on its axis, from 0 to 1.
+double share(const Chart::Axis& axis, double value) {
+  if (axis.logarithmic) return std::log10(value / axis.begin) / std::log10(axis.end / axis.begin);
+  return (value - axis.begin) / (axis.end - axis.begin);
+}
+
+// A tick for each power of ten on a logarithmic axis, as many as fit elsewhere.
+std::vector<Tick> ticks_of(const Chart::Axis& axis, double length,
+                           const std::function<double(const std::string&)>& room) {
+  if (!axis.logarithmic) return ticks(axis.begin, axis.end, length / (axis.end - axis.begin), room);
+  std::vector<Tick> all;
+  for (double value = axis.begin; value < axis.end * 1.5; value *= 10) {
+    all.push_back({value, fmt::format("{:.12g}", value)});
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -29,22 +47,22 @@ Chart::Chart(Canvas& canvas, const Area& area, Axis x, Axis y)
     : canvas_(canvas), area_(area), x_(std::move(x)), y_(std::move(y)) {}
 
 Spot Chart::at(double x, double y) const {
-  return {area_.x + x / x_.end * area_.width, area_.bottom() - y / y_.end * area_.height};
+  return {area_.x + share(x_, x) * area_.width, area_.bottom() - share(y_, y) * area_.height};
 }
 
 void Chart::draw_grid(bool x_labels) {
   canvas_.fill(area_, paper);
   const auto width = [&](const std::string& text) { return canvas_.text_width(text, label) + 28; };
   const auto height = [](const std::string&) { return 34.0; };
-  for (const Tick& tick : ticks(0, x_.end, area_.width / x_.end, width)) {
-    const double x = at(tick.value, 0).x;
+  for (const Tick& tick : ticks_of(x_, area_.width, width)) {
+    const double x = at(tick.value, y_.begin).x;
     canvas_.line({x, area_.y}, {x, area_.bottom()}, grid);
     if (!x_labels) continue;
     canvas_.line({x, area_.bottom()}, {x, area_.bottom() + mark}, edge);
     canvas_.text({x, area_.bottom() + mark + 11}, tick.label, label, Align::centre);
   }
-  for (const Tick& tick : ticks(0, y_.end, area_.height / y_.end, height)) {
-    const double y = at(0, tick.value).y;
+  for (const Tick& tick : ticks_of(y_, area_.height, height)) {
+    const double y = at(x_.begin, tick.value).y;
     canvas_.line({area_.x, y}, {area_.right(), y}, grid);
     canvas_.line({area_.x - mark, y}, {area_.x, y}, edge);
     canvas_.text({area_.x - mark - 5, y}, tick.label, label, Align::right);
@@ -79,8 +97,8 @@ std::vector<Spot> Chart::spots(const Function& function, double end) const {
   constexpr double distance = 2;
   const int count = std::max(1, static_cast<int>(std::ceil(area_.width * last / x_.end / distance)));
   for (int i = 0; i <= count; ++i) {
-    const double x = last * i / count;
-    all.push_back(at(x, std::clamp(function(x), 0.0, y_.end)));
+    const double x = x_.begin + (last - x_.begin) * i / count;
+    all.push_back(at(x, std::clamp(function(x), y_.begin, y_.end)));
   }
   return all;
 }
@@ -97,6 +115,16 @@ void Chart::curve(const Function& function, const Pen& pen, double end) {
   const std::vector<Spot> all = spots(function, end);
   canvas_.move_to(all.front());
   for (std::size_t i = 1; i < all.size(); ++i) canvas_.line_to(all[i]);
+  canvas_.stroke(pen);
+}
+
+void Chart::polyline(const std::vector<Spot>& values, const Pen& pen) {
+  bool first = true;
+  for (const Spot& value : values) {
+    const Spot spot = at(std::clamp(value.x, x_.begin, x_.end), std::clamp(value.y, y_.begin, y_.end));
+    first ? canvas_.move_to(spot) : canvas_.line_to(spot);
+    first = false;
+  }
   canvas_.stroke(pen);
 }
 

@@ -1,6 +1,7 @@
 // Chart: a frame with ticks, and curves in it. Private to report/.
 //
-// Both axes begin at 0. The ends are the caller's: axis_end() makes a round one.
+// The ends are the caller's: axis_end() makes a round one. Axes begin at 0 unless told otherwise; one whose scale is
+// logarithmic begins and ends at powers of ten.
 #pragma once
 
 #include <functional>
@@ -19,6 +20,8 @@ class Chart {
   struct Axis {
     std::string title;
     double end = 1;
+    double begin = 0;
+    bool logarithmic = false;
   };
 
   // `area` is the frame; titles and labels stand outside of it, on the left and below.
@@ -31,11 +34,13 @@ class Chart {
   void draw_frame();
 
   Spot at(double x, double y) const;
-  // Between the values of two functions of x, from 0 to x = `end`.
+  // Between the values of two functions of x, from the axis's beginning to x = `end`.
   using Function = std::function<double(double x)>;
   void fill_between(const Function& lower, const Function& upper, double end, const Colour& colour, double opacity = 1);
   void curve(const Function& function, const Pen& pen, double end);
   void curve(const Function& function, const Pen& pen) { curve(function, pen, x_.end); }
+  // From value to value; what leaves the axis runs along its edge.
+  void polyline(const std::vector<Spot>& values, const Pen& pen);
 
   const Area& area() const { return area_; }
 

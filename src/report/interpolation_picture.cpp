@@ -6,6 +6,7 @@
 
 #include "axis_ticks.hpp"
 #include "cairo_canvas.hpp"
+#include "chart.hpp"
 #include <fmt/format.h>
 
 #include "passo/study/ideal_path.hpp"
@@ -241,70 +242,38 @@ Lags lags(const StudiedMethod& studied, const StepMove& move) {
   return all;
 }
 
-// A chart over the time or the way of the move, 0 … 1; the values are steps.
-class Chart {
- public:
-  Chart(Canvas& canvas, const Area& area, double low, double high) : canvas_(canvas), area_(area), high_(high) {
-    scale_ = area.height / (high - low);
-    const auto room = [](const std::string&) { return 18.0; };
-    for (const Tick& tick : ticks(low, high, scale_, room)) {
-      const double y = spot({0, tick.value}).y;
-      canvas.line({area.x, y}, {area.right(), y}, {.colour = grid_colour, .width = 1});
-      canvas.text({area.x - 7, y}, tick.label, tick_font, Align::right);
-    }
-    canvas.frame(area, {.colour = edge_colour, .width = 1});
-  }
-  void curve(const std::vector<Spot>& curve, const Colour& colour) {
-    for (const Spot& one : curve) {
-      if (&one == &curve.front()) canvas_.move_to(spot(one));
-      canvas_.line_to(spot(one));
-    }
-    canvas_.stroke({.colour = colour, .width = 1.5});
-  }
-  void name(const std::string& what) {
-    canvas_.text({area_.x, area_.bottom() + 12}, "start", tick_font);
-    canvas_.text({area_.x + area_.width / 2, area_.bottom() + 12}, what, tick_font, Align::centre);
-    canvas_.text({area_.right(), area_.bottom() + 12}, "end", tick_font, Align::right);
-  }
-
- private:
-  Spot spot(const Spot& value) const { return {area_.x + value.x * area_.width, area_.y + (high_ - value.y) * scale_}; }
-
-  Canvas& canvas_;
-  Area area_;
-  double high_;
-  double scale_;
-};
-
 void draw_deviation(Canvas& canvas, const StudiedMethod& studied, const StepMove& move, const Area& area) {
-  canvas.text({area.x, area.y - 68}, "Distance from the ideal path, in steps", heading_font);
-  canvas.text({area.x, area.y - 46}, deviations(studied.measures), caption_font);
   std::vector<Spot> curve = {{0, 0}};
   const auto add = [&](const Followed& now) { curve.push_back({now.progress, now.deviation}); };
   static_cast<void>(follow(studied.method, move, add).has_value());
-  Chart chart(canvas, area, 0, 1.1 * std::max(0.5, studied.measures.largest_deviation));
-  chart.curve(curve, one_axis);
-  chart.name("way");
+  const double most = axis_end(std::max(0.5, studied.measures.largest_deviation));
+  Chart chart(canvas, area, {.title = "share of the way"},
+              {.title = "distance from the ideal path, steps", .end = most});
+  chart.draw_grid();
+  chart.polyline(curve, {.colour = one_axis, .width = 1.5});
+  chart.draw_frame();
 }
 
 void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove& move, const Area& area) {
   const Lags all = lags(studied, move);
-  double most = 0.25;
+  double most = 0.2;
   for (const auto& curve : all) {
     for (const Spot& spot : curve) most = std::max(most, std::abs(spot.y));
   }
-  canvas.text({area.x, area.y - 68}, "Ahead of a point at constant speed, in steps", heading_font);
+  most = axis_end(most);
+  Chart chart(canvas, area, {.title = "share of the time"},
+              {.title = "ahead of a point at constant speed, steps", .end = most, .begin = -most});
+  chart.draw_grid();
   for (std::size_t rule = 0; rule < speed_rules; ++rule) {
-    const double y = area.y - 48 + 17 * static_cast<double>(rule);
+    const double y = area.y - 70 + 17 * static_cast<double>(rule);
     canvas.line({area.x, y}, {area.x + 22, y}, {.colour = rule_looks[rule].colour, .width = 2});
     canvas.text({area.x + 28, y},
                 fmt::format("{}: fastest step {:.2f} \u00D7 the slowest", rule_looks[rule].name,
                             studied.measures.evenness[rule].ratio),
                 caption_font);
+    chart.polyline(all[rule], {.colour = rule_looks[rule].colour, .width = 1.5});
   }
-  Chart chart(canvas, area, -1.1 * most, 1.1 * most);
-  for (std::size_t rule = 0; rule < speed_rules; ++rule) chart.curve(all[rule], rule_looks[rule].colour);
-  chart.name("time");
+  chart.draw_frame();
 }
 
 // --- the sheet ------------------------------------------------------------------------------------------------------
@@ -378,12 +347,12 @@ Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<S
   canvas.fill({0, 0, width, height}, paper);
   canvas.text({margin, 36}, move_text(move), title_font);
   draw_legend(canvas, margin, 66);
-  const double charts = methods.size() == 1 && methods[0].measures.pulses > 0 ? 250 : 0;
+  const double charts = methods.size() == 1 && methods[0].measures.pulses > 0 ? 290 : 0;
   draw_panels(canvas, move, methods, {margin, 92, width - 2 * margin, height - 92 - 16 - charts});
   if (charts > 0) {
     const double half = width / 2 - margin - 50;
-    draw_deviation(canvas, methods[0], move, {margin + 30, height - 150, half, 120});
-    draw_evenness(canvas, methods[0], move, {width / 2 + 50, height - 150, half, 120});
+    draw_deviation(canvas, methods[0], move, {margin + 30, height - 190, half, 134});
+    draw_evenness(canvas, methods[0], move, {width / 2 + 50, height - 190, half, 134});
   }
   return canvas.finish();
 }

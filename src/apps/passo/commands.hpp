@@ -2,6 +2,7 @@
 // code.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -93,5 +94,24 @@ struct MotorArguments {
   bool json = false;
 };
 int motor(const MotorArguments& arguments);
+struct RampArguments {
+  std::string method;                  // exact, recursive, table
+  std::optional<double> clock;         // Hz
+  std::optional<double> acceleration;  // rad/s²
+  std::optional<double> max_rate;      // steps/s, as the next
+  std::optional<double> start_rate;
+  std::optional<double> jerk;  // rad/s³
+  std::optional<std::int32_t> steps_per_turn;
+  std::optional<std::int32_t> table_size;
+  std::optional<std::int64_t> steps;
+  std::optional<std::int64_t> move;
+  std::optional<std::int64_t> stop_after;
+  bool whole_ticks = false;
+  bool limit = false;
+  bool json = false;
+  std::string picture;
+  std::string output;  // empty: standard output
+};
+int ramp(const RampArguments& arguments);
 
 }  // namespace passo

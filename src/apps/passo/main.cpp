@@ -1,11 +1,11 @@
 // passo: from a drawing to motor phases, on the command line.
 //
-// Only this and *_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file each.
+// Only this and study_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file each.
 #include <cstdio>
 #include <exception>
 
 #include "commands.hpp"
-#include "motor_options.hpp"
+#include "study_options.hpp"
 #include <CLI/CLI.hpp>
 
 namespace {
@@ -25,6 +25,7 @@ constexpr const char* examples = R"(Examples:
   passo machine router.toml                                   what a machine file says
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
+  passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -36,34 +37,6 @@ void add_program(CLI::App& command, ProgramArguments& arguments) {
 
 void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
-}
-
-void add_interpolate(CLI::App& command, InterpolateArguments& arguments) {
-  command.add_option("--method", arguments.method,
-                     "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint");
-  command.add_option("--to", arguments.to, "end of the move in steps, X,Y[,Z...]")->required();
-  command.add_option("--from", arguments.from, "its start; zero without it");
-  command.add_option("--center", arguments.center, "an arc about X,Y; where start and end are the same, a full circle");
-  command.add_flag("--cw", arguments.clockwise, "clockwise; else counterclockwise");
-  command.add_flag("--half-loaded", arguments.half_loaded, "dda: the accumulators start half full");
-  command.add_option("--register-bits", arguments.register_bits, "dda: longer registers than the move needs")
-      ->check(CLI::Range(1, 31));
-  command.add_option("--end", arguments.end, "point-comparison: how the end is judged")
-      ->check(CLI::IsMember({"coordinates", "projection", "total"}));
-  command.add_flag("--compare", arguments.compare, "every method that takes the move, side by side");
-  command.add_option("-p,--picture", arguments.picture, "draw the pulses on the grid (FILE.svg or FILE.png)");
-  command.add_option("-o,--output", arguments.output, "write the pulses to a file");
-  command.add_flag("--json", arguments.json, "the figures of the comparison, or of one method, as JSON");
-  command.add_option("--steps-per-mm", arguments.steps_per_mm, "for deviations in \u00B5m")->capture_default_str();
-  command.footer(
-      R"(Prints a line a pulse: its number, where each axis stands after it, and the method's decision variables.
-
-Examples:
-  passo interpolate --method lean --to 10,4                             master and slaves, as an interrupt does it
-  passo interpolate --method dda --half-loaded --to 10,4,7              three axes, integrators half full
-  passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
-  passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as figures and drawn
-  passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -101,8 +74,9 @@ int parse_and_run(int argc, char** argv) {
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
 
   InterpolateArguments interpolate_arguments;
-  CLI::App& interpolate_command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
-  add_interpolate(interpolate_command, interpolate_arguments);
+  CLI::App& interpolate_command = add_interpolate_command(app, interpolate_arguments);
+  RampArguments ramp_arguments;
+  CLI::App& ramp_command = add_ramp_command(app, ramp_arguments);
   MotorArguments motor_arguments;
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
 
@@ -116,6 +90,7 @@ int parse_and_run(int argc, char** argv) {
   if (canon_command.parsed()) return canon(canon_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
+  if (ramp_command.parsed()) return ramp(ramp_arguments);
   return machine(machine_arguments);
 }
 

@@ -84,6 +84,10 @@ struct KilogramMetres2 {
   double value = 0;
   friend constexpr auto operator<=>(KilogramMetres2, KilogramMetres2) = default;
 };
+struct RadiansPerSecond3 {
+  double value = 0;
+  friend constexpr auto operator<=>(RadiansPerSecond3, RadiansPerSecond3) = default;
+};
 
 // Counted, not measured: motor steps, and counts of the board's timer.
 struct Steps {

@@ -1,0 +1,150 @@
+#include "ramp_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/ramp/s_curve_move.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::int64_t most_samples = 3000;
+
+bool shown(const RampRequest& request, std::int64_t n) {
+  const std::int64_t stride = 1 + request.steps / most_samples;
+  return n % stride == 0;
+}
+
+RampRequest by(RampMethod method, RampRequest request, bool whole_ticks) {
+  request.method = method;
+  request.whole_ticks = whole_ticks;
+  return request;
+}
+
+// Every interval beside the exact one of the same step.
+Result<RampTrace, RampError> trace_of(const std::string& name, const RampRequest& request) {
+  RampRequest reference = by(RampMethod::exact, request, false);
+  reference.jerk = {0};
+  Result<RampSequence, RampError> sequence = RampSequence::start(request);
+  if (!sequence) return Failure{sequence.error()};
+  Result<RampSequence, RampError> exact = RampSequence::start(reference);
+  if (!exact) return Failure{exact.error()};
+  const double tick = 1 / request.setup.clock.value();
+  RampTrace trace{.name = name, .samples = {}};
+  long double total = 0;
+  for (std::int64_t n = 0; !sequence->done(); ++n) {
+    const double interval = sequence->next();
+    const double real = exact->done() ? interval : exact->next();
+    const double begin = static_cast<double>(total) * tick;
+    total += interval;
+    if (!shown(request, n) && !sequence->done()) continue;
+    trace.samples.push_back({.n = static_cast<double>(n),
+                             .begin = begin,
+                             .end = static_cast<double>(total) * tick,
+                             .ticks = interval,
+                             .error = interval - real});
+  }
+  return trace;
+}
+
+// The rate of constant acceleration as it is meant: straight up, level, straight down.
+std::vector<RampPoint> ideal_rates(const RampRequest& request, double duration) {
+  const double slope = request.setup.acceleration.value / step_angle(request.setup.steps_per_turn).value;
+  const double first = first_interval(request.setup);
+  const double top = request.rate > Hertz(0) ? request.rate.value() : HUGE_VAL;
+  double lowest = 0;
+  if (request.start > Hertz(0)) {
+    if (top <= request.start.value()) return {{0, top}, {duration, top}};
+    // The last index whose interval is inside the start/stop region: c_n = K_b (√(n+1) − √n).
+    const double share = request.setup.clock.value() / request.start.value() / first;
+    const double root = (1 - share * share) / (2 * share);
+    const double index = std::floor(root * root);
+    lowest = slope * first * std::sqrt(index) / request.setup.clock.value();
+  }
+  const double climb = (top - lowest) / slope;
+  if (!request.whole_move) {
+    if (climb >= duration) return {{0, lowest}, {duration, lowest + slope * duration}};
+    return {{0, lowest}, {climb, top}, {duration, top}};
+  }
+  if (2 * climb >= duration) {
+    return {{0, lowest}, {duration / 2, lowest + slope * duration / 2}, {duration, lowest}};
+  }
+  return {{0, lowest}, {climb, top}, {duration - climb, top}, {duration, lowest}};
+}
+
+// The S-curve's own rate and acceleration at its steps.
+void add_s_curve(const RampRequest& request, RampScene& scene) {
+  const double rate = request.rate > Hertz(0) ? request.rate.value() : HUGE_VAL;
+  SCurveMove move({.setup = request.setup, .jerk = request.jerk, .rate = Hertz(rate), .start = request.start});
+  move.move_to({request.steps});
+  double time = 0;
+  scene.ideal.push_back({0, std::min(request.start.value(), rate)});
+  scene.acceleration.push_back({0, 0});
+  for (std::int64_t n = 0; !move.done(); ++n) {
+    move.next();
+    time += move.real_interval() / request.setup.clock.value();
+    if (n + 1 == request.stop_after) move.stop();
+    if (!shown(request, n) && !move.done()) continue;
+    const double now = move.done() ? std::min(request.start.value(), rate) : move.rate().value();
+    scene.ideal.push_back({time, now});
+    scene.acceleration.push_back({time, move.acceleration().value});
+  }
+}
+
+}  // namespace
+
+Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
+  RampScene scene;
+  scene.tick = 1 / request.setup.clock.value();
+  const auto add = [&](const char* name, const RampRequest& wanted) -> Status<RampError> {
+    Result<RampTrace, RampError> trace = trace_of(name, wanted);
+    if (!trace) return Failure{trace.error()};
+    scene.traces.push_back(std::move(*trace));
+    return Unit{};
+  };
+  if (request.jerk.value > 0) {
+    const Status<RampError> curve = add("bounded jerk", by(request.method, request, true));
+    if (!curve) return Failure{curve.error()};
+    RampRequest without = by(RampMethod::exact, request, true);
+    without.jerk = {0};
+    const Status<RampError> trapezoid = add("constant acceleration", without);
+    if (!trapezoid) return Failure{trapezoid.error()};
+    scene.ideal_name = "rate between the steps";
+    add_s_curve(request, scene);
+    return scene;
+  }
+  const Status<RampError> exact = add("exact, whole ticks", by(RampMethod::exact, request, true));
+  if (!exact) return Failure{exact.error()};
+  const Status<RampError> recursive = add("recursive", by(RampMethod::recursive, request, false));
+  if (!recursive) return Failure{recursive.error()};
+  // Where K_b is too long for a table, the others are shown without it, unless it was asked for.
+  const Status<RampError> table = add("table", by(RampMethod::table, request, true));
+  if (!table && request.method == RampMethod::table) return Failure{table.error()};
+  if (request.stop_after > 0) return scene;  // what was meant is not what came
+  scene.ideal_name = "ideal";
+  scene.ideal = ideal_rates(request, scene.traces.front().samples.back().end);
+  return scene;
+}
+
+std::string ramp_title(const RampRequest& request) {
+  if (!request.whole_move) return fmt::format("A ramp up: the first {} steps", request.steps);
+  return fmt::format("A move of {} steps{}", request.steps, request.jerk.value > 0 ? " with bounded jerk" : "") +
+         (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "");
+}
+
+std::string ramp_words(const RampRequest& request) {
+  const char* const dot = "   \u00B7   ";
+  std::string words = fmt::format("clock {:.12g} Hz{}{} steps/rev{}{:g} rad/s\u00B2{}K_b = {:.1f} ticks",
+                                  request.setup.clock.value(), dot, request.setup.steps_per_turn, dot,
+                                  request.setup.acceleration.value, dot, first_interval(request.setup));
+  if (first_interval(request.setup) >= 65536 && !(request.jerk.value > 0)) words += ", too long for a table";
+  if (request.rate > Hertz(0)) words += fmt::format("{}up to {:g} steps/s", dot, request.rate.value());
+  if (request.start > Hertz(0)) words += fmt::format("{}starts at {:g} steps/s", dot, request.start.value());
+  if (request.jerk.value > 0) words += fmt::format("{}{:g} rad/s\u00B3", dot, request.jerk.value);
+  return words;
+}
+
+}  // namespace passo

@@ -1,0 +1,153 @@
+// The options of the commands that study one thing at a time: pulses, ramps, motors.
+#include "study_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace passo {
+namespace {
+
+constexpr const char* motor_description =
+    "Torque over speed of a stepping motor: pull-out, pull-in, and what is left to accelerate a load. Prints a table "
+    "(CSV), or a picture or a summary instead. Rates are full steps a second.";
+
+constexpr const char* motor_examples = R"(Give the motor's data and its supply, or points of its data sheet's curve.
+
+Examples:
+  A small motor (1.7 A, 0.45 N·m) on 24 V, that moves as much inertia again against 0.1 N·m:
+    passo motor --holding-torque 0.45 --current 1.7 --resistance 1.5 --inductance 2.8 --rotor-inertia 68 \
+      --supply 24 --load-inertia 68 --friction 0.1 --picture motor.svg
+  The same on 12 V through a resistor; how fast it starts and runs:
+    passo motor --holding-torque 0.45 --current 1.7 --resistance 1.5 --inductance 2.8 --rotor-inertia 68 \
+      --supply 12 --regulation resistive --friction 0.1 --json
+  From points of a data sheet, as a table:
+    passo motor --curve 0:0.40,1000:0.36,2000:0.25,4000:0.10,6000:0.04 --rotor-inertia 68
+
+The model and its limits: docs/ramps/torque.md.)";
+
+}  // namespace
+
+CLI::App& add_interpolate_command(CLI::App& app, InterpolateArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
+  command.add_option("--method", arguments.method,
+                     "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint");
+  command.add_option("--to", arguments.to, "end of the move in steps, X,Y[,Z...]")->required();
+  command.add_option("--from", arguments.from, "its start; zero without it");
+  command.add_option("--center", arguments.center, "an arc about X,Y; where start and end are the same, a full circle");
+  command.add_flag("--cw", arguments.clockwise, "clockwise; else counterclockwise");
+  command.add_flag("--half-loaded", arguments.half_loaded, "dda: the accumulators start half full");
+  command.add_option("--register-bits", arguments.register_bits, "dda: longer registers than the move needs")
+      ->check(CLI::Range(1, 31));
+  command.add_option("--end", arguments.end, "point-comparison: how the end is judged")
+      ->check(CLI::IsMember({"coordinates", "projection", "total"}));
+  command.add_flag("--compare", arguments.compare, "every method that takes the move, side by side");
+  command.add_option("-p,--picture", arguments.picture, "draw the pulses on the grid (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the pulses to a file");
+  command.add_flag("--json", arguments.json, "the figures of the comparison, or of one method, as JSON");
+  command.add_option("--steps-per-mm", arguments.steps_per_mm, "for deviations in \u00B5m")->capture_default_str();
+  command.footer(
+      R"(Prints a line a pulse: its number, where each axis stands after it, and the method's decision variables.
+
+Examples:
+  passo interpolate --method lean --to 10,4                             master and slaves, as an interrupt does it
+  passo interpolate --method dda --half-loaded --to 10,4,7              three axes, integrators half full
+  passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
+  passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as figures and drawn
+  passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
+  return command;
+}
+
+CLI::App& add_ramp_command(CLI::App& app, RampArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("ramp", "when a motor steps: ramps and whole moves, by any method");
+  command.add_option("--method", arguments.method, "exact, recursive or table")
+      ->check(CLI::IsMember({"exact", "recursive", "table"}));
+  command.add_option("--clock", arguments.clock, "the timer's clock, Hz");
+  command.add_option("--steps-per-rev", arguments.steps_per_turn, "of the motor");
+  command.add_option("--accel", arguments.acceleration, "rad/s\u00B2");
+  command.add_option("--max-rate", arguments.max_rate, "the wanted rate, steps/s; without it: as fast as it gets");
+  command.add_option("--start-rate", arguments.start_rate, "what the motor starts and stops with at once, steps/s");
+  command.add_option("--steps", arguments.steps, "the first N intervals of the ramp up");
+  command.add_option("--move", arguments.move, "a whole move of N steps, from rest to rest");
+  command.add_option("--stop-after", arguments.stop_after, "the --move is told to stop after N steps");
+  command.add_option("--jerk", arguments.jerk, "bounds the jerk of a --move, rad/s\u00B3");
+  command.add_option("--table-size", arguments.table_size, "entries of the table; without it: as many as needed");
+  command.add_flag("--whole-ticks", arguments.whole_ticks, "exact, recursive: as the chip plays it");
+  command.add_flag("--limit", arguments.limit,
+                   "what a table can do: the acceleration --max-rate needs, the rate --accel"
+                   " reaches");
+  command.add_option("-p,--picture", arguments.picture, "draw all methods (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the intervals to a file");
+  command.add_flag("--json", arguments.json, "the answer of --limit as JSON");
+  command.footer(
+      R"(Prints a line a step: its number, the timer counts to the next step, and the counts from rest to there.
+
+Examples:
+  passo ramp --method exact --clock 1000000 --steps-per-rev 200 --accel 10 --steps 20
+  passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --max-rate 1500 --move 1000
+  passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 50 --max-rate 1500 --move 1000 --jerk 500
+  passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --move 1000 --stop-after 40
+  passo ramp --clock 250000 --steps-per-rev 400 --accel 50 --steps 24 --picture ramp.svg
+  passo ramp --limit --table-size 256 --steps-per-rev 100 --max-rate 280      the acceleration that it takes
+  passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that is reached)");
+  return command;
+}
+
+CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("motor", motor_description);
+  command.footer(motor_examples);
+  const auto option = [&](const char* name, auto& value, const char* unit, const char* words) {
+    return command.add_option(name, value, words)->type_name(unit);
+  };
+
+  option("--steps-per-rev", arguments.steps_per_revolution, "N", "full steps a revolution, a multiple of 4")
+      ->capture_default_str()
+      ->group("Motor");
+  option("--rotor-inertia", arguments.rotor_inertia, "G_CM2", "inertia of the rotor, g·cm²")
+      ->required()
+      ->group("Motor");
+  option("--holding-torque", arguments.holding_torque, "NM", "both phases on at the rated current, N·m")
+      ->group("Motor");
+  option("--current", arguments.current, "A", "rated current of a phase, A")->group("Motor");
+  option("--resistance", arguments.resistance, "OHM", "of a phase, ohm")->group("Motor");
+  option("--inductance", arguments.inductance, "MH", "of a phase, mH")->group("Motor");
+  option("--data", arguments.data, "KIND",
+         "connection that these four values are for: bipolar (whole coils) or unipolar (half coils, from the centre "
+         "tap); without it, that of --drive")
+      ->check(CLI::IsMember({"bipolar", "unipolar"}))
+      ->group("Motor");
+
+  option("--supply", arguments.supply, "V", "supply voltage, V")->group("Drive");
+  option("--drive", arguments.drive, "KIND", "bipolar or unipolar")
+      ->check(CLI::IsMember({"bipolar", "unipolar"}))
+      ->capture_default_str()
+      ->group("Drive");
+  option("--regulation", arguments.regulation, "KIND",
+         "chopper (holds the rated current) or resistive (a resistor in series limits it)")
+      ->check(CLI::IsMember({"chopper", "resistive"}))
+      ->capture_default_str()
+      ->group("Drive");
+
+  option("--curve", arguments.pull_out, "HZ:NM,...",
+         "pull-out, instead of motor and drive: rate:torque,rate:torque,...")
+      ->delimiter(',')
+      ->group("Measured curves");
+  option("--pull-in", arguments.pull_in, "HZ:NM,...", "pull-in of the rotor alone; without it, computed")
+      ->delimiter(',')
+      ->group("Measured curves");
+
+  option("--load-inertia", arguments.load_inertia, "G_CM2", "as felt at the motor's shaft, g·cm²")->group("Load");
+  option("--friction", arguments.friction, "NM", "at any speed, N·m")->group("Load");
+  option("--viscous-friction", arguments.friction_per_speed, "NMS", "on top, growing with the speed, N·m·s/rad")
+      ->group("Load");
+  option("--margin", arguments.margin, "0...1", "part of the torque left over that may accelerate")
+      ->capture_default_str()
+      ->group("Load");
+
+  option("--max-rate", arguments.max_rate, "HZ", "where table and picture end, full steps/s")->group("Output");
+  option("--rows", arguments.rows, "N", "of the table")->capture_default_str()->group("Output");
+  option("-p,--picture", arguments.pictures, "FILE", "draw the curves (FILE.svg or FILE.png), print no table")
+      ->group("Output");
+  command.add_flag("--json", arguments.json, "print a summary as JSON, no table")->group("Output");
+  return command;
+}
+
+}  // namespace passo

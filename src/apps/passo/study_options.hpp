@@ -1,0 +1,16 @@
+// The options of the commands that study one thing at a time, which are many.
+#pragma once
+
+#include "commands.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace passo {
+
+CLI::App& add_interpolate_command(CLI::App& app, InterpolateArguments& arguments);
+CLI::App& add_ramp_command(CLI::App& app, RampArguments& arguments);
+CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments);
+
+}  // namespace passo

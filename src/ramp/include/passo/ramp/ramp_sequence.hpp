@@ -1,0 +1,63 @@
+// RampSequence: the intervals of a ramp or of a whole move, one at a time, by any method. What `passo ramp` shows.
+//
+// It starts the walk that fits (interpolate/ramp_move.hpp over a ramp, or an SCurveMove) and says in words why a method
+// does not apply. Constant memory, but for a table.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "passo/base/result.hpp"
+#include "passo/ramp/ramp_setup.hpp"
+
+namespace passo {
+
+enum class RampMethod : std::uint8_t { exact, recursive, table };
+
+struct RampRequest {
+  static constexpr std::int64_t most_steps = std::int64_t{1} << 29;
+
+  RampSetup setup;
+  RampMethod method = RampMethod::exact;
+  std::int64_t steps = 0;       // 1…most_steps
+  bool whole_move = false;      // to rest again; else upwards only
+  bool whole_ticks = false;     // as a chip plays it; a table always does
+  Hertz rate{0};                // the greatest; 0: none
+  Hertz start{0};               // of the start/stop region; 0: none
+  RadiansPerSecond3 jerk;       // bounded in a whole move; 0: not
+  std::int32_t table_size = 0;  // 0: as many entries as the steps need
+  std::int64_t stop_after = 0;  // a whole move is told to stop after so many steps; 0: not
+};
+
+struct RampError {
+  std::string message;
+};
+
+class RampSequence {
+ public:
+  static constexpr std::int32_t largest_table = 65535;
+
+  static Result<RampSequence, RampError> start(const RampRequest& request);
+
+  RampSequence(RampSequence&&) noexcept;
+  RampSequence& operator=(RampSequence&&) noexcept;
+  ~RampSequence();
+
+  bool done() const;
+  // The next interval, in ticks. Only when not done().
+  double next();
+  bool whole_ticks() const { return whole_ticks_; }
+
+  class Walk;
+
+ private:
+  RampSequence(std::unique_ptr<Walk> walk, const RampRequest& request);
+
+  std::unique_ptr<Walk> walk_;
+  std::int64_t left_ = 0;
+  std::int64_t to_stop_ = 0;  // steps until the move is told to; 0: it is not
+  bool whole_ticks_ = false;
+};
+
+}  // namespace passo
