@@ -1,0 +1,92 @@
+// On the chip: plays one order after the other, for ever. Each call of next() stands between two marks, with what an
+// interrupt would do around it: the walk lies in RAM, the result goes to ports.
+//
+// Wires to the host, in registers that mean nothing to the chip's hardware:
+//   reading GPIOR0    the next byte of an order
+//   writing GPIOR0    a mark: begin and end of what is measured, in turns
+//   writing GPIOR1, 2 a pulse's steps and directions; the bytes of an interval, lowest first
+// Portable.
+#include "emulator/methods.hpp"
+
+namespace {
+
+using namespace passo;
+
+volatile uint8_t& gpior(uint8_t number) {
+  constexpr uint8_t addresses[] = {0x3e, 0x4a, 0x4b};
+  return *reinterpret_cast<volatile uint8_t*>(addresses[number]);
+}
+
+// One cycle. The compiler moves no work across it.
+void mark() {
+  asm volatile("out 0x1e, r1" ::: "memory");
+}
+
+uint32_t read_bytes(uint8_t count) {
+  uint32_t value = 0;
+  for (uint8_t i = 0; i < count; ++i) value |= static_cast<uint32_t>(gpior(0)) << (8 * i);
+  return value;
+}
+
+Order read_order() {
+  Order order;
+  while (order.method == no_order) order.method = static_cast<uint8_t>(read_bytes(1));
+  order.most = static_cast<uint16_t>(read_bytes(2));
+  for (int32_t& value : order.values) value = static_cast<int32_t>(read_bytes(4));
+  return order;
+}
+
+void put(Pulse pulse) {
+  gpior(1) = pulse.steps;
+  gpior(2) = pulse.directions;
+}
+void put(uint16_t interval) {
+  gpior(1) = static_cast<uint8_t>(interval);
+  gpior(1) = static_cast<uint8_t>(interval >> 8);
+}
+void put(uint32_t interval) {
+  put(static_cast<uint16_t>(interval));
+  put(static_cast<uint16_t>(interval >> 16));
+}
+
+// A walk at a known address, as an interrupt's state is, without a constructor that runs before main.
+template <class Walk>
+union Room {
+  uint8_t nothing = 0;
+  Walk walk;
+};
+template <class Walk>
+constinit Room<Walk> room{};
+
+template <class Walk>
+[[gnu::noinline]] void begin(const Order& order) {
+  room<Walk>.walk = Walk(order);
+}
+template <class Walk>
+[[gnu::noinline]] void beat() {
+  put(room<Walk>.walk.next());
+}
+
+template <class Walk>
+[[gnu::noinline]] void play(const Order& order) {
+  mark();
+  begin<Walk>(order);
+  mark();
+  for (uint16_t left = order.most; left != 0 && !room<Walk>.walk.done(); --left) {
+    mark();
+    beat<Walk>();
+    mark();
+  }
+}
+
+}  // namespace
+
+// Freestanding: to the compiler main is a function like others.
+extern "C" int main() {
+  mark();  // what two marks cost
+  mark();
+  for (;;) {
+    const Order order = read_order();
+    visit_method(order.method, [&](auto method) { play<typename decltype(method)::Walk>(order); });
+  }
+}
