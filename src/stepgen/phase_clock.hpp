@@ -1,7 +1,7 @@
 // PhaseClock: when the path is at s. The phases of one move, inverted; s only grows from call to call.
 //
-// A phase of constant acceleration inverts in closed form; one with jerk by Newton's method inside a bracket. Times are
-// from the start of the move, so that no error adds up from step to step.
+// Times are from the start of the move, so that no error adds up from step to step. How a phase inverts:
+// units/constant_jerk.hpp.
 #pragma once
 
 #include "passo/trajectory/phase.hpp"

@@ -19,6 +19,7 @@
 #pragma once
 
 #include "passo/interpolate/line.hpp"
+#include "passo/interpolate/root.hpp"
 
 namespace passo {
 
@@ -27,16 +28,6 @@ struct ArcPoints {  // steps, from the centre
   int32_t end[2] = {0, 0};
   bool clockwise = false;
 };
-
-// The root, rounded to the nearest whole number.
-constexpr uint32_t rounded_root(uint64_t square) {
-  uint64_t root = 0;
-  for (uint64_t bit = uint64_t{1} << 31; bit != 0; bit >>= 1) {
-    const uint64_t larger = root | bit;
-    if (larger * larger <= square) root = larger;
-  }
-  return static_cast<uint32_t>(square - root * root > root ? root + 1 : root);
-}
 
 template <class Length = uint32_t>
 class ArcTravel {

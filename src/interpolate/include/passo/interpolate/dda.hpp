@@ -1,5 +1,5 @@
-// Dda: a line by digital integration. Each axis has a register of N bits with its length in it, 2ᴺ > the longest, and an
-// accumulator of N bits; 2ᴺ iterations each add the register to the accumulator, and an overflow is a step.
+// Dda: a line by digital integration. Each axis has a register of N bits with its length in it, 2ᴺ > the longest, and
+// an accumulator of N bits; 2ᴺ iterations each add the register to the accumulator, and an overflow is a step.
 //
 // Sum over all: 2ᴺ·length, so each axis makes its length in steps and the accumulators end where they started. They
 // start at 0 (steps come late, error just below one step) or half full (the error is centred: half a step).

@@ -16,6 +16,7 @@
 #pragma once
 
 #include "passo/interpolate/line.hpp"
+#include "passo/interpolate/root.hpp"
 
 namespace passo {
 
@@ -38,11 +39,7 @@ template <uint8_t axes>
 class PulseDurations {
  public:
   // √n in 2.30 fixed point.
-  static constexpr uint32_t root(uint8_t n) {
-    constexpr uint32_t roots[most_axes + 1] = {0,          1073741824, 1518500250, 1859775393, 2147483648,
-                                               2400959708, 2630119584, 2840853838, 3037000500};
-    return roots[n];
-  }
+  static constexpr uint32_t root(uint8_t n) { return rounded_root(static_cast<uint64_t>(n) << 60); }
 
   // `pulses[n]`: how many pulses move n axes; some do.
   static constexpr PulseDurations by_roots(uint32_t ticks, const uint32_t (&pulses)[axes + 1]) {
@@ -89,7 +86,7 @@ class PulseDurations {
   constexpr explicit PulseDurations(bool by_count) : by_count_(by_count) {}
 
   bool by_count_;
-  uint64_t share_[axes] = {};  // of a pulse of n + 1 axes, or of axis n
+  uint64_t share_[axes] = {};              // of a pulse of n + 1 axes, or of axis n
   uint32_t fraction_ = uint32_t{1} << 31;  // half a tick: the running time is rounded, not cut
 };
 

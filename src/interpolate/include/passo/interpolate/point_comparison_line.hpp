@@ -35,7 +35,8 @@ class EndByCoordinates {
   Length y_;
 };
 
-// One counter, of the longer axis. At zero it is not enough: the shorter axis must have arrived as well, which F = 0 says.
+// One counter, of the longer axis. At zero it is not enough: the shorter axis must have arrived as well, which F = 0
+// says.
 template <class Length>
 class EndByProjection {
  public:

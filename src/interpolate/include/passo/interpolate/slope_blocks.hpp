@@ -3,9 +3,8 @@
 // (length mod height) blocks has one plain step more.
 //
 // Between two diagonals there is only a count-down; the one division is done before the first pulse. The remainder r is
-// not spread but spent at the start, so the tool falls behind by up to r·(height − r)/length steps, and half a step more
-// within a block. Lengths up to 2³¹−1.
-// Portable.
+// not spread but spent at the start, so the tool falls behind by up to r·(height − r)/length steps, and half a step
+// more within a block. Lengths up to 2³¹−1. Portable.
 #pragma once
 
 #include "passo/interpolate/line.hpp"

@@ -1,6 +1,6 @@
-// SlopeRecalculated: a line of two axes, from hot-wire cutters. Seen from the first octant the slope that is still to go
-// is compared with the slope of the whole line: below it, a step along the longer axis; at or above it, both at once.
-// The first pulse is a plain step; slope 1 is all diagonal.
+// SlopeRecalculated: a line of two axes, from hot-wire cutters. Seen from the first octant the slope that is still to
+// go is compared with the slope of the whole line: below it, a step along the longer axis; at or above it, both at
+// once. The first pulse is a plain step; slope 1 is all diagonal.
 //
 // By cross products there is no quotient: slope to go ≥ slope  ⟺  E = height_left·length − height·length_left ≥ 0.
 // A plain step adds `height` to E, a diagonal one `height − length`: E stays in height − length … height − 1.

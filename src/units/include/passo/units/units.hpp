@@ -67,6 +67,20 @@ struct Radians {
   friend constexpr auto operator<=>(Radians, Radians) = default;
 };
 
+// What turns a motor, and what it turns: per second are radians, not revolutions.
+struct RadiansPerSecond {
+  double value = 0;
+  friend constexpr auto operator<=>(RadiansPerSecond, RadiansPerSecond) = default;
+};
+struct RadiansPerSecond2 {
+  double value = 0;
+  friend constexpr auto operator<=>(RadiansPerSecond2, RadiansPerSecond2) = default;
+};
+struct RadiansPerSecond3 {
+  double value = 0;
+  friend constexpr auto operator<=>(RadiansPerSecond3, RadiansPerSecond3) = default;
+};
+
 // Counted, not measured: motor steps, and counts of the board's timer.
 struct Steps {
   std::int64_t count = 0;

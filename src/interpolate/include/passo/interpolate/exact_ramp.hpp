@@ -1,0 +1,106 @@
+// ExactRamp: constant acceleration with exact times. Step n happens at t_n = K_b √n; T_n is that, rounded to a tick,
+// and c_n = T_(n+1) − T_n.
+//
+// T_n is known with its remainder R_n = K_b² n − T_n², so that nothing drifts: from one step to the next R grows by
+// K_b² (or shrinks, on the way down), T is moved by a guess of the interval, and as long as R says that T is not the
+// rounded root, −T < R <= T, T is corrected by R / 2T (Newton). The guess is c_(n+1) = c_n − 2 c_n / (4n + 5), so good
+// that after the first dozen steps a correction is a single tick or none: one 32-bit division a step.
+//
+// Errors: each T_n within half a tick and each interval within one tick of the real one, for ever. K_b² is given as a
+// whole number; rounding a real one shifts t_n by √n / 4K_b ticks more.
+// Ranges: 1 <= K_b < 2^32 ticks, steps up to 2^30. R is meant modulo 2^64 until T is nearly right.
+// Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+// √square, rounded to the nearest whole number; below (2^32 − ½)².
+constexpr uint32_t rounded_root(uint64_t square) {
+  uint64_t root = 0;
+  uint64_t rest = square;
+  for (uint64_t bit = uint64_t{1} << 62; bit != 0; bit >>= 2) {
+    if (rest >= root + bit) {
+      rest -= root + bit;
+      root = (root >> 1) + bit;
+    } else {
+      root >>= 1;
+    }
+  }
+  return static_cast<uint32_t>(root + (rest > root ? 1 : 0));
+}
+
+class ExactRamp {
+ public:
+  using Interval = uint32_t;
+
+  // K_b², in ticks².
+  explicit constexpr ExactRamp(uint64_t first_squared)
+      : first_squared_(first_squared),
+        interval_(rounded_root(first_squared)),
+        end_(interval_),
+        remainder_(first_squared - uint64_t{interval_} * interval_) {}
+
+  constexpr uint32_t index() const { return index_; }
+  // c_n of the current index, in ticks. It may be 0 where K_b is spent: from about n = K_b²/4 on.
+  constexpr uint32_t interval() const { return interval_; }
+  constexpr uint32_t fastest() const { return 1; }
+  // T_(n+1): from rest to the end of the current step, in ticks.
+  constexpr uint64_t end() const { return static_cast<uint64_t>(end_); }
+
+  // To n + 1.
+  constexpr void rise() {
+    const int64_t start = end_;
+    ++index_;
+    remainder_ += first_squared_;
+    move_by(index_ == 1 ? interval_ / 2 : interval_ - 2 * interval_ / (4 * index_ + 1));
+    settle();
+    interval_ = static_cast<uint32_t>(end_ - start);
+  }
+  // To n − 1. Only where n > 0.
+  constexpr void fall() {
+    remainder_ -= first_squared_;
+    move_by(-int64_t{interval_});
+    if (index_ == 1) {
+      interval_ = static_cast<uint32_t>(end_);
+    } else {
+      const int64_t end = end_;
+      remainder_ -= first_squared_;
+      move_by(-int64_t{interval_ + 2 * interval_ / (4 * index_ - 1)});
+      settle();
+      interval_ = static_cast<uint32_t>(end - end_);
+      remainder_ += first_squared_;
+      move_by(interval_);
+    }
+    --index_;
+  }
+
+ private:
+  // Another root of the same square: X = T² + R.
+  constexpr void move_by(int64_t ticks) {
+    remainder_ -= static_cast<uint64_t>(ticks) * static_cast<uint64_t>(2 * end_ + ticks);
+    end_ += ticks;
+  }
+  // T becomes the rounded root. Most corrections are a single tick; those need no division.
+  constexpr void settle() {
+    for (;;) {
+      const int64_t rest = static_cast<int64_t>(remainder_);
+      if (rest > end_) {
+        move_by(rest > 3 * end_ && end_ > 0 ? rest / (2 * end_) : 1);
+      } else if (rest <= -end_ && end_ > 0) {
+        move_by(rest < -3 * end_ ? rest / (2 * end_) : -1);
+      } else {
+        return;
+      }
+    }
+  }
+
+  uint64_t first_squared_;
+  uint32_t index_ = 0;
+  uint32_t interval_;
+  int64_t end_;         // T_(n+1)
+  uint64_t remainder_;  // K_b² (n+1) − T_(n+1)², in two's complement
+};
+
+}  // namespace passo

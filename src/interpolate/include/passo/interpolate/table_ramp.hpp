@@ -1,0 +1,59 @@
+// TableRamp: constant acceleration from a table, with one 16 × 16 multiplication a step: c_n = (K_b · k_n) >> 16.
+//
+// A walk over the index n, one step up or down at a time, so that a motor brakes with the intervals that it started
+// with. Errors do not add up: each interval is cut off by itself, from a K_b and a k_n that were cut off, and is less
+// than two ticks short (K_b < 65536). The whole run is early by that much a step.
+//
+// Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused, never wrapped; a slower timer clock or another
+// method is then the way. Where the table ends the motor goes on at the speed it has.
+// Table: a type with `uint16_t size() const` and `uint16_t operator[](uint16_t n) const` (ramp_table.hpp); a chip's
+// own one reads flash.
+// Portable: no division.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+template <class Table>
+class TableRamp {
+ public:
+  using Interval = uint16_t;
+  static constexpr uint16_t longest_first_interval = 0xffff;
+
+  explicit constexpr TableRamp(Table table = Table()) : table_(table) {}
+
+  // K_b = c_0, in ticks. False: it does not fit, and the ramp is what it was. At index 0 afterwards.
+  [[nodiscard]] constexpr bool set_first_interval(uint32_t ticks) {
+    if (ticks == 0 || ticks > longest_first_interval) return false;
+    first_ = static_cast<uint16_t>(ticks);
+    index_ = 0;
+    return true;
+  }
+
+  constexpr uint16_t index() const { return index_; }
+  // c_n of the current index, in ticks.
+  constexpr uint16_t interval() const { return interval_of(index_); }
+  // The shortest interval there is: the one at the table's end.
+  constexpr uint16_t fastest() const { return interval_of(static_cast<uint16_t>(table_.size() - 1)); }
+
+  // To n + 1; at the table's end it stays.
+  constexpr void rise() {
+    const uint16_t next = static_cast<uint16_t>(index_ + 1);
+    if (next < table_.size()) index_ = next;
+  }
+  // To n − 1. Only where n > 0.
+  constexpr void fall() { --index_; }
+
+ private:
+  constexpr uint16_t interval_of(uint16_t n) const {
+    if (n == 0) return first_;
+    return static_cast<uint16_t>((uint32_t{first_} * table_[n]) >> 16);
+  }
+
+  [[no_unique_address]] Table table_;
+  uint16_t first_ = longest_first_interval;
+  uint16_t index_ = 0;
+};
+
+}  // namespace passo

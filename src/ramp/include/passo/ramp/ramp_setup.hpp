@@ -1,0 +1,47 @@
+// RampSetup: the motor, its clock and the acceleration: what decides a ramp. And what a table of N entries can do.
+//
+// K_b = f_ck √(2α/a), with the step angle α = 2π / steps a turn: the first interval from rest, in ticks. Real numbers
+// of ticks are doubles; counted ones are integers.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+struct RampSetup {
+  Hertz clock{0};
+  std::int32_t steps_per_turn = 0;
+  RadiansPerSecond2 acceleration;
+};
+
+constexpr Radians step_angle(std::int32_t steps_per_turn) {
+  return {2 * std::numbers::pi / steps_per_turn};
+}
+
+// K_b², in ticks².
+constexpr double first_interval_squared(const RampSetup& setup) {
+  const double f = setup.clock.value();
+  return f * f * 2 * step_angle(setup.steps_per_turn).value / setup.acceleration.value;
+}
+// K_b, in ticks.
+inline double first_interval(const RampSetup& setup) {
+  return std::sqrt(first_interval_squared(setup));
+}
+
+// The least acceleration with which a table of N entries comes to `rate`: a_lim = π f² / (N · steps a turn).
+constexpr RadiansPerSecond2 least_acceleration(Hertz rate, std::int64_t table_size, std::int32_t steps_per_turn) {
+  const double f = rate.value();
+  return {std::numbers::pi * f * f / (static_cast<double>(table_size) * steps_per_turn)};
+}
+// The rate after N steps from rest, with which the motor goes on: f = √(2aN/α).
+inline Hertz reached_rate(RadiansPerSecond2 acceleration, std::int64_t table_size, std::int32_t steps_per_turn) {
+  const double square =
+      2 * acceleration.value * static_cast<double>(table_size) / step_angle(steps_per_turn).value;
+  return Hertz(std::sqrt(square));
+}
+
+}  // namespace passo

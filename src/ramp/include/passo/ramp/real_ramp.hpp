@@ -1,0 +1,65 @@
+// The exact and the recursive ramp in real numbers: what the integers on the chip are compared with, and what
+// `passo ramp` prints.
+//
+// Both are walks over the index n, as interpolate/table_ramp.hpp and exact_ramp.hpp are, and play in a RampMove.
+// Ticks are real. Largest shares by which an interval differs from the exact one:
+//
+//   exact       c_n = K_b / (√(n+1) + √n)         nothing; 1e-15 of rounding, and no difference of large numbers
+//   recursive   c_n = c_(n−1) / (1 + 2 (c_(n−1)/K_b)²)   19.5 % short at n = 1, (ln n + 2.3) / 8n later
+//
+// tests/real_ramp_test.cpp measures them, and the table's.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace passo {
+
+class RealExactRamp {
+ public:
+  using Interval = double;
+
+  explicit RealExactRamp(double first_interval) : first_(first_interval) {}
+
+  double interval() const { return first_ / (std::sqrt(number() + 1) + std::sqrt(number())); }
+  double fastest() const { return 0; }
+  // K_b √(n+1): from rest to the end of the current step.
+  double end() const { return first_ * std::sqrt(number() + 1); }
+  void rise() { ++index_; }
+  void fall() { --index_; }
+
+ private:
+  double number() const { return static_cast<double>(index_); }
+
+  double first_;
+  std::int64_t index_ = 0;
+};
+
+class RealRecursiveRamp {
+ public:
+  using Interval = double;
+
+  explicit RealRecursiveRamp(double first_interval) : first_(first_interval), interval_(first_interval) {}
+
+  double interval() const { return interval_; }
+  double fastest() const { return 0; }
+  void rise() {
+    const double share = interval_ / first_;
+    interval_ /= 1 + 2 * share * share;
+    ++index_;
+  }
+  // The interval whose successor is the present one: the smaller root. What rounding has done is n times as large at
+  // the bottom as it was at index n.
+  void fall() {
+    const double share = interval_ / first_;
+    --index_;
+    interval_ = index_ == 0 ? first_ : 2 * interval_ / (1 + std::sqrt(1 - 8 * share * share));
+  }
+
+ private:
+  double first_;
+  double interval_;
+  std::int64_t index_ = 0;
+};
+
+}  // namespace passo
