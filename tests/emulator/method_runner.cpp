@@ -11,6 +11,8 @@ constexpr std::uint16_t gpior2 = 0x4b;
 
 constexpr std::uint64_t most_cycles = 2'000'000'000;
 
+using HostTable = CompiledTable<ramp_table_size>;
+
 void append(std::vector<std::uint8_t>& bytes, std::uint32_t value, int count) {
   for (int i = 0; i < count; ++i) bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
@@ -68,7 +70,7 @@ Run MethodRunner::play(const Order& order) {
 
 Output play_on_host(const Order& order) {
   Output output;
-  visit_method(order.method, [&](auto method) {
+  visit_method<HostTable>(order.method, [&](auto method) {
     typename decltype(method)::Walk walk(order);
     for (std::uint16_t left = order.most; left != 0 && !walk.done(); --left) put(output, walk.next());
   });
@@ -80,7 +82,7 @@ std::vector<MethodName> method_names() {
   const auto add = [&](auto method) {
     names.push_back({method.name, method.kind, decltype(method)::Walk::axes, method.bits});
   };
-  for (std::uint8_t number = 0; visit_method(number, add);) ++number;
+  for (std::uint8_t number = 0; visit_method<HostTable>(number, add);) ++number;
   return names;
 }
 

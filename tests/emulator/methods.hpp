@@ -10,11 +10,16 @@
 
 #include "passo/interpolate/arcs.hpp"
 #include "passo/interpolate/dda.hpp"
+#include "passo/interpolate/exact_ramp.hpp"
 #include "passo/interpolate/lean.hpp"
 #include "passo/interpolate/master_slave.hpp"
 #include "passo/interpolate/point_comparison_line.hpp"
+#include "passo/interpolate/ramp_move.hpp"
+#include "passo/interpolate/ramp_table.hpp"
+#include "passo/interpolate/recursive_ramp.hpp"
 #include "passo/interpolate/slope_blocks.hpp"
 #include "passo/interpolate/slope_recalculated.hpp"
+#include "passo/interpolate/table_ramp.hpp"
 
 namespace passo {
 
@@ -30,7 +35,6 @@ struct Order {
 template <class Interpolator, uint8_t axes_>
 class LineWalk {
  public:
-  using Output = Pulse;
   static constexpr uint8_t axes = axes_;
 
   constexpr explicit LineWalk(const Order& order) : interpolator_(first_values(order).distances) {}
@@ -53,7 +57,6 @@ class LineWalk {
 template <class Interpolator>
 class ArcWalk {
  public:
-  using Output = Pulse;
   static constexpr uint8_t axes = 2;
 
   constexpr explicit ArcWalk(const Order& order)
@@ -65,7 +68,63 @@ class ArcWalk {
   Interpolator interpolator_;
 };
 
-enum class MethodKind : uint8_t { line, arc, ramp };
+// How each ramp is begun: with K_b in ticks.
+template <class Ramp>
+struct Begin;
+template <class Table>
+struct Begin<TableRamp<Table>> {
+  static constexpr TableRamp<Table> with(uint32_t first) {
+    TableRamp<Table> ramp;
+    static_cast<void>(ramp.set_first_interval(first));  // orders have one that fits
+    return ramp;
+  }
+};
+template <class Square>
+struct Begin<RecursiveRamp<Square>> {
+  static constexpr RecursiveRamp<Square> with(uint32_t first) { return {static_cast<Square>(first) * first, first}; }
+};
+template <>
+struct Begin<ExactRamp> {
+  static constexpr ExactRamp with(uint32_t first) { return ExactRamp(static_cast<uint64_t>(first) * first); }
+};
+
+// Faster and faster, for ever.
+template <class Ramp>
+class RampWalk {
+ public:
+  static constexpr uint8_t axes = 1;
+
+  constexpr explicit RampWalk(const Order& order)
+      : ramp_(Begin<Ramp>::with(static_cast<uint32_t>(order.values[0]))) {}
+  constexpr bool done() const { return false; }
+  constexpr typename Ramp::Interval next() {
+    ramp_.rise();
+    return ramp_.interval();
+  }
+
+ private:
+  Ramp ramp_;
+};
+
+// There and back to rest: order.values[1] steps, at order.values[2] ticks a step at the fastest.
+template <class Ramp, class Count>
+class MoveWalk {
+ public:
+  static constexpr uint8_t axes = 1;
+
+  constexpr explicit MoveWalk(const Order& order)
+      : move_(Begin<Ramp>::with(static_cast<uint32_t>(order.values[0]))) {
+    static_cast<void>(move_.set_rates(0, static_cast<typename Ramp::Interval>(order.values[2])));
+    move_.move_to(order.values[1]);
+  }
+  constexpr bool done() const { return move_.done(); }
+  constexpr typename Ramp::Interval next() { return move_.next(); }
+
+ private:
+  RampMove<Ramp, Count> move_;
+};
+
+enum class MethodKind : uint8_t { line, arc, ramp, move };
 
 template <class Walk_>
 struct Method {
@@ -94,12 +153,31 @@ constexpr bool visit_interpolator(uint8_t number, Visitor&& visit) {
   }
 }
 
-// Calls visit with the method of that number. False: there are fewer.
-template <class Visitor>
+template <class Table, class Visitor>
+constexpr bool visit_ramp(uint8_t number, Visitor&& visit) {
+  constexpr MethodKind ramp = MethodKind::ramp;
+  constexpr MethodKind move = MethodKind::move;
+  switch (number) {
+    case 0: visit(Method<RampWalk<TableRamp<Table>>>{"table", ramp, 16}); return true;
+    case 1: visit(Method<RampWalk<RecursiveRamp<uint32_t>>>{"recursive", ramp, 32}); return true;
+    case 2: visit(Method<RampWalk<RecursiveRamp<uint64_t>>>{"recursive", ramp, 64}); return true;
+    case 3: visit(Method<RampWalk<ExactRamp>>{"exact", ramp, 64}); return true;
+    case 4: visit(Method<MoveWalk<TableRamp<Table>, uint16_t>>{"table", move, 16}); return true;
+    case 5: visit(Method<MoveWalk<ExactRamp, uint32_t>>{"exact", move, 64}); return true;
+    default: return false;
+  }
+}
+
+inline constexpr uint16_t ramp_table_size = 1000;
+
+// Calls visit with the method of that number. False: there are fewer. Table: where a table ramp reads its factors.
+template <class Table, class Visitor>
 constexpr bool visit_method(uint8_t number, Visitor&& visit) {
   constexpr uint8_t interpolators = 9;
   if (number < interpolators) return visit_interpolator<uint16_t>(number, visit);
-  return visit_interpolator<uint32_t>(static_cast<uint8_t>(number - interpolators), visit);
+  number = static_cast<uint8_t>(number - interpolators);
+  if (number < interpolators) return visit_interpolator<uint32_t>(number, visit);
+  return visit_ramp<Table>(static_cast<uint8_t>(number - interpolators), visit);
 }
 
 }  // namespace passo

@@ -49,6 +49,19 @@ void put(uint32_t interval) {
   put(static_cast<uint16_t>(interval >> 16));
 }
 
+// The ramp's factors in flash, where they take no RAM: 3 cycles a byte instead of 2.
+[[gnu::section(".progmem.data")]] constexpr RampTable<ramp_table_size> flash_table;
+
+struct FlashTable {
+  static constexpr uint16_t size() { return ramp_table_size; }
+  uint16_t operator[](uint16_t n) const {
+    uint16_t address = static_cast<uint16_t>(reinterpret_cast<uintptr_t>(&flash_table) + 2 * n);
+    uint16_t factor;
+    asm("lpm %A0, Z+\n\tlpm %B0, Z" : "=&r"(factor), "+z"(address));
+    return factor;
+  }
+};
+
 // A walk at a known address, as an interrupt's state is, without a constructor that runs before main.
 template <class Walk>
 union Room {
@@ -87,6 +100,6 @@ extern "C" int main() {
   mark();
   for (;;) {
     const Order order = read_order();
-    visit_method(order.method, [&](auto method) { play<typename decltype(method)::Walk>(order); });
+    visit_method<FlashTable>(order.method, [&](auto method) { play<typename decltype(method)::Walk>(order); });
   }
 }
