@@ -110,7 +110,7 @@ JerkProfile JerkProfile::from_rest(double way, const JerkLimits& limits) {
   profile.way_ = way;
   const double ends = 2 * last_step(limits);
   if (limits.end_speed > 0 && (way <= ends || limits.speed <= limits.end_speed)) {
-    profile.crest_ = std::min(limits.speed, limits.end_speed);
+    profile.crest_ = limits.end_speed;
     profile.duration_ = way / profile.crest_;
     return profile;
   }

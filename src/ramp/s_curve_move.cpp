@@ -57,7 +57,7 @@ SCurveMove::SCurveMove(const SCurveLimits& limits) : state_(std::make_unique<Sta
   state_->limits = {.speed = limits.rate.value(),
                     .acceleration = limits.setup.acceleration.value / angle,
                     .jerk = limits.jerk.value / angle,
-                    .end_speed = limits.start.value()};
+                    .end_speed = std::min(limits.start.value(), limits.rate.value())};
   state_->clock = limits.setup.clock.value();
   state_->step_angle = angle;
 }

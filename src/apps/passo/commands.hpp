@@ -51,4 +51,21 @@ struct MachineArguments {
 };
 int machine(const MachineArguments& arguments);
 
+struct InterpolateArguments {
+  std::string method;  // a name of method_names(); empty with `compare`
+  std::string to;      // "10,4", in steps
+  std::string from;    // empty: zero
+  std::string center;  // an arc about it
+  bool clockwise = false;
+  bool half_loaded = false;  // DDA
+  int register_bits = 0;     // DDA; 0: as few as hold the move
+  std::string end;           // point comparison: coordinates, projection or total
+  bool compare = false;
+  std::string picture;  // .svg or .png
+  std::string output;   // empty: standard output
+  bool json = false;
+  double steps_per_mm = 100;
+};
+int interpolate(const InterpolateArguments& arguments);
+
 }  // namespace passo

@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo canon part.ngc                                        what it means, as canonical calls
   passo machine router.toml                                   what a machine file says
+  passo interpolate --compare --to 27,10                      how each classic method steps along a line
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -33,6 +34,34 @@ void add_program(CLI::App& command, ProgramArguments& arguments) {
 
 void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
+}
+
+void add_interpolate(CLI::App& command, InterpolateArguments& arguments) {
+  command.add_option("--method", arguments.method,
+                     "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint");
+  command.add_option("--to", arguments.to, "end of the move in steps, X,Y[,Z...]")->required();
+  command.add_option("--from", arguments.from, "its start; zero without it");
+  command.add_option("--center", arguments.center, "an arc about X,Y; where start and end are the same, a full circle");
+  command.add_flag("--cw", arguments.clockwise, "clockwise; else counterclockwise");
+  command.add_flag("--half-loaded", arguments.half_loaded, "dda: the accumulators start half full");
+  command.add_option("--register-bits", arguments.register_bits, "dda: longer registers than the move needs")
+      ->check(CLI::Range(1, 31));
+  command.add_option("--end", arguments.end, "point-comparison: how the end is judged")
+      ->check(CLI::IsMember({"coordinates", "projection", "total"}));
+  command.add_flag("--compare", arguments.compare, "every method that takes the move, side by side");
+  command.add_option("-p,--picture", arguments.picture, "draw the pulses on the grid (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the pulses to a file");
+  command.add_flag("--json", arguments.json, "the figures of the comparison, or of one method, as JSON");
+  command.add_option("--steps-per-mm", arguments.steps_per_mm, "for deviations in \u00B5m")->capture_default_str();
+  command.footer(
+      R"(Prints a line a pulse: its number, where each axis stands after it, and the method's decision variables.
+
+Examples:
+  passo interpolate --method lean --to 10,4                             master and slaves, as an interrupt does it
+  passo interpolate --method dda --half-loaded --to 10,4,7              three axes, integrators half full
+  passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
+  passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as figures and drawn
+  passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -69,6 +98,10 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
 
+  InterpolateArguments interpolate_arguments;
+  CLI::App& interpolate_command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
+  add_interpolate(interpolate_command, interpolate_arguments);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -77,6 +110,7 @@ int parse_and_run(int argc, char** argv) {
   if (run_command.parsed()) return run(run_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
+  if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   return machine(machine_arguments);
 }
 

@@ -8,11 +8,11 @@
 
 #include "commands.hpp"
 #include "program_input.hpp"
+#include "progress_display.hpp"
 #include "run_outputs.hpp"
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
-#include "passo/report/progress.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -26,28 +26,6 @@ extern "C" void end_on_signal(int signal) {
   OutputFile::remove_unfinished();
   std::_Exit(128 + signal);
 }
-
-class Progress {
- public:
-  explicit Progress(const std::string& label, bool wanted)
-      : line_(label, wanted && is_terminal(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
-  ~Progress() { show(line_.clear()); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void update(double fraction) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    show(line_.update(fraction, Seconds(elapsed.count())));
-  }
-
- private:
-  static void show(const std::string& text) {
-    if (!text.empty()) std::fwrite(text.data(), 1, text.size(), stderr);
-  }
-
-  ProgressLine line_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 void add_board(RunSummary& summary, Job& job, const MachineDescription& machine) {
   const MachineCounts counts = job.machine().counts();
@@ -82,7 +60,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   });
   outputs.watch(job);
   {
-    Progress progress(arguments.program.program, !arguments.quiet);
+    ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }

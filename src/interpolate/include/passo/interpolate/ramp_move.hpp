@@ -36,11 +36,13 @@ class RampMove {
   [[nodiscard]] constexpr bool set_rates(Interval start, Interval cruise) {
     cruise_ = cruise > ramp_.fastest() ? cruise : ramp_.fastest();
     if (start == 0) return true;
-    const bool constant = cruise_ >= start;
-    if (!constant && ramp_.interval() < start) return false;
-    const Interval limit = constant ? cruise_ : start;
-    while (ramp_.interval() > limit) ramp_.rise();
-    if (!constant && ramp_.interval() < start) ramp_.fall();  // it had just left the region
+    if (cruise_ >= start) {
+      while (ramp_.interval() > cruise_) ramp_.rise();
+      return true;
+    }
+    if (ramp_.interval() < start) return false;
+    while (ramp_.interval() >= start) ramp_.rise();
+    ramp_.fall();  // it had just left the region
     return true;
   }
 

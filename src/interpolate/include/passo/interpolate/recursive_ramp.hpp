@@ -4,7 +4,7 @@
 // v_n = v_(n−1) + 2 c_(n−1) and c_n = K_b² / v_n, rounded. That is c_n = c_(n−1) · α f² / (α f² + a c_(n−1)²) without
 // its products.
 //
-// The method itself gives intervals that are too short: by 19.5 % at n = 1, then by a share of (ln n + 2.3) / 8n. The
+// The method itself gives intervals that are too short: by 19.5 % at n = 1, by less than (ln n + 2.4) / 8n always. The
 // integers are within one tick of the method. Upwards only: the way down would need a root a step.
 //
 // Square: uint32_t for K_b < 65536 (one 32-bit division a step: for chips), uint64_t for K_b < 2^32.

@@ -1,13 +1,13 @@
 // TableRamp: constant acceleration from a table, with one 16 × 16 multiplication a step: c_n = (K_b · k_n) >> 16.
 //
 // A walk over the index n, one step up or down at a time, so that a motor brakes with the intervals that it started
-// with. Errors do not add up: each interval is cut off by itself, from a K_b and a k_n that were cut off, and is less
-// than two ticks short (K_b < 65536). The whole run is early by that much a step.
+// with. An error stays in its own interval, which is less than K_b/65536 + 1 ticks short, so less than two; where a real
+// K_b was cut off to a whole number, k_n ticks more. Never long: a run is early by as much as all its steps are short.
 //
 // Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused, never wrapped; a slower timer clock or another
 // method is then the way. Where the table ends the motor goes on at the speed it has.
-// Table: a type with `uint16_t size() const` and `uint16_t operator[](uint16_t n) const` (ramp_table.hpp); a chip's
-// own one reads flash.
+// Table: a type with `uint16_t size() const` and `uint16_t scaled(uint16_t first, uint16_t n) const`, the product
+// (ramp_table.hpp). A chip's own one reads flash and multiplies as that chip does best.
 // Portable: no division.
 #pragma once
 
@@ -48,7 +48,7 @@ class TableRamp {
  private:
   constexpr uint16_t interval_of(uint16_t n) const {
     if (n == 0) return first_;
-    return static_cast<uint16_t>((uint32_t{first_} * table_[n]) >> 16);
+    return table_.scaled(first_, n);
   }
 
   [[no_unique_address]] Table table_;

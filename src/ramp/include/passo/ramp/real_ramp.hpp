@@ -5,7 +5,7 @@
 // Ticks are real. Largest shares by which an interval differs from the exact one:
 //
 //   exact       c_n = K_b / (√(n+1) + √n)         nothing; 1e-15 of rounding, and no difference of large numbers
-//   recursive   c_n = c_(n−1) / (1 + 2 (c_(n−1)/K_b)²)   19.5 % short at n = 1, (ln n + 2.3) / 8n later
+//   recursive   c_n = c_(n−1) / (1 + 2 (c_(n−1)/K_b)²)   short by 19.5 % at n = 1, by less than (ln n + 2.4) / 8n always
 //
 // tests/real_ramp_test.cpp measures them, and the table's.
 #pragma once

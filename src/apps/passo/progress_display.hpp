@@ -1,0 +1,37 @@
+// ProgressDisplay: a ProgressLine on standard error, with the clock. Gone when the work is done.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "program_input.hpp"
+#include <unistd.h>
+
+#include "passo/report/progress.hpp"
+
+namespace passo {
+
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(const std::string& label, bool wanted = true)
+      : line_(label, wanted && is_terminal(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+  ~ProgressDisplay() { show(line_.clear()); }
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  void update(double fraction) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    show(line_.update(fraction, Seconds(elapsed.count())));
+  }
+
+ private:
+  static void show(const std::string& text) {
+    if (!text.empty()) std::fwrite(text.data(), 1, text.size(), stderr);
+  }
+
+  ProgressLine line_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace passo

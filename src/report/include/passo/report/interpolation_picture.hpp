@@ -1,0 +1,28 @@
+// A picture of a move in steps: the grid, the ideal path, and where the pulses of each method go.
+//
+// One method fills the picture, with its evenness of speed below; several stand side by side. A move of three axes or
+// more is seen from two sides, X Y and X Z. For moves up to `most_pictured_pulses`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passo/base/result.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/report/picture.hpp"
+#include "passo/study/measure.hpp"
+
+namespace passo {
+
+inline constexpr std::int64_t most_pictured_pulses = 100'000;
+
+struct StudiedMethod {
+  Method method;
+  Measures measures;
+};
+
+// A checked move, and at least one method that takes it. Into `file`, which the caller commits.
+Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<StudiedMethod>& methods,
+                                       PictureFormat format, OutputFile& file);
+
+}  // namespace passo

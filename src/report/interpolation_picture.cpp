@@ -1,0 +1,391 @@
+#include "passo/report/interpolation_picture.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "axis_ticks.hpp"
+#include "cairo_canvas.hpp"
+#include <fmt/format.h>
+
+#include "passo/study/ideal_path.hpp"
+
+namespace passo {
+namespace {
+
+const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = true};
+const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
+const Font caption_font{.size = 13, .colour = {0.40, 0.42, 0.46}};
+const Font tick_font{.size = 11, .colour = {0.40, 0.42, 0.46}};
+const Colour paper{1, 1, 1};
+const Colour grid_colour{0.90, 0.91, 0.93};
+const Colour edge_colour{0.62, 0.64, 0.67};
+const Colour ideal_colour{0.80, 0.22, 0.20};
+const Colour one_axis{0.16, 0.38, 0.70};
+const Colour together{0.93, 0.55, 0.10};
+const Colour waiting{0.80, 0.82, 0.86};
+constexpr double margin = 40;
+
+struct Shown {  // one pulse, or the start
+  Place place;
+  int axes = 0;  // that stepped
+  bool waited = false;
+};
+
+std::vector<Shown> followed(const Method& method, const StepMove& move) {
+  std::vector<Shown> all = {{.place = move.from}};
+  const auto add = [&](const Followed& now) {
+    const int axes = std::popcount(now.pulse.steps);
+    if (axes == 0) {
+      all.back().waited = true;
+    } else {
+      all.push_back({.place = now.place, .axes = axes});
+    }
+  };
+  static_cast<void>(follow(method, move, add).has_value());
+  return all;
+}
+
+// Two axes of the move, on an area of the paper.
+class View {
+ public:
+  View(const std::vector<Shown>& shown, const StepMove& move, std::size_t across, std::size_t up, const Area& area)
+      : across_(across), up_(up) {
+    for (const Shown& one : shown) include(value(one.place, across), value(one.place, up));
+    const IdealPath path(move);
+    for (int i = 0; i <= 256; ++i) {
+      const auto point = path.at(i / 256.0);
+      include(point[across], point[up]);
+    }
+    constexpr double border = 0.6;
+    const double width = high_.x - low_.x + 2 * border;
+    const double height = high_.y - low_.y + 2 * border;
+    scale_ = std::min({area.width / width, area.height / height, 60.0});
+    low_.x -= border;
+    low_.y -= border;
+    high_.x += border;
+    high_.y += border;
+    frame_ = {area.x + (area.width - width * scale_) / 2, area.y + (area.height - height * scale_) / 2, width * scale_,
+              height * scale_};
+  }
+
+  static double value(const Place& place, std::size_t axis) {
+    return axis < place.size() ? static_cast<double>(place[axis]) : 0;
+  }
+  Spot spot(double x, double y) const {
+    return {frame_.x + (x - low_.x) * scale_, frame_.bottom() - (y - low_.y) * scale_};
+  }
+  Spot spot(const Place& place) const { return spot(value(place, across_), value(place, up_)); }
+  const Area& frame() const { return frame_; }
+  const Spot& low() const { return low_; }
+  const Spot& high() const { return high_; }
+  double scale() const { return scale_; }  // pixels a step
+  std::size_t across() const { return across_; }
+  std::size_t up() const { return up_; }
+
+ private:
+  void include(double x, double y) {
+    low_ = {std::min(low_.x, x), std::min(low_.y, y)};
+    high_ = {std::max(high_.x, x), std::max(high_.y, y)};
+  }
+
+  std::size_t across_;
+  std::size_t up_;
+  Spot low_{INFINITY, INFINITY};
+  Spot high_{-INFINITY, -INFINITY};
+  double scale_ = 1;
+  Area frame_;
+};
+
+// A line at every step where there is room for it, else at the ticks.
+void draw_grid(Canvas& canvas, const View& view) {
+  const Pen pen{.colour = grid_colour, .width = 1};
+  const Area& frame = view.frame();
+  const double step = view.scale() >= 6 ? 1 : round_step(12 / view.scale());
+  for (double x = std::ceil(view.low().x / step) * step; x <= view.high().x; x += step) {
+    const Spot at = view.spot(x, 0);
+    canvas.line({at.x, frame.y}, {at.x, frame.bottom()}, pen);
+  }
+  for (double y = std::ceil(view.low().y / step) * step; y <= view.high().y; y += step) {
+    const Spot at = view.spot(0, y);
+    canvas.line({frame.x, at.y}, {frame.right(), at.y}, pen);
+  }
+  canvas.frame(frame, {.colour = edge_colour, .width = 1});
+}
+
+// Whole steps, where `room` pixels are needed for each label.
+std::vector<Tick> step_ticks(double low, double high, double scale, double room) {
+  const double step = std::max(1.0, round_step(room / scale));
+  std::vector<Tick> all;
+  for (double value = std::ceil(low / step) * step; value <= high; value += step) {
+    all.push_back({value, tick_label(value, step)});
+  }
+  return all;
+}
+
+void draw_ticks(Canvas& canvas, const View& view) {
+  const Area& frame = view.frame();
+  const double widest = std::max(canvas.text_width(tick_label(view.low().x, 1), tick_font),
+                                 canvas.text_width(tick_label(view.high().x, 1), tick_font));
+  for (const Tick& tick : step_ticks(view.low().x, view.high().x, view.scale(), widest + 12)) {
+    canvas.text({view.spot(tick.value, 0).x, frame.bottom() + 12}, tick.label, tick_font, Align::centre);
+  }
+  for (const Tick& tick : step_ticks(view.low().y, view.high().y, view.scale(), 18)) {
+    canvas.text({frame.x - 7, view.spot(0, tick.value).y}, tick.label, tick_font, Align::right);
+  }
+  canvas.text({frame.right() + 14, frame.bottom() + 12}, axis_name(view.across()), tick_font);
+  canvas.text({frame.x - 7, frame.y - 14}, axis_name(view.up()), tick_font, Align::right);
+}
+
+void draw_pulses(Canvas& canvas, const View& view, const std::vector<Shown>& shown) {
+  const double radius = std::min(5.0, view.scale() * 0.2);
+  const bool dots = radius >= 1.2;
+  for (const Shown& one : shown) {
+    if (dots && one.waited) canvas.disc(view.spot(one.place), radius * 1.9, waiting);
+  }
+  canvas.move_to(view.spot(shown.front().place));
+  for (const Shown& one : shown) canvas.line_to(view.spot(one.place));
+  canvas.stroke({.colour = one_axis, .width = dots ? 1.6 : 1.2, .opacity = dots ? 0.55 : 1});
+  for (const Shown& one : shown) {
+    if (dots) canvas.disc(view.spot(one.place), radius, one.axes > 1 ? together : one_axis);
+  }
+}
+
+void draw_ideal(Canvas& canvas, const View& view, const StepMove& move) {
+  const IdealPath path(move);
+  const int pieces = move.arc ? 720 : 1;
+  for (int i = 0; i <= pieces; ++i) {
+    const auto point = path.at(static_cast<double>(i) / pieces);
+    const Spot spot = view.spot(point[view.across()], point[view.up()]);
+    if (i == 0) canvas.move_to(spot);
+    canvas.line_to(spot);
+  }
+  canvas.stroke({.colour = ideal_colour, .width = 1.6});
+}
+
+void draw_view(Canvas& canvas, const View& view, const std::vector<Shown>& shown, const StepMove& move) {
+  draw_grid(canvas, view);
+  draw_ticks(canvas, view);
+  draw_pulses(canvas, view, shown);
+  draw_ideal(canvas, view, move);
+}
+
+std::string figures(const Measures& found) {
+  std::string text = fmt::format("{} pulses", found.pulses);
+  if (found.together != 0) text += fmt::format(", {} of several axes", found.together);
+  if (found.idle != 0) text += fmt::format(", {} of none", found.idle);
+  return text;
+}
+std::string deviations(const Measures& found) {
+  return fmt::format("off by {:.3f} step at most, {:.3f} on average", found.largest_deviation, found.mean_deviation);
+}
+
+std::string coordinates(const Place& place) {
+  return fmt::format("({})", fmt::join(place, ", "));
+}
+std::string move_text(const StepMove& move) {
+  const std::string ends = coordinates(move.from) + " to " + coordinates(move.to);
+  if (!move.arc) return "Line from " + ends;
+  return fmt::format("{} arc about {} from {}", move.arc->clockwise ? "Clockwise" : "Counterclockwise",
+                     coordinates(move.arc->centre), ends);
+}
+
+struct Key {
+  const char* text;
+  Colour colour;
+  bool line;
+};
+
+void draw_legend(Canvas& canvas, double x, double y) {
+  const Key keys[] = {{"ideal path", ideal_colour, true},
+                      {"one axis steps", one_axis, false},
+                      {"several step at once", together, false},
+                      {"waits for a pulse or more", waiting, false}};
+  for (const Key& key : keys) {
+    if (key.line) {
+      canvas.line({x, y}, {x + 22, y}, {.colour = key.colour, .width = 1.6});
+    } else {
+      canvas.disc({x + 14, y}, 5, key.colour);
+    }
+    canvas.text({x + 28, y}, key.text, caption_font);
+    x += 28 + canvas.text_width(key.text, caption_font) + 26;
+  }
+}
+
+// --- evenness of speed ----------------------------------------------------------------------------------------------
+
+struct RuleLook {
+  const char* name;
+  Colour colour;
+};
+const std::array<RuleLook, speed_rules> rule_looks = {{{"every pulse the same time", {0.55, 0.30, 0.65}},
+                                                       {"\u221An for a pulse of n axes", {0.93, 0.55, 0.10}},
+                                                       {"exact", {0.18, 0.55, 0.34}}}};
+
+using Lags = std::array<std::vector<Spot>, speed_rules>;  // x: time 0 … 1, y: steps ahead of the even point
+
+Lags lags(const StudiedMethod& studied, const StepMove& move) {
+  double way = 0;
+  static_cast<void>(follow(studied.method, move, [&](const Followed& now) { way += way_of(now.pulse); }).has_value());
+  const double length = IdealPath(move).length();
+  Lags all;
+  for (std::size_t rule = 0; rule < speed_rules; ++rule) {
+    SpeedClock clock(static_cast<SpeedRule>(rule), studied.measures.pulses, way);
+    all[rule] = {{0, 0}};
+    const auto add = [&](const Followed& now) {
+      const double time = clock.after(now);
+      all[rule].push_back({time, (now.progress - time) * length});
+    };
+    static_cast<void>(follow(studied.method, move, add).has_value());
+  }
+  return all;
+}
+
+// A chart over the time or the way of the move, 0 … 1; the values are steps.
+class Chart {
+ public:
+  Chart(Canvas& canvas, const Area& area, double low, double high) : canvas_(canvas), area_(area), high_(high) {
+    scale_ = area.height / (high - low);
+    const auto room = [](const std::string&) { return 18.0; };
+    for (const Tick& tick : ticks(low, high, scale_, room)) {
+      const double y = spot({0, tick.value}).y;
+      canvas.line({area.x, y}, {area.right(), y}, {.colour = grid_colour, .width = 1});
+      canvas.text({area.x - 7, y}, tick.label, tick_font, Align::right);
+    }
+    canvas.frame(area, {.colour = edge_colour, .width = 1});
+  }
+  void curve(const std::vector<Spot>& curve, const Colour& colour) {
+    for (const Spot& one : curve) {
+      if (&one == &curve.front()) canvas_.move_to(spot(one));
+      canvas_.line_to(spot(one));
+    }
+    canvas_.stroke({.colour = colour, .width = 1.5});
+  }
+  void name(const std::string& what) {
+    canvas_.text({area_.x, area_.bottom() + 12}, "start", tick_font);
+    canvas_.text({area_.x + area_.width / 2, area_.bottom() + 12}, what, tick_font, Align::centre);
+    canvas_.text({area_.right(), area_.bottom() + 12}, "end", tick_font, Align::right);
+  }
+
+ private:
+  Spot spot(const Spot& value) const { return {area_.x + value.x * area_.width, area_.y + (high_ - value.y) * scale_}; }
+
+  Canvas& canvas_;
+  Area area_;
+  double high_;
+  double scale_;
+};
+
+void draw_deviation(Canvas& canvas, const StudiedMethod& studied, const StepMove& move, const Area& area) {
+  canvas.text({area.x, area.y - 68}, "Distance from the ideal path, in steps", heading_font);
+  canvas.text({area.x, area.y - 46}, deviations(studied.measures), caption_font);
+  std::vector<Spot> curve = {{0, 0}};
+  const auto add = [&](const Followed& now) { curve.push_back({now.progress, now.deviation}); };
+  static_cast<void>(follow(studied.method, move, add).has_value());
+  Chart chart(canvas, area, 0, 1.1 * std::max(0.5, studied.measures.largest_deviation));
+  chart.curve(curve, one_axis);
+  chart.name("way");
+}
+
+void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove& move, const Area& area) {
+  const Lags all = lags(studied, move);
+  double most = 0.25;
+  for (const auto& curve : all) {
+    for (const Spot& spot : curve) most = std::max(most, std::abs(spot.y));
+  }
+  canvas.text({area.x, area.y - 68}, "Ahead of a point at constant speed, in steps", heading_font);
+  for (std::size_t rule = 0; rule < speed_rules; ++rule) {
+    const double y = area.y - 48 + 17 * static_cast<double>(rule);
+    canvas.line({area.x, y}, {area.x + 22, y}, {.colour = rule_looks[rule].colour, .width = 2});
+    canvas.text({area.x + 28, y},
+                fmt::format("{}: fastest step {:.2f} \u00D7 the slowest", rule_looks[rule].name,
+                            studied.measures.evenness[rule].ratio),
+                caption_font);
+  }
+  Chart chart(canvas, area, -1.1 * most, 1.1 * most);
+  for (std::size_t rule = 0; rule < speed_rules; ++rule) chart.curve(all[rule], rule_looks[rule].colour);
+  chart.name("time");
+}
+
+// --- the sheet ------------------------------------------------------------------------------------------------------
+
+struct Panel {
+  std::size_t method = 0;
+  std::size_t up = 1;  // the axis drawn upwards, over x
+};
+
+std::vector<Panel> panels(const StepMove& move, std::size_t methods) {
+  std::vector<Panel> all;
+  for (std::size_t method = 0; method < methods; ++method) {
+    all.push_back({method, 1});
+    if (move.axes() > 2) all.push_back({method, 2});
+  }
+  return all;
+}
+
+// How the panels are laid out: so that a view of this shape becomes as large as can be.
+std::size_t best_columns(std::size_t count, double aspect, const Area& area) {
+  std::size_t best = 1;
+  double largest = 0;
+  for (std::size_t columns = 1; columns <= count; ++columns) {
+    const auto rows = static_cast<double>((count + columns - 1) / columns);
+    const double width = area.width / static_cast<double>(columns) - 60;
+    const double height = area.height / rows - 110;
+    const double scale = std::min(width / aspect, height);
+    if (scale > largest) {
+      largest = scale;
+      best = columns;
+    }
+  }
+  return best;
+}
+
+double aspect_of(const StepMove& move) {
+  const std::vector<Shown> ends = {{.place = move.from}, {.place = move.to}};
+  const View view(ends, move, 0, 1, {0, 0, 1000, 1000});
+  return view.frame().width / view.frame().height;
+}
+
+void draw_panels(Canvas& canvas, const StepMove& move, const std::vector<StudiedMethod>& methods, const Area& area) {
+  const std::vector<Panel> all = panels(move, methods.size());
+  const std::size_t columns = best_columns(all.size(), aspect_of(move), area);
+  const std::size_t rows = (all.size() + columns - 1) / columns;
+  const double width = area.width / static_cast<double>(columns);
+  const double height = area.height / static_cast<double>(rows);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Area cell{area.x + static_cast<double>(i % columns) * width,
+                    area.y + static_cast<double>(i / columns) * height, width, height};
+    const StudiedMethod& studied = methods[all[i].method];
+    canvas.text({cell.x, cell.y + 14}, title(studied.method), heading_font);
+    canvas.text({cell.x, cell.y + 36}, figures(studied.measures), caption_font);
+    canvas.text({cell.x, cell.y + 54}, deviations(studied.measures), caption_font);
+    const std::vector<Shown> shown = followed(studied.method, move);
+    const View view(shown, move, 0, all[i].up, {cell.x + 30, cell.y + 80, width - 60, height - 110});
+    draw_view(canvas, view, shown, move);
+  }
+}
+
+}  // namespace
+
+Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<StudiedMethod>& methods,
+                                       PictureFormat format, OutputFile& file) {
+  PictureOptions options{.format = format, .program = {}, .machine = {}};
+  options.width = 1400;
+  options.height = 900;
+  Canvas canvas(options, file);
+  const double width = options.width;
+  const double height = options.height;
+  canvas.fill({0, 0, width, height}, paper);
+  canvas.text({margin, 36}, move_text(move), title_font);
+  draw_legend(canvas, margin, 66);
+  const double charts = methods.size() == 1 && methods[0].measures.pulses > 0 ? 250 : 0;
+  draw_panels(canvas, move, methods, {margin, 92, width - 2 * margin, height - 92 - 16 - charts});
+  if (charts > 0) {
+    const double half = width / 2 - margin - 50;
+    draw_deviation(canvas, methods[0], move, {margin + 30, height - 150, half, 120});
+    draw_evenness(canvas, methods[0], move, {width / 2 + 50, height - 150, half, 120});
+  }
+  return canvas.finish();
+}
+
+}  // namespace passo
