@@ -1,7 +1,7 @@
 # Programs for the chip: clang compiles C++20 for the AVR, avr-gcc links it with avr-libc's start-up code and libgcc.
 # Why these two: docs/decisions/0040-clang-compiles-for-the-chip.md.
 #
-# PASSO_AVR_FOUND tells whether both are here.
+# PASSO_AVR_FOUND tells whether both are here; PASSO_AVR_COMPILER names them, for figures that depend on them.
 find_program(PASSO_CLANG NAMES clang++ clang++-14)
 find_program(PASSO_AVR_GCC NAMES avr-gcc)
 set(PASSO_AVR_FOUND OFF)
@@ -13,6 +13,9 @@ if(PASSO_CLANG AND PASSO_AVR_GCC)
     RESULT_VARIABLE PASSO_CLANG_KNOWS_NO_AVR OUTPUT_QUIET ERROR_QUIET)
   if(NOT PASSO_CLANG_KNOWS_NO_AVR)
     set(PASSO_AVR_FOUND ON)
+    execute_process(COMMAND "${PASSO_CLANG}" -dumpversion OUTPUT_VARIABLE clang_version OUTPUT_STRIP_TRAILING_WHITESPACE)
+    execute_process(COMMAND "${PASSO_AVR_GCC}" -dumpversion OUTPUT_VARIABLE gcc_version OUTPUT_STRIP_TRAILING_WHITESPACE)
+    set(PASSO_AVR_COMPILER "clang ${clang_version} with the libgcc of avr-gcc ${gcc_version}")
   endif()
 endif()
 
@@ -23,15 +26,18 @@ set(PASSO_AVR_OPTIONS
   # LLVM turns `if` into a choice between two values, which an AVR has to make with branches and copies. Leave the `if`.
   -mllvm -two-entry-phi-node-folding-threshold=1)
 
-# passo_avr_program(NAME MCU mcu SOURCES file… MODULES module…)
+# passo_avr_program(NAME MCU mcu SOURCES file… [MODULES module…] [INCLUDES directory…])
 #
 # The target NAME builds NAME.elf in the current binary directory; its path is the target's property PASSO_ELF. MODULES are
-# the portable modules whose headers the sources include; sources include their neighbours too.
+# the portable modules whose headers the sources include; INCLUDES are further places to look for headers.
 function(passo_avr_program name)
-  cmake_parse_arguments(ARG "" "MCU" "SOURCES;MODULES" ${ARGN})
-  set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU} "-I${CMAKE_CURRENT_SOURCE_DIR}")
+  cmake_parse_arguments(ARG "" "MCU" "SOURCES;MODULES;INCLUDES" ${ARGN})
+  set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU})
   foreach(module IN LISTS ARG_MODULES)
     list(APPEND options "-I${PROJECT_SOURCE_DIR}/src/${module}/include")
+  endforeach()
+  foreach(directory IN LISTS ARG_INCLUDES)
+    list(APPEND options "-I${directory}")
   endforeach()
   if(PASSO_WERROR)
     list(APPEND options -Werror)

@@ -48,7 +48,7 @@ std::uint8_t MethodRunner::next_byte() {
   return no_order;
 }
 
-Run MethodRunner::play(const Order& order) {
+MethodRun MethodRunner::play(const Order& order) {
   order_.clear();
   append(order_, order.method, 1);
   append(order_, order.most, 2);
@@ -59,7 +59,7 @@ Run MethodRunner::play(const Order& order) {
   chip_.run(most_cycles);
 
   if (marks_.size() < 2 || marks_.size() % 2 != 0) throw std::runtime_error("the chip did not play the order");
-  Run run{.output = output_, .begin = 0, .pulses = {}};
+  MethodRun run{.output = output_, .begin = 0, .pulses = {}};
   for (std::size_t i = 0; i < marks_.size(); i += 2) {
     run.pulses.push_back(marks_[i + 1] - marks_[i] - cost_of_marks_);
   }

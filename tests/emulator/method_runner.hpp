@@ -14,7 +14,7 @@ namespace passo {
 // The bytes of all pulses or intervals, in the order in which they are made.
 using Output = std::vector<std::uint8_t>;
 
-struct Run {
+struct MethodRun {
   Output output;
   std::uint64_t begin = 0;            // cycles: from the order to the first pulse
   std::vector<std::uint64_t> pulses;  // cycles of each: call, next(), the result to the ports, return
@@ -23,7 +23,7 @@ struct Run {
 class MethodRunner {
  public:
   explicit MethodRunner(const std::string& program);
-  Run play(const Order& order);
+  MethodRun play(const Order& order);
 
   // Cycles between two marks with nothing between them; figures are net of it.
   std::uint64_t cost_of_marks() const { return cost_of_marks_; }

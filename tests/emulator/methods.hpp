@@ -1,8 +1,8 @@
-// The methods whose cost is measured, one list for the chip's program and for the host, which plays the same orders with
-// the same code and expects the same bytes.
+// The methods whose cost is measured, one list for the chip's program, for the host, which plays the same orders with
+// the same code and expects the same bytes, and for the host's benchmark.
 //
-// An order is a method's number and values: a line's distances; an arc's start and end; a ramp's first interval. A walk is
-// one method under way: done() and next(), which gives a Pulse or an interval.
+// An order is a method's number and values: a line's distances; an arc's start and end, from the centre; a ramp's first
+// interval, steps and fastest interval. A walk is one method under way: done() and next(), which gives a Pulse or an interval.
 // Portable.
 #pragma once
 
@@ -125,6 +125,16 @@ class MoveWalk {
 };
 
 enum class MethodKind : uint8_t { line, arc, ramp, move };
+
+constexpr const char* name_of(MethodKind kind) {
+  switch (kind) {
+    case MethodKind::line: return "line";
+    case MethodKind::arc: return "arc";
+    case MethodKind::ramp: return "ramp";
+    case MethodKind::move: return "whole ramp move";
+  }
+  return "";
+}
 
 template <class Walk_>
 struct Method {
