@@ -1,67 +1,29 @@
 // The program itself, as a user starts it: what it prints, what it leaves behind, and how it exits.
+#include "kit/command_line.hpp"
+
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
+using passo::test::Outcome;
+using passo::test::read;
 
 const fs::path source_dir = PASSO_SOURCE_DIR;
 const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
 const std::string engrave = (source_dir / "examples" / "engrave.ngc").string();
 
-struct Outcome {
-  int code = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-// A directory of its own for each test, gone afterwards.
-class CommandLine : public testing::Test {
+class CommandLine : public passo::test::CommandLine {
  protected:
-  CommandLine() { fs::create_directories(dir_); }
-  ~CommandLine() override { fs::remove_all(dir_); }
-
-  std::string path(const std::string& name) const { return (dir_ / name).string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(dir_ / name, std::ios::binary) << text;
-    return path(name);
-  }
-  Outcome passo(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " " PASSO_PROGRAM " " + arguments + " >" + path("out") + " 2>" + path("err");
-    const int status = std::system(command.c_str());
-    return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(path("out")), .err = read(path("err"))};
-  }
   // Runs a program text on the router.
   Outcome run_text(const std::string& text, const std::string& options = "") const {
     return passo("run " + write("p.ngc", text) + " -m " + router + " " + options);
   }
-  // Files that are there beside the program and the captured output.
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(dir_)) {
-      const std::string name = entry.path().filename().string();
-      if (name != "out" && name != "err" && name != "p.ngc" && name != "m.toml") names.push_back(name);
-    }
-    return names;
-  }
-
-  fs::path dir_ = fs::temp_directory_path() / ("passo-test-" + std::to_string(getpid()));
 };
 
 TEST_F(CommandLine, help_teaches_with_examples_and_exits_well) {

@@ -178,6 +178,23 @@ TEST(Lines, a_slave_stands_where_the_reference_says) {
   EXPECT_THAT(slave, ElementsAre(0, 1, 1, 2, 2, 2, 3, 3, 4, 4));
 }
 
+// docs/interpolation/master-slave.md shows it: one variable for all axes, started at +m.
+TEST(Lines, a_listing_that_circulates_ends_a_step_too_far) {
+  int decision = 10;
+  std::vector<std::int64_t> slave;
+  std::int64_t stands = 0;
+  for (int k = 1; k <= 10; ++k) {
+    decision += 2 * 4;
+    if (decision >= 0) {
+      ++stands;
+      decision -= 2 * 10;
+    }
+    slave.push_back(stands);
+  }
+  EXPECT_THAT(slave, ElementsAre(1, 2, 2, 3, 3, 3, 4, 4, 5, 5));
+  EXPECT_EQ(places<2>(Lean<2>({10, 4})).back(), (Place<2>{10, 4}));
+}
+
 TEST(Lines, no_length_is_no_pulse) {
   EXPECT_THAT(places<2>(MasterSlave<2>({0, 0})), IsEmpty());
   EXPECT_THAT(places<2>(Lean<2>({0, 0})), IsEmpty());

@@ -1,0 +1,63 @@
+// The program itself, as a user starts it: what it prints, what it leaves behind, and how it exits.
+//
+// A test program that uses it defines PASSO_PROGRAM.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace passo::test {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+inline std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// A directory of its own for each test, gone afterwards.
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() { fs::create_directories(dir_); }
+  ~CommandLine() override { fs::remove_all(dir_); }
+
+  std::string path(const std::string& name) const { return (dir_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(dir_ / name, std::ios::binary) << text;
+    return path(name);
+  }
+  Outcome passo(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " " PASSO_PROGRAM " " + arguments + " >" + path("out") + " 2>" + path("err");
+    const int status = std::system(command.c_str());
+    return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(path("out")), .err = read(path("err"))};
+  }
+  // Files that are there beside the program and the captured output.
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(dir_)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "out" && name != "err" && name != "p.ngc" && name != "m.toml") names.push_back(name);
+    }
+    return names;
+  }
+
+  fs::path dir_ = fs::temp_directory_path() / ("passo-test-" + std::to_string(getpid()));
+};
+
+}  // namespace passo::test
