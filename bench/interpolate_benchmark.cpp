@@ -5,9 +5,8 @@
 #include <iterator>
 #include <sstream>
 
-#include <benchmark/benchmark.h>
-
 #include "emulator/methods.hpp"
+#include <benchmark/benchmark.h>
 
 namespace passo {
 namespace {
@@ -51,8 +50,7 @@ int add_all() {
     std::ostringstream name;
     name << name_of(method.kind) << '/' << method.name << '/' << int{Walk::axes} << '/' << int{method.bits};
     const Order order = long_order(method.kind);
-    benchmark::RegisterBenchmark(name.str().c_str(),
-                                 [order](benchmark::State& state) { pulses<Walk>(state, order); });
+    benchmark::RegisterBenchmark(name.str().c_str(), [order](benchmark::State& state) { pulses<Walk>(state, order); });
   };
   std::uint8_t count = 0;
   while (visit_method<ChosenTable>(count, add)) ++count;

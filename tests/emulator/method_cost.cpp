@@ -57,7 +57,7 @@ std::vector<Order> measured_orders(std::uint8_t number, const MethodName& method
   switch (method.kind) {
     case MethodKind::line: return orders_of(lines, number, 60'000);
     case MethodKind::arc: return orders_of(arcs, number, 60'000);
-    case MethodKind::ramp: return orders_of(ramps, number, 900);
+    case MethodKind::ramp: return orders_of(ramps, number, ramp_table_size - 1);
     case MethodKind::move: return orders_of(ramps, number, 60'000);
   }
   return {};

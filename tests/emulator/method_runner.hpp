@@ -1,5 +1,5 @@
-// MethodRunner: has the emulated chip play an order, and tells what came out and what each pulse cost. The host plays the
-// same order with the same code, for comparison.
+// MethodRunner: has the emulated chip play an order, and tells what came out and what each pulse cost. The host plays
+// the same order with the same code, for comparison.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ struct MethodName {
   int axes = 0;
   int bits = 0;
 };
-// By number. `kind`, `name` and `bits` are no two methods'.
+// By number. No two are alike.
 std::vector<MethodName> method_names();
 
 }  // namespace passo

@@ -2,8 +2,8 @@
 // the same code and expects the same bytes, and for the host's benchmark.
 //
 // An order is a method's number and values: a line's distances; an arc's start and end, from the centre; a ramp's first
-// interval, steps and fastest interval. A walk is one method under way: done() and next(), which gives a Pulse or an interval.
-// Portable.
+// interval, steps and fastest interval. A walk is one method under way: done() and next(), which gives a Pulse or an
+// interval. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -94,8 +94,7 @@ class RampWalk {
  public:
   static constexpr uint8_t axes = 1;
 
-  constexpr explicit RampWalk(const Order& order)
-      : ramp_(Begin<Ramp>::with(static_cast<uint32_t>(order.values[0]))) {}
+  constexpr explicit RampWalk(const Order& order) : ramp_(Begin<Ramp>::with(static_cast<uint32_t>(order.values[0]))) {}
   constexpr bool done() const { return false; }
   constexpr typename Ramp::Interval next() {
     ramp_.rise();
@@ -112,8 +111,7 @@ class MoveWalk {
  public:
   static constexpr uint8_t axes = 1;
 
-  constexpr explicit MoveWalk(const Order& order)
-      : move_(Begin<Ramp>::with(static_cast<uint32_t>(order.values[0]))) {
+  constexpr explicit MoveWalk(const Order& order) : move_(Begin<Ramp>::with(static_cast<uint32_t>(order.values[0]))) {
     static_cast<void>(move_.set_rates(0, static_cast<typename Ramp::Interval>(order.values[2])));
     move_.move_to(order.values[1]);
   }
@@ -153,12 +151,13 @@ constexpr bool visit_interpolator(uint8_t number, Visitor&& visit) {
     case 0: visit(Method<LineWalk<MasterSlave<3, Length>, 3>>{"master-slave", line, bits}); return true;
     case 1: visit(Method<LineWalk<Lean<3, Length>, 3>>{"lean", line, bits}); return true;
     case 2: visit(Method<LineWalk<Dda<3, Length>, 3>>{"dda", line, bits}); return true;
-    case 3: visit(Method<LineWalk<SlopeRecalculated<Length>, 2>>{"slope-recalculated", line, bits}); return true;
-    case 4: visit(Method<LineWalk<SlopeBlocks<Length>, 2>>{"slope-blocks", line, bits}); return true;
-    case 5: visit(Method<LineWalk<PointComparisonLine<Length>, 2>>{"point-comparison", line, bits}); return true;
-    case 6: visit(Method<ArcWalk<PointComparisonArc<Length>>>{"point-comparison", arc, bits}); return true;
-    case 7: visit(Method<ArcWalk<MidpointArc<Length>>>{"midpoint", arc, bits}); return true;
-    case 8: visit(Method<ArcWalk<DdaArc<Length>>>{"dda", arc, bits}); return true;
+    case 3: visit(Method<LineWalk<Lean<2, Length>, 2>>{"lean", line, bits}); return true;
+    case 4: visit(Method<LineWalk<SlopeRecalculated<Length>, 2>>{"slope-recalculated", line, bits}); return true;
+    case 5: visit(Method<LineWalk<SlopeBlocks<Length>, 2>>{"slope-blocks", line, bits}); return true;
+    case 6: visit(Method<LineWalk<PointComparisonLine<Length>, 2>>{"point-comparison", line, bits}); return true;
+    case 7: visit(Method<ArcWalk<PointComparisonArc<Length>>>{"point-comparison", arc, bits}); return true;
+    case 8: visit(Method<ArcWalk<MidpointArc<Length>>>{"midpoint", arc, bits}); return true;
+    case 9: visit(Method<ArcWalk<DdaArc<Length>>>{"dda", arc, bits}); return true;
     default: return false;
   }
 }
@@ -178,12 +177,12 @@ constexpr bool visit_ramp(uint8_t number, Visitor&& visit) {
   }
 }
 
-inline constexpr uint16_t ramp_table_size = 1000;
+inline constexpr uint16_t ramp_table_size = 512;
 
 // Calls visit with the method of that number. False: there are fewer. Table: where a table ramp reads its factors.
 template <class Table, class Visitor>
 constexpr bool visit_method(uint8_t number, Visitor&& visit) {
-  constexpr uint8_t interpolators = 9;
+  constexpr uint8_t interpolators = 10;
   if (number < interpolators) return visit_interpolator<uint16_t>(number, visit);
   number = static_cast<uint8_t>(number - interpolators);
   if (number < interpolators) return visit_interpolator<uint32_t>(number, visit);

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
-
 #include "emulator/method_cost.hpp"
 #include "kit/seed.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {
@@ -72,14 +71,14 @@ class MethodsOnTheChip : public testing::Test {
     }();
     return measured;
   }
-  static MethodCost cost_of(MethodKind kind, const std::string& name, int bits) {
+  static MethodCost cost_of(MethodKind kind, const std::string& name, int axes, int bits) {
     for (const MethodCost& cost : costs()) {
-      if (cost.method.kind == kind && cost.method.name == name && cost.method.bits == bits) return cost;
+      if (cost.method.kind == kind && cost.method.name == name && cost.method.axes == axes && cost.method.bits == bits)
+        return cost;
     }
-    ADD_FAILURE() << "no method " << name_of(kind) << " " << name << " with " << bits << " bits";
+    ADD_FAILURE() << "no method " << name_of(kind) << " " << name << " of " << axes << " axes with " << bits << " bits";
     return {};
   }
-
 };
 
 TEST_F(MethodsOnTheChip, give_every_pulse_that_they_give_on_the_host) {
@@ -89,9 +88,9 @@ TEST_F(MethodsOnTheChip, give_every_pulse_that_they_give_on_the_host) {
 }
 
 TEST_F(MethodsOnTheChip, cost_no_more_cycles_than_an_interrupt_has) {
-  EXPECT_LE(cost_of(MethodKind::line, "lean", 16).most, 150U);
-  EXPECT_LE(cost_of(MethodKind::line, "dda", 16).most, 120U);
-  EXPECT_LE(cost_of(MethodKind::ramp, "table", 16).most, 80U);
+  EXPECT_LE(cost_of(MethodKind::line, "lean", 3, 16).most, 150U);
+  EXPECT_LE(cost_of(MethodKind::line, "dda", 3, 16).most, 120U);
+  EXPECT_LE(cost_of(MethodKind::ramp, "table", 1, 16).most, 80U);
 }
 
 // Moves of every size up to the largest, of which the first pulses show whether anything overflows.

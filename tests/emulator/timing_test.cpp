@@ -2,9 +2,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <gtest/gtest.h>
-
 #include "emulator/emulated_chip.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {
