@@ -10,6 +10,7 @@ if (($# > 0)); then
   exit 2
 fi
 
+scripts/install.sh
 document=docs/interpolation/costs.md
 build=build/release
 new=$(mktemp -d)

@@ -83,7 +83,7 @@ struct FlashTable {
   }
 };
 
-// A walk at a known address, as an interrupt's state is, without a constructor that runs before main.
+// A walk at a known address, as an interrupt's state does, without a constructor that runs before main.
 template <class Walk>
 union Room {
   uint8_t nothing = 0;
