@@ -11,7 +11,7 @@
 
 #ifdef __SANITIZE_ADDRESS__
 // simavr 1.6 never gives back what it allocates for an ELF file and for its wires.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
   return "leak:libsimavr";
 }
