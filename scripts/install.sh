@@ -19,7 +19,10 @@ build_packages=(
 test_packages=(
   libgtest-dev libgmock-dev  # tests
   libbenchmark-dev           # benchmarks
-  clang libclang-rt-14-dev   # a second opinion on warnings; the portable code for the AVR
+  clang libclang-rt-14-dev   # a second opinion on warnings; compiles for the chip
+  gcc-avr avr-libc binutils-avr  # link for the chip: libgcc, start-up code, linker
+  libsimavr-dev simavr       # the chip, emulated
+  libelf-dev                 # simavr reads programs with it
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
 )

@@ -21,7 +21,9 @@ __extension__ using Wide = unsigned __int128;
 struct TableView {
   const std::vector<uint16_t>* factors;
   uint16_t size() const { return static_cast<uint16_t>(factors->size()); }
-  uint16_t operator[](uint16_t n) const { return (*factors)[n]; }
+  uint16_t scaled(uint16_t first, uint16_t n) const {
+    return static_cast<uint16_t>(uint32_t{first} * (*factors)[n] / 65536);
+  }
 };
 
 double squared(const RampSequence& ramp) {

@@ -7,7 +7,7 @@
 // Shifting all registers left until the top bit of the longest is set saves the idle iterations of a short move in a
 // long register; that is the same as the fewest bits that hold it, and the default here. More bits are for comparison.
 //
-// The N bits stand at the top of the word, so that the overflow is the carry of the addition.
+// The N bits stand below the top bit of the word, so that the overflow shows there: one bit to look at, and to clear.
 // Any number of axes, lengths up to 2³¹−1. Pulses in which nothing moves are part of the method.
 // Portable. Cost: docs/interpolation/costs.md.
 #pragma once
@@ -35,12 +35,12 @@ class Dda {
       : Dda(distances, load, fewest_bits(Line<axes, Length>(distances).longest)) {}
   // `register_bits`: from the fewest that hold the longest axis to most_bits.
   constexpr Dda(const int32_t (&distances)[axes], DdaLoad load, uint8_t register_bits)
-      : line_(distances), shift_(static_cast<uint8_t>(LengthTraits<Length>::bits - register_bits)) {
+      : line_(distances), shift_(static_cast<uint8_t>(most_bits - register_bits)) {
     if (line_.longest == 0) return;
     left_ = static_cast<Length>(Length{1} << register_bits);
     for (uint8_t axis = 0; axis < axes; ++axis) {
       line_.lengths[axis] = static_cast<Length>(line_.lengths[axis] << shift_);
-      accumulator_[axis] = load == DdaLoad::half ? static_cast<Length>(Length{1} << most_bits) : Length{0};
+      accumulator_[axis] = load == DdaLoad::half ? half : Length{0};
     }
   }
 
@@ -48,8 +48,11 @@ class Dda {
   constexpr Pulse next() {
     uint8_t steps = 0;
     for (uint8_t axis = 0; axis < axes; ++axis) {
-      const Length sum = static_cast<Length>(accumulator_[axis] + line_.lengths[axis]);
-      if (sum < line_.lengths[axis]) steps = static_cast<uint8_t>(steps | axis_bit(axis));  // the carry
+      Length sum = static_cast<Length>(accumulator_[axis] + line_.lengths[axis]);
+      if ((sum & overflow) != 0) {
+        steps = static_cast<uint8_t>(steps | axis_bit(axis));
+        sum = static_cast<Length>(sum - overflow);
+      }
       accumulator_[axis] = sum;
     }
     --left_;
@@ -61,6 +64,9 @@ class Dda {
   }
 
  private:
+  static constexpr Length overflow = static_cast<Length>(Length{1} << most_bits);
+  static constexpr Length half = static_cast<Length>(overflow / 2);
+
   Line<axes, Length> line_;  // the lengths are the registers
   uint8_t shift_;
   Length left_ = 0;

@@ -52,6 +52,10 @@ template <uint16_t N>
 struct CompiledTable {
   static constexpr uint16_t size() { return N; }
   constexpr uint16_t operator[](uint16_t n) const { return ramp_table<N>[n]; }
+  // first · k_n, cut off.
+  constexpr uint16_t scaled(uint16_t first, uint16_t n) const {
+    return static_cast<uint16_t>((uint32_t{first} * ramp_table<N>[n]) >> 16);
+  }
 };
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// The square root of a whole number, rounded to the nearest whole number. 32 rounds of shift and compare.
-// Portable.
+// The square root of a whole number below (2³² − ½)², rounded to the nearest whole number. One bit of the root a round,
+// by shift and subtract: an 8-bit chip has no 64-bit product. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -8,11 +8,16 @@ namespace passo {
 
 constexpr uint32_t rounded_root(uint64_t square) {
   uint64_t root = 0;
-  for (uint64_t bit = uint64_t{1} << 31; bit != 0; bit >>= 1) {
-    const uint64_t larger = root | bit;
-    if (larger * larger <= square) root = larger;
+  uint64_t rest = square;
+  for (uint64_t bit = uint64_t{1} << 62; bit != 0; bit >>= 2) {
+    if (rest >= root + bit) {
+      rest -= root + bit;
+      root = (root >> 1) + bit;
+    } else {
+      root >>= 1;
+    }
   }
-  return static_cast<uint32_t>(square - root * root > root ? root + 1 : root);
+  return static_cast<uint32_t>(root + (rest > root ? 1 : 0));
 }
 
 }  // namespace passo

@@ -7,8 +7,8 @@
 //
 // Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused, never wrapped; a slower timer clock or another
 // method is then the way. Where the table ends the motor goes on at the speed it has.
-// Table: a type with `uint16_t size() const` and `uint16_t operator[](uint16_t n) const` (ramp_table.hpp); a chip's
-// own one reads flash.
+// Table: a type with `uint16_t size() const` and `uint16_t scaled(uint16_t first, uint16_t n) const`, the product
+// (ramp_table.hpp). A chip's own one reads flash and multiplies as that chip does best.
 // Portable: no division.
 #pragma once
 
@@ -49,7 +49,7 @@ class TableRamp {
  private:
   constexpr uint16_t interval_of(uint16_t n) const {
     if (n == 0) return first_;
-    return static_cast<uint16_t>((uint32_t{first_} * table_[n]) >> 16);
+    return table_.scaled(first_, n);
   }
 
   [[no_unique_address]] Table table_;

@@ -1,0 +1,87 @@
+#include "emulator/emulated_chip.hpp"
+
+#include <cstdarg>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include <simavr/avr_extint.h>
+#include <simavr/sim_avr.h>
+#include <simavr/sim_elf.h>
+
+#ifdef __SANITIZE_ADDRESS__
+// simavr 1.6 never gives back what it allocates for an ELF file and for its wires.
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "leak:libsimavr";
+}
+#endif
+
+namespace passo {
+namespace {
+
+// simavr tells about every section that it loads; what is wrong it also tells by its results.
+void keep_silent(avr_t* /*avr*/, int /*level*/, const char* /*format*/, std::va_list /*values*/) {}
+
+}  // namespace
+
+void EmulatedChip::Deleter::operator()(avr_t* avr) const {
+  avr_terminate(avr);
+  std::free(avr);
+}
+
+EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
+  avr_global_logger_set(keep_silent);
+  elf_firmware_t firmware = {};
+  if (elf_read_firmware(program.c_str(), &firmware) != 0) throw std::runtime_error("not an AVR program: " + program);
+  avr_.reset(avr_make_mcu_by_name(mcu.c_str()));
+  if (avr_ == nullptr) throw std::runtime_error("simavr knows no " + mcu);
+  avr_init(avr_.get());
+  firmware.frequency = 16'000'000;
+  avr_load_firmware(avr_.get(), &firmware);
+  std::free(firmware.flash);
+
+  // 1 by default, an instruction a call: six times slower.
+  avr_->run_cycle_limit = 1000;
+  // Sleeping is skipped, not waited for.
+  avr_->sleep = [](avr_t*, avr_cycle_count_t) {};
+  // Else a low level of INT0 and INT1 is looked for at every cycle, interrupts enabled or not.
+  for (std::uint8_t pin = 0; pin < 2; ++pin) avr_extint_set_strict_lvl_trig(avr_.get(), pin, 0);
+}
+
+void EmulatedChip::on_write(std::uint16_t address, std::function<void(std::uint8_t)> watcher) {
+  watchers_.push_back(std::move(watcher));
+  avr_register_io_write(
+      avr_.get(), address,
+      [](avr_t* avr, avr_io_addr_t where, std::uint8_t value, void* watch) {
+        avr->data[where] = value;
+        (*static_cast<std::function<void(std::uint8_t)>*>(watch))(value);
+      },
+      &watchers_.back());
+}
+
+void EmulatedChip::on_read(std::uint16_t address, std::function<std::uint8_t()> source) {
+  sources_.push_back(std::move(source));
+  avr_register_io_read(
+      avr_.get(), address,
+      [](avr_t* avr, avr_io_addr_t where, void* feed) {
+        return avr->data[where] = (*static_cast<std::function<std::uint8_t()>*>(feed))();
+      },
+      &sources_.back());
+}
+
+void EmulatedChip::run(std::uint64_t most_cycles) {
+  const std::uint64_t end = avr_->cycle + most_cycles;
+  stopped_ = false;
+  while (!stopped_) {
+    const int state = avr_run(avr_.get());
+    if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the emulated program died");
+    if (avr_->cycle > end) throw std::runtime_error("the emulated program does not come to its end");
+  }
+}
+
+std::uint64_t EmulatedChip::cycles() const {
+  return avr_->cycle;
+}
+
+}  // namespace passo
