@@ -42,7 +42,9 @@ class TableOfAnySize {
  public:
   explicit TableOfAnySize(std::size_t size) : factors_(size) { make_ramp_table(factors_.data(), size); }
   std::uint16_t size() const { return static_cast<std::uint16_t>(factors_.size()); }
-  std::uint16_t operator[](std::uint16_t n) const { return factors_[n]; }
+  std::uint16_t scaled(std::uint16_t first, std::uint16_t n) const {
+    return static_cast<std::uint16_t>((std::uint32_t{first} * factors_[n]) >> 16);
+  }
 
  private:
   std::vector<std::uint16_t> factors_;

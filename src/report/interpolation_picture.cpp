@@ -256,7 +256,7 @@ void draw_deviation(Canvas& canvas, const StudiedMethod& studied, const StepMove
 
 void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove& move, const Area& area) {
   const Lags all = lags(studied, move);
-  double most = 0.2;
+  double most = 0.5;
   for (const auto& curve : all) {
     for (const Spot& spot : curve) most = std::max(most, std::abs(spot.y));
   }

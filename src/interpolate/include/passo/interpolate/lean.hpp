@@ -25,13 +25,17 @@ class Lean {
  public:
   constexpr explicit Lean(const int32_t (&distances)[axes]) : line_(distances), left_(line_.longest) {
     const Length half = static_cast<Length>(line_.longest - line_.longest / 2);
-    for (Signed& decision : decision_) decision = static_cast<Signed>(-static_cast<Signed>(half));
+    for (uint8_t axis = 0; axis < axes; ++axis) {
+      decision_[axis] = static_cast<Signed>(-static_cast<Signed>(half));
+      if (line_.lengths[axis] == line_.longest) masters_ = static_cast<uint8_t>(masters_ | axis_bit(axis));
+    }
   }
 
   constexpr bool done() const { return left_ == 0; }
   constexpr Pulse next() {
-    uint8_t steps = 0;
+    uint8_t steps = masters_;
     for (uint8_t axis = 0; axis < axes; ++axis) {
+      if ((masters_ & axis_bit(axis)) != 0) continue;
       Signed decision = static_cast<Signed>(decision_[axis] + static_cast<Signed>(line_.lengths[axis]));
       if (decision >= 0) {
         steps = static_cast<uint8_t>(steps | axis_bit(axis));
@@ -54,6 +58,7 @@ class Lean {
 
   Line<axes, Length> line_;
   Length left_;
+  uint8_t masters_ = 0;  // step at every pulse: there is nothing to decide
   Signed decision_[axes] = {};
 };
 
