@@ -25,6 +25,7 @@ constexpr const char* examples = R"(Examples:
   passo machine router.toml                                   what a machine file says
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
+  passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -66,6 +67,43 @@ Examples:
   passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
 }
 
+void add_chords(CLI::App& command, ChordsArguments& arguments) {
+  command.add_option("--curve", arguments.curve, "line, arc, helix, ellipse, parabola, bezier or nurbs")->required();
+  command.add_option("--from", arguments.from, "its start in mm, X,Y or X,Y,Z");
+  command.add_option("--to", arguments.to, "its end; as high as the start unless told otherwise");
+  command.add_option("--center", arguments.center, "arc, helix, ellipse: X,Y of the centre");
+  command.add_flag("--cw", arguments.clockwise, "arc, helix: clockwise; else counterclockwise");
+  command.add_option("--turns", arguments.turns, "arc, helix: of N turns, the last one as far as --to")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--radii", arguments.radii, "ellipse: A,B");
+  command.add_option("--rotate", arguments.rotate, "ellipse: degrees from X to A");
+  command.add_option("--angles", arguments.angles, "ellipse: FROM,TO in degrees from A towards B; all of it without");
+  command.add_option("--vertex", arguments.vertex, "parabola: X,Y");
+  command.add_option("--focus", arguments.focus, "parabola: X,Y");
+  command.add_option("--control", arguments.control,
+                     "bezier: the one or two control points between the ends; nurbs: all control points");
+  command.add_option("--degree", arguments.degree, "nurbs: 1 to 9")->capture_default_str();
+  command.add_option("--weights", arguments.weights, "nurbs: one a control point; 1 without");
+  command.add_option("--knots", arguments.knots, "nurbs: points + degree + 1 of them; clamped and even without");
+  command.add_option("-t,--tolerance", arguments.tolerance, "how far chord and curve may be apart, in mm")
+      ->capture_default_str();
+  command.add_option("--steps-per-mm", arguments.steps_per_mm, "N or X,Y,Z: where the chords end in steps as well");
+  command.add_option("-p,--picture", arguments.picture, "draw curve, chords and tolerance (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the chords to a file");
+  command.footer(
+      R"(Prints a line a chord: its number, where it ends, and how far from the curve it is at most. Line 0 is the start.
+
+Examples:
+  passo chords --curve arc --from 10,0 --to 0,10 --center 0,0 --tolerance 0.1
+  passo chords --curve arc --from 10,0 --to 10,0 --center 0,0 --picture circle.svg         a full circle, drawn
+  passo chords --curve helix --from 8,0,0 --to 8,0,12 --center 0,0 --turns 4 --cw          a thread
+  passo chords --curve ellipse --center 0,0 --radii 40,15 --rotate 30 --angles 0,-180      half of it, clockwise
+  passo chords --curve parabola --vertex 0,0 --focus 0,10 --from -20,10 --to 30,22.5       a dish of 10 mm focal length
+  passo chords --curve bezier --from 0,0 --control 0,20 --control 30,20 --to 30,0 --steps-per-mm 100
+  passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1 a quarter of a circle)");
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app(description, "passo");
   app.footer(examples);
@@ -105,6 +143,9 @@ int parse_and_run(int argc, char** argv) {
   add_interpolate(interpolate_command, interpolate_arguments);
   MotorArguments motor_arguments;
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
+  ChordsArguments chords_arguments;
+  CLI::App& chords_command = *app.add_subcommand("chords", "cut a curve into straight pieces within a tolerance");
+  add_chords(chords_command, chords_arguments);
 
   try {
     app.parse(argc, argv);
@@ -116,6 +157,7 @@ int parse_and_run(int argc, char** argv) {
   if (canon_command.parsed()) return canon(canon_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
+  if (chords_command.parsed()) return chords(chords_arguments);
   return machine(machine_arguments);
 }
 
