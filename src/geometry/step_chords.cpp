@@ -44,7 +44,9 @@ bool StepChords::fail(const CurveError& error) {
 }
 
 bool StepChords::next(StepChord& chord) {
-  while (!error_ && chords_.next(chord.chord)) {
+  for (std::optional<double> from; !error_ && chords_.next(chord.chord);) {
+    chord.chord.from = from.value_or(chord.chord.from);
+    from = chord.chord.from;
     const Result<StepPlace, CurveError> end = to_steps(chord.chord.end, scale_);
     if (!end) return fail(end.error());
     bool moves = false;

@@ -30,9 +30,12 @@ TEST(RandomStepChords, add_up_to_the_rounded_end_and_stay_within_half_a_step) {
           StepChords steps(chords, start, scale);
           std::array<std::int64_t, 3> sum{};
           for (std::size_t i = 0; i < 3; ++i) sum[i] = std::llround(exact_steps(start, scale)[i]);
+          double reached = range.low;
           for (StepChord chord; steps.next(chord);) {
             const std::array<Real, 3> wanted = exact_steps(curve.at(chord.chord.to), scale);
             bool moves = false;
+            ASSERT_EQ(chord.chord.from, reached);
+            reached = chord.chord.to;
             for (std::size_t i = 0; i < 3; ++i) {
               moves = moves || chord.distances[i] != 0;
               sum[i] += chord.distances[i];

@@ -27,7 +27,7 @@ using StepPlace = std::array<Steps, space_axes>;
 Result<StepPlace, CurveError> to_steps(const Vector3& place, const StepScale& scale);
 
 struct StepChord {
-  Chord chord;                              // where it ends on the curve
+  Chord chord;  // what it stands for on the curve, from where the last one ended; chords left out are part of it
   std::int32_t distances[space_axes] = {};  // NOLINT: an array as interpolators take it; ±(2^31 - 1) at most
   StepPlace end = {};
 };
