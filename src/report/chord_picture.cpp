@@ -5,6 +5,7 @@
 
 #include "axis_ticks.hpp"
 #include "cairo_canvas.hpp"
+#include "chart.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -177,31 +178,29 @@ double farthest(const ChordDrawing& drawing) {
 
 // How far the chords are from the curve, along its length, under the line of the tolerance.
 void draw_deviation(Canvas& canvas, const ChordDrawing& drawing, const Area& area) {
-  const double tolerance = drawing.tolerance.value();
-  const bool micrometres = tolerance < 0.5;
-  const double unit = micrometres ? 1000 : 1;
-  const double highest = tolerance * unit * 1.25;
+  const bool small = drawing.tolerance < Mm(0.5);
+  const double unit = small ? 1000 : 1;
+  const double limit = drawing.tolerance.value() * unit;
   const double whole = std::max(path_length(drawing), 1e-9);
-  const Scale right{0, whole, area.x, area.width / whole};
-  const Scale up{0, highest, area.bottom(), -area.height / highest};
-  canvas.text({area.x, area.y - 16}, "Distance of the chords from the curve, " + std::string(micrometres ? "µm" : "mm"),
-              heading);
-  draw_horizontal_ticks(canvas, right, area);
-  draw_vertical_ticks(canvas, up, area);
-  std::vector<Spot> hill = {{area.x, area.bottom()}};
+  Chart chart(canvas, area, {"Along the curve, mm", whole},
+              {small ? "Distance of the chords from the curve, \u00B5m" : "Distance of the chords from the curve, mm",
+               limit * 1.25});
+  chart.draw_grid();
+  std::vector<Spot> hills = {chart.at(0, 0)};
   double way = 0;
-  for (std::size_t i = 0; i < drawing.samples.size(); ++i) {
-    if (i > 0) way += length(drawing.samples[i].curve - drawing.samples[i - 1].curve);
-    hill.push_back({right(way), up(distance(drawing.samples[i]) * unit)});
+  const ChordDrawing::Sample* before = nullptr;
+  for (const ChordDrawing::Sample& sample : drawing.samples) {
+    if (before != nullptr) way += length(sample.curve - before->curve);
+    hills.push_back(chart.at(way, distance(sample) * unit));
+    before = &sample;
   }
-  hill.push_back({area.right(), area.bottom()});
-  canvas.fill(hill, tube_colour);
-  for (std::size_t i = 1; i + 1 < hill.size(); ++i) i == 1 ? canvas.move_to(hill[i]) : canvas.line_to(hill[i]);
+  hills.push_back(chart.at(way, 0));
+  canvas.fill(hills, tube_colour);
+  canvas.move_to(hills.front());
+  for (const Spot& spot : hills) canvas.line_to(spot);
   canvas.stroke(chord_pen);
-  const double limit = up(tolerance * unit);
-  canvas.line({area.x, limit}, {area.right(), limit}, limit_pen);
-  canvas.frame(area, edge);
-  canvas.text({area.x + area.width / 2, area.bottom() + 36}, "Along the curve, mm", heading, Align::centre);
+  canvas.line(chart.at(0, limit), chart.at(whole, limit), limit_pen);
+  chart.draw_frame();
 }
 
 std::string factor_text(double factor) {
