@@ -171,6 +171,16 @@ void Canvas::stroke(const Pen& pen) {
   cairo_stroke(context_.get());
 }
 
+void Canvas::clip(const Area& area) {
+  cairo_save(context_.get());
+  cairo_rectangle(context_.get(), area.x, area.y, area.width, area.height);
+  cairo_clip(context_.get());
+}
+
+void Canvas::end_clip() {
+  cairo_restore(context_.get());
+}
+
 Status<OutputError> Canvas::finish() {
   cairo_status_t status = cairo_status(context_.get());
   if (status == CAIRO_STATUS_SUCCESS && format_ == PictureFormat::png) {

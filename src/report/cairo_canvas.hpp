@@ -70,6 +70,10 @@ class Canvas {
   void line_to(Spot spot);
   void stroke(const Pen& pen);
 
+  // What is drawn between the two shows inside `area` only.
+  void clip(const Area& area);
+  void end_clip();
+
   // Writes what is not written yet.
   Status<OutputError> finish();
 

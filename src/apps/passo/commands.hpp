@@ -114,4 +114,27 @@ struct RampArguments {
 };
 int ramp(const RampArguments& arguments);
 
+struct ChordsArguments {
+  std::string curve;   // line, arc, helix, ellipse, parabola, bezier or nurbs
+  std::string from;    // "X,Y" or "X,Y,Z" in mm, as all places
+  std::string to;      // Z as that of `from` unless it says otherwise
+  std::string center;  // arc, helix, ellipse
+  bool clockwise = false;
+  int turns = 1;       // arc, helix: the last one may be a part of a turn
+  std::string radii;   // ellipse: "A,B" in mm
+  double rotate = 0;   // ellipse: degrees
+  std::string angles;  // ellipse: "FROM,TO" in degrees; empty: all of it
+  std::string vertex;  // parabola
+  std::string focus;
+  std::vector<std::string> control;  // bezier: between the ends; nurbs: all
+  int degree = 3;                    // nurbs
+  std::vector<double> weights;
+  std::vector<double> knots;
+  double tolerance = 0.01;   // mm
+  std::string steps_per_mm;  // "N" or "X,Y,Z"; empty: no steps
+  std::string picture;       // .svg or .png
+  std::string output;        // empty: standard output
+};
+int chords(const ChordsArguments& arguments);
+
 }  // namespace passo

@@ -26,6 +26,7 @@ constexpr const char* examples = R"(Examples:
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
+  passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
@@ -79,6 +80,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& ramp_command = add_ramp_command(app, ramp_arguments);
   MotorArguments motor_arguments;
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
+  ChordsArguments chords_arguments;
+  CLI::App& chords_command = add_chords_command(app, chords_arguments);
 
   try {
     app.parse(argc, argv);
@@ -91,6 +94,7 @@ int parse_and_run(int argc, char** argv) {
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
+  if (chords_command.parsed()) return chords(chords_arguments);
   return machine(machine_arguments);
 }
 

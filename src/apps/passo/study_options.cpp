@@ -1,4 +1,4 @@
-// The options of the commands that study one thing at a time: pulses, ramps, motors.
+// The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
 #include "study_options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -53,6 +53,45 @@ Examples:
   passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
   passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as figures and drawn
   passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
+  return command;
+}
+
+CLI::App& add_chords_command(CLI::App& app, ChordsArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("chords", "cut a curve into straight pieces within a tolerance");
+  command.add_option("--curve", arguments.curve, "line, arc, helix, ellipse, parabola, bezier or nurbs")->required();
+  command.add_option("--from", arguments.from, "its start in mm, X,Y or X,Y,Z");
+  command.add_option("--to", arguments.to, "its end; as high as the start unless told otherwise");
+  command.add_option("--center", arguments.center, "arc, helix, ellipse: X,Y of the centre");
+  command.add_flag("--cw", arguments.clockwise, "arc, helix: clockwise; else counterclockwise");
+  command.add_option("--turns", arguments.turns, "arc, helix: of N turns, the last one as far as --to")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--radii", arguments.radii, "ellipse: A,B");
+  command.add_option("--rotate", arguments.rotate, "ellipse: degrees from X to A");
+  command.add_option("--angles", arguments.angles, "ellipse: FROM,TO in degrees from A towards B; all of it without");
+  command.add_option("--vertex", arguments.vertex, "parabola: X,Y");
+  command.add_option("--focus", arguments.focus, "parabola: X,Y");
+  command.add_option("--control", arguments.control,
+                     "bezier: the one or two control points between the ends; nurbs: all control points");
+  command.add_option("--degree", arguments.degree, "nurbs: 1 to 9")->capture_default_str();
+  command.add_option("--weights", arguments.weights, "nurbs: one a control point; 1 without");
+  command.add_option("--knots", arguments.knots, "nurbs: points + degree + 1 of them; clamped and even without");
+  command.add_option("-t,--tolerance", arguments.tolerance, "how far chord and curve may be apart, in mm")
+      ->capture_default_str();
+  command.add_option("--steps-per-mm", arguments.steps_per_mm, "N or X,Y,Z: where the chords end in steps as well");
+  command.add_option("-p,--picture", arguments.picture, "draw curve, chords and tolerance (FILE.svg or FILE.png)");
+  command.add_option("-o,--output", arguments.output, "write the chords to a file");
+  command.footer(
+      R"(Prints a line a chord: its number, where it ends, and how far from the curve it is at most. Line 0 is the start.
+
+Examples:
+  passo chords --curve arc --from 10,0 --to 0,10 --center 0,0 --tolerance 0.1
+  passo chords --curve arc --from 10,0 --to 10,0 --center 0,0 --picture circle.svg         a full circle, drawn
+  passo chords --curve helix --from 8,0,0 --to 8,0,12 --center 0,0 --turns 4 --cw          a thread
+  passo chords --curve ellipse --center 0,0 --radii 40,15 --rotate 30 --angles 0,-180      half of it, clockwise
+  passo chords --curve parabola --vertex 0,0 --focus 0,10 --from -20,10 --to 30,22.5       a dish of 10 mm focal length
+  passo chords --curve bezier --from 0,0 --control 0,20 --control 30,20 --to 30,0 --steps-per-mm 100
+  passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1 a quarter of a circle)");
   return command;
 }
 

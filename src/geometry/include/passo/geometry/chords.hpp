@@ -1,0 +1,174 @@
+// Chords: cuts a curve into straight pieces that stay within a tolerance. The coarse level of interpolation: any fine
+// line interpolator walks along the chords (StepChords).
+//
+// A pulled stage: one chord a call, constant memory, no heap. Every chord begins where the one before it ended, the
+// last one ends at the curve's end exactly, and none crosses a place where the curve's formula changes. No chord is
+// taken that the curve's own deviation() has not bounded by the tolerance.
+//
+// As few as the tolerance allows: on circles and helices the smallest number of equal chords; elsewhere each chord is
+// as long as it may be, to two or three in a hundred, and the last two of a piece share what is left.
+//
+// Source: the sagitta as in any handbook of NC (r - sqrt(r² - L²/4)); for control points Farin, Curves and Surfaces for
+// CAGD, ch. 5 and 6.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "passo/base/source.hpp"
+#include "passo/geometry/parametric_curve.hpp"
+
+namespace passo {
+
+// How far a chord may be from its curve: a nanometre at least (below it the rounding of doubles begins to count).
+class ChordTolerance {
+ public:
+  static constexpr Mm least{1e-6};
+  static Result<ChordTolerance, CurveError> of(Mm tolerance) {
+    if (tolerance >= least) return ChordTolerance(tolerance);
+    return Failure{CurveError{"the tolerance must be 0.000001 mm or more"}};
+  }
+  Mm value() const { return value_; }
+
+ private:
+  explicit ChordTolerance(Mm value) : value_(value) {}
+  Mm value_;
+};
+
+struct Chord {
+  double from = 0;  // the curve's parameter at both ends
+  double to = 0;
+  Vector3 end;   // the curve's place at `to`
+  Mm deviation;  // no more than this between curve and chord
+};
+
+// `curve` must outlive it.
+template <ParametricCurve C>
+class Chords final : public Source<Chord> {
+ public:
+  Chords(const C& curve, ChordTolerance tolerance)
+      : curve_(curve), tolerance_(tolerance.value()), u_(curve.range().low), piece_end_(u_) {}
+
+  [[nodiscard]] bool next(Chord& chord) override {
+    if (u_ >= piece_end_ && !begin_piece()) return false;
+    chord.from = u_;
+    if (curve_.is_even()) {
+      take_equal(chord);
+    } else {
+      take_longest(chord);
+    }
+    u_ = chord.to;
+    chord.end = curve_.at(u_);
+    return true;
+  }
+
+ private:
+  bool begin_piece() {
+    if (u_ >= curve_.range().high) return false;
+    piece_start_ = u_;
+    piece_end_ = curve_.next_break(u_);
+    step_ = piece_end_ - u_;
+    taken_ = 0;
+    if (curve_.is_even()) count_ = smallest_count();
+    return true;
+  }
+
+  void take_equal(Chord& chord) {
+    ++taken_;
+    const double share = static_cast<double>(taken_) / static_cast<double>(count_);
+    chord.to = taken_ == count_ ? piece_end_ : piece_start_ + (piece_end_ - piece_start_) * share;
+    chord.deviation = curve_.deviation(chord.from, chord.to);
+  }
+
+  // Of equal chords: by doubling, then by halving the interval in which it lies.
+  std::int64_t smallest_count() const {
+    const double whole = piece_end_ - piece_start_;
+    const auto good = [&](std::int64_t count) {
+      const double part = piece_start_ + whole / static_cast<double>(count);
+      return curve_.deviation(piece_start_, part) <= tolerance_ * rounding;
+    };
+    std::int64_t enough = 1;
+    while (!good(enough)) enough *= 2;
+    std::int64_t too_few = enough / 2;
+    while (enough - too_few > 1) {
+      const std::int64_t middle = too_few + (enough - too_few) / 2;
+      (good(middle) ? enough : too_few) = middle;
+    }
+    return enough;
+  }
+
+  void take_longest(Chord& chord) {
+    const double rest = piece_end_ - u_;
+    find_longest(rest);
+    double to = good_ < rest ? u_ + good_ : piece_end_;
+    if (good_ < rest && rest < 2 * good_) {
+      const double half = u_ + rest / 2;
+      const Mm there = curve_.deviation(u_, half);
+      if (there <= tolerance_) {
+        to = half;
+        deviation_ = there;
+      }
+    }
+    chord.to = to;
+    chord.deviation = deviation_;
+    step_ = good_;
+  }
+
+  // The deviation goes nearly with the square of the chord, which makes the next guess from the last; a bracket of the
+  // longest that was good and the shortest that was not catches what goes otherwise (an inflection, a cusp).
+  void find_longest(double rest) {
+    good_ = 0;
+    double bad = rest * 2;
+    double guess = std::min(step_, rest);
+    for (int tries = 0; bad > good_ * (1 + nearness) && (tries < enough_tries || good_ == 0); ++tries) {
+      const bool whole = guess >= rest;
+      const double to = whole ? piece_end_ : u_ + guess;
+      if (!(to > u_)) break;
+      const Mm deviation = curve_.deviation(u_, to);
+      if (deviation <= tolerance_) {
+        good_ = guess;
+        deviation_ = deviation;
+        if (whole || deviation >= tolerance_ * (1 - 2 * nearness)) return;
+      } else {
+        bad = guess;
+      }
+      guess = next_guess(guess, deviation, bad, rest);
+    }
+    if (good_ > 0) return;
+    // Two neighbours among the doubles; nothing lies between them.
+    const double neighbour = std::nextafter(u_, piece_end_);
+    deviation_ = curve_.deviation(u_, neighbour);
+    good_ = neighbour - u_;
+  }
+
+  double next_guess(double guess, Mm deviation, double bad, double rest) const {
+    if (!std::isfinite(deviation.value())) return (good_ + bad) / 2;
+    // Within the bracket, and not so near its ends that little is learned; without one, not less than an eighth at
+    // once.
+    const bool bracketed = bad <= rest;
+    const double margin = bracketed ? (bad - good_) / 8 : 0;
+    const double low = good_ > 0 ? good_ + margin : guess / 8;
+    const double high = bracketed ? bad - margin : rest;
+    if (deviation == Mm(0)) return high;
+    return std::clamp(guess * std::sqrt(tolerance_ * (1 - nearness) / deviation), low, high);
+  }
+
+  static constexpr double nearness = 0.02;
+  static constexpr int enough_tries = 16;
+  // So that a tolerance which is the sagitta of n equal chords, worked out elsewhere, gives n.
+  static constexpr double rounding = 1 + 1e-12;
+
+  const C& curve_;
+  Mm tolerance_;
+  double u_;
+  double piece_start_ = 0;
+  double piece_end_;
+  double step_ = 0;  // the last longest chord: where the next search begins
+  double good_ = 0;
+  Mm deviation_;
+  std::int64_t count_ = 0;  // of equal chords in this piece, and how many of them are taken
+  std::int64_t taken_ = 0;
+};
+
+}  // namespace passo

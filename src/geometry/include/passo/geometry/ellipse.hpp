@@ -1,0 +1,50 @@
+// Ellipse: an arc of an ellipse, or all of it once or several times, anywhere in space and in either sense.
+//
+//     P = centre + major cos t + minor sin t,       t = start + u sweep,  u from 0 to 1
+//
+// `major` and `minor` are the half axes, at a right angle. t is the eccentric angle: that on the circle of which the
+// ellipse is the shadow, not the angle seen from the centre.
+//
+// Deviation from the chord over t = m - d … m + d: arc and chord are shadows of a circle's, the chord lies parallel to
+// the tangent at m, and the farthest point is P(m), at |major| |minor| / |dP/dt (m)| times (1 - cos d). Exactly, unless
+// the arc reaches out beyond an end of the chord; then that reach counts too (ellipse.cpp).
+#pragma once
+
+#include "passo/geometry/parametric_curve.hpp"
+
+namespace passo {
+
+class Ellipse {
+ public:
+  struct Shape {
+    Vector3 centre;
+    Vector3 major = {1, 0, 0};
+    Vector3 minor = {0, 1, 0};
+    Radians start = {0};
+    Radians sweep = {0};  // not zero; positive turns from major to minor
+  };
+
+  static Result<Ellipse, CurveError> create(const Shape& shape);
+  // In a plane of constant Z, its first half axis turned from X by `rotation`; positive angles are counterclockwise.
+  static Result<Ellipse, CurveError> flat(const Vector3& centre, Mm first_radius, Mm second_radius, Radians rotation,
+                                          Radians start, Radians sweep);
+
+  const Shape& shape() const { return shape_; }
+  ParameterRange range() const { return {}; }
+  Vector3 at(double u) const;
+  Vector3 derivative(double u) const;
+  Vector3 second_derivative(double u) const;
+  double next_break(double /*u*/) const { return 1; }
+  Mm deviation(double from, double to) const;
+  bool is_even() const { return is_circle_; }
+
+ private:
+  explicit Ellipse(const Shape& shape);
+
+  Shape shape_;
+  bool is_circle_ = false;
+};
+
+static_assert(ParametricCurve<Ellipse>);
+
+}  // namespace passo

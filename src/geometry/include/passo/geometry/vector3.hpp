@@ -1,0 +1,39 @@
+// Vector3: a place or a way in X Y Z, in millimetres, for curves that live in space.
+//
+// Point has all nine axes and is what a machine is told; most of geometry needs three.
+#pragma once
+
+#include <cmath>
+
+#include "passo/geometry/axes.hpp"
+
+namespace passo {
+
+struct Vector3 {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+
+  static constexpr Vector3 of(const Point& point) { return {point[Axis::x], point[Axis::y], point[Axis::z]}; }
+
+  friend constexpr Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr Vector3 operator-(const Vector3& a, const Vector3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vector3 operator*(const Vector3& a, double k) { return {a.x * k, a.y * k, a.z * k}; }
+  friend constexpr Vector3 operator/(const Vector3& a, double k) { return {a.x / k, a.y / k, a.z / k}; }
+  friend constexpr bool operator==(const Vector3&, const Vector3&) = default;
+};
+
+constexpr double dot(const Vector3& a, const Vector3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(const Vector3& a) {
+  return std::hypot(a.x, a.y, a.z);
+}
+inline bool is_finite(const Vector3& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+}  // namespace passo

@@ -1,0 +1,22 @@
+// WeightedPoint: a control point of a rational curve in homogeneous coordinates: x, y and z in mm times the weight, and
+// the weight. In these a rational curve is as simple as any other; dividing by the weight comes last.
+#pragma once
+
+#include "passo/geometry/vector3.hpp"
+
+namespace passo {
+
+struct WeightedPoint {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+  double weight = 1;
+
+  static WeightedPoint of(const Vector3& place, double weight) {
+    return {place.x * weight, place.y * weight, place.z * weight, weight};
+  }
+  Vector3 weighted() const { return {x, y, z}; }
+  Vector3 place() const { return weighted() / weight; }
+};
+
+}  // namespace passo

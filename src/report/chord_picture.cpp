@@ -1,0 +1,277 @@
+#include "passo/report/chord_picture.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "axis_ticks.hpp"
+#include "cairo_canvas.hpp"
+#include "chart.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+const Colour ink{0.25, 0.27, 0.30};
+const Colour quiet_ink{0.48, 0.50, 0.54};
+const Colour tube_colour{0.86, 0.92, 0.98};
+const Colour chord_colour{0.12, 0.36, 0.75};
+const Colour limit_colour{0.82, 0.22, 0.20};
+const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
+const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
+const Font heading{.size = 14, .colour = quiet_ink};
+const Font label{.size = 12, .colour = ink};
+const Font caption{.size = 14, .colour = ink};
+const Pen grid{.colour = {0.91, 0.92, 0.93}, .width = 0.8};
+const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
+const Pen curve_pen{.colour = ink, .width = 1.1};
+const Pen chord_pen{.colour = chord_colour, .width = 1.4};
+const Pen tube_pen{.colour = tube_colour, .width = 14};
+const Pen limit_pen{.colour = limit_colour, .width = 1.2, .opacity = 1, .dashes = {7, 5}};
+constexpr double margin = 48;
+
+double distance(const ChordDrawing::Sample& sample) {
+  return length(sample.curve - sample.chord);
+}
+
+// From one axis's values to the picture, growing to the right or up.
+struct Scale {
+  double low = 0;
+  double high = 1;
+  double origin = 0;  // where `low` is drawn
+  double pixels = 1;  // of one unit; below 0 for up
+  double operator()(double value) const { return origin + (value - low) * pixels; }
+};
+
+// How many times wider than it is the tube is drawn, so that it can be seen: a round number, or 1.
+double exaggeration_for(const ChordDrawing& drawing, double pixels_per_mm) {
+  constexpr double half_width = 14;
+  const double most = half_width / (drawing.tolerance.value() * pixels_per_mm);
+  if (most <= 1) return 1;
+  const double decade = std::pow(10, std::floor(std::log10(most)));
+  return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
+}
+
+// A view along one axis: which coordinate goes right and which goes up.
+struct View {
+  std::string name;
+  double Vector3::*right;
+  double Vector3::*up;
+  std::string right_name;
+  std::string up_name;
+};
+const View top_view{"Top view", &Vector3::x, &Vector3::y, "X, mm", "Y, mm"};
+const View front_view{"Front view", &Vector3::x, &Vector3::z, "X, mm", "Z, mm"};
+
+struct Extent {
+  double low = 0;
+  double high = 0;
+};
+
+Extent extent_of(const ChordDrawing& drawing, double Vector3::*axis) {
+  Extent extent{drawing.ends.front().*axis, drawing.ends.front().*axis};
+  for (const ChordDrawing::Sample& sample : drawing.samples) {
+    extent.low = std::min(extent.low, sample.curve.*axis);
+    extent.high = std::max(extent.high, sample.curve.*axis);
+  }
+  return extent;
+}
+
+// At equal scale on both axes, the curve in the middle; what is left over shows more of the plane.
+struct Frame {
+  Area area;
+  Scale right;
+  Scale up;
+  Spot spot(const View& view, const Vector3& place) const { return {right(place.*view.right), up(place.*view.up)}; }
+};
+
+Frame fitted(const ChordDrawing& drawing, const View& view, const Area& area) {
+  const Extent x = extent_of(drawing, view.right);
+  const Extent y = extent_of(drawing, view.up);
+  constexpr double inside = 44;  // free on all sides, for tube and points
+  const double least = 1e-9;
+  double scale = std::min((area.width - 2 * inside) / std::max(x.high - x.low, least),
+                          (area.height - 2 * inside) / std::max(y.high - y.low, least));
+  if (x.high - x.low < least && y.high - y.low < least) scale = 20;
+  const double wide = area.width / scale;
+  const double high = area.height / scale;
+  const double left = (x.low + x.high - wide) / 2;
+  const double lower = (y.low + y.high - high) / 2;
+  return {area, {left, left + wide, area.x, scale}, {lower, lower + high, area.bottom(), -scale}};
+}
+
+void draw_horizontal_ticks(Canvas& canvas, const Scale& scale, const Area& area) {
+  const auto room = [&](const std::string& text) { return canvas.text_width(text, label) + 24; };
+  for (const Tick& tick : ticks(scale.low, scale.high, scale.pixels, room)) {
+    const double x = scale(tick.value);
+    canvas.line({x, area.y}, {x, area.bottom()}, grid);
+    canvas.line({x, area.bottom()}, {x, area.bottom() + 5}, edge);
+    canvas.text({x, area.bottom() + 16}, tick.label, label, Align::centre);
+  }
+}
+
+void draw_vertical_ticks(Canvas& canvas, const Scale& scale, const Area& area) {
+  const auto room = [](const std::string&) { return 26.0; };
+  for (const Tick& tick : ticks(scale.low, scale.high, -scale.pixels, room)) {
+    const double y = scale(tick.value);
+    canvas.line({area.x, y}, {area.right(), y}, grid);
+    canvas.line({area.x - 5, y}, {area.x, y}, edge);
+    canvas.text({area.x - 9, y}, tick.label, label, Align::right);
+  }
+}
+
+template <class Place>
+void draw_polyline(Canvas& canvas, const ChordDrawing& drawing, const Pen& pen, Place place) {
+  if (drawing.samples.empty()) return;
+  canvas.move_to(place(drawing.samples.front()));
+  for (const ChordDrawing::Sample& sample : drawing.samples) canvas.line_to(place(sample));
+  canvas.stroke(pen);
+}
+
+void draw_ends(Canvas& canvas, const ChordDrawing& drawing, const View& view, const Frame& frame) {
+  double way = 0;
+  for (std::size_t i = 1; i < drawing.ends.size(); ++i) {
+    way += length(drawing.ends[i] - drawing.ends[i - 1]) * frame.right.pixels;
+  }
+  // Points that touch each other tell nothing.
+  const double apart = way / static_cast<double>(std::max<std::size_t>(1, drawing.ends.size() - 1));
+  if (apart < 7 && drawing.ends.size() > 2) return;
+  const double radius = std::min(3.6, apart / 5);
+  for (const Vector3& end : drawing.ends) canvas.disc(frame.spot(view, end), radius, chord_colour);
+}
+
+void draw_view(Canvas& canvas, const ChordDrawing& drawing, const View& view, const Area& area, double factor) {
+  const Frame frame = fitted(drawing, view, area);
+  canvas.text({area.x + area.width / 2, area.y - 16}, view.name, heading, Align::centre);
+  draw_horizontal_ticks(canvas, frame.right, area);
+  draw_vertical_ticks(canvas, frame.up, area);
+  const auto on_curve = [&](const ChordDrawing::Sample& sample) { return frame.spot(view, sample.curve); };
+  const auto on_chord = [&](const ChordDrawing::Sample& sample) {
+    return frame.spot(view, sample.curve + (sample.chord - sample.curve) * factor);
+  };
+  const double half_width = drawing.tolerance.value() * factor * frame.right.pixels;
+  // A tolerance as wide as the picture is no tube.
+  const double shown = std::min(half_width, area.height);
+  canvas.clip(area);
+  draw_polyline(canvas, drawing, {.colour = tube_colour, .width = 2 * shown}, on_curve);
+  draw_polyline(canvas, drawing, curve_pen, on_curve);
+  draw_polyline(canvas, drawing, chord_pen, on_chord);
+  draw_ends(canvas, drawing, view, frame);
+  canvas.end_clip();
+  canvas.frame(area, edge);
+  canvas.text({area.x + area.width / 2, area.bottom() + 36}, view.right_name, heading, Align::centre);
+  canvas.text({area.x - 9, area.y - 16}, view.up_name, heading, Align::right);
+}
+
+double path_length(const ChordDrawing& drawing) {
+  double sum = 0;
+  for (std::size_t i = 1; i < drawing.samples.size(); ++i) {
+    sum += length(drawing.samples[i].curve - drawing.samples[i - 1].curve);
+  }
+  return sum;
+}
+
+double farthest(const ChordDrawing& drawing) {
+  double most = 0;
+  for (const ChordDrawing::Sample& sample : drawing.samples) most = std::max(most, distance(sample));
+  return most;
+}
+
+// How far the chords are from the curve, along its length, under the line of the tolerance.
+void draw_deviation(Canvas& canvas, const ChordDrawing& drawing, const Area& area) {
+  const bool small = drawing.tolerance < Mm(0.5);
+  const double unit = small ? 1000 : 1;
+  const double limit = drawing.tolerance.value() * unit;
+  const double whole = std::max(path_length(drawing), 1e-9);
+  Chart chart(canvas, area, {"Along the curve, mm", whole},
+              {small ? "Distance of the chords from the curve, \u00B5m" : "Distance of the chords from the curve, mm",
+               limit * 1.25});
+  chart.draw_grid();
+  std::vector<Spot> hills = {chart.at(0, 0)};
+  double way = 0;
+  const ChordDrawing::Sample* before = nullptr;
+  for (const ChordDrawing::Sample& sample : drawing.samples) {
+    if (before != nullptr) way += length(sample.curve - before->curve);
+    hills.push_back(chart.at(way, distance(sample) * unit));
+    before = &sample;
+  }
+  hills.push_back(chart.at(way, 0));
+  canvas.fill(hills, tube_colour);
+  canvas.move_to(hills.front());
+  for (const Spot& spot : hills) canvas.line_to(spot);
+  canvas.stroke(chord_pen);
+  canvas.line(chart.at(0, limit), chart.at(whole, limit), limit_pen);
+  chart.draw_frame();
+}
+
+std::string factor_text(double factor) {
+  return factor == 1 ? "to scale" : fmt::format("drawn {:g} \u00D7 as wide", factor);
+}
+
+void draw_legend(Canvas& canvas, double factor, double right, double y) {
+  struct Entry {
+    const Pen* pen;
+    std::string text;
+  };
+  const std::string times = factor == 1 ? "" : fmt::format(", distance from the curve drawn {:g} \u00D7", factor);
+  const std::array<Entry, 4> entries = {{{&curve_pen, "Curve"},
+                                         {&chord_pen, "Chords" + times},
+                                         {&tube_pen, "Tolerance, " + factor_text(factor)},
+                                         {&limit_pen, "Tolerance"}}};
+  constexpr double sample = 40;
+  constexpr double gap = 34;
+  double width = -gap;
+  for (const Entry& entry : entries) width += sample + 10 + canvas.text_width(entry.text, caption) + gap;
+  double x = right - width;
+  for (const Entry& entry : entries) {
+    canvas.line({x, y}, {x + sample, y}, *entry.pen);
+    canvas.text({x + sample + 10, y}, entry.text, caption);
+    x += sample + 10 + canvas.text_width(entry.text, caption) + gap;
+  }
+}
+
+std::string mm_text(double mm) {
+  return fmt::format("{:.4g} mm", mm);
+}
+
+}  // namespace
+
+Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place) {
+  const Vector3 way = b - a;
+  const double square = dot(way, way);
+  return square > 0 ? a + way * std::clamp(dot(place - a, way) / square, 0.0, 1.0) : a;
+}
+
+Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOptions& options, OutputFile& file) {
+  Canvas canvas(options, file);
+  const double width = options.width;
+  const double height = options.height;
+  canvas.fill({0, 0, width, height}, {1, 1, 1});
+  canvas.text({margin, 42}, options.program, title);
+  const std::size_t count = drawing.ends.size() - 1;
+  canvas.text({margin, 74},
+              fmt::format("{} {}   \u00B7   tolerance {}   \u00B7   at most {} from the curve   \u00B7   {} long",
+                          count, count == 1 ? "chord" : "chords", mm_text(drawing.tolerance.value()),
+                          mm_text(farthest(drawing)), mm_text(path_length(drawing))),
+              subtitle);
+
+  constexpr double left = margin + 40;
+  constexpr double upper = 132;
+  const double views_height = height - 458;
+  const double whole_width = width - left - margin;
+  const Extent z = extent_of(drawing, &Vector3::z);
+  const bool flat = z.high - z.low < 1e-9;
+  const double view_width = flat ? whole_width : (whole_width - 90) / 2;
+  const Area first{left, upper, view_width, views_height};
+  const Area second{left + view_width + 90, upper, view_width, views_height};
+  double pixels = fitted(drawing, top_view, first).right.pixels;
+  if (!flat) pixels = std::min(pixels, fitted(drawing, front_view, second).right.pixels);
+  const double factor = exaggeration_for(drawing, pixels);
+  draw_view(canvas, drawing, top_view, first, factor);
+  if (!flat) draw_view(canvas, drawing, front_view, second, factor);
+  const double strip = upper + views_height + 106;
+  draw_legend(canvas, factor, width - margin, strip - 20);
+  draw_deviation(canvas, drawing, {left, strip, whole_width, height - strip - 62});
+  return canvas.finish();
+}
+
+}  // namespace passo

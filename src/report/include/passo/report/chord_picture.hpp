@@ -1,0 +1,57 @@
+// A picture of a curve and its chords: top view (and front view, where the curve leaves the plane), and how far the
+// chords are from the curve all along it.
+//
+// A chord's distance from its curve is small beside both: in the views it is drawn larger than it is, together with the
+// tube of the tolerance around the curve, by a factor that the picture tells.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "passo/geometry/chords.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/report/picture.hpp"
+
+namespace passo {
+
+struct ChordDrawing {
+  static constexpr std::size_t most_chords = 20'000;
+
+  struct Sample {
+    Vector3 curve;
+    Vector3 chord;  // the nearest place of the chord
+  };
+  Mm tolerance;
+  std::vector<Vector3> ends = {};  // where the chords meet, the start included
+  std::vector<Sample> samples = {};
+};
+
+// The place of the straight piece from `a` to `b` that is nearest to `place`.
+Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place);
+
+// Cuts the curve. A curve of more than `most_chords` is recorded as far as these go.
+template <ParametricCurve C>
+ChordDrawing record_chords(const C& curve, ChordTolerance tolerance) {
+  ChordDrawing drawing{.tolerance = tolerance.value()};
+  drawing.ends.push_back(curve.at(curve.range().low));
+  std::vector<Chord> all;
+  Chords chords(curve, tolerance);
+  for (Chord chord; all.size() < ChordDrawing::most_chords && chords.next(chord);) all.push_back(chord);
+  const std::size_t parts = std::clamp<std::size_t>(40'000 / std::max<std::size_t>(all.size(), 1), 4, 48);
+  for (const Chord& chord : all) {
+    const Vector3 start = drawing.ends.back();
+    for (std::size_t i = 0; i <= parts; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(parts);
+      const Vector3 place = i == parts ? chord.end : curve.at(chord.from + (chord.to - chord.from) * share);
+      drawing.samples.push_back({place, nearest_of(start, chord.end, place)});
+    }
+    drawing.ends.push_back(chord.end);
+  }
+  return drawing;
+}
+
+// Into `file`, which the caller commits. `options.program` is the title.
+Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOptions& options, OutputFile& file);
+
+}  // namespace passo
