@@ -39,7 +39,7 @@ class RandomArcs : public testing::Test {
   // Start anywhere, end on the same circle rounded to steps (or, one in eight, a full circle).
   ArcPoints arc() {
     for (;;) {
-      const double size = std::exp(std::uniform_real_distribution(0.0, 5.0)(random_));
+      const double size = std::exp(std::uniform_real_distribution(0.0, 4.0)(random_));
       const double from = std::uniform_real_distribution(0.0, 6.2831853)(random_);
       const double to = std::uniform_real_distribution(0.0, 6.2831853)(random_);
       ArcPoints made;
