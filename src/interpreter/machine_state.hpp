@@ -9,6 +9,7 @@
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/operation.hpp"
+#include "passo/interpreter/tool_table.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -63,6 +64,8 @@ struct MachineState {
   bool flood = false;
   bool feed_override = true;
   bool speed_override = true;
+  ToolTable tools;                  // what is known of each
+  Tool spindle_tool;                // what is known of the one in the spindle; its number is `tool`
   std::int32_t tool = 0;            // in the spindle
   std::int32_t selected_tool = -1;  // by T; -1: none yet
   std::uint32_t line = 0;           // of the block that is executed
