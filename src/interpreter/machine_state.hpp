@@ -57,7 +57,8 @@ struct SpindleState {
 struct MachineState {
   ModalState modal;
   Frame frame;
-  Point position;   // work coordinates, millimetres and degrees
+  Point position;   // work coordinates, millimetres and degrees; with cutter compensation on the contour
+  Point cutter_shift;  // from there to the tool's centre
   double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
   SpindleState spindle;
   bool mist = false;
@@ -74,7 +75,8 @@ struct MachineState {
   // Millimetres in one length unit of the program.
   double length_unit() const { return modal.inches() ? mm_per_inch : 1; }
   double units_of(Axis axis) const { return is_rotary(axis) ? 1 : length_unit(); }
-  Point machine_position() const { return frame.machine_from_work(position); }
+  Point tool_position() const { return position + cutter_shift; }
+  Point machine_position() const { return frame.machine_from_work(tool_position()); }
 };
 
 }  // namespace passo
