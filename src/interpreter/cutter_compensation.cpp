@@ -166,6 +166,7 @@ CutterFault CutterCompensation::line(const ContourMove& move) {
     Operation operation = move.origin;
     operation.what = operation_of(move, {});
     operations_.hold(operation);
+    if (!held_.any) held_ = {true, false, tool_, {}};
     return CutterFault::none;
   }
   return turn_corner(move, line_path(start, end));
@@ -222,30 +223,20 @@ CutterFault CutterCompensation::enter_by_arc(const ContourMove& move, Path path)
 CutterFault CutterCompensation::turn_corner(const ContourMove& move, const Path& path) {
   const PlanePoint contour = in_plane(move.start, axes_);
   double outside_turn = 0;
+  const Corner corner = corner_before(path, outside_turn);
   PlanePoint from = tool_;
-  CutterFault fault = CutterFault::none;
-  const bool stopped = std::exchange(stopped_, false);
-  switch (corner_before(path, outside_turn)) {
-    case Corner::smooth: fault = end_held_at(tool_); break;
-    case Corner::outside:
-      fault = end_held_at(tool_);
-      if (fault != CutterFault::none) break;
-      from = beside(contour, path.start_normal);
-      go_round(move, from);
-      break;
-    case Corner::inside:
-      if (!held_.any) {
-        operations_.release();
-        hold(move, path, false, from);
-        return stopped ? CutterFault::cut_corner : CutterFault::none;
-      }
-      if (!inside_corner_point(path, contour, outside_turn, from)) return give_up(path, CutterFault::no_room);
-      fault = end_held_at(from);
-      break;
+  if (corner == Corner::inside && held_.any && !inside_corner_point(path, contour, outside_turn, from)) {
+    return give_up(path, CutterFault::no_room);
   }
-  if (fault != CutterFault::none) return give_up(path, fault);
-  hold(move, path, true, from);
-  return fault;
+  const bool known_start = held_.any;
+  const bool stopped = std::exchange(stopped_, false);
+  if (const CutterFault fault = end_held_at(from); fault != CutterFault::none) return give_up(path, fault);
+  if (corner == Corner::outside) {
+    from = beside(contour, path.start_normal);
+    go_round(move, from);
+  }
+  hold(move, path, known_start || corner != Corner::inside, from);
+  return stopped && corner == Corner::inside ? CutterFault::cut_corner : CutterFault::none;
 }
 
 // What comes after a wrong move goes on from its end as if it had been made.
