@@ -53,7 +53,11 @@ const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
 
 BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, OperationQueue& operations,
                              Reporter& reporter, SymbolTable& symbols)
-    : state_(state), parameters_(parameters), operations_(operations), reporter_(reporter), symbols_(symbols),
+    : state_(state),
+      parameters_(parameters),
+      operations_(operations),
+      reporter_(reporter),
+      symbols_(symbols),
       cutter_(operations) {}
 
 void BlockExecutor::start(const InterpreterOptions& options) {

@@ -2,8 +2,9 @@
 //
 // A block is checked first as a whole (one code of each modal group, every word used, one taker of the axis words) and
 // executed then, group by group in a fixed order (block_executor.cpp). What sets and switches is in settings.cpp,
-// motion in motion.cpp, what moves the frame in offsets.cpp, cutter compensation in cutter_codes.cpp. A block with an error does nothing from the error on, but
-// the position goes where it was meant to go, so that one slip does not make errors of all that follows.
+// motion in motion.cpp, what moves the frame in offsets.cpp, cutter compensation in cutter_codes.cpp. A block with an
+// error does nothing from the error on, but the position goes where it was meant to go, so that one slip does not make
+// errors of all that follows.
 //
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once

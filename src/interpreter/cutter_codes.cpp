@@ -18,7 +18,7 @@ struct Forbidden {
   bool before_g40;  // executed before the G40 of its own block
 };
 constexpr Forbidden forbidden[] = {
-    {tool_change, true},  {overrides, true},   {input_output, true}, {plane, true},     {tool_length, false},
+    {tool_change, true},  {overrides, true},  {input_output, true}, {plane, true},      {tool_length, false},
     {work_system, false}, {path_mode, false}, {retract, false},     {non_modal, false},
 };
 
@@ -42,7 +42,7 @@ bool BlockExecutor::check_cutter_compensation() {
   if (!operations_.has_room()) {
     (void)cutter_.release();
     return fail("gcode.too-much-held", {1, 1}, "too many blocks between two moves with cutter compensation (G41, G42)",
-                "at most a hundred operations before the tool moves on");
+                fmt::format("at most {} operations before the tool moves on", OperationQueue::most_held));
   }
   constexpr const char* cure = "G40 in a block before";
   constexpr const char* with = "with cutter compensation on (G41, G42)";
@@ -53,8 +53,8 @@ bool BlockExecutor::check_cutter_compensation() {
     return fail("gcode.cutter-compensation", words_.span(group.group),
                 fmt::format("{} ({}) {}", spelling(*entry), entry->what, with), cure);
   }
-  if (is_on && words_.has_code(non_modal, code(10)) && words_.has('L') && words_.has('P') && (words_['L'] == 2 || words_['L'] == 20) &&
-      (words_['P'] == 0 || words_['P'] == state_.frame.work_system())) {
+  if (is_on && words_.has_code(non_modal, code(10)) && words_.has('L') && words_.has('P') &&
+      (words_['L'] == 2 || words_['L'] == 20) && (words_['P'] == 0 || words_['P'] == state_.frame.work_system())) {
     return fail("gcode.cutter-compensation", words_.span(non_modal),
                 fmt::format("G10 changes the active work system {}", with), cure);
   }
@@ -76,7 +76,8 @@ bool BlockExecutor::set_cutter_compensation(CodeNumber number) {
 bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
   const Span span = words_.span(cutter_compensation);
   if (state_.modal.plane() == Plane::yz) {
-    return fail("gcode.cutter-compensation", span, "cutter compensation in the plane YZ (G19)", "G17, or G18 on a lathe");
+    return fail("gcode.cutter-compensation", span, "cutter compensation in the plane YZ (G19)",
+                "G17, or G18 on a lathe");
   }
   if (state_.modal[cutter_compensation] != code(40)) {
     return fail("gcode.cutter-compensation", span, "cutter compensation is on already", "G40 in a block before");
@@ -100,8 +101,8 @@ bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
 // G41.1 D L: the diameter, and on a lathe the orientation.
 bool BlockExecutor::cutter_from_words(CodeNumber number, CutterSetup& setup) {
   if (!words_.has('D')) {
-    return fail("gcode.missing-word", words_.span(cutter_compensation), fmt::format("{} without D", spelling('G', number)),
-                "D, the tool's diameter");
+    return fail("gcode.missing-word", words_.span(cutter_compensation),
+                fmt::format("{} without D", spelling('G', number)), "D, the tool's diameter");
   }
   setup.radius = words_['D'] * state_.length_unit() / 2;
   if (!words_.has('L')) return true;
@@ -172,8 +173,9 @@ bool BlockExecutor::report_cutter(CutterFault fault, Span span) {
                     "a longer arc, or a straight move first");
       break;
     case CutterFault::arc_too_small:
-      good = refuse("gcode.cutter-gouge",
-                    fmt::format("the tool, of a radius of {}, does not fit into the arc", plain_number(radius)), smaller);
+      good =
+          refuse("gcode.cutter-gouge",
+                 fmt::format("the tool, of a radius of {}, does not fit into the arc", plain_number(radius)), smaller);
       break;
     case CutterFault::no_room:
       good = refuse("gcode.cutter-gouge",

@@ -79,7 +79,7 @@ class CutterCompensation {
   // The new move beside a corner: a line, or an arc with this centre and this radius of the tool's path.
   struct Path {
     bool is_arc = false;
-    bool inside = false;     // the tool runs inside the arc
+    bool inside = false;      // the tool runs inside the arc
     PlanePoint start_normal;  // from the contour to the tool's centre
     PlanePoint end_normal;
     PlanePoint direction;  // of a line
@@ -120,12 +120,12 @@ class CutterCompensation {
   Plane plane_ = Plane::xy;
   int side_ = 0;  // 1: left of the contour, -1: right, 0: off
   double radius_ = 0;
-  PlanePoint nose_;        // from the nose's centre to what a lathe's program speaks of
-  bool entered_ = false;   // the first move is done
+  PlanePoint nose_;       // from the nose's centre to what a lathe's program speaks of
+  bool entered_ = false;  // the first move is done
   bool leaving_ = false;
-  bool stopped_ = false;   // release() let the last move run to its end
-  PlanePoint tool_;        // the centre, at the end of the last move as far as that is known
-  PlanePoint normal_;      // from the contour's end to there
+  bool stopped_ = false;  // release() let the last move run to its end
+  PlanePoint tool_;       // the centre, at the end of the last move as far as that is known
+  PlanePoint normal_;     // from the contour's end to there
   Held held_;
 };
 

@@ -57,9 +57,9 @@ struct SpindleState {
 struct MachineState {
   ModalState modal;
   Frame frame;
-  Point position;   // work coordinates, millimetres and degrees; with cutter compensation on the contour
+  Point position;      // work coordinates, millimetres and degrees; with cutter compensation on the contour
   Point cutter_shift;  // from there to the tool's centre
-  double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
+  double feed = 0;     // F in millimetres, a minute or a revolution; 0: none given
   SpindleState spindle;
   bool mist = false;
   bool flood = false;

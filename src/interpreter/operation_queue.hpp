@@ -19,6 +19,7 @@ class OperationQueue {
   // No block pushes more than this.
   static constexpr std::size_t most_of_a_block = 64;
   static constexpr std::size_t capacity = 256;  // a power of two
+  static constexpr std::size_t most_held = capacity - most_of_a_block;
 
   // Nothing there that may be taken.
   bool empty() const { return taken_ == ready_; }
@@ -42,7 +43,7 @@ class OperationQueue {
   Operation& held(std::size_t i) { return at(ready_ + i); }
   void release();
   // Whether the operations of another block fit.
-  bool has_room() const { return pushed_ - taken_ + most_of_a_block <= capacity; }
+  bool has_room() const { return pushed_ - taken_ <= most_held; }
 
  private:
   struct Texts {

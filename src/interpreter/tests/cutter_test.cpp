@@ -68,7 +68,8 @@ std::vector<At> walk(const Interpreted& result) {
   return points;
 }
 
-// A star of straight lines about the origin, counterclockwise: inside and outside corners.
+// A star of straight lines about the origin, counterclockwise: inside and outside corners. From the middle of its first
+// line to there.
 std::vector<At> star(std::mt19937_64& random) {
   std::uniform_real_distribution<double> radius(30, 60);
   const int corners = std::uniform_int_distribution<int>(3, 12)(random);
@@ -78,7 +79,10 @@ std::vector<At> star(std::mt19937_64& random) {
     const double r = radius(random);
     contour.push_back({r * std::cos(angle), r * std::sin(angle)});
   }
+  const At middle{(contour[0].x + contour[1].x) / 2, (contour[0].y + contour[1].y) / 2};
   contour.push_back(contour.front());
+  contour.push_back(middle);
+  contour.front() = middle;
   return contour;
 }
 
@@ -90,25 +94,23 @@ TEST(CutterCompensation, the_tool_stays_its_radius_from_the_contour_and_touches_
     const std::vector<At> contour = star(random);
     const double radius = std::uniform_real_distribution<double>(0.2, 3)(random);
     const bool outside = i % 2 == 0;
-    // In along the first line from far before it, out along the last one.
-    const At first = contour.front();
-    const At second = contour[1];
-    std::string program = fmt::format("G21 F100\nG0 X{:.6f} Y{:.6f}\nG{}.1 D{:.6f}\n",
-                                      first.x - 0.5 * (second.x - first.x), first.y - 0.5 * (second.y - first.y),
-                                      outside ? 42 : 41, 2 * radius);
+    // In along the first line, from where it begins.
+    const At start = contour[contour.size() - 2];
+    std::string program =
+        fmt::format("G21 F100\nG0 X{:.6f} Y{:.6f}\nG{}.1 D{:.6f}\n", start.x, start.y, outside ? 42 : 41, 2 * radius);
     for (const At corner : contour) program += fmt::format("G1 X{:.6f} Y{:.6f}\n", corner.x, corner.y);
     const Interpreted result = interpret_text(program + "G40\nM2\n");
     if (result.diagnostics.any_error()) continue;  // a sharp corner between short lines
     ++walked;
     double nearest_of_all = 1e9;
-    bool inside_contour = false;  // of the entry, which crosses nothing but is no part of the contour
+    bool entered = false;
     for (const At point : walk(result)) {
       double nearest = 1e9;
       for (std::size_t k = 0; k + 1 < contour.size(); ++k) {
         nearest = std::min(nearest, distance(point, contour[k], contour[k + 1]));
       }
-      inside_contour = inside_contour || std::abs(nearest - radius) < 0.002 * radius;
-      if (!inside_contour) continue;
+      entered = entered || std::abs(nearest - radius) < 0.002 * radius;
+      if (!entered) continue;
       ASSERT_GT(nearest, radius * 0.998) << program << result.canon;
       nearest_of_all = std::min(nearest_of_all, nearest);
     }
@@ -118,8 +120,8 @@ TEST(CutterCompensation, the_tool_stays_its_radius_from_the_contour_and_touches_
 }
 
 TEST(CutterCompensation, what_stands_between_two_moves_keeps_its_place) {
-  const Interpreted result = interpret_text(
-      "G21 F100\nG41.1 D2\nG1 X10\n(first)\nM8\nF50\nZ3\n(second)\nY10\nG40\nG1 X0\nM2\n");
+  const Interpreted result =
+      interpret_text("G21 F100\nG41.1 D2\nG1 X10\n(first)\nM8\nF50\nZ3\n(second)\nY10\nG40\nG1 X0\nM2\n");
   EXPECT_THAT(result.calls(), HasSubstr("STRAIGHT_FEED(9.0000, 1.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
                                         "COMMENT(\"first\")\nFLOOD_ON()\nSET_FEED_RATE(50.0000)\n"
                                         "STRAIGHT_FEED(9.0000, 1.0000, 3.0000, 0.0000, 0.0000, 0.0000)\n"
@@ -150,7 +152,8 @@ TEST(CutterCompensation, a_move_that_was_held_comes_from_its_own_line) {
                                   operation.text));
     }
   }
-  EXPECT_THAT(lines, testing::ElementsAre("test.ngc:3 30 N30 G1 X10", "test.ngc:4 40 N40 Y-10", "test.ngc:4 40 N40 Y-10"));
+  EXPECT_THAT(lines,
+              testing::ElementsAre("test.ngc:3 30 N30 G1 X10", "test.ngc:4 40 N40 Y-10", "test.ngc:4 40 N40 Y-10"));
 }
 
 TEST(CutterCompensation, a_stop_and_the_end_of_the_file_let_go_of_the_last_move) {
@@ -174,15 +177,14 @@ TEST(CutterCompensation, a_tool_without_a_diameter_is_warned_of_and_compensates_
 }
 
 TEST(CutterCompensation, parameters_tell_where_the_centre_is_and_the_contour_again_after_g40) {
-  const Interpreted result =
-      interpret_text("G21 F100\nG42.1 D2\nG1 X10\n(debug,#5420 #5421 #<_y> #<_ccomp>)\nG40\n(debug,#5421 #<_ccomp>)\nM2\n");
+  const Interpreted result = interpret_text(
+      "G21 F100\nG42.1 D2\nG1 X10\n(debug,#5420 #5421 #<_y> #<_ccomp>)\nG40\n(debug,#5421 #<_ccomp>)\nM2\n");
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"10.000000 -1.000000 -1.000000 420.000000\")"));
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"0.000000 400.000000\")"));
 }
 
 TEST(CutterCompensation, one_gouge_is_one_error) {
-  const Interpreted result =
-      interpret_text("G21 F100\nG41.1 D4\nG1 X10\nX20\nY1\nX10\nX-20\nY-10\nX20\nG40\nX0\nM2\n");
+  const Interpreted result = interpret_text("G21 F100\nG41.1 D4\nG1 X10\nX20\nY1\nX10\nX-20\nY-10\nX20\nG40\nX0\nM2\n");
   EXPECT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
 }
 
@@ -193,7 +195,8 @@ TEST(CutterCompensation, an_arc_after_a_lathe_tools_entry_keeps_its_start) {
 }
 
 TEST(CutterCompensation, more_than_can_be_held_is_refused) {
-  const Interpreted result = interpret_text("G21 F100\nG41.1 D2\nG1 X10\no1 repeat [1000]\nM8\no1 endrepeat\nX20\nG40\nM2\n");
+  const Interpreted result =
+      interpret_text("G21 F100\nG41.1 D2\nG1 X10\no1 repeat [1000]\nM8\no1 endrepeat\nX20\nG40\nM2\n");
   EXPECT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
   EXPECT_EQ(result.diagnostics.all().front().code, "gcode.too-much-held");
 }
