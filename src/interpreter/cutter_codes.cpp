@@ -49,7 +49,7 @@ bool BlockExecutor::check_cutter_compensation() {
   for (const Forbidden& group : forbidden) {
     const CodeEntry* const entry = words_.code(group.group);
     if (entry == nullptr || !(group.before_g40 ? was_on : is_on) || is_allowed(*entry, state_.modal)) continue;
-    if (entry->number == code(53) && was_on && cutter_.radius() == 0) continue;
+    if (words_.has_code(non_modal, code(53)) && entry->group == non_modal && was_on && !cutter_.active()) continue;
     return fail("gcode.cutter-compensation", words_.span(group.group),
                 fmt::format("{} ({}) {}", spelling(*entry), entry->what, with), cure);
   }

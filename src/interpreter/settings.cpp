@@ -219,7 +219,7 @@ bool BlockExecutor::run_non_modal(CodeNumber number) {
 }
 
 bool BlockExecutor::stop(CodeNumber number) {
-  if (!report_cutter(cutter_.release(), words_.span(stopping))) return false;
+  (void)report_cutter(cutter_.release(), words_.span(stopping));  // told; the program stops all the same
   switch (number) {
     case code(0): emit(operation::ProgramStop{}); return true;
     case code(1): emit(operation::OptionalProgramStop{}); return true;

@@ -4,11 +4,14 @@
 #include <numbers>
 #include <random>
 
+#include "../block_executor.hpp"
 #include "interpreted.hpp"
 #include "kit/seed.hpp"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "passo/gcode/block_parser.hpp"
 
 namespace passo {
 namespace {
@@ -174,6 +177,48 @@ TEST(CutterCompensation, a_tool_without_a_diameter_is_warned_of_and_compensates_
   ASSERT_EQ(result.diagnostics.all().size(), 1U) << result.rendered();
   EXPECT_EQ(result.diagnostics.all().front().code, "gcode.zero-tool-radius");
   EXPECT_THAT(result.calls(), HasSubstr("STRAIGHT_FEED(10.0000, 0.0000"));
+}
+
+TEST(CutterCompensation, radius_and_orientation_come_from_the_tool_table_and_the_sign_changes_sides) {
+  MachineState state;
+  state.modal.set(ModalGroup::plane, code(18));
+  Tool tool;
+  tool.number = 3;
+  tool.diameter = Mm(2);
+  tool.orientation = 7;
+  ASSERT_TRUE(state.tools.add(tool));
+  tool.diameter = Mm(-6);
+  tool.orientation = 9;
+  state.spindle_tool = tool;
+  struct Case {
+    const char* start;
+    double x;
+    double z;
+  };
+  for (const Case& expected : {Case{"G41 D3", 1, 9}, {"G42 D3", -1, 9}, {"G41", -3, 10}, {"G42 D0", 3, 10}}) {
+    Diagnostics diagnostics;
+    SymbolTable symbols;
+    MachineState copy = state;
+    Parameters parameters(symbols, copy);
+    Reporter reporter(diagnostics);
+    OperationQueue operations;
+    BlockExecutor executor(copy, parameters, operations, reporter, symbols);
+    const BlockParser parser("test.ngc", symbols);
+    const std::string file = "test.ngc";
+    std::uint32_t line = 0;
+    for (const char* const text : {expected.start, "G0 Z10", "M0"}) {
+      Block block;
+      ASSERT_TRUE(parser.parse(text, ++line, block, diagnostics));
+      reporter.look_at(block, file);
+      executor.execute(block);
+    }
+    EXPECT_TRUE(diagnostics.all().empty()) << render(diagnostics, false);
+    operations.pop();  // the comment
+    const auto* const move = std::get_if<operation::StraightTraverse>(&operations.front().what);
+    ASSERT_NE(move, nullptr);
+    EXPECT_NEAR(move->end[Axis::x], expected.x, 1e-12) << expected.start;
+    EXPECT_NEAR(move->end[Axis::z], expected.z, 1e-12) << expected.start;
+  }
 }
 
 TEST(CutterCompensation, parameters_tell_where_the_centre_is_and_the_contour_again_after_g40) {
