@@ -41,7 +41,7 @@ const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
     {plane, &BlockExecutor::select_plane},
     {length_units, &BlockExecutor::set_length_units},
     {lathe_diameter, &BlockExecutor::set_lathe_diameter},
-    {cutter_compensation, &BlockExecutor::end_cutter_compensation},
+    {cutter_compensation, &BlockExecutor::set_cutter_compensation},
     {tool_length, &BlockExecutor::set_tool_length},
     {work_system, &BlockExecutor::select_work_system},
     {path_mode, &BlockExecutor::set_path_mode},
@@ -53,7 +53,12 @@ const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
 
 BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, OperationQueue& operations,
                              Reporter& reporter, SymbolTable& symbols)
-    : state_(state), parameters_(parameters), operations_(operations), reporter_(reporter), symbols_(symbols) {}
+    : state_(state),
+      parameters_(parameters),
+      operations_(operations),
+      reporter_(reporter),
+      symbols_(symbols),
+      cutter_(operations) {}
 
 void BlockExecutor::start(const InterpreterOptions& options) {
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
@@ -67,6 +72,7 @@ void BlockExecutor::start(const InterpreterOptions& options) {
 }
 
 void BlockExecutor::finish(Closing closing) {
+  (void)cutter_.release();
   source_.line_number = -1;
   if (closing == Closing::percent) emit(operation::Finish{});
   if (closing == Closing::missing) note("interpreter: percent sign missing from end of file");
@@ -78,7 +84,7 @@ void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   source_ = {block.line, line_number_of(block)};
   if (!words_.read(block, parameters_, reporter_)) return;
-  if (!resolve_motion() || !check_words_used()) return;
+  if (!resolve_motion() || !check_words_used() || !check_cutter_compensation()) return;
   if (!block.assignments.empty() && !assign(block)) return;
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
@@ -225,13 +231,13 @@ bool BlockExecutor::obey(const Comment& comment) {
       emit(operation::Comment{
           comment.text.substr(std::min(comment.text.find_first_not_of(" \t"), comment.text.size()))});
       return true;
-    case Kind::message: emit(operation::Message{comment.text}); return true;
-    case Kind::debug: emit(operation::Message{filled()}); return true;
-    case Kind::print: emit(operation::Print{filled()}); return true;
-    case Kind::log: emit(Log{Log::Kind::line, filled()}); return true;
-    case Kind::log_open: emit(Log{Log::Kind::open, comment.text}); return true;
-    case Kind::log_append: emit(Log{Log::Kind::append, comment.text}); return true;
-    case Kind::log_close: emit(Log{Log::Kind::close, {}}); return true;
+    case Kind::message: emit_ahead(operation::Message{comment.text}); return true;
+    case Kind::debug: emit_ahead(operation::Message{filled()}); return true;
+    case Kind::print: emit_ahead(operation::Print{filled()}); return true;
+    case Kind::log: emit_ahead(Log{Log::Kind::line, filled()}); return true;
+    case Kind::log_open: emit_ahead(Log{Log::Kind::open, comment.text}); return true;
+    case Kind::log_append: emit_ahead(Log{Log::Kind::append, comment.text}); return true;
+    case Kind::log_close: emit_ahead(Log{Log::Kind::close, {}}); return true;
     case Kind::abort:
       ended_ = true;
       return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));

@@ -2,8 +2,9 @@
 //
 // A block is checked first as a whole (one code of each modal group, every word used, one taker of the axis words) and
 // executed then, group by group in a fixed order (block_executor.cpp). What sets and switches is in settings.cpp,
-// motion in motion.cpp, what moves the frame in offsets.cpp. A block with an error does nothing from the error on, but
-// the position goes where it was meant to go, so that one slip does not make errors of all that follows.
+// motion in motion.cpp, what moves the frame in offsets.cpp, cutter compensation in cutter_codes.cpp. A block with an
+// error does nothing from the error on, but the position goes where it was meant to go, so that one slip does not make
+// errors of all that follows.
 //
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once
@@ -13,16 +14,16 @@
 
 #include "arc_center.hpp"
 #include "block_words.hpp"
+#include "cutter_compensation.hpp"
 #include "machine_state.hpp"
+#include "operation_queue.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
 
-#include "passo/base/ring.hpp"
 #include "passo/interpreter/interpreter.hpp"
 
 namespace passo {
 
-using OperationQueue = Ring<Operation, 64>;
 inline constexpr double highest_tool = 99999;
 
 class BlockExecutor {
@@ -71,7 +72,7 @@ class BlockExecutor {
   bool select_plane(CodeNumber code);
   bool set_length_units(CodeNumber code);
   bool set_lathe_diameter(CodeNumber code);
-  bool end_cutter_compensation(CodeNumber code);
+  bool set_cutter_compensation(CodeNumber code);
   bool set_tool_length(CodeNumber code);
   bool select_work_system(CodeNumber code);
   bool set_path_mode(CodeNumber code);
@@ -83,6 +84,7 @@ class BlockExecutor {
   bool stop(CodeNumber code);
 
   // Motion.
+  bool move_by(CodeNumber code);
   bool end_point(Point& end);
   bool machine_end_point(Point& end);
   bool apply_polar(Point& end);
@@ -99,6 +101,16 @@ class BlockExecutor {
   double axis_word(Axis axis) const;
   Span motion_span() const;
 
+  // Cutter compensation.
+  bool check_cutter_compensation();
+  bool start_cutter_compensation(CodeNumber code);
+  bool cutter_from_words(CodeNumber code, CutterSetup& setup);
+  bool cutter_from_table(CutterSetup& setup);
+  bool straight(bool rapid, const Point& start);
+  bool arc_beside(const Point& start, PlanePoint center, std::int32_t turns);
+  bool report_cutter(CutterFault fault, Span span);
+  Operation origin() const { return {operation::Comment{}, source_, reporter_.file(), reporter_.block().text}; }
+
   // The frame.
   bool go_home(int parameter);
   bool store_home(int parameter);
@@ -114,7 +126,12 @@ class BlockExecutor {
   // Small things.
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
   bool fail(std::string_view code, Span span, std::string message, std::string expected = {});
-  void emit(const OperationKind& what) { operations_.push({what, source_}); }
+  void emit(const OperationKind& what) {
+    operations_.push(operations_.holding() ? Operation{what, source_, reporter_.file(), reporter_.block().text}
+                                           : Operation{what, source_});
+  }
+  // Not behind the moves that cutter compensation holds back: what goes to the operator, or moves nothing.
+  void emit_ahead(const OperationKind& what) { operations_.push_ahead({what, source_}); }
   void emit_feed_rate(double units);
   // LinuxCNC tells changes of its own modes as comments, and its canonical calls are what others compare with.
   void note(std::string_view text) { emit(operation::Comment{text}); }
@@ -124,6 +141,8 @@ class BlockExecutor {
   OperationQueue& operations_;
   Reporter& reporter_;
   SymbolTable& symbols_;
+
+  CutterCompensation cutter_;
 
   // Of the block that is being executed.
   BlockWords words_;

@@ -21,8 +21,10 @@ class Interpreter::Implementation {
       step();
     }
     operation = operations_.front();
-    operation.file = reporter_.file();
-    operation.text = text_;
+    if (operation.file.empty()) {
+      operation.file = reporter_.file();
+      operation.text = text_;
+    }
     operations_.pop();
     return true;
   }

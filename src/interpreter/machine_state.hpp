@@ -9,6 +9,7 @@
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/interpreter/operation.hpp"
+#include "passo/interpreter/tool_table.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -56,13 +57,16 @@ struct SpindleState {
 struct MachineState {
   ModalState modal;
   Frame frame;
-  Point position;   // work coordinates, millimetres and degrees
-  double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
+  Point position;      // work coordinates, millimetres and degrees; with cutter compensation on the contour
+  Point cutter_shift;  // from there to the tool's centre
+  double feed = 0;     // F in millimetres, a minute or a revolution; 0: none given
   SpindleState spindle;
   bool mist = false;
   bool flood = false;
   bool feed_override = true;
   bool speed_override = true;
+  ToolTable tools;                  // what is known of each
+  Tool spindle_tool;                // what is known of the one in the spindle; its number is `tool`
   std::int32_t tool = 0;            // in the spindle
   std::int32_t selected_tool = -1;  // by T; -1: none yet
   std::uint32_t line = 0;           // of the block that is executed
@@ -71,7 +75,8 @@ struct MachineState {
   // Millimetres in one length unit of the program.
   double length_unit() const { return modal.inches() ? mm_per_inch : 1; }
   double units_of(Axis axis) const { return is_rotary(axis) ? 1 : length_unit(); }
-  Point machine_position() const { return frame.machine_from_work(position); }
+  Point tool_position() const { return position + cutter_shift; }
+  Point machine_position() const { return frame.machine_from_work(tool_position()); }
 };
 
 }  // namespace passo

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "block_executor.hpp"
+#include "plane_axes.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -13,19 +14,6 @@ using enum ModalGroup;
 constexpr double highest_turns = 1e6;
 constexpr double slowest_inverse_time = 0.1;  // units a minute, as LinuxCNC bounds it
 
-struct PlaneAxes {
-  Axis first;
-  Axis second;
-  Axis normal;
-};
-constexpr PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::xy: return {Axis::x, Axis::y, Axis::z};
-    case Plane::zx: return {Axis::z, Axis::x, Axis::y};
-    case Plane::yz: return {Axis::y, Axis::z, Axis::x};
-  }
-  return {Axis::x, Axis::y, Axis::z};
-}
 // The word that says where the centre is along an axis.
 constexpr char center_letter(Axis axis) {
   return axis == Axis::x ? 'I' : axis == Axis::y ? 'J' : 'K';
@@ -54,6 +42,15 @@ FeedLength feed_length(const Point& step) {
 
 bool BlockExecutor::move(CodeNumber number) {
   state_.modal.set(motion, number);
+  const bool good = move_by(number);
+  if (cutter_.active()) {
+    if (!good) cutter_.skip_to(state_.position);
+    state_.cutter_shift = cutter_.shift(state_.position);
+  }
+  return good;
+}
+
+bool BlockExecutor::move_by(CodeNumber number) {
   switch (number) {
     case code(0): return traverse();
     case code(1): return feed();
@@ -127,9 +124,8 @@ bool BlockExecutor::apply_polar(Point& end) {
 }
 
 bool BlockExecutor::traverse() {
-  if (!end_point(state_.position)) return false;
-  emit(operation::StraightTraverse{state_.position});
-  return true;
+  const Point start = state_.position;
+  return end_point(state_.position) && straight(true, start);
 }
 
 bool BlockExecutor::feed() {
@@ -139,8 +135,7 @@ bool BlockExecutor::feed() {
     const FeedLength counted = feed_length(state_.position - start);
     emit_inverse_time_feed(counted.length, counted.rotary);
   }
-  emit(operation::StraightFeed{state_.position});
-  return true;
+  return straight(false, start);
 }
 
 bool BlockExecutor::check_feed() {
@@ -171,6 +166,10 @@ bool BlockExecutor::arc(bool clockwise) {
   Point end;
   if (!end_point(end)) return false;
   state_.position = end;
+  if (cutter_.leaving()) {
+    return fail("gcode.arc-after-compensation", motion_span(), "an arc after cutter compensation ended (G40)",
+                "a straight move first, which leads the tool to the contour");
+  }
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
 
   ArcCenter found;
@@ -187,6 +186,7 @@ bool BlockExecutor::arc(bool clockwise) {
     const double around = found.start_radius * arc_sweep(from, to, found.center, turns);
     emit_inverse_time_feed(std::hypot(around, end[plane_axes.normal] - start[plane_axes.normal]), false);
   }
+  if (cutter_.active()) return arc_beside(start, found.center, turns);
   emit(operation::ArcFeed{state_.modal.plane(), end, Mm(found.center.first), Mm(found.center.second), turns});
   return true;
 }
@@ -273,6 +273,7 @@ bool BlockExecutor::report_arc(const ArcCenter& arc) {
 bool BlockExecutor::threading(bool tapping) {
   const char* const name = tapping ? "G33.1" : "G33";
   const Point start = state_.position;
+  cutter_.left();
   if (!end_point(state_.position)) return false;
   if (!words_.has('K')) {
     return fail("gcode.missing-word", motion_span(), fmt::format("{} without K", name),

@@ -26,7 +26,7 @@ bool Parameters::numbered(std::int64_t number, double& value) const {
   if (number < 1 || number > highest_parameter) return false;
   if (number >= position_parameter && number <= last_position_parameter) {
     const Axis axis = all_axes[static_cast<std::size_t>(number - position_parameter)];
-    value = state_.position[axis] / state_.units_of(axis);
+    value = state_.tool_position()[axis] / state_.units_of(axis);
   } else {
     value = numbers_[static_cast<std::size_t>(number)];
   }

@@ -10,7 +10,7 @@ double truth(bool value) {
 }
 template <Axis axis>
 double work(const State& state) {
-  return state.position[axis] / state.units_of(axis);
+  return state.tool_position()[axis] / state.units_of(axis);
 }
 template <Axis axis>
 double machine(const State& state) {

@@ -78,7 +78,7 @@ bool BlockExecutor::set_spindle_speed() {
 
 bool BlockExecutor::select_tool() {
   if (!whole_word('T', 0, highest_tool, state_.selected_tool)) return false;
-  emit(operation::SelectTool{state_.selected_tool});
+  emit_ahead(operation::SelectTool{state_.selected_tool});
   return true;
 }
 
@@ -144,26 +144,21 @@ bool BlockExecutor::dwell(CodeNumber number) {
 
 bool BlockExecutor::select_plane(CodeNumber number) {
   state_.modal.set(plane, number);
-  emit(operation::SelectPlane{state_.modal.plane()});
+  emit_ahead(operation::SelectPlane{state_.modal.plane()});
   return true;
 }
 
 bool BlockExecutor::set_length_units(CodeNumber number) {
   state_.modal.set(length_units, number);
-  emit(operation::SetLengthUnits{state_.modal.inches() ? LengthUnits::inch : LengthUnits::mm});
+  emit_ahead(operation::SetLengthUnits{state_.modal.inches() ? LengthUnits::inch : LengthUnits::mm});
   return true;
 }
 
 bool BlockExecutor::set_lathe_diameter(CodeNumber number) {
   if (state_.modal[lathe_diameter] == number) return true;
   state_.modal.set(lathe_diameter, number);
-  note(number == code(7) ? "interpreter: Lathe diameter mode changed to diameter"
-                         : "interpreter: Lathe diameter mode changed to radius");
-  return true;
-}
-
-bool BlockExecutor::end_cutter_compensation(CodeNumber) {
-  note("interpreter: cutter radius compensation off");
+  emit_ahead(operation::Comment{number == code(7) ? "interpreter: Lathe diameter mode changed to diameter"
+                                                  : "interpreter: Lathe diameter mode changed to radius"});
   return true;
 }
 
@@ -224,6 +219,7 @@ bool BlockExecutor::run_non_modal(CodeNumber number) {
 }
 
 bool BlockExecutor::stop(CodeNumber number) {
+  (void)report_cutter(cutter_.release(), words_.span(stopping));  // told; the program stops all the same
   switch (number) {
     case code(0): emit(operation::ProgramStop{}); return true;
     case code(1): emit(operation::OptionalProgramStop{}); return true;

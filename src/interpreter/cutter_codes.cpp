@@ -1,0 +1,201 @@
+// BlockExecutor: cutter compensation, G40 to G42.1, and what cannot be done while it is on.
+#include <cmath>
+
+#include "block_executor.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+constexpr double highest_orientation = 9;
+
+// Groups whose codes would move the frame or the tool under a contour that is followed, or act in the middle of moves
+// that are held back.
+struct Forbidden {
+  ModalGroup group;
+  bool before_g40;  // executed before the G40 of its own block
+};
+constexpr Forbidden forbidden[] = {
+    {tool_change, true},  {overrides, true},  {input_output, true}, {plane, true},      {tool_length, false},
+    {work_system, false}, {path_mode, false}, {retract, false},     {non_modal, false},
+};
+
+// Codes of those groups that can be obeyed all the same.
+bool is_allowed(const CodeEntry& entry, const ModalState& modal) {
+  if (entry.group == plane) return entry.number == modal[plane];
+  return entry.group == non_modal && (entry.number == code(4) || entry.number == code(10));
+}
+bool is_contour(CodeNumber motion_code) {
+  return motion_code <= code(3) || motion_code == code(80);
+}
+
+}  // namespace
+
+// What goes with compensation, told before anything of the block is done.
+bool BlockExecutor::check_cutter_compensation() {
+  const CodeEntry* const switched = words_.code(cutter_compensation);
+  const bool was_on = state_.modal[cutter_compensation] != code(40);
+  const bool is_on = switched == nullptr ? was_on : switched->number != code(40);
+  if (!was_on && !is_on) return true;
+  if (!operations_.has_room()) {
+    (void)cutter_.release();
+    return fail("gcode.too-much-held", {1, 1}, "too many blocks between two moves with cutter compensation (G41, G42)",
+                fmt::format("at most {} operations before the tool moves on", OperationQueue::most_held));
+  }
+  constexpr const char* cure = "G40 in a block before";
+  constexpr const char* with = "with cutter compensation on (G41, G42)";
+  for (const Forbidden& group : forbidden) {
+    const CodeEntry* const entry = words_.code(group.group);
+    if (entry == nullptr || !(group.before_g40 ? was_on : is_on) || is_allowed(*entry, state_.modal)) continue;
+    if (words_.has_code(non_modal, code(53)) && entry->group == non_modal && was_on && !cutter_.active()) continue;
+    return fail("gcode.cutter-compensation", words_.span(group.group),
+                fmt::format("{} ({}) {}", spelling(*entry), entry->what, with), cure);
+  }
+  if (is_on && words_.has_code(non_modal, code(10)) && words_.has('L') && words_.has('P') &&
+      (words_['L'] == 2 || words_['L'] == 20) && (words_['P'] == 0 || words_['P'] == state_.frame.work_system())) {
+    return fail("gcode.cutter-compensation", words_.span(non_modal),
+                fmt::format("G10 changes the active work system {}", with), cure);
+  }
+  if (is_on && motion_ != nullptr && !is_contour(motion_->number)) {
+    return fail("gcode.cutter-compensation", motion_span(),
+                fmt::format("{} ({}) {}", spelling(*motion_), motion_->what, with), cure);
+  }
+  return true;
+}
+
+bool BlockExecutor::set_cutter_compensation(CodeNumber number) {
+  if (number != code(40)) return start_cutter_compensation(number);
+  note("interpreter: cutter radius compensation off");
+  state_.modal.set(cutter_compensation, code(40));
+  state_.cutter_shift = {};
+  return report_cutter(cutter_.stop(), words_.span(cutter_compensation));
+}
+
+bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
+  const Span span = words_.span(cutter_compensation);
+  if (state_.modal.plane() == Plane::yz) {
+    return fail("gcode.cutter-compensation", span, "cutter compensation in the plane YZ (G19)",
+                "G17, or G18 on a lathe");
+  }
+  if (state_.modal[cutter_compensation] != code(40)) {
+    return fail("gcode.cutter-compensation", span, "cutter compensation is on already", "G40 in a block before");
+  }
+  CutterSetup setup;
+  setup.plane = state_.modal.plane();
+  setup.left = number == code(41) || number == code(41, 1);
+  const bool by_words = number == code(41, 1) || number == code(42, 1);
+  if (!(by_words ? cutter_from_words(number, setup) : cutter_from_table(setup))) return false;
+  if (setup.radius < 0) {  // the contour is drawn for a larger tool
+    setup.left = !setup.left;
+    setup.radius = -setup.radius;
+  }
+  note(setup.left ? "interpreter: cutter radius compensation on left"
+                  : "interpreter: cutter radius compensation on right");
+  state_.modal.set(cutter_compensation, setup.left ? code(41) : code(42));
+  cutter_.start(setup);
+  return true;
+}
+
+// G41.1 D L: the diameter, and on a lathe the orientation.
+bool BlockExecutor::cutter_from_words(CodeNumber number, CutterSetup& setup) {
+  if (!words_.has('D')) {
+    return fail("gcode.missing-word", words_.span(cutter_compensation),
+                fmt::format("{} without D", spelling('G', number)), "D, the tool's diameter");
+  }
+  setup.radius = words_['D'] * state_.length_unit() / 2;
+  if (!words_.has('L')) return true;
+  std::int32_t orientation = 0;
+  if (!whole_word('L', 0, highest_orientation, orientation)) return false;
+  setup.orientation = orientation;
+  if (setup.plane == Plane::zx) return true;
+  return fail("gcode.cutter-compensation", words_.span('L'), "L, a lathe tool's orientation, outside the plane ZX",
+              "G18 before, or no L");
+}
+
+// G41 D: the tool of this number, or the one in the spindle.
+bool BlockExecutor::cutter_from_table(CutterSetup& setup) {
+  const Tool* tool = &state_.spindle_tool;
+  const Span span = words_.has('D') ? words_.span('D') : words_.span(cutter_compensation);
+  std::int32_t number = 0;
+  if (words_.has('D') && !whole_word('D', 0, highest_tool, number)) return false;
+  if (number != 0) tool = state_.tools.find(number);
+  if (tool == nullptr) {
+    return fail("gcode.unknown-tool", span, fmt::format("tool {} is not in the tool table", number),
+                "the number of a tool in the table; G41.1 and G42.1 take the diameter itself");
+  }
+  setup.radius = tool->diameter.value() / 2;
+  setup.orientation = tool->orientation;
+  if (setup.radius == 0) {
+    reporter_.warning("gcode.zero-tool-radius", span, "the tool's diameter is 0: nothing is compensated",
+                      "a tool with a diameter in the tool table");
+  }
+  if (setup.plane == Plane::zx || setup.orientation == 0 || setup.orientation == 9) return true;
+  return fail("gcode.cutter-compensation", span, fmt::format("tool {} is a lathe tool", tool->number),
+              "G18, the plane ZX, before");
+}
+
+bool BlockExecutor::straight(bool rapid, const Point& start) {
+  cutter_.left();
+  if (!cutter_.active()) {
+    if (rapid) {
+      emit(operation::StraightTraverse{state_.position});
+    } else {
+      emit(operation::StraightFeed{state_.position});
+    }
+    return true;
+  }
+  return report_cutter(cutter_.line({rapid, start, state_.position, origin()}), motion_span());
+}
+
+bool BlockExecutor::arc_beside(const Point& start, PlanePoint center, std::int32_t turns) {
+  return report_cutter(cutter_.arc({false, start, state_.position, origin()}, center, turns), motion_span());
+}
+
+bool BlockExecutor::report_cutter(CutterFault fault, Span span) {
+  constexpr const char* smaller = "a smaller tool, or a contour with more room";
+  const double radius = cutter_.radius() / state_.length_unit();
+  const auto refuse = [&](std::string_view code, std::string message, const char* expected) {
+    return fail(code, span, std::move(message), expected);
+  };
+  bool good = true;
+  switch (fault) {
+    case CutterFault::none: break;
+    case CutterFault::entry_too_short:
+      good = refuse("gcode.cutter-entry",
+                    fmt::format("the first move with cutter compensation is not longer than the tool's radius of {}",
+                                plain_number(radius)),
+                    "a longer move in the plane, from beside the contour to where it begins");
+      break;
+    case CutterFault::entry_arc:
+      good = refuse("gcode.cutter-entry", "no arc leads from where the tool is to beside the end of this one",
+                    "a longer arc, or a straight move first");
+      break;
+    case CutterFault::arc_too_small:
+      good =
+          refuse("gcode.cutter-gouge",
+                 fmt::format("the tool, of a radius of {}, does not fit into the arc", plain_number(radius)), smaller);
+      break;
+    case CutterFault::no_room:
+      good = refuse("gcode.cutter-gouge",
+                    fmt::format("the tool, of a radius of {}, does not fit into the corner before this move",
+                                plain_number(radius)),
+                    smaller);
+      break;
+    case CutterFault::unreachable:
+      good = refuse("gcode.cutter-gouge",
+                    fmt::format("the move before is too short for the corners at its ends: a tool with a radius of {} "
+                                "would cut into the contour",
+                                plain_number(radius)),
+                    smaller);
+      break;
+    case CutterFault::cut_corner:
+      reporter_.warning("gcode.cutter-stop", span, "the stop before came in an inside corner: the tool cut into it",
+                        "the stop at another place of the contour");
+      break;
+  }
+  return good;
+}
+
+}  // namespace passo

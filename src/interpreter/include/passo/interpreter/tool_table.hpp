@@ -1,0 +1,54 @@
+// ToolTable: what is known of each tool. Beside the interpreter, which looks tools up and, with G10 L1, L10 and L11,
+// changes them.
+//
+// Lengths in millimetres, angles in degrees. A tool has a number of its own (T words, 1 to 99999); the pocket is the
+// place in the machine where it is kept. Read from LinuxCNC's form by read_tool_table() (tool_table_file.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+struct Tool {
+  std::int32_t number = 0;  // 0: no tool
+  std::int32_t pocket = 0;
+  Point offset;
+  Mm diameter{0};                // below 0 it turns G41 into G42 and back
+  double front_angle_deg = 0;    // lathe tools
+  double back_angle_deg = 0;     // lathe tools
+  std::int32_t orientation = 0;  // lathe tools, 1 to 9: on which side of its nose the tool's point is; 0: a mill's
+};
+
+class ToolTable {
+ public:
+  static constexpr std::size_t most_tools = 1000;
+
+  // The tool of this number; null where there is none. The pointer lives until the table changes.
+  const Tool* find(std::int32_t number) const {
+    const auto found = tools_.find(number);
+    return found == tools_.end() ? nullptr : &found->second;
+  }
+  Tool* find(std::int32_t number) {
+    const auto found = tools_.find(number);
+    return found == tools_.end() ? nullptr : &found->second;
+  }
+  // False where there is a tool of this number already, or no room.
+  [[nodiscard]] bool add(const Tool& tool) {
+    return tools_.size() < most_tools && tools_.try_emplace(tool.number, tool).second;
+  }
+  const std::map<std::int32_t, Tool>& all() const { return tools_; }
+
+  // Where it came from, for messages; empty: nobody gave a table.
+  std::string name;
+
+ private:
+  std::map<std::int32_t, Tool> tools_;
+};
+
+}  // namespace passo

@@ -1,0 +1,29 @@
+// PlaneAxes: the two axes of an arc's plane, in the order in which counterclockwise turns the first into the second,
+// and the one through it.
+#pragma once
+
+#include "arc_center.hpp"
+
+#include "passo/geometry/axes.hpp"
+#include "passo/interpreter/operation.hpp"
+
+namespace passo {
+
+struct PlaneAxes {
+  Axis first;
+  Axis second;
+  Axis normal;
+};
+constexpr PlaneAxes axes_of(Plane plane) {
+  switch (plane) {
+    case Plane::xy: return {Axis::x, Axis::y, Axis::z};
+    case Plane::zx: return {Axis::z, Axis::x, Axis::y};
+    case Plane::yz: return {Axis::y, Axis::z, Axis::x};
+  }
+  return {Axis::x, Axis::y, Axis::z};
+}
+constexpr PlanePoint in_plane(const Point& point, const PlaneAxes& axes) {
+  return {point[axes.first], point[axes.second]};
+}
+
+}  // namespace passo
