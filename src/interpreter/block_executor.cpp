@@ -207,8 +207,8 @@ bool BlockExecutor::jump(CodeNumber number) {
                 call ? "M98 P L alone in the block" : "M99 alone in the block");
   }
   if (const auto& assignments = reporter_.block().assignments; !assignments.empty()) {
-    return fail("gcode.unused-word", assignments.front().span, fmt::format("an assignment beside {}", spelling('M', number)),
-                "a block of its own");
+    return fail("gcode.unused-word", assignments.front().span,
+                fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
   }
   SubprogramJump found{.call = call, .good = true, .program = 0, .passes = 1, .span = words_.span(stopping)};
   if (call) {

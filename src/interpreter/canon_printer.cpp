@@ -60,7 +60,8 @@ const char* name_of(Plane plane) {
   return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
 }
 
-// Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; the first number of spindle calls is the spindle's.
+// Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; the first number of spindle
+// calls is the spindle's.
 struct Call {
   Line& line;
   FeedMode feed_mode;

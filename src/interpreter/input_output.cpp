@@ -25,8 +25,8 @@ bool BlockExecutor::use_input_output(CodeNumber number) {
 bool BlockExecutor::set_digital_output(CodeNumber number) {
   std::int32_t output = 0;
   if (!words_.has('P')) {
-    return fail("gcode.missing-word", words_.span(input_output),
-                fmt::format("{} without P", spelling('M', number)), "P, the output");
+    return fail("gcode.missing-word", words_.span(input_output), fmt::format("{} without P", spelling('M', number)),
+                "P, the output");
   }
   if (!whole_word('P', 0, highest_channel, output)) return false;
   const bool on = number == code(62) || number == code(64);

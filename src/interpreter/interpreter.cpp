@@ -10,7 +10,8 @@ class Interpreter::Implementation {
   Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
       : parameters_(symbols_, state_),
         reporter_(diagnostics),
-        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.main_passes}, state_, parameters_, symbols_, reporter_),
+        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.main_passes}, state_, parameters_,
+              symbols_, reporter_),
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     executor_.start(options);
   }

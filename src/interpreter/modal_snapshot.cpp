@@ -51,7 +51,8 @@ void BlockExecutor::leave_sub(const OperationSource& source) {
   restore(snapshots_[left]);
 }
 
-// In the order in which a block would do it. Feed, speed and path mode are told even where they stayed, as LinuxCNC does.
+// In the order in which a block would do it. Feed, speed and path mode are told even where they stayed, as LinuxCNC
+// does.
 void BlockExecutor::restore(const ModalSnapshot& saved) {
   words_.clear();
   const auto put_back = [&](ModalGroup group, GroupFunction set) {
@@ -97,7 +98,8 @@ void BlockExecutor::restore_switches(const ModalSnapshot& saved) {
   if (std::exchange(state_.adaptive_feed, saved.adaptive_feed) != saved.adaptive_feed) {
     emit(operation::SetAdaptiveFeed{saved.adaptive_feed});
   }
-  if (std::exchange(state_.feed_hold, saved.feed_hold) != saved.feed_hold) emit(operation::SetFeedHold{saved.feed_hold});
+  if (std::exchange(state_.feed_hold, saved.feed_hold) != saved.feed_hold)
+    emit(operation::SetFeedHold{saved.feed_hold});
 }
 
 }  // namespace passo

@@ -73,6 +73,7 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
 }
 
 const Block* ProgramFlow::next() {
+  if (again_) run_again();
   while (end_ == End::none) {
     switch (read()) {
       case Read::end:

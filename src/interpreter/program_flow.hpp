@@ -60,9 +60,9 @@ class ProgramFlow {
 
  private:
   struct SubPlace {
-    ReaderPosition at;     // its O-word's line
-    ReaderPosition after;  // the line after it
-    bool numbered = false; // "O1234", which M98 calls; else a sub
+    ReaderPosition at;      // its O-word's line
+    ReaderPosition after;   // the line after it
+    bool numbered = false;  // "O1234", which M98 calls; else a sub
   };
   // A file of the program: the main one, or one with a sub.
   struct File {
@@ -74,7 +74,7 @@ class ProgramFlow {
     std::unordered_map<std::uint32_t, SubPlace> subs;  // by label
     ReaderPosition seen;                               // subs before this place are known
     bool seen_all = false;
-    bool seen_percent = false;  // the one that opens the program
+    bool seen_percent = false;           // the one that opens the program
     std::set<std::uint32_t> unreadable;  // lines that are no G-code
   };
   // A construct that was entered and not yet left.
@@ -92,6 +92,12 @@ class ProgramFlow {
     SubPlace place;
     std::size_t first_open = 0;
     std::uint64_t passes_left = 1;  // M98 L
+  };
+
+  // A numbered program that was left and has passes to go.
+  struct Again {
+    Frame frame;
+    File* file = nullptr;
   };
 
   // Lines.
@@ -145,6 +151,7 @@ class ProgramFlow {
   File* open_beside(Symbol label);
   void report_unknown_sub(Symbol label, Span span, bool numbered);
   void call_program(const SubprogramJump& jump);
+  void run_again();
   Followed end_program(const SubprogramJump& jump);
   bool restart_main(const SubprogramJump& jump);
   bool check_style(const SubPlace& place, Symbol label, Span span, bool called_by_m98);
@@ -171,10 +178,11 @@ class ProgramFlow {
   std::vector<Open> open_;
   std::vector<Frame> frames_;
   std::optional<std::uint32_t> left_sub_;
+  std::optional<Again> again_;
   std::uint64_t idle_passes_ = 0;
   std::uint64_t main_passes_ = 0;
-  bool begun_ = false;           // something else than a comment or an empty line was read
-  bool opened_percent_ = false;  // the program began with '%'
+  bool begun_ = false;            // something else than a comment or an empty line was read
+  bool opened_percent_ = false;   // the program began with '%'
   bool closing_percent_ = false;  // and a search for a sub came to the closing one
   End end_ = End::none;
 };

@@ -29,9 +29,9 @@ bool BlockExecutor::spindle_word(SpindleChoice choice, SpindleRange& range) {
                              : fmt::format("$0 to ${}{}", highest, lowest < 0 ? ", or $-1 for all" : ""));
   }
   const auto spindle = static_cast<int>(number);
-  range = spindle == every_spindle ? SpindleRange{0, static_cast<std::uint8_t>(state_.spindle_count)}
-                                   : SpindleRange{static_cast<std::uint8_t>(spindle),
-                                                  static_cast<std::uint8_t>(spindle + 1)};
+  range = spindle == every_spindle
+              ? SpindleRange{0, static_cast<std::uint8_t>(state_.spindle_count)}
+              : SpindleRange{static_cast<std::uint8_t>(spindle), static_cast<std::uint8_t>(spindle + 1)};
   return true;
 }
 
@@ -116,8 +116,8 @@ bool BlockExecutor::orient_spindle() {
   std::int32_t way = 0;
   if (words_.has('P') && !whole_word('P', 0, 2, way)) return false;
   if (words_.has('Q') && words_['Q'] <= 0) {
-    return fail("gcode.negative-word", words_.span('Q'),
-                fmt::format("M19 waits {} seconds", plain_number(words_['Q'])), "Q above 0, or no Q: no wait");
+    return fail("gcode.negative-word", words_.span('Q'), fmt::format("M19 waits {} seconds", plain_number(words_['Q'])),
+                "Q above 0, or no Q: no wait");
   }
   state_.spindles[range.first].direction = SpindleDirection::off;
   const bool turns = words_.has('R') || words_.has('P');

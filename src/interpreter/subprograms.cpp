@@ -29,9 +29,15 @@ void ProgramFlow::call_program(const SubprogramJump& jump) {
   enter(frame, file);
 }
 
-// M99 where a numbered program runs: once more, or back.
+void ProgramFlow::run_again() {
+  parameters_.enter_subprogram();
+  enter(again_->frame, again_->file);
+  again_.reset();
+}
+
+// M99 where a numbered program runs: back, and perhaps in again with fresh names. Its caller is told each time.
 ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
-  Frame& frame = frames_.back();
+  Frame frame = frames_.back();
   if (!frame.place.numbered) {
     reporter_.error("gcode.mixed-subs", jump.span,
                     fmt::format("M99 in o{} sub, which begins at line {}", label_text(frame.sub), frame.place.at.line),
@@ -39,12 +45,11 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
     finish(End::error);
     return Followed::goes_on;
   }
-  if (--frame.passes_left > 0) {
-    open_.resize(frame.first_open);
-    if (go_round({ControlKind::program, frame.sub, frame.place.at, {}, 0})) file_->reader.seek(frame.place.after);
-    return Followed::goes_on;
-  }
+  File* const file = file_;
+  const bool again = --frame.passes_left > 0;
+  if (again && !go_round({ControlKind::program, frame.sub, frame.place.at, {}, 0})) return Followed::goes_on;
   leave_frame();
+  if (again) again_ = Again{frame, file};
   return Followed::left_sub;
 }
 
@@ -68,8 +73,9 @@ bool ProgramFlow::check_style(const SubPlace& place, Symbol label, Span span, bo
   if (place.numbered == called_by_m98) return true;
   const std::string name = label_text(label);
   reporter_.error("gcode.mixed-subs", span,
-                  called_by_m98 ? fmt::format("M98 calls o{} sub, at line {}", name, place.at.line)
-                                : fmt::format("O{} at line {} is a numbered program, called like a sub", name, place.at.line),
+                  called_by_m98
+                      ? fmt::format("M98 calls o{} sub, at line {}", name, place.at.line)
+                      : fmt::format("O{} at line {} is a numbered program, called like a sub", name, place.at.line),
                   called_by_m98 ? fmt::format("o{} call", name) : fmt::format("M98 P{}", name));
   finish(End::error);
   return false;

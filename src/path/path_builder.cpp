@@ -55,9 +55,8 @@ concept OfOthers =
               operation::SetRotation, operation::SetToolOffset, operation::SelectPlane, operation::SetMergeTolerance,
               operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
               operation::StartToolChange, operation::SetToolNumber, operation::PalletShuttle, operation::Finish,
-              operation::TurnProbe, operation::SetAdaptiveFeed, operation::SetFeedHold,
-              operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
-              operation::SetFeedReference>;
+              operation::TurnProbe, operation::SetAdaptiveFeed, operation::SetFeedHold, operation::Comment,
+              operation::Message, operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {

@@ -11,7 +11,8 @@ using testing::HasSubstr;
 TEST(Spindles, are_chosen_by_their_number) {
   InterpreterOptions options;
   options.spindles = 3;
-  const Interpreted result = interpret_text("S1\nM3 S2 $1\nM4 $2\nM5 $-1\nM51 P0 $1\nG96 S3 D4 $2\nG33 Z1 K1\n", options);
+  const Interpreted result =
+      interpret_text("S1\nM3 S2 $1\nM4 $2\nM5 $-1\nM51 P0 $1\nG96 S3 D4 $2\nG33 Z1 K1\n", options);
   EXPECT_THAT(result.calls(), HasSubstr("SET_SPINDLE_SPEED(0, 1.0000)\nSET_SPINDLE_SPEED(1, 2.0000)\n"
                                         "START_SPINDLE_CLOCKWISE(1)\nSTART_SPINDLE_COUNTERCLOCKWISE(2)\n"
                                         "STOP_SPINDLE_TURNING(0)\nSTOP_SPINDLE_TURNING(1)\nSTOP_SPINDLE_TURNING(2)\n"
@@ -56,8 +57,9 @@ TEST(UserCodes, carry_their_number_and_words_where_they_are_allowed) {
 }
 
 TEST(Probing, a_preview_stops_before_the_end_as_rs274_does) {
-  const Interpreted result = interpret_text("G21 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nG20\nG38.3 X1\n"
-                                            "(debug,#5061 #5420)\nM2\n");
+  const Interpreted result = interpret_text(
+      "G21 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nG20\nG38.3 X1\n"
+      "(debug,#5061 #5420)\nM2\n");
   EXPECT_THAT(result.calls(), HasSubstr("TURN_PROBE_ON()\nSTRAIGHT_PROBE(10.0000, 0.0000, 0.0000, 0.0000, 0.0000, "
                                         "0.0000)\nTURN_PROBE_OFF()\nMESSAGE(\"10.000000 0.000000 9.746000\")\n"));
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"1.000000 0.990000\")\n"));

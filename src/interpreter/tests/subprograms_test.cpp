@@ -20,7 +20,8 @@ std::vector<double> stops(const std::string& program, const InterpreterOptions& 
 TEST(Subprograms, are_called_as_often_as_they_should) {
   EXPECT_THAT(stops("M98 P1 L3\nG0 X9\nM2\nO1\nG91 G0 X1\nG90\nM99\n"), testing::ElementsAre(1, 2, 3, 9));
   EXPECT_THAT(stops("M98 P1 L0\nG0 X9\nM2\nO1\nG0 X1\nM99\n"), testing::ElementsAre(9));
-  EXPECT_THAT(stops("M98 P0001\nM2\nO1\nM98 P[1+1] L2\nG0 X1\nM99\nO0002\nG0 X2\nM99\n"), testing::ElementsAre(2, 2, 1));
+  EXPECT_THAT(stops("M98 P0001\nM2\nO1\nM98 P[1+1] L2\nG0 X1\nM99\nO0002\nG0 X2\nM99\n"),
+              testing::ElementsAre(2, 2, 1));
 }
 
 TEST(Subprograms, share_numbers_with_their_caller_but_not_names) {
@@ -56,7 +57,8 @@ TEST(Subprograms, a_main_program_without_end_and_without_motion_is_stopped) {
 
 TEST(ModalState, is_restored_in_the_order_of_a_block) {
   const Interpreted result = interpret_text(
-      "G21 F60 S7 M3 M8\nM70\nG20 G18 G91 G55 G95 G61 G7 G98\nM9 M4 S5 F1\nM50 P0\nM52 P1\nM53 P0\nG43.1 Z1\nM72\n(end)\n");
+      "G21 F60 S7 M3 M8\nM70\nG20 G18 G91 G55 G95 G61 G7 G98\nM9 M4 S5 F1\nM50 P0\nM52 P1\nM53 P0\nG43.1 "
+      "Z1\nM72\n(end)\n");
   const std::string calls = result.calls();
   const std::size_t from = calls.find("USE_TOOL_LENGTH_OFFSET");
   const std::size_t restored = calls.find('\n', from) + 1;
@@ -94,8 +96,8 @@ TEST(ModalState, M73_restores_at_the_end_of_its_sub_and_of_no_other) {
 }
 
 TEST(ModalState, many_subs_that_restore_do_not_overflow_what_waits) {
-  const Interpreted result = interpret_text(
-      "o1 sub\nM73\nG91\no1 endsub\n#1=0\no2 while [#1 LT 500]\no1 call\n#1=[#1+1]\no2 endwhile\nM2\n");
+  const Interpreted result =
+      interpret_text("o1 sub\nM73\nG91\no1 endsub\n#1=0\no2 while [#1 LT 500]\no1 call\n#1=[#1+1]\no2 endwhile\nM2\n");
   EXPECT_EQ(result.all<operation::SetFeedRate>().size(), 501U);
 }
 

@@ -203,21 +203,19 @@ struct SetFeedReference {};  // always XYZ
 
 }  // namespace operation
 
-using OperationKind =
-    std::variant<operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
-                 operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
-                 operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse,
-                 operation::StraightFeed, operation::ArcFeed, operation::StartSpeedFeedSync,
-                 operation::StopSpeedFeedSync, operation::RigidTap, operation::Dwell, operation::SetSpindleSpeed,
-                 operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist, operation::SetFlood,
-                 operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-                 operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
-                 operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput,
-                 operation::SetAnalogOutput, operation::ReadInput, operation::UserCode,
-                 operation::StartToolChange, operation::ChangeTool, operation::SetToolNumber, operation::ProgramStop,
-                 operation::OptionalProgramStop, operation::ProgramEnd, operation::PalletShuttle, operation::Finish,
-                 operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
-                 operation::SetFeedReference>;
+using OperationKind = std::variant<
+    operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
+    operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
+    operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse, operation::StraightFeed,
+    operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::RigidTap,
+    operation::Dwell, operation::SetSpindleSpeed, operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist,
+    operation::SetFlood, operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+    operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
+    operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput, operation::SetAnalogOutput,
+    operation::ReadInput, operation::UserCode, operation::StartToolChange, operation::ChangeTool,
+    operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop, operation::ProgramEnd,
+    operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message, operation::Print,
+    operation::Log, operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {
