@@ -33,10 +33,12 @@ const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
     {feed_mode, &BlockExecutor::set_feed_mode},
 };
 const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
+    {input_output, &BlockExecutor::use_input_output},
     {tool_change, &BlockExecutor::change_tool},
-    {spindle, &BlockExecutor::turn_spindle},
+    {spindle, &BlockExecutor::run_spindle_group},
     {coolant, &BlockExecutor::switch_coolant},
     {overrides, &BlockExecutor::switch_overrides},
+    {user, &BlockExecutor::run_user_code},
     {non_modal, &BlockExecutor::dwell},
     {plane, &BlockExecutor::select_plane},
     {length_units, &BlockExecutor::set_length_units},
@@ -61,6 +63,9 @@ BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, Operat
       cutter_(operations) {}
 
 void BlockExecutor::start(const InterpreterOptions& options) {
+  options_ = options;
+  state_.on_machine = options.on_machine;
+  state_.spindle_count = std::clamp(options.spindles, 1, static_cast<int>(most_spindles));
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
   state_.position = options.start;
   emit(operation::SetLengthUnits{options.units});
@@ -84,7 +89,11 @@ void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   source_ = {block.line, line_number_of(block)};
   if (!words_.read(block, parameters_, reporter_)) return;
-  if (!resolve_motion() || !check_words_used() || !check_cutter_compensation()) return;
+  if (!resolve_motion() || !check_words_used() || !check_words_shared() || !check_cutter_compensation()) return;
+  if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
+    jump(stops->number);
+    return;
+  }
   if (!block.assignments.empty() && !assign(block)) return;
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
@@ -147,6 +156,7 @@ bool BlockExecutor::resolve_motion() {
 // Each word must belong to a code. F, S and T stand for themselves.
 bool BlockExecutor::check_words_used() {
   LetterSet used = "FST";
+  if (words_.has('S')) used.add('$');
   bool axes = false;
   const auto add = [&](const CodeEntry* entry) {
     if (entry == nullptr) return;
@@ -169,6 +179,55 @@ bool BlockExecutor::check_words_used() {
                                   : fmt::format("{} with {}", word.letter, users));
   }
   return false;
+}
+
+// One word cannot be meant for two codes.
+bool BlockExecutor::check_words_shared() {
+  if ((words_.groups() & (words_.groups() - 1)) == 0) return true;
+  const CodeEntry* owner[letter_count] = {};
+  for (std::size_t group = 0; group < modal_group_count; ++group) {
+    const CodeEntry* const entry = words_.code(static_cast<ModalGroup>(group));
+    if (entry == nullptr) continue;
+    const LetterSet shared = (words_.present() & entry->letters) - LetterSet("$");
+    for (const Word& word : reporter_.block().words) {
+      if (word.letter == 'G' || word.letter == 'M' || word.letter == 'N' || !shared.has(word.letter)) continue;
+      const CodeEntry*& taken = owner[letter_index(word.letter)];
+      if (taken != nullptr && taken != entry) {
+        return fail("gcode.ambiguous-word", word.span,
+                    fmt::format("{} belongs to {} or to {}, which both use it", word.letter, spelling(*taken),
+                                spelling(*entry)),
+                    "two blocks");
+      }
+      taken = entry;
+    }
+  }
+  return true;
+}
+
+// M98 P L and M99 stand alone, as they do in LinuxCNC: what else is in the block would not be executed.
+bool BlockExecutor::jump(CodeNumber number) {
+  const bool call = number == code(98);
+  for (const Word& word : reporter_.block().words) {
+    if (word.span == words_.span(stopping) || (call && (word.letter == 'P' || word.letter == 'L'))) continue;
+    return fail("gcode.unused-word", word.span, fmt::format("{} beside {}", word.letter, spelling('M', number)),
+                call ? "M98 P L alone in the block" : "M99 alone in the block");
+  }
+  if (const auto& assignments = reporter_.block().assignments; !assignments.empty()) {
+    return fail("gcode.unused-word", assignments.front().span,
+                fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
+  }
+  SubprogramJump found{.call = call, .good = true, .program = 0, .passes = 1, .span = words_.span(stopping)};
+  if (call) {
+    constexpr double highest_program = 999'999'999;
+    if (!words_.has('P')) {
+      found.good = fail("gcode.missing-word", found.span, "M98 without P", "P, the number of the program to call");
+    } else {
+      found.good = whole_word('P', 0, highest_program, found.program) &&
+                   (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
+    }
+  }
+  jump_ = found;
+  return true;
 }
 
 // All values are computed before any is stored: in `#1=2 #2=#1` the second one sees the old #1.
@@ -209,7 +268,8 @@ bool BlockExecutor::assign(const Block& block) {
 bool BlockExecutor::obey_comments(const Block& block) {
   const Comment* last = nullptr;
   for (const Comment& comment : block.comments) {
-    if (comment.text.empty() || block.text[comment.span.column - 1] == ';') continue;
+    const bool says_nothing = comment.text.empty() && comment.kind == Comment::Kind::plain;
+    if (says_nothing || block.text[comment.span.column - 1] == ';') continue;
     if (last != nullptr && last->kind != Comment::Kind::plain) {
       reporter_.warning("gcode.hidden-comment", last->span, "only the last comment of a block is obeyed",
                         "one comment a block");
@@ -232,7 +292,9 @@ bool BlockExecutor::obey(const Comment& comment) {
           comment.text.substr(std::min(comment.text.find_first_not_of(" \t"), comment.text.size()))});
       return true;
     case Kind::message: emit_ahead(operation::Message{comment.text}); return true;
-    case Kind::debug: emit_ahead(operation::Message{filled()}); return true;
+    case Kind::debug:
+      if (parameters_.get(show_debug_parameter) != 0) emit_ahead(operation::Message{filled()});
+      return true;
     case Kind::print: emit_ahead(operation::Print{filled()}); return true;
     case Kind::log: emit_ahead(Log{Log::Kind::line, filled()}); return true;
     case Kind::log_open: emit_ahead(Log{Log::Kind::open, comment.text}); return true;
@@ -242,9 +304,8 @@ bool BlockExecutor::obey(const Comment& comment) {
       ended_ = true;
       return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));
     case Kind::probe_open:
-    case Kind::probe_close:
-      reporter_.warning("gcode.unsupported-comment", comment.span, "probe results are not written to a file yet",
-                        "no (PROBEOPEN…) and (PROBECLOSE)");
+    case Kind::probe_close:  // as rs274 shows them: whole
+      emit(operation::Comment{reporter_.block().text.substr(comment.span.column, comment.span.length - 2)});
       return true;
   }
   return true;

@@ -9,16 +9,20 @@
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arc_center.hpp"
 #include "block_words.hpp"
 #include "cutter_compensation.hpp"
 #include "machine_state.hpp"
+#include "modal_snapshot.hpp"
 #include "operation_queue.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
+#include "subprogram_jump.hpp"
 
 #include "passo/interpreter/interpreter.hpp"
 
@@ -38,6 +42,12 @@ class BlockExecutor {
   void finish(Closing closing);
   // After M2, M30 or (ABORT,…).
   bool ended() const { return ended_; }
+  // What the block just executed asks of the flow.
+  std::optional<SubprogramJump> take_jump() { return std::exchange(jump_, std::nullopt); }
+  // A sub was left, by the O-word or M99 there; the flow is back in its caller.
+  void leave_sub(const OperationSource& source);
+  // M99 in the main program, which does not run once more.
+  void end_program(bool pallet);
 
  private:
   // What a group does with its code. False when that failed: the rest of the block is not executed.
@@ -52,6 +62,7 @@ class BlockExecutor {
   // The block as a whole.
   bool resolve_motion();
   bool check_words_used();
+  bool check_words_shared();
   bool assign(const Block& block);
   bool execute_words();
   bool run(std::span<const Step> steps);
@@ -65,7 +76,9 @@ class BlockExecutor {
   bool set_spindle_speed();
   bool select_tool();
   bool change_tool(CodeNumber code);
-  bool turn_spindle(CodeNumber code);
+  bool run_spindle_group(CodeNumber code);
+  bool use_input_output(CodeNumber code);
+  bool run_user_code(CodeNumber code);
   bool switch_coolant(CodeNumber code);
   bool switch_overrides(CodeNumber code);
   bool dwell(CodeNumber code);
@@ -121,7 +134,34 @@ class BlockExecutor {
   void activate_system(int system, bool with_g92);
   template <class... Operations>
   void change_frame(const Operations&... operations);
-  void end_program(bool pallet);
+  void restore_tool_offset(const ModalSnapshot& saved);
+
+  // Spindles: those of `$`, from first to before end.
+  struct SpindleRange {
+    std::uint8_t first = 0;
+    std::uint8_t end = 1;
+  };
+  enum class SpindleChoice : std::uint8_t { one, one_or_all };
+  bool spindle_word(SpindleChoice choice, SpindleRange& range);
+  bool turn_spindle(CodeNumber code);
+  bool orient_spindle();
+  void stop_spindles();
+
+  // The modal state, saved and restored.
+  bool keep_modal_state(CodeNumber code);
+  void restore(const ModalSnapshot& saved);
+  void restore_spindles(const ModalSnapshot& saved);
+  void restore_switches(const ModalSnapshot& saved);
+
+  // Inputs and outputs, probing, subprograms.
+  bool set_digital_output(CodeNumber code);
+  bool set_analog_output(bool with_motion);
+  bool read_input();
+  bool probe(CodeNumber code);
+  bool check_probe(CodeNumber code);
+  void keep_probe_result(const Point& end);
+  Point preview_backoff(const Point& start, const Point& end) const;
+  bool jump(CodeNumber code);
 
   // Small things.
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
@@ -133,6 +173,7 @@ class BlockExecutor {
   // Not behind the moves that cutter compensation holds back: what goes to the operator, or moves nothing.
   void emit_ahead(const OperationKind& what) { operations_.push_ahead({what, source_}); }
   void emit_feed_rate(double units);
+  void emit_path_mode();
   // LinuxCNC tells changes of its own modes as comments, and its canonical calls are what others compare with.
   void note(std::string_view text) { emit(operation::Comment{text}); }
 
@@ -151,6 +192,10 @@ class BlockExecutor {
   std::string text_;  // of its comment, with parameters filled in
   std::vector<double> assigned_;
 
+  std::optional<SubprogramJump> jump_;
+
+  std::vector<ModalSnapshot> snapshots_;  // by call depth
+  InterpreterOptions options_;
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;
   bool ended_ = false;

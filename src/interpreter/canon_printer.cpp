@@ -60,7 +60,8 @@ const char* name_of(Plane plane) {
   return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
 }
 
-// Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; "(0, …" is the spindle's number.
+// Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; the first number of spindle
+// calls is the spindle's.
 struct Call {
   Line& line;
   FeedMode feed_mode;
@@ -128,15 +129,15 @@ struct Call {
   }
   void operator()(const operation::Dwell& dwell) const { (line << "DWELL(").number(dwell.time.value()) << ")"; }
   void operator()(const operation::SetSpindleSpeed& set) const {
-    (line << "SET_SPINDLE_SPEED(0, ").number(set.revolutions_per_minute) << ")";
+    ((line << "SET_SPINDLE_SPEED(").whole(set.spindle) << ", ").number(set.revolutions_per_minute) << ")";
   }
   void operator()(const operation::SetSpindleMode& set) const {
-    (line << "SET_SPINDLE_MODE(0 ").number(set.surface_limit) << ")";
+    ((line << "SET_SPINDLE_MODE(").whole(set.spindle) << " ").number(set.surface_limit) << ")";
   }
   void operator()(const operation::TurnSpindle& turn) const {
-    constexpr const char* calls[] = {"STOP_SPINDLE_TURNING(0)", "START_SPINDLE_CLOCKWISE(0)",
-                                     "START_SPINDLE_COUNTERCLOCKWISE(0)"};
-    line << calls[static_cast<std::size_t>(turn.direction)];
+    constexpr const char* calls[] = {"STOP_SPINDLE_TURNING(", "START_SPINDLE_CLOCKWISE(",
+                                     "START_SPINDLE_COUNTERCLOCKWISE("};
+    (line << calls[static_cast<std::size_t>(turn.direction)]).whole(turn.spindle) << ")";
   }
   void operator()(const operation::SetMist& set) const { line << (set.on ? "MIST_ON()" : "MIST_OFF()"); }
   void operator()(const operation::SetFlood& set) const { line << (set.on ? "FLOOD_ON()" : "FLOOD_OFF()"); }
@@ -144,7 +145,38 @@ struct Call {
     line << (set.on ? "ENABLE_FEED_OVERRIDE()" : "DISABLE_FEED_OVERRIDE()");
   }
   void operator()(const operation::SetSpeedOverride& set) const {
-    line << (set.on ? "ENABLE_SPEED_OVERRIDE(0)" : "DISABLE_SPEED_OVERRIDE(0)");
+    (line << (set.on ? "ENABLE_SPEED_OVERRIDE(" : "DISABLE_SPEED_OVERRIDE(")).whole(set.spindle) << ")";
+  }
+  void operator()(const operation::SetAdaptiveFeed& set) const {
+    line << (set.on ? "ENABLE_ADAPTIVE_FEED()" : "DISABLE_ADAPTIVE_FEED()");
+  }
+  void operator()(const operation::SetFeedHold& set) const {
+    line << (set.on ? "ENABLE_FEED_HOLD()" : "DISABLE_FEED_HOLD()");
+  }
+  void operator()(const operation::StraightProbe& probe) const { (line << "STRAIGHT_PROBE(").point(probe.end) << ")"; }
+  void operator()(const operation::TurnProbe& turn) const {
+    line << (turn.on ? "TURN_PROBE_ON()" : "TURN_PROBE_OFF()");
+  }
+  void operator()(const operation::OrientSpindle& orient) const {
+    ((line << "ORIENT_SPINDLE(").whole(orient.spindle) << ", ").number(orient.degrees) << ", ";
+    line.whole(static_cast<int>(orient.way)) << ")";
+  }
+  void operator()(const operation::AwaitSpindle& await) const {
+    (line << "SPINDLE.").whole(await.spindle) << ".WAIT_ORIENT_COMPLETE(";
+    line.number(await.timeout.value()) << ")";
+  }
+  void operator()(const operation::SetDigitalOutput& set) const {
+    line << (set.on ? "SET_" : "CLEAR_") << (set.with_motion ? "MOTION" : "AUX");
+    (line << "_OUTPUT_BIT(").whole(set.output) << ")";
+  }
+  void operator()(const operation::SetAnalogOutput& set) const {
+    (line << (set.with_motion ? "SET_MOTION_OUTPUT_VALUE(" : "SET_AUX_OUTPUT_VALUE(")).whole(set.output) << ",";
+    line.six_digits(set.value) << ")";
+  }
+  void operator()(const operation::ReadInput&) const {}
+  void operator()(const operation::UserCode& user) const {
+    (line << "USER_DEFINED_FUNCTION(").whole(user.number) << ", ";
+    (line.six_digits(user.p) << ", ").six_digits(user.q) << ")";
   }
   void operator()(const operation::SelectTool& select) const { (line << "SELECT_TOOL(").whole(select.tool) << ")"; }
   void operator()(const operation::StartToolChange&) const { line << "START_CHANGE()"; }
@@ -184,6 +216,7 @@ void print_head(std::uint64_t count, std::int64_t line_number, std::string& out)
 void CanonPrinter::print(const Operation& operation, std::string& out) {
   if (const auto* set = std::get_if<operation::SetLengthUnits>(&operation.what)) units_ = set->units;
   if (const auto* set = std::get_if<operation::SetFeedMode>(&operation.what)) feed_mode_ = set->mode;
+  if (std::holds_alternative<operation::ReadInput>(operation.what)) return;  // rs274 says nothing
   // What (PRINT,…) says goes to the operator as it is: rs274 neither counts nor numbers it.
   if (!std::holds_alternative<operation::Print>(operation.what)) {
     print_head(++count_, operation.source.line_number, out);

@@ -40,12 +40,12 @@ constexpr CodeEntry table[] = {
     {'G', code(28, 1), non_modal, none, "", yes, "store the first home position"},
     {'G', code(30), non_modal, may, "", yes, "go to the second home position"},
     {'G', code(30, 1), non_modal, none, "", yes, "store the second home position"},
-    {'G', code(33), motion, must, "@^K", yes, "spindle-synchronised move"},
-    {'G', code(33, 1), motion, must, "@^K", yes, "rigid tapping"},
-    {'G', code(38, 2), motion, must, "", not_yet, "probing"},
-    {'G', code(38, 3), motion, must, "", not_yet, "probing"},
-    {'G', code(38, 4), motion, must, "", not_yet, "probing"},
-    {'G', code(38, 5), motion, must, "", not_yet, "probing"},
+    {'G', code(33), motion, must, "@^K$", yes, "spindle-synchronised move"},
+    {'G', code(33, 1), motion, must, "@^K$", yes, "rigid tapping"},
+    {'G', code(38, 2), motion, must, "@^", yes, "probing towards"},
+    {'G', code(38, 3), motion, must, "@^", yes, "probing towards"},
+    {'G', code(38, 4), motion, must, "@^", yes, "probing away"},
+    {'G', code(38, 5), motion, must, "@^", yes, "probing away"},
     {'G', code(40), cutter_compensation, none, "", yes, "cutter compensation off"},
     {'G', code(41), cutter_compensation, none, "D", yes, "cutter compensation, tool left of the contour"},
     {'G', code(41, 1), cutter_compensation, none, "DL", yes, "cutter compensation, tool left of the contour"},
@@ -68,7 +68,7 @@ constexpr CodeEntry table[] = {
     {'G', code(59, 3), work_system, none, "", yes, "work system 9"},
     {'G', code(61), path_mode, none, "", yes, "exact path"},
     {'G', code(61, 1), path_mode, none, "", yes, "exact stop"},
-    {'G', code(64), path_mode, none, "PQ", yes, "blended path"},
+    {'G', code(64), path_mode, none, "PQR", yes, "blended path"},
     {'G', code(70), motion, may, "Q", not_yet, "lathe finishing cycle"},
     {'G', code(71), motion, may, "DFIKPQR", not_yet, "lathe roughing cycle"},
     {'G', code(71, 1), motion, may, "DFIKPQR", not_yet, "lathe roughing cycle"},
@@ -100,44 +100,44 @@ constexpr CodeEntry table[] = {
     {'G', code(93), feed_mode, none, "", yes, "inverse time feed"},
     {'G', code(94), feed_mode, none, "", yes, "feed in units a minute"},
     {'G', code(95), feed_mode, none, "", yes, "feed in units a revolution"},
-    {'G', code(96), spindle_mode, none, "D", not_yet, "constant surface speed"},
-    {'G', code(97), spindle_mode, none, "", yes, "constant spindle speed"},
+    {'G', code(96), spindle_mode, none, "D$", yes, "constant surface speed"},
+    {'G', code(97), spindle_mode, none, "$", yes, "constant spindle speed"},
     {'G', code(98), retract, none, "", yes, "cycles retract to where they began"},
     {'G', code(99), retract, none, "", yes, "cycles retract to R"},
 
     {'M', code(0), stopping, none, "", yes, "stop"},
     {'M', code(1), stopping, none, "", yes, "optional stop"},
     {'M', code(2), stopping, none, "", yes, "end of the program"},
-    {'M', code(3), spindle, none, "", yes, "spindle clockwise"},
-    {'M', code(4), spindle, none, "", yes, "spindle counterclockwise"},
-    {'M', code(5), spindle, none, "", yes, "spindle off"},
+    {'M', code(3), spindle, none, "$", yes, "spindle clockwise"},
+    {'M', code(4), spindle, none, "$", yes, "spindle counterclockwise"},
+    {'M', code(5), spindle, none, "$", yes, "spindle off"},
     {'M', code(6), tool_change, none, "", yes, "tool change"},
     {'M', code(7), coolant, none, "", yes, "mist on"},
     {'M', code(8), coolant, none, "", yes, "flood on"},
     {'M', code(9), coolant, none, "", yes, "coolant off"},
-    {'M', code(19), spindle, none, "RQP", not_yet, "orient the spindle"},
+    {'M', code(19), spindle, none, "RQP$", yes, "orient the spindle"},
     {'M', code(30), stopping, none, "", yes, "end of the program"},
     {'M', code(48), overrides, none, "", yes, "overrides on"},
     {'M', code(49), overrides, none, "", yes, "overrides off"},
-    {'M', code(50), overrides, none, "P", not_yet, "feed override"},
-    {'M', code(51), overrides, none, "P", not_yet, "spindle override"},
-    {'M', code(52), overrides, none, "P", not_yet, "adaptive feed"},
-    {'M', code(53), overrides, none, "P", not_yet, "feed hold switch"},
+    {'M', code(50), overrides, none, "P", yes, "feed override"},
+    {'M', code(51), overrides, none, "P$", yes, "spindle override"},
+    {'M', code(52), overrides, none, "P", yes, "adaptive feed"},
+    {'M', code(53), overrides, none, "P", yes, "feed hold switch"},
     {'M', code(60), stopping, none, "", yes, "pallet change and stop"},
     {'M', code(61), tool_change, none, "Q", yes, "name the tool in the spindle"},
-    {'M', code(62), input_output, none, "P", not_yet, "digital output"},
-    {'M', code(63), input_output, none, "P", not_yet, "digital output"},
-    {'M', code(64), input_output, none, "P", not_yet, "digital output"},
-    {'M', code(65), input_output, none, "P", not_yet, "digital output"},
-    {'M', code(66), input_output, none, "PELQ", not_yet, "wait for an input"},
-    {'M', code(67), input_output, none, "EQ", not_yet, "analog output"},
-    {'M', code(68), input_output, none, "EQ", not_yet, "analog output"},
-    {'M', code(70), spindle, none, "", not_yet, "save the modal state"},
-    {'M', code(71), spindle, none, "", not_yet, "drop the saved modal state"},
-    {'M', code(72), spindle, none, "", not_yet, "restore the modal state"},
-    {'M', code(73), spindle, none, "", not_yet, "save the modal state for the caller"},
-    {'M', code(98), stopping, none, "PL", not_yet, "call of a subprogram"},
-    {'M', code(99), stopping, none, "P", not_yet, "end of a subprogram"},
+    {'M', code(62), input_output, none, "P", yes, "digital output"},
+    {'M', code(63), input_output, none, "P", yes, "digital output"},
+    {'M', code(64), input_output, none, "P", yes, "digital output"},
+    {'M', code(65), input_output, none, "P", yes, "digital output"},
+    {'M', code(66), input_output, none, "PELQ", yes, "wait for an input"},
+    {'M', code(67), input_output, none, "EQ", yes, "analog output"},
+    {'M', code(68), input_output, none, "EQ", yes, "analog output"},
+    {'M', code(70), spindle, none, "", yes, "save the modal state"},
+    {'M', code(71), spindle, none, "", yes, "drop the saved modal state"},
+    {'M', code(72), spindle, none, "", yes, "restore the modal state"},
+    {'M', code(73), spindle, none, "", yes, "save the modal state for the caller"},
+    {'M', code(98), stopping, none, "PL", yes, "call of a subprogram"},
+    {'M', code(99), stopping, none, "", yes, "end of a subprogram"},
 };
 
 constexpr std::size_t table_size = std::size(table);
@@ -157,6 +157,22 @@ constexpr Index make_index() {
 }
 constexpr Index index_of_table = make_index();
 
+// M100 to M199.
+constexpr std::size_t user_codes = 100;
+constexpr std::array<CodeEntry, user_codes> make_user_table() {
+  std::array<CodeEntry, user_codes> entries{};
+  for (std::size_t i = 0; i < user_codes; ++i) {
+    entries[i] = {'M', code(100 + static_cast<int>(i)), user, none, "PQ", yes, "user code"};
+  }
+  return entries;
+}
+constexpr std::array<CodeEntry, user_codes> user_table = make_user_table();
+
+const CodeEntry* find_user_code(CodeNumber number) {
+  const auto at = static_cast<std::size_t>(number / 10 - 100);
+  return number % 10 == 0 && at < user_codes ? &user_table[at] : nullptr;
+}
+
 }  // namespace
 
 std::string_view name_of(ModalGroup group) {
@@ -171,7 +187,8 @@ std::string_view name_of(ModalGroup group) {
 }
 
 const CodeEntry* find_code(char letter, CodeNumber number) {
-  if (number < 0 || number >= number_limit) return nullptr;
+  if (number < 0) return nullptr;
+  if (number >= number_limit) return letter == 'M' ? find_user_code(number) : nullptr;
   const std::uint8_t at = index_of_table[letter == 'G' ? 0 : 1][static_cast<std::size_t>(number)];
   return at == nothing ? nullptr : &table[at];
 }

@@ -10,7 +10,8 @@ class Interpreter::Implementation {
   Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
       : parameters_(symbols_, state_),
         reporter_(diagnostics),
-        flow_(std::move(reader), {options.block_delete, options.idle_passes}, state_, parameters_, symbols_, reporter_),
+        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.main_passes}, state_, parameters_,
+              symbols_, reporter_),
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     executor_.start(options);
   }
@@ -38,9 +39,11 @@ class Interpreter::Implementation {
     text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {
       executor_.execute(*block);
+      if (const auto jump = executor_.take_jump()) follow(*jump);
       if (!operations_.empty()) flow_.note_progress();
       return;
     }
+    if (const auto line = flow_.take_left_sub()) return executor_.leave_sub({*line, -1});
     finished_ = true;
     if (!executor_.ended() && flow_.end() == ProgramFlow::End::file && !reporter_.full()) {
       reporter_.warning("gcode.no-end", {1, 1}, "the program ends without M2, M30 or '%'", "M2 in its last line");
@@ -50,6 +53,16 @@ class Interpreter::Implementation {
     } else {
       const bool at_percent = flow_.end() == ProgramFlow::End::percent;
       executor_.finish(at_percent ? BlockExecutor::Closing::percent : BlockExecutor::Closing::none);
+    }
+  }
+
+  void follow(const SubprogramJump& jump) {
+    switch (flow_.follow(jump)) {
+      case ProgramFlow::Followed::goes_on: return;
+      case ProgramFlow::Followed::left_sub:
+        if (const auto line = flow_.take_left_sub()) executor_.leave_sub({*line, -1});
+        return;
+      case ProgramFlow::Followed::main_ends: executor_.end_program(false); return;
     }
   }
 

@@ -49,9 +49,19 @@ class ModalState {
   std::array<CodeNumber, modal_group_count> active_{};
 };
 
+inline constexpr std::size_t most_spindles = 8;
 struct SpindleState {
-  double speed = 0;  // S: revolutions a minute
+  double speed = 0;          // S: revolutions a minute; under constant surface speed metres or feet a minute
+  double surface_limit = 0;  // above 0: constant surface speed, at no more than so many revolutions a minute
   SpindleDirection direction = SpindleDirection::off;
+  bool speed_override = true;
+  friend bool operator==(const SpindleState&, const SpindleState&) = default;
+};
+
+// What G64 said last.
+struct PathTolerance {
+  Mm path{0};
+  Mm merge{0};
 };
 
 struct MachineState {
@@ -60,11 +70,15 @@ struct MachineState {
   Point position;      // work coordinates, millimetres and degrees; with cutter compensation on the contour
   Point cutter_shift;  // from there to the tool's centre
   double feed = 0;     // F in millimetres, a minute or a revolution; 0: none given
-  SpindleState spindle;
+  std::array<SpindleState, most_spindles> spindles;
+  int spindle_count = 1;
   bool mist = false;
   bool flood = false;
   bool feed_override = true;
-  bool speed_override = true;
+  bool adaptive_feed = false;
+  bool feed_hold = true;
+  PathTolerance tolerance;
+  bool on_machine = false;          // not a preview
   ToolTable tools;                  // what is known of each
   Tool spindle_tool;                // what is known of the one in the spindle; its number is `tool`
   std::int32_t tool = 0;            // in the spindle

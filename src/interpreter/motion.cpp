@@ -58,6 +58,10 @@ bool BlockExecutor::move_by(CodeNumber number) {
     case code(3): return arc(false);
     case code(33): return threading(false);
     case code(33, 1): return threading(true);
+    case code(38, 2):
+    case code(38, 3):
+    case code(38, 4):
+    case code(38, 5): return probe(number);
     default: note("interpreter: motion mode set to none"); return true;  // G80
   }
 }
@@ -149,7 +153,7 @@ bool BlockExecutor::check_feed() {
     return fail("gcode.missing-feed", motion_span(), "no feed rate is set",
                 "F before the first feed move, or in its block");
   }
-  if (state_.modal.per_revolution() && state_.spindle.speed == 0) {
+  if (state_.modal.per_revolution() && state_.spindles[0].speed == 0) {
     return fail("gcode.missing-speed", motion_span(), "a feed for each revolution (G95) and no spindle speed",
                 "S before, or in this block");
   }
@@ -283,11 +287,13 @@ bool BlockExecutor::threading(bool tapping) {
     return fail("gcode.unused-word", words_.span('F'), fmt::format("F with {}, whose speed is the spindle's", name),
                 "no F");
   }
-  if (state_.spindle.direction == SpindleDirection::off) {
+  SpindleRange spindle;
+  if (!spindle_word(SpindleChoice::one, spindle)) return false;
+  if (state_.spindles[spindle.first].direction == SpindleDirection::off) {
     return fail("gcode.spindle-off", motion_span(), fmt::format("{} while the spindle does not turn", name),
                 "M3 or M4 before, or in this block");
   }
-  emit(operation::StartSpeedFeedSync{Mm(words_['K'] * state_.length_unit()), false});
+  emit(operation::StartSpeedFeedSync{Mm(words_['K'] * state_.length_unit()), false, spindle.first});
   if (tapping) {
     emit(operation::RigidTap{state_.position});
     state_.position = start;

@@ -51,6 +51,12 @@ bool BlockExecutor::set_tool_length(CodeNumber number) {
   return true;
 }
 
+void BlockExecutor::restore_tool_offset(const ModalSnapshot& saved) {
+  if (state_.modal[tool_length] == saved.modal[tool_length] && state_.frame.tool_offset() == saved.tool_offset) return;
+  state_.modal.set(tool_length, saved.modal[tool_length]);
+  change_frame(operation::SetToolOffset{saved.tool_offset});
+}
+
 bool BlockExecutor::select_work_system(CodeNumber number) {
   if (state_.modal[work_system] == number) {
     note("interpreter: continuing to use same coordinate system");

@@ -20,6 +20,7 @@ Parameters::Parameters(SymbolTable& symbols, const MachineState& state) : symbol
     named.predefined = static_cast<std::uint8_t>(i);
   }
   set(work_system_parameter, 1);
+  set(show_debug_parameter, 1);
 }
 
 bool Parameters::numbered(std::int64_t number, double& value) const {
@@ -80,13 +81,20 @@ void Parameters::enter_sub(std::span<const double> arguments) {
   Caller& caller = callers_.emplace_back();
   std::copy_n(numbers_.begin() + 1, sub_parameters, caller.numbers.begin());
   caller.undo_size = undo_.size();
+  caller.shares_numbers = false;
   std::fill_n(numbers_.begin() + 1, sub_parameters, 0.0);
   std::copy_n(arguments.begin(), std::min(arguments.size(), sub_parameters), numbers_.begin() + 1);
 }
 
+void Parameters::enter_subprogram() {
+  Caller& caller = callers_.emplace_back();
+  caller.undo_size = undo_.size();
+  caller.shares_numbers = true;
+}
+
 void Parameters::leave_sub() {
   const Caller& caller = callers_.back();
-  std::ranges::copy(caller.numbers, numbers_.begin() + 1);
+  if (!caller.shares_numbers) std::ranges::copy(caller.numbers, numbers_.begin() + 1);
   for (; undo_.size() > caller.undo_size; undo_.pop_back()) {
     names_[undo_.back().symbol].depth = undo_.back().depth;
     names_[undo_.back().symbol].value = undo_.back().value;

@@ -26,6 +26,10 @@ inline constexpr std::size_t sub_parameters = 30;
 // Where the offsets live. A work system's ten parameters: nine axes and its rotation.
 inline constexpr int first_home_parameter = 5161;
 inline constexpr int second_home_parameter = 5181;
+inline constexpr int probe_parameter = 5061;
+inline constexpr int probe_success_parameter = 5070;
+inline constexpr int input_parameter = 5399;
+inline constexpr int show_debug_parameter = 5599;
 inline constexpr int g92_active_parameter = 5210;
 inline constexpr int g92_parameter = 5211;
 inline constexpr int work_system_parameter = 5220;
@@ -57,6 +61,8 @@ class Parameters final : public ParameterValues {
 
   // A sub begins with these arguments, and ends.
   void enter_sub(std::span<const double> arguments);
+  // One of M98, which has names of its own but shares #1 … #30 with its caller.
+  void enter_subprogram();
   void leave_sub();
 
  private:
@@ -75,6 +81,7 @@ class Parameters final : public ParameterValues {
   struct Caller {
     std::array<double, sub_parameters> numbers;
     std::size_t undo_size;
+    bool shares_numbers;
   };
   Named& at(Symbol name);
 

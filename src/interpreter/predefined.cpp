@@ -39,13 +39,16 @@ double current_line(const State& state) {
   return state.line;
 }
 double spindle_speed(const State& state) {
-  return state.spindle.speed;
+  return state.spindles[0].speed;
 }
 double spindle_on(const State& state) {
-  return truth(state.spindle.direction != SpindleDirection::off);
+  return truth(state.spindles[0].direction != SpindleDirection::off);
 }
 double spindle_clockwise(const State& state) {
-  return truth(state.spindle.direction == SpindleDirection::clockwise);
+  return truth(state.spindles[0].direction == SpindleDirection::clockwise);
+}
+double speed_override(const State& state) {
+  return truth(state.spindles[0].speed_override);
 }
 double current_tool(const State& state) {
   return state.tool;
@@ -55,6 +58,10 @@ double selected_tool(const State& state) {
 }
 double tool_offset_on(const State& state) {
   return truth(state.modal[ModalGroup::tool_length] != code(49));
+}
+// Codes that are made of other codes: there are none.
+double remap_level(const State&) {
+  return 0;
 }
 // The language's version, LinuxCNC 2.9: programs ask it to know what they may use.
 double major_version(const State&) {
@@ -69,6 +76,8 @@ constexpr PredefinedParameter table[] = {
     {"_vminor", minor_version},
     {"_line", current_line},
     {"_call_level", call_level},
+    {"_remap_level", remap_level},
+    {"_task", flag_of<&State::on_machine>},
     {"_motion_mode", active<ModalGroup::motion>},
     {"_plane", active<ModalGroup::plane>},
     {"_ccomp", active<ModalGroup::cutter_compensation>},
@@ -95,7 +104,9 @@ constexpr PredefinedParameter table[] = {
     {"_mist", flag_of<&State::mist>},
     {"_flood", flag_of<&State::flood>},
     {"_feed_override", flag_of<&State::feed_override>},
-    {"_speed_override", flag_of<&State::speed_override>},
+    {"_speed_override", speed_override},
+    {"_adaptive_feed", flag_of<&State::adaptive_feed>},
+    {"_feed_hold", flag_of<&State::feed_hold>},
     {"_current_tool", current_tool},
     {"_selected_tool", selected_tool},
     {"_x", work<Axis::x>},

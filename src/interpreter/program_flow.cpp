@@ -28,6 +28,11 @@ bool is_deleted(std::string_view text) {
   return first != std::string_view::npos && text[first] == '/';
 }
 
+bool is_percent(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%';
+}
+
 std::string_view name_of(ControlKind kind) {
   switch (kind) {
     case sub: return "sub";
@@ -35,6 +40,7 @@ std::string_view name_of(ControlKind kind) {
     case while_: return "while";
     case do_: return "do";
     case repeat: return "repeat";
+    case program: return "program";
     default: return "block";
   }
 }
@@ -67,6 +73,7 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
 }
 
 const Block* ProgramFlow::next() {
+  if (again_) run_again();
   while (end_ == End::none) {
     switch (read()) {
       case Read::end:
@@ -74,7 +81,10 @@ const Block* ProgramFlow::next() {
           report_unclosed(open_.back());
           open_.pop_back();
         }
-        if (!frames_.empty()) report_unclosed({sub, frames_.back().sub, frames_.back().place.at, {}, 0});
+        if (!frames_.empty()) {
+          const Frame& frame = frames_.back();
+          report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}, 0});
+        }
         block_.text = {};  // the reader's, and gone
         return finish(End::file);
       case Read::skipped: continue;
@@ -91,6 +101,7 @@ const Block* ProgramFlow::next() {
     begun_ = true;
     state_.line = block_.line;
     obey(*block_.control);
+    if (left_sub_) return nullptr;
   }
   return nullptr;
 }
@@ -120,6 +131,12 @@ bool ProgramFlow::is_percent_end() {
   return ends;
 }
 
+// What is behind the closing '%' of the main file is no program.
+bool ProgramFlow::closes_program(std::string_view text) {
+  if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
+  return closing_percent_ = std::exchange(file_->seen_percent, true);
+}
+
 bool ProgramFlow::lacks_closing_percent() {
   if (!opened_percent_) return false;
   ProgramReader& reader = files_.front()->reader;
@@ -127,8 +144,7 @@ bool ProgramFlow::lacks_closing_percent() {
   std::string_view text;
   std::uint32_t line = 0;
   while (reader.next_line(text, line, reporter_.diagnostics())) {
-    const std::size_t first = text.find_first_not_of(" \t");
-    if (first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%') return false;
+    if (is_percent(text)) return false;
   }
   return true;
 }
@@ -157,20 +173,19 @@ void ProgramFlow::obey(const Control& control) {
     case endrepeat: return end_repeat(label, control);
     case break_:
     case continue_: return leave_or_continue_loop(label, control);
-    default:
-      reporter_.error("gcode.unsupported-o-word", control.span,
-                      "numbered programs (O and a number alone) are not supported yet", "o… sub and o… call");
+    default: return;  // where a numbered program begins: nothing happens
   }
 }
 
 void ProgramFlow::begin_sub(Symbol label, const Control& control) {
   if (!frames_.empty()) {
     stray(control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)),
-          "endsub before the next sub");
+          frames_.back().place.numbered ? "M99 before the next sub" : "endsub before the next sub");
+    finish(End::error);
     return;
   }
   const ReaderPosition after = file_->reader.position();
-  const auto [known, added] = file_->subs.try_emplace(label.id, SubPlace{block_at_, after});
+  const auto [known, added] = file_->subs.try_emplace(label.id, SubPlace{block_at_, after, false});
   if (!added && known->second.after.offset != after.offset) {
     stray(control,
           fmt::format("a second sub {}; the first one is at line {}", label_text(label), known->second.at.line),
@@ -185,14 +200,27 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
           "endsub and return with the label of their sub");
     return;
   }
+  const Frame frame = frames_.back();
+  if (frame.place.numbered) {
+    reporter_.error("gcode.mixed-subs", control.span,
+                    fmt::format("{} in the numbered program O{}, which begins at line {}",
+                                control.kind == endsub ? "endsub" : "return", label_text(label), frame.place.at.line),
+                    "M99");
+    finish(End::error);
+    return;
+  }
   double value = 0;
   if (!control.arguments.empty() && !value_of(block_, control.arguments.front(), parameters_, reporter_, value)) return;
-  const Frame frame = frames_.back();
   if (control.kind == endsub) {
     for (std::size_t i = frame.first_open; i < open_.size(); ++i) report_unclosed(open_[i]);
   }
   (void)parameters_.set_named(value_name_, value);
   (void)parameters_.set_named(returned_name_, control.arguments.empty() ? 0 : 1);
+  leave_frame();
+}
+
+void ProgramFlow::leave_frame() {
+  const Frame frame = frames_.back();
   open_.resize(frame.first_open);
   frames_.pop_back();
   parameters_.leave_sub();
@@ -200,6 +228,7 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
   file_ = frame.caller;
   file_->reader.seek(frame.return_to);
   reporter_.look_at(block_, file_->name);
+  left_sub_ = frame.return_to.line - 1;
 }
 
 void ProgramFlow::begin_if(Symbol label, const Control& control) {
@@ -378,12 +407,13 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
 }
 
 // The next O-word, whatever stands before it.
-bool ProgramFlow::read_control(Symbol& label) {
+bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
   for (;;) {
     std::string_view text;
     std::uint32_t line = 0;
     block_at_ = file_->reader.position();
     if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
+    if (within_percents && closes_program(text)) return false;
     if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
     if (!parse(text, line) || !block_.control) continue;
     if (label_of(*block_.control, label)) return true;
@@ -423,7 +453,8 @@ void ProgramFlow::report_unclosed(const Open& open) {
                         : Span{static_cast<std::uint32_t>(first + 1), static_cast<std::uint32_t>(text.size() - first)};
   reporter_.error_at("gcode.unclosed-o-word", line, text, span,
                      fmt::format("{} {} is never closed", name_of(open.kind), label_text(open.label)),
-                     fmt::format("o{} {}", label_text(open.label), name_of_end(open.kind)));
+                     open.kind == program ? std::string("M99")
+                                          : fmt::format("o{} {}", label_text(open.label), name_of_end(open.kind)));
   reread_block_text();
   file_->reader.seek(here);
 }

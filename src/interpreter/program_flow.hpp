@@ -10,15 +10,18 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "block_words.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
+#include "subprogram_jump.hpp"
 
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -32,14 +35,20 @@ class ProgramFlow {
   struct Options {
     bool block_delete = false;
     std::uint64_t idle_passes = 0;
+    std::uint64_t main_passes = 1;
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
   ProgramFlow(ProgramReader reader, const Options& options, MachineState& state, Parameters& parameters,
               SymbolTable& symbols, Reporter& reporter);
 
-  // The next block to execute; null at the end of the program.
+  // The next block to execute; null at the end of the program, and where an O-word left a sub (take_left_sub).
   const Block* next();
+  // Whether a sub was just left, and the line it was called from.
+  std::optional<std::uint32_t> take_left_sub() { return std::exchange(left_sub_, std::nullopt); }
+  // M98 or M99 in the block just executed. main_ends: M99 in a main program that does not run once more.
+  enum class Followed : std::uint8_t { goes_on, left_sub, main_ends };
+  Followed follow(const SubprogramJump& jump);
   End end() const { return end_; }
   // There was an operation since the last block: the loops do something.
   void note_progress() { idle_passes_ = 0; }
@@ -51,8 +60,9 @@ class ProgramFlow {
 
  private:
   struct SubPlace {
-    ReaderPosition at;     // its O-word's line
-    ReaderPosition after;  // the line after it
+    ReaderPosition at;      // its O-word's line
+    ReaderPosition after;   // the line after it
+    bool numbered = false;  // "O1234", which M98 calls; else a sub
   };
   // A file of the program: the main one, or one with a sub.
   struct File {
@@ -64,6 +74,7 @@ class ProgramFlow {
     std::unordered_map<std::uint32_t, SubPlace> subs;  // by label
     ReaderPosition seen;                               // subs before this place are known
     bool seen_all = false;
+    bool seen_percent = false;           // the one that opens the program
     std::set<std::uint32_t> unreadable;  // lines that are no G-code
   };
   // A construct that was entered and not yet left.
@@ -80,6 +91,13 @@ class ProgramFlow {
     Symbol sub;
     SubPlace place;
     std::size_t first_open = 0;
+    std::uint64_t passes_left = 1;  // M98 L
+  };
+
+  // A numbered program that was left and has passes to go.
+  struct Again {
+    Frame frame;
+    File* file = nullptr;
   };
 
   // Lines.
@@ -87,6 +105,7 @@ class ProgramFlow {
   Read read();
   bool parse(std::string_view text, std::uint32_t line);
   bool is_percent_end();
+  bool closes_program(std::string_view text);
   const Block* finish(End end);
 
   // O-words.
@@ -119,14 +138,23 @@ class ProgramFlow {
     return bits;
   }
   bool skip_to(const Open& from, Kinds wanted);
-  bool read_control(Symbol& label);
+  bool read_control(Symbol& label, bool within_percents = false);
   bool skip_branch(const Open& from);
   static Kinds end_of(ControlKind construct);
 
   // Subs.
+  bool has_room_for_call(Span span);
+  void enter(const Frame& frame, File* file);
+  void leave_frame();
   File* find_sub(Symbol label);
   bool find_in(File& file, Symbol label);
   File* open_beside(Symbol label);
+  void report_unknown_sub(Symbol label, Span span, bool numbered);
+  void call_program(const SubprogramJump& jump);
+  void run_again();
+  Followed end_program(const SubprogramJump& jump);
+  bool restart_main(const SubprogramJump& jump);
+  bool check_style(const SubPlace& place, Symbol label, Span span, bool called_by_m98);
 
   bool label_of(const Control& control, Symbol& label);
   bool argument(const Control& control, double& value);
@@ -149,9 +177,13 @@ class ProgramFlow {
   ReaderPosition block_at_;  // the line of block_
   std::vector<Open> open_;
   std::vector<Frame> frames_;
+  std::optional<std::uint32_t> left_sub_;
+  std::optional<Again> again_;
   std::uint64_t idle_passes_ = 0;
-  bool begun_ = false;           // something else than a comment or an empty line was read
-  bool opened_percent_ = false;  // the program began with '%'
+  std::uint64_t main_passes_ = 0;
+  bool begun_ = false;            // something else than a comment or an empty line was read
+  bool opened_percent_ = false;   // the program began with '%'
+  bool closing_percent_ = false;  // and a search for a sub came to the closing one
   End end_ = End::none;
 };
 

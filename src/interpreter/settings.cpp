@@ -11,12 +11,6 @@ using enum ModalGroup;
 
 }  // namespace
 
-bool BlockExecutor::set_spindle_mode(CodeNumber code) {
-  state_.modal.set(spindle_mode, code);
-  emit(operation::SetSpindleMode{});
-  return true;
-}
-
 bool BlockExecutor::set_feed_mode(CodeNumber number) {
   state_.modal.set(feed_mode, number);
   if (number == code(93)) {
@@ -65,17 +59,6 @@ void BlockExecutor::emit_feed_rate(double units) {
   emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
 }
 
-bool BlockExecutor::set_spindle_speed() {
-  if (words_['S'] < 0) {
-    return fail("gcode.negative-word", words_.span('S'),
-                fmt::format("the spindle speed is {}", plain_number(words_['S'])),
-                "S of 0 or more; M4 turns the other way");
-  }
-  state_.spindle.speed = words_['S'];
-  emit(operation::SetSpindleSpeed{words_['S']});
-  return true;
-}
-
 bool BlockExecutor::select_tool() {
   if (!whole_word('T', 0, highest_tool, state_.selected_tool)) return false;
   emit_ahead(operation::SelectTool{state_.selected_tool});
@@ -93,20 +76,11 @@ bool BlockExecutor::change_tool(CodeNumber number) {
                   "T before, or in this block");
     }
     state_.tool = state_.selected_tool;
-    state_.spindle.direction = SpindleDirection::off;
     emit(operation::StartToolChange{});
-    emit(operation::TurnSpindle{});
+    stop_spindles();
     emit(operation::ChangeTool{state_.tool});
   }
   parameters_.set(tool_parameter, state_.tool);
-  return true;
-}
-
-bool BlockExecutor::turn_spindle(CodeNumber number) {
-  state_.spindle.direction = number == code(3)   ? SpindleDirection::clockwise
-                             : number == code(4) ? SpindleDirection::counterclockwise
-                                                 : SpindleDirection::off;
-  emit(operation::TurnSpindle{state_.spindle.direction});
   return true;
 }
 
@@ -117,11 +91,23 @@ bool BlockExecutor::switch_coolant(CodeNumber number) {
   return true;
 }
 
+// M48 and M49 switch all, M50 to M53 one each: off with P0.
 bool BlockExecutor::switch_overrides(CodeNumber number) {
-  const bool on = number == code(48);
-  state_.feed_override = state_.speed_override = on;
-  emit(operation::SetFeedOverride{on});
-  emit(operation::SetSpeedOverride{on});
+  const bool on = number == code(48) || (number != code(49) && !(words_.has('P') && words_['P'] == 0));
+  SpindleRange range{0, static_cast<std::uint8_t>(state_.spindle_count)};
+  switch (number) {
+    case code(50): emit(operation::SetFeedOverride{state_.feed_override = on}); return true;
+    case code(51):
+      if (!spindle_word(SpindleChoice::one, range)) return false;
+      break;
+    case code(52): emit(operation::SetAdaptiveFeed{state_.adaptive_feed = on}); return true;
+    case code(53): emit(operation::SetFeedHold{state_.feed_hold = on}); return true;
+    default: emit(operation::SetFeedOverride{state_.feed_override = on});
+  }
+  for (std::uint8_t i = range.first; i < range.end; ++i) {
+    state_.spindles[i].speed_override = on;
+    emit(operation::SetSpeedOverride{on, i});
+  }
   return true;
 }
 
@@ -164,17 +150,28 @@ bool BlockExecutor::set_lathe_diameter(CodeNumber number) {
 
 bool BlockExecutor::set_path_mode(CodeNumber number) {
   const double unit = state_.length_unit();
+  if (words_.has('R')) {
+    return fail("gcode.unsupported-word", words_.span('R'), "R of G64 is not supported yet", "P and Q");
+  }
   state_.modal.set(path_mode, number);
   if (number == code(64)) {
     // P alone is also how far points may be merged; negative ones are none, as in LinuxCNC.
     const double path = words_.has('P') ? std::max(0.0, words_['P']) : 0;
     const double merge = words_.has('Q') ? std::max(0.0, words_['Q']) : path;
-    emit(operation::SetPathMode{PathMode::continuous, Mm(path * unit)});
-    emit(operation::SetMergeTolerance{Mm(merge * unit)});
-  } else {
-    emit(operation::SetPathMode{number == code(61) ? PathMode::exact_path : PathMode::exact_stop, Mm(0)});
+    state_.tolerance = {Mm(path * unit), Mm(merge * unit)};
   }
+  emit_path_mode();
   return true;
+}
+
+void BlockExecutor::emit_path_mode() {
+  const CodeNumber active = state_.modal[path_mode];
+  if (active == code(64)) {
+    emit(operation::SetPathMode{PathMode::continuous, state_.tolerance.path});
+    emit(operation::SetMergeTolerance{state_.tolerance.merge});
+  } else {
+    emit(operation::SetPathMode{active == code(61) ? PathMode::exact_path : PathMode::exact_stop, Mm(0)});
+  }
 }
 
 bool BlockExecutor::set_distance_mode(CodeNumber number) {
@@ -227,6 +224,8 @@ bool BlockExecutor::stop(CodeNumber number) {
       emit(operation::PalletShuttle{});
       emit(operation::ProgramStop{});
       return true;
+    case code(98):
+    case code(99): return true;  // follow() of the program's flow
     default: end_program(number == code(30)); return true;
   }
 }
@@ -238,9 +237,11 @@ void BlockExecutor::end_program(bool pallet) {
   emit(operation::SetFeedMode{});
   emit(operation::SetFeedRate{});
   if (!state_.feed_override) emit(operation::SetFeedOverride{true});
-  if (!state_.speed_override) emit(operation::SetSpeedOverride{true});
-  emit(operation::TurnSpindle{});
-  emit(operation::SetSpindleMode{});
+  for (std::uint8_t i = 0; i < state_.spindle_count; ++i) {
+    if (!state_.spindles[i].speed_override) emit(operation::SetSpeedOverride{true, i});
+    emit(operation::TurnSpindle{SpindleDirection::off, i});
+    emit(operation::SetSpindleMode{0, i});
+  }
   if (state_.mist) emit(operation::SetMist{false});
   if (state_.flood) emit(operation::SetFlood{false});
   if (pallet) emit(operation::PalletShuttle{});

@@ -7,13 +7,7 @@
 namespace passo {
 
 void ProgramFlow::call(Symbol label, const Control& control) {
-  if (frames_.size() >= deepest_call) {
-    reporter_.error("gcode.calls-too-deep", control.span,
-                    fmt::format("calls are nested more than {} deep", deepest_call),
-                    "a sub that does not call itself for ever");
-    finish(End::error);
-    return;
-  }
+  if (!has_room_for_call(control.span)) return;
   if (control.arguments.size() > sub_parameters) {
     reporter_.error("gcode.too-many-arguments", control.span,
                     fmt::format("a call with {} arguments", control.arguments.size()), "30 at most: #1 to #30");
@@ -24,16 +18,34 @@ void ProgramFlow::call(Symbol label, const Control& control) {
     if (!value_of(block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
   }
 
-  Frame frame{file_, file_->reader.position(), label, {}, open_.size()};
+  Frame frame{file_, file_->reader.position(), label, {}, open_.size(), 1};
   File* const file = find_sub(label);
-  if (file == nullptr) {
-    reporter_.error("gcode.unknown-sub", control.span, fmt::format("there is no sub {}", label_text(label)),
-                    fmt::format("o{} sub in this file, or in a file {}.ngc beside the program", label_text(label),
-                                symbols_.name(label)));
-    return;
-  }
+  if (file == nullptr) return report_unknown_sub(label, control.span, false);
   frame.place = file->subs.at(label.id);
+  if (!check_style(frame.place, label, control.span, false)) return;
   parameters_.enter_sub({arguments.data(), control.arguments.size()});
+  enter(frame, file);
+}
+
+bool ProgramFlow::has_room_for_call(Span span) {
+  if (frames_.size() < deepest_call) return true;
+  reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
+                  "a sub that does not call itself for ever");
+  finish(End::error);
+  return false;
+}
+
+// Says where it was looked for.
+void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
+  const std::string_view name = symbols_.name(label);
+  reporter_.error("gcode.unknown-sub", span,
+                  fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
+                  fmt::format("{}{}{} in this file, or in a file {}.ngc beside the program", numbered ? "O" : "o",
+                              label_text(label), numbered ? "" : " sub", name));
+  finish(closing_percent_ ? End::percent : End::error);
+}
+
+void ProgramFlow::enter(const Frame& frame, File* file) {
   frames_.push_back(frame);
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = file;
@@ -61,10 +73,11 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   file.reader.seek(file.seen);
   Symbol found;
   while (!file.seen_all && !file.subs.contains(label.id)) {
-    if (!read_control(found)) {
+    if (!read_control(found, true)) {
       file.seen_all = true;
-    } else if (block_.control->kind == ControlKind::sub) {
-      file.subs.try_emplace(found.id, SubPlace{block_at_, file.reader.position()});
+    } else if (block_.control->kind == ControlKind::sub || block_.control->kind == ControlKind::program) {
+      const bool numbered = block_.control->kind == ControlKind::program;
+      file.subs.try_emplace(found.id, SubPlace{block_at_, file.reader.position(), numbered});
     }
   }
   file.seen = file.reader.position();

@@ -53,10 +53,10 @@ template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
               operation::SetRotation, operation::SetToolOffset, operation::SelectPlane, operation::SetMergeTolerance,
-              operation::SetSpindleMode, operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+              operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
               operation::StartToolChange, operation::SetToolNumber, operation::PalletShuttle, operation::Finish,
-              operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
-              operation::SetFeedReference>;
+              operation::TurnProbe, operation::SetAdaptiveFeed, operation::SetFeedHold, operation::Comment,
+              operation::Message, operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {
@@ -162,6 +162,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
       Overloaded{
           [&](const operation::StraightTraverse& move) { return take_line(move.end, true, item); },
           [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
+          [&](const operation::StraightProbe& probe) { return take_probe(probe.end, item); },
           [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
@@ -169,6 +170,16 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
+          [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
+          [&](const operation::OrientSpindle&) { return lacks(Lack::orientation), false; },
+          [&](const operation::AwaitSpindle&) { return false; },  // told with what it waits for
+          [&](const operation::SetDigitalOutput&) { return lacks(Lack::outputs), false; },
+          [&](const operation::SetAnalogOutput&) { return lacks(Lack::outputs), false; },
+          [&](const operation::UserCode&) { return lacks(Lack::user_codes), false; },
+          [&](const operation::ReadInput& input) {
+            lacks(Lack::inputs);
+            return input.timeout > Seconds(0) && act(Action::Kind::dwell, input.timeout);
+          },
           [&](const operation::SetSpindleSpeed& speed) {
             set_spindle_speed(speed.revolutions_per_minute);
             return set_output(commanded_.revolutions_per_minute, commanded_.revolutions_per_minute);
@@ -191,6 +202,39 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
 
 bool PathBuilder::take_line(const Point& work_end, bool rapid, PathItem& item) {
   return take_curve(Curve::line(position_, machine_end(work_end)), rapid, item);
+}
+
+// The machine has no probe: nothing is touched, and the tool comes to rest at the end.
+bool PathBuilder::take_probe(const Point& work_end, PathItem& item) {
+  if (!take_line(work_end, false, item)) return false;
+  std::get<Segment>(item).mode = PathMode::exact_stop;
+  return true;
+}
+
+// What the machine has not is told once.
+void PathBuilder::lacks(Lack what) {
+  if (std::exchange(told_[static_cast<std::size_t>(what)], true)) return;
+  switch (what) {
+    case Lack::orientation:
+      return report(Severity::error, "path.no-orientation", "the machine cannot turn its spindle to an angle (M19)",
+                    "a program without M19", 'M');
+    case Lack::outputs:
+      return report(Severity::warning, "path.no-outputs", "the machine has no such output: nothing is switched",
+                    "a program without M62 to M65, M67 and M68", 'M');
+    case Lack::inputs:
+      return report(Severity::warning, "path.no-inputs",
+                    "the machine has no inputs: reading one gives 0, and waiting for one takes all of its time",
+                    "a program without M66", 'M');
+    case Lack::user_codes:
+      return report(Severity::warning, "path.no-user-codes", "no program is run for a user code: nothing happens",
+                    "a program without M100 to M199", 'M');
+  }
+}
+
+void PathBuilder::refuse_surface_speed(const operation::SetSpindleMode& mode) {
+  if (mode.surface_limit == 0) return;
+  report(Severity::error, "path.no-surface-speed", "the machine cannot hold a constant surface speed (G96)",
+         "G97 and S in revolutions a minute", 'G');
 }
 
 bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {

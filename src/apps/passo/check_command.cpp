@@ -37,7 +37,7 @@ int check(const CheckArguments& arguments) {
 
   Diagnostics findings;
   const ProgramCheck result =
-      check_program(std::move(*program), *machine, interpreter_options(arguments.program), findings);
+      check_program(std::move(*program), *machine, machine_options(arguments.program), findings);
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     std::puts(findings_as_json(findings).dump(2, ' ', false, replace).c_str());

@@ -22,6 +22,7 @@ struct ProgramArguments {
   std::string program;        // "-": standard input
   bool block_delete = false;  // skip lines that start with '/'
   bool inches = false;        // until the program says G20 or G21
+  bool user_codes = false;    // M100 to M199 are allowed
 };
 
 struct RunArguments {
@@ -30,6 +31,7 @@ struct RunArguments {
   std::vector<std::string> pictures;  // .svg or .png
   std::vector<std::string> traces;    // .vcd or .csv
   std::string report;                 // .json or text
+  std::uint64_t passes = 1;           // of a main program that ends with M99
   bool json = false;                  // the summary on standard output as JSON
   bool quiet = false;
 };

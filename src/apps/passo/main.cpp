@@ -34,6 +34,7 @@ void add_program(CLI::App& command, ProgramArguments& arguments) {
   command.add_option("PROGRAM", arguments.program, "G-code file; - reads standard input")->required();
   command.add_flag("--block-delete", arguments.block_delete, "skip lines that start with /");
   command.add_flag("--inches", arguments.inches, "lengths are inches until the program says G20 or G21");
+  command.add_flag("--user-codes", arguments.user_codes, "allow M100 to M199; no program is run for them");
 }
 
 void add_machine(CLI::App& command, std::string& machine) {
@@ -54,6 +55,9 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("-p,--picture", run_arguments.pictures, "draw the path (FILE.svg or FILE.png)");
   run_command.add_option("-t,--trace", run_arguments.traces, "write every step (FILE.vcd or FILE.csv)");
   run_command.add_option("-r,--report", run_arguments.report, "write the summary (FILE.json, else text)");
+  run_command.add_option("--passes", run_arguments.passes, "how often a program that ends with M99 runs")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(

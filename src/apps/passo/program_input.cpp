@@ -24,6 +24,13 @@ InterpreterOptions interpreter_options(const ProgramArguments& arguments) {
   InterpreterOptions options;
   options.block_delete = arguments.block_delete;
   options.units = arguments.inches ? LengthUnits::inch : LengthUnits::mm;
+  options.user_codes = arguments.user_codes;
+  return options;
+}
+
+InterpreterOptions machine_options(const ProgramArguments& arguments) {
+  InterpreterOptions options = interpreter_options(arguments);
+  options.on_machine = true;
   return options;
 }
 

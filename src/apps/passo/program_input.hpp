@@ -14,7 +14,9 @@ namespace passo {
 // Opens the program, or says on standard error why not.
 std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
 
+// For a look at what the program means, and for a run on the machine.
 InterpreterOptions interpreter_options(const ProgramArguments& arguments);
+InterpreterOptions machine_options(const ProgramArguments& arguments);
 
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);

@@ -104,7 +104,8 @@ int run(const RunArguments& arguments) {
   std::optional<ProgramReader> program = open_program(arguments.program);
   if (!program) return exit_bad_program;
   Diagnostics findings;
-  const InterpreterOptions options = interpreter_options(arguments.program);
+  InterpreterOptions options = machine_options(arguments.program);
+  options.main_passes = arguments.passes;
   const ProgramCheck check = check_program(program->again(), *machine, options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;

@@ -48,7 +48,9 @@ constexpr std::string_view word_list =
     "G53|G54|G55|G59.3|G61|G64|G7|G8|G80|G90|G90.1|G91|G91.1|G92|G92.1|G92.2|G92.3|G93|G94|G95|M0|"
     "M2|M3|M5|M6|M7|M9|M49|M61|X1|X-2.5|Y3|Z.5|A90|U2|I1|J-1|K.5|R5|R-7|P1|P2|Q.1|F100|S200|T3|@5|"
     "^30|X#1|Y[#2+1]|#1=3|#2=[#1*2]|#<a>=1|X#<a>|(msg,x)|(debug,#1 #<a>)|;c|/|N10|H2|D1|%|G81|Z1e3|"
-    "X99999999999";
+    "X99999999999|M19|$0|$-1|E1|L2|M50|M51|M52|M53|M62|M66|M67|M68|M70|M71|M72|M73|M98|M98 P1|M98 P2 "
+    "L3|M99|G38.2|G38.3|"
+    "G38.5|G96|G97|M101|O1|O2|#5599=0|(PROBEOPEN x)|(PROBECLOSE)";
 constexpr std::string_view control_list =
     "o1 sub|o1 endsub|o1 call|o1 call [1] [2]|o1 return [3]|o2 if [#1]|o2 elseif [1]|o2 else|"
     "o2 endif|o3 while [#1 LT 5]|o3 endwhile|o4 do|o4 while [0]|o4 while [1]|o5 repeat [3]|"

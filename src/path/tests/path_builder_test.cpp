@@ -240,6 +240,47 @@ TEST_F(PathTest, a_rigid_tap_goes_down_and_back_with_the_spindle_reversed) {
   EXPECT_TRUE(diagnostics_.all().empty()) << render(diagnostics_, false);
 }
 
+TEST_F(PathTest, a_probe_move_runs_to_its_end_and_rests_there) {
+  feed(10);
+  add(operation::TurnProbe{true});
+  add(operation::StraightProbe{.end = xyz(5, 0), .toward = true, .must_touch = false});
+  add(operation::TurnProbe{false});
+  go(9, 0);
+  const std::vector<Segment> found = segments();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].curve.end(), xyz(5, 0));
+  EXPECT_EQ(found[0].mode, PathMode::exact_stop);
+  EXPECT_EQ(found[0].speed, MmPerSecond(10));
+  EXPECT_EQ(found[1].mode, PathMode::continuous);
+  EXPECT_TRUE(diagnostics_.all().empty()) << render(diagnostics_, false);
+}
+
+TEST_F(PathTest, what_the_machine_has_not_is_told_once) {
+  for (int i = 0; i < 2; ++i) {
+    add(operation::SetDigitalOutput{.output = 3, .on = true, .with_motion = false});
+    add(operation::SetAnalogOutput{});
+    add(operation::ReadInput{});
+    add(operation::UserCode{});
+  }
+  add(operation::ReadInput{
+      .input = 1, .analog = false, .until = operation::ReadInput::Until::rise, .timeout = Seconds(2)});
+  const std::vector<PathItem> items = build();
+  EXPECT_THAT(codes(), testing::ElementsAre("path.no-outputs", "path.no-inputs", "path.no-user-codes"));
+  EXPECT_FALSE(diagnostics_.any_error());
+  ASSERT_EQ(items.size(), 1U);
+  EXPECT_EQ(std::get<Action>(items[0]).kind, Action::Kind::dwell);
+  EXPECT_EQ(std::get<Action>(items[0]).dwell, Seconds(2));
+}
+
+TEST_F(PathTest, a_spindle_that_only_turns_is_asked_for_no_more) {
+  add(operation::OrientSpindle{.degrees = 90});
+  add(operation::SetSpindleMode{.surface_limit = 2000});
+  add(operation::SetSpindleMode{});
+  (void)build();
+  EXPECT_THAT(codes(), testing::ElementsAre("path.no-orientation", "path.no-surface-speed"));
+  EXPECT_EQ(diagnostics_.errors(), 2U);
+}
+
 TEST_F(PathTest, a_program_without_an_end_leaves_nothing_on) {
   add(operation::SetSpindleSpeed{1000});
   add(operation::TurnSpindle{SpindleDirection::clockwise});

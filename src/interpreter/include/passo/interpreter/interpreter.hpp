@@ -19,6 +19,14 @@ struct InterpreterOptions {
   Point start;                          // machine position at the start
   // Passes of a loop without any operation between, before it is stopped with a diagnostic.
   std::uint64_t idle_passes = 1'000'000;
+  // Who answers when the program asks the machine (probe, inputs, #<_task>): a preview as LinuxCNC's `rs274` does,
+  // where a probe move ends 0.254 mm before its end and inputs are 0; or a machine that has neither probe nor inputs.
+  bool on_machine = false;
+  // How often a main program that ends with M99 runs; 0: without end.
+  std::uint64_t main_passes = 1;
+  int spindles = 1;          // 1 to 8
+  double orient_offset = 0;  // degrees that M19 adds
+  bool user_codes = false;   // M100 to M199 are allowed
 };
 
 class Interpreter final : public Source<Operation> {

@@ -77,6 +77,7 @@ struct ArcFeed {
 struct StartSpeedFeedSync {
   Mm pitch;
   bool velocity_mode = false;
+  std::uint8_t spindle = 0;
 };
 struct StopSpeedFeedSync {};
 // G33.1: in step with the spindle to `end` and, the spindle reversed, back to where it began; then the spindle turns
@@ -84,17 +85,42 @@ struct StopSpeedFeedSync {};
 struct RigidTap {
   Point end;
 };
+// G38: to `end`, or until the probe is touched (`toward`) or loses touch. Between TurnProbe on and off.
+struct StraightProbe {
+  Point end;
+  bool toward = true;
+  bool must_touch = true;  // an error when nothing happens on the way: G38.2, G38.4
+};
+struct TurnProbe {
+  bool on = false;
+};
 struct Dwell {
   Seconds time;
 };
+// Under constant surface speed (SetSpindleMode) the number is metres a minute, or feet where lengths are inches.
 struct SetSpindleSpeed {
   double revolutions_per_minute = 0;
+  std::uint8_t spindle = 0;
 };
+// Above 0: constant surface speed (G96), at no more than so many revolutions a minute. 0: constant speed (G97).
 struct SetSpindleMode {
   double surface_limit = 0;
-};  // G97: 0, constant speed
+  std::uint8_t spindle = 0;
+};
 struct TurnSpindle {
   SpindleDirection direction = SpindleDirection::off;
+  std::uint8_t spindle = 0;
+};
+// M19: to this angle, and hold it; AwaitSpindle (M19 Q) waits until it is there.
+struct OrientSpindle {
+  enum class Way : std::uint8_t { shortest, clockwise, counterclockwise };
+  double degrees = 0;
+  Way way = Way::shortest;
+  std::uint8_t spindle = 0;
+};
+struct AwaitSpindle {
+  Seconds timeout;
+  std::uint8_t spindle = 0;
 };
 struct SetMist {
   bool on = false;
@@ -102,12 +128,45 @@ struct SetMist {
 struct SetFlood {
   bool on = false;
 };
-// M48, M49: whether the operator's overrides of feed and spindle speed count.
+// M48 to M53: whether the operator's overrides of feed and spindle speed, the machine's own feed factor, and the feed
+// hold button count.
 struct SetFeedOverride {
   bool on = true;
 };
 struct SetSpeedOverride {
   bool on = true;
+  std::uint8_t spindle = 0;
+};
+struct SetAdaptiveFeed {
+  bool on = true;
+};
+struct SetFeedHold {
+  bool on = true;
+};
+// M62 to M68. With the next move, or at once.
+struct SetDigitalOutput {
+  std::int32_t output = 0;
+  bool on = false;
+  bool with_motion = false;
+};
+struct SetAnalogOutput {
+  std::int32_t output = 0;
+  double value = 0;
+  bool with_motion = false;
+};
+// M66: reads an input, or waits for it. Nothing of rs274's calls.
+struct ReadInput {
+  enum class Until : std::uint8_t { now, rise, fall, high, low };
+  std::int32_t input = 0;
+  bool analog = false;
+  Until until = Until::now;
+  Seconds timeout;
+};
+// M100 to M199: what it does is the machine's matter. A word that is not there is -1.
+struct UserCode {
+  std::int32_t number = 100;
+  double p = -1;
+  double q = -1;
 };
 struct SelectTool {
   std::int32_t tool = 0;
@@ -144,18 +203,19 @@ struct SetFeedReference {};  // always XYZ
 
 }  // namespace operation
 
-using OperationKind =
-    std::variant<operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
-                 operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
-                 operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse,
-                 operation::StraightFeed, operation::ArcFeed, operation::StartSpeedFeedSync,
-                 operation::StopSpeedFeedSync, operation::RigidTap, operation::Dwell, operation::SetSpindleSpeed,
-                 operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist, operation::SetFlood,
-                 operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-                 operation::StartToolChange, operation::ChangeTool, operation::SetToolNumber, operation::ProgramStop,
-                 operation::OptionalProgramStop, operation::ProgramEnd, operation::PalletShuttle, operation::Finish,
-                 operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
-                 operation::SetFeedReference>;
+using OperationKind = std::variant<
+    operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
+    operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
+    operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse, operation::StraightFeed,
+    operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::RigidTap,
+    operation::Dwell, operation::SetSpindleSpeed, operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist,
+    operation::SetFlood, operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+    operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
+    operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput, operation::SetAnalogOutput,
+    operation::ReadInput, operation::UserCode, operation::StartToolChange, operation::ChangeTool,
+    operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop, operation::ProgramEnd,
+    operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message, operation::Print,
+    operation::Log, operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {

@@ -52,6 +52,7 @@ class PathBuilder final : public Source<PathItem> {
   // Each says whether it wrote an item.
   bool take(const Operation& operation, PathItem& item);
   bool take_line(const Point& work_end, bool rapid, PathItem& item);
+  bool take_probe(const Point& work_end, PathItem& item);
   bool take_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_chord(PathItem& item);
@@ -62,6 +63,9 @@ class PathBuilder final : public Source<PathItem> {
   MmPerSecond feed_with_spindle(double mm_per_revolution);
   void set_spindle_speed(double revolutions_per_minute);
   void set_path_mode(const operation::SetPathMode& mode);
+  enum class Lack : std::uint8_t { orientation, outputs, inputs, user_codes };
+  void lacks(Lack what);
+  void refuse_surface_speed(const operation::SetSpindleMode& mode);
   OutputState outputs() const;
   Action outputs_action() const;
 
@@ -105,6 +109,7 @@ class PathBuilder final : public Source<PathItem> {
   AxisSet below_;
   AxisSet above_;
   AxisSet missing_;
+  std::array<bool, 4> told_{};  // by Lack
 };
 
 }  // namespace passo

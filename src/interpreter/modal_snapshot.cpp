@@ -1,0 +1,107 @@
+#include "modal_snapshot.hpp"
+
+#include "block_executor.hpp"
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+}  // namespace
+
+ModalSnapshot snapshot_of(const MachineState& state) {
+  return {.valid = true,
+          .restore_at_return = false,
+          .modal = state.modal,
+          .tool_offset = state.frame.tool_offset(),
+          .feed = state.feed,
+          .spindles = state.spindles,
+          .tolerance = state.tolerance,
+          .mist = state.mist,
+          .flood = state.flood,
+          .feed_override = state.feed_override,
+          .adaptive_feed = state.adaptive_feed,
+          .feed_hold = state.feed_hold};
+}
+
+// M70 saves, M71 forgets, M72 restores, M73 saves and has the end of the sub restore.
+bool BlockExecutor::keep_modal_state(CodeNumber number) {
+  const auto depth = static_cast<std::size_t>(state_.call_depth);
+  if (depth >= snapshots_.size()) snapshots_.resize(depth + 1);
+  ModalSnapshot& here = snapshots_[depth];
+  if (number == code(71)) {
+    here.valid = false;
+  } else if (number != code(72)) {
+    here = snapshot_of(state_);
+    here.restore_at_return = number == code(73);
+  } else if (here.valid) {
+    restore(here);
+  } else {
+    return fail("gcode.nothing-saved", words_.span(spindle), "M72, and nothing was saved here",
+                "M70 or M73 before, in the same sub");
+  }
+  return true;
+}
+
+void BlockExecutor::leave_sub(const OperationSource& source) {
+  const auto left = static_cast<std::size_t>(state_.call_depth) + 1;
+  if (left >= snapshots_.size() || !std::exchange(snapshots_[left].valid, false)) return;
+  if (!snapshots_[left].restore_at_return) return;
+  source_ = source;
+  restore(snapshots_[left]);
+}
+
+// In the order in which a block would do it. Feed, speed and path mode are told even where they stayed, as LinuxCNC
+// does.
+void BlockExecutor::restore(const ModalSnapshot& saved) {
+  words_.clear();
+  const auto put_back = [&](ModalGroup group, GroupFunction set) {
+    if (state_.modal[group] != saved.modal[group]) (this->*set)(saved.modal[group]);
+  };
+  put_back(length_units, &BlockExecutor::set_length_units);
+  put_back(feed_mode, &BlockExecutor::set_feed_mode);
+  state_.feed = saved.feed;
+  if (!state_.modal.inverse_time()) emit_feed_rate(saved.feed / state_.length_unit());
+  restore_spindles(saved);
+  put_back(plane, &BlockExecutor::select_plane);
+  put_back(lathe_diameter, &BlockExecutor::set_lathe_diameter);
+  // It can be put back to off; on, it wants a tool and a move that leads in.
+  if (saved.modal[cutter_compensation] == code(40))
+    put_back(cutter_compensation, &BlockExecutor::set_cutter_compensation);
+  restore_tool_offset(saved);
+  put_back(work_system, &BlockExecutor::select_work_system);
+  state_.modal.set(path_mode, saved.modal[path_mode]);
+  state_.tolerance = saved.tolerance;
+  emit_path_mode();
+  put_back(distance, &BlockExecutor::set_distance_mode);
+  put_back(arc_distance, &BlockExecutor::set_arc_distance_mode);
+  put_back(retract, &BlockExecutor::set_retract_mode);
+  restore_switches(saved);
+}
+
+void BlockExecutor::restore_spindles(const ModalSnapshot& saved) {
+  state_.modal.set(spindle_mode, saved.modal[spindle_mode]);
+  for (std::uint8_t i = 0; i < state_.spindle_count; ++i) {
+    const SpindleState now = state_.spindles[i];
+    const SpindleState& then = state_.spindles[i] = saved.spindles[i];
+    if (now.surface_limit != then.surface_limit) emit(operation::SetSpindleMode{then.surface_limit, i});
+    if (i == 0 || now.speed != then.speed) emit(operation::SetSpindleSpeed{then.speed, i});
+    if (now.direction != then.direction) emit(operation::TurnSpindle{then.direction, i});
+    if (now.speed_override != then.speed_override) emit(operation::SetSpeedOverride{then.speed_override, i});
+  }
+}
+
+void BlockExecutor::restore_switches(const ModalSnapshot& saved) {
+  if (std::exchange(state_.mist, saved.mist) != saved.mist) emit(operation::SetMist{saved.mist});
+  if (std::exchange(state_.flood, saved.flood) != saved.flood) emit(operation::SetFlood{saved.flood});
+  if (std::exchange(state_.feed_override, saved.feed_override) != saved.feed_override) {
+    emit(operation::SetFeedOverride{saved.feed_override});
+  }
+  if (std::exchange(state_.adaptive_feed, saved.adaptive_feed) != saved.adaptive_feed) {
+    emit(operation::SetAdaptiveFeed{saved.adaptive_feed});
+  }
+  if (std::exchange(state_.feed_hold, saved.feed_hold) != saved.feed_hold)
+    emit(operation::SetFeedHold{saved.feed_hold});
+}
+
+}  // namespace passo

@@ -1,0 +1,26 @@
+// ModalSnapshot: what M70 and M73 save of the modal state, and M72 puts back. One for the main program and one for each
+// sub that runs. The motion code, positions and offsets of work systems are not part of it.
+#pragma once
+
+#include "machine_state.hpp"
+
+namespace passo {
+
+struct ModalSnapshot {
+  bool valid = false;
+  bool restore_at_return = false;  // M73
+  ModalState modal;
+  Point tool_offset;
+  double feed = 0;
+  std::array<SpindleState, most_spindles> spindles;
+  PathTolerance tolerance;
+  bool mist = false;
+  bool flood = false;
+  bool feed_override = true;
+  bool adaptive_feed = false;
+  bool feed_hold = true;
+};
+
+ModalSnapshot snapshot_of(const MachineState& state);
+
+}  // namespace passo

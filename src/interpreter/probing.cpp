@@ -1,0 +1,71 @@
+// BlockExecutor: probing, G38.2 to G38.5.
+#include <cmath>
+
+#include "block_executor.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+// How far before its end LinuxCNC's `rs274` leaves a probe move.
+constexpr double preview_retract = 0.254;
+
+}  // namespace
+
+// G38.2 and G38.3 go on until the probe is touched, G38.4 and G38.5 until it is not; .3 and .5 need not succeed.
+bool BlockExecutor::probe(CodeNumber number) {
+  const bool must_touch = number == code(38, 2) || number == code(38, 4);
+  const Point start = state_.position;
+  Point end;
+  if (!end_point(end)) return false;
+  state_.position = end;
+  if (!check_probe(number)) return false;
+  if (must_touch && end == start) {
+    return fail("gcode.probe-too-short", motion_span(), "the probe move ends where it starts",
+                "an end away from here, in the direction in which to probe");
+  }
+  if (options_.on_machine && must_touch) {
+    return fail("gcode.probe-untouched", motion_span(),
+                fmt::format("{} ends untouched: the machine has no probe", spelling('G', number)),
+                "G38.3 or G38.5, which go on when nothing is touched, and a look at #5070");
+  }
+  emit(operation::TurnProbe{true});
+  emit(operation::StraightProbe{end, number == code(38, 2) || number == code(38, 3), must_touch});
+  emit(operation::TurnProbe{false});
+  keep_probe_result(end);
+  if (!options_.on_machine) state_.position = end - preview_backoff(start, end);
+  return true;
+}
+
+bool BlockExecutor::check_probe(CodeNumber number) {
+  const std::string name = spelling('G', number);
+  if (state_.modal[cutter_compensation] != code(40)) {
+    return fail("gcode.probe-mode", motion_span(), name + " while the cutter radius is compensated", "G40 before");
+  }
+  if (state_.modal.inverse_time() || state_.modal.per_revolution()) {
+    return fail("gcode.probe-mode", motion_span(),
+                fmt::format("{} in {}", name, state_.modal.inverse_time() ? "inverse time (G93)" : "G95"),
+                "G94 and F before");
+  }
+  return check_feed();
+}
+
+// #5061 …: where the probe is, in the program's units and system; #5070: whether it touched.
+void BlockExecutor::keep_probe_result(const Point& end) {
+  for (const Axis axis : all_axes) {
+    parameters_.set(probe_parameter + static_cast<int>(index_of(axis)), end[axis] / state_.units_of(axis));
+  }
+  parameters_.set(probe_success_parameter, 0);
+}
+
+Point BlockExecutor::preview_backoff(const Point& start, const Point& end) const {
+  Point step;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) step[axis] = end[axis] - start[axis];
+  const double length = std::hypot(step[Axis::x], step[Axis::y], step[Axis::z]);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) step[axis] *= length > 0 ? preview_retract / length : 0;
+  return step;
+}
+
+}  // namespace passo

@@ -1,0 +1,129 @@
+// BlockExecutor: the codes and words of spindles: S, M3, M4, M5, M19, G96, G97, and `$`, which says which spindle.
+#include <cmath>
+
+#include "block_executor.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+constexpr int every_spindle = -1;
+constexpr double no_limit = 1e30;  // G96 without D, as LinuxCNC prints it
+constexpr double full_turn = 360;
+
+}  // namespace
+
+// The spindles of `$`: one, or with -1 all where the code is for several; spindle 0 where there is no `$`.
+bool BlockExecutor::spindle_word(SpindleChoice choice, SpindleRange& range) {
+  range = {0, 1};
+  if (!words_.has('$')) return true;
+  const int lowest = choice == SpindleChoice::one_or_all ? every_spindle : 0;
+  const int highest = state_.spindle_count - 1;
+  const double number = words_['$'];
+  if (number != std::round(number) || number < lowest || number > highest) {
+    return fail("gcode.no-such-spindle", words_.span('$'),
+                fmt::format("there is no spindle {} here", plain_number(number)),
+                highest == 0 ? std::string("$0: the machine has one spindle")
+                             : fmt::format("$0 to ${}{}", highest, lowest < 0 ? ", or $-1 for all" : ""));
+  }
+  const auto spindle = static_cast<int>(number);
+  range = spindle == every_spindle
+              ? SpindleRange{0, static_cast<std::uint8_t>(state_.spindle_count)}
+              : SpindleRange{static_cast<std::uint8_t>(spindle), static_cast<std::uint8_t>(spindle + 1)};
+  return true;
+}
+
+bool BlockExecutor::set_spindle_mode(CodeNumber number) {
+  SpindleRange range;
+  if (!spindle_word(SpindleChoice::one, range)) return false;
+  double limit = 0;
+  if (number == code(96)) {
+    if (!words_.has('S')) {
+      return fail("gcode.missing-word", words_.span(spindle_mode), "G96 without S",
+                  "S, the surface speed: metres a minute, or feet with G20");
+    }
+    limit = words_.has('D') ? words_['D'] : no_limit;
+    if (limit <= 0) {
+      return fail("gcode.negative-word", words_.span('D'),
+                  fmt::format("the highest spindle speed is {}", plain_number(limit)), "D above 0");
+    }
+  }
+  if (range.first == 0) state_.modal.set(spindle_mode, number);
+  state_.spindles[range.first].surface_limit = limit;
+  emit(operation::SetSpindleMode{limit, range.first});
+  return true;
+}
+
+bool BlockExecutor::set_spindle_speed() {
+  SpindleRange range;
+  if (!spindle_word(SpindleChoice::one_or_all, range)) return false;
+  if (words_['S'] < 0) {
+    return fail("gcode.negative-word", words_.span('S'),
+                fmt::format("the spindle speed is {}", plain_number(words_['S'])),
+                "S of 0 or more; M4 turns the other way");
+  }
+  for (std::uint8_t i = range.first; i < range.end; ++i) {
+    state_.spindles[i].speed = words_['S'];
+    emit(operation::SetSpindleSpeed{words_['S'], i});
+  }
+  return true;
+}
+
+// M3, M4, M5, M19 share a modal group with M70 to M73.
+bool BlockExecutor::run_spindle_group(CodeNumber number) {
+  switch (number) {
+    case code(19): return orient_spindle();
+    case code(70):
+    case code(71):
+    case code(72):
+    case code(73): return keep_modal_state(number);
+    default: return turn_spindle(number);
+  }
+}
+
+bool BlockExecutor::turn_spindle(CodeNumber number) {
+  SpindleRange range;
+  if (!spindle_word(SpindleChoice::one_or_all, range)) return false;
+  const SpindleDirection direction = number == code(3)   ? SpindleDirection::clockwise
+                                     : number == code(4) ? SpindleDirection::counterclockwise
+                                                         : SpindleDirection::off;
+  for (std::uint8_t i = range.first; i < range.end; ++i) {
+    state_.spindles[i].direction = direction;
+    emit(operation::TurnSpindle{direction, i});
+  }
+  return true;
+}
+
+void BlockExecutor::stop_spindles() {
+  for (std::uint8_t i = 0; i < state_.spindle_count; ++i) {
+    state_.spindles[i].direction = SpindleDirection::off;
+    emit(operation::TurnSpindle{SpindleDirection::off, i});
+  }
+}
+
+// Without R and P there is nowhere to turn to; Q alone still waits.
+bool BlockExecutor::orient_spindle() {
+  using Way = operation::OrientSpindle::Way;
+  SpindleRange range;
+  if (!spindle_word(SpindleChoice::one, range)) return false;
+  const double angle = words_.has('R') ? words_['R'] : 0;
+  if (angle < 0 || angle > full_turn) {
+    return fail("gcode.bad-angle", words_.span('R'), fmt::format("the angle is {}", plain_number(angle)),
+                "R of 0 to 360 degrees");
+  }
+  std::int32_t way = 0;
+  if (words_.has('P') && !whole_word('P', 0, 2, way)) return false;
+  if (words_.has('Q') && words_['Q'] <= 0) {
+    return fail("gcode.negative-word", words_.span('Q'), fmt::format("M19 waits {} seconds", plain_number(words_['Q'])),
+                "Q above 0, or no Q: no wait");
+  }
+  state_.spindles[range.first].direction = SpindleDirection::off;
+  const bool turns = words_.has('R') || words_.has('P');
+  if (turns) emit(operation::OrientSpindle{angle + options_.orient_offset, static_cast<Way>(way), range.first});
+  if (words_.has('Q')) emit(operation::AwaitSpindle{Seconds(words_['Q']), range.first});
+  return true;
+}
+
+}  // namespace passo

@@ -1,0 +1,85 @@
+// Spindles, inputs and outputs, probing, user codes.
+#include "interpreted.hpp"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Spindles, are_chosen_by_their_number) {
+  InterpreterOptions options;
+  options.spindles = 3;
+  const Interpreted result =
+      interpret_text("S1\nM3 S2 $1\nM4 $2\nM5 $-1\nM51 P0 $1\nG96 S3 D4 $2\nG33 Z1 K1\n", options);
+  EXPECT_THAT(result.calls(), HasSubstr("SET_SPINDLE_SPEED(0, 1.0000)\nSET_SPINDLE_SPEED(1, 2.0000)\n"
+                                        "START_SPINDLE_CLOCKWISE(1)\nSTART_SPINDLE_COUNTERCLOCKWISE(2)\n"
+                                        "STOP_SPINDLE_TURNING(0)\nSTOP_SPINDLE_TURNING(1)\nSTOP_SPINDLE_TURNING(2)\n"
+                                        "DISABLE_SPEED_OVERRIDE(1)\nSET_SPINDLE_MODE(2 4.0000)\n"
+                                        "SET_SPINDLE_SPEED(2, 3.0000)\n"));
+  EXPECT_EQ(result.diagnostics.all().front().code, "gcode.spindle-off");
+}
+
+TEST(Spindles, orientation_is_turned_by_the_machines_offset) {
+  InterpreterOptions options;
+  options.orient_offset = 42;
+  const Interpreted result = interpret_text("M3 S1\nM19 R45 Q2\n(debug,#<_spindle_on>)\nM19\nM19 Q3\nM2\n", options);
+  EXPECT_THAT(result.calls(), HasSubstr("ORIENT_SPINDLE(0, 87.0000, 0)\nSPINDLE.0.WAIT_ORIENT_COMPLETE(2.0000)\n"
+                                        "MESSAGE(\"0.000000\")\nSPINDLE.0.WAIT_ORIENT_COMPLETE(3.0000)\n"));
+}
+
+TEST(InputsAndOutputs, are_switched_and_read) {
+  const Interpreted result = interpret_text("M62 P1\nM65 P2\nM67 E3 Q1.5\nM66 P4 L1 Q2\n(debug,#5399)\nM2\n");
+  EXPECT_THAT(result.calls(),
+              HasSubstr("SET_MOTION_OUTPUT_BIT(1)\nCLEAR_AUX_OUTPUT_BIT(2)\nSET_MOTION_OUTPUT_VALUE(3,1.500000)\n"
+                        "MESSAGE(\"0.000000\")\n"));
+  const auto input = result.last<operation::ReadInput>();
+  EXPECT_EQ(input.until, operation::ReadInput::Until::rise);
+  EXPECT_EQ(input.timeout, Seconds(2));
+}
+
+TEST(InputsAndOutputs, on_the_machine_a_wait_runs_out) {
+  InterpreterOptions options;
+  options.on_machine = true;
+  EXPECT_THAT(interpret_text("M66 P4 L1 Q2\n(debug,#5399 #<_task>)\nM66 P4\n(debug,#5399)\nM2\n", options).calls(),
+              HasSubstr("MESSAGE(\"-1.000000 1.000000\")\nMESSAGE(\"0.000000\")\n"));
+}
+
+TEST(UserCodes, carry_their_number_and_words_where_they_are_allowed) {
+  InterpreterOptions options;
+  options.user_codes = true;
+  const Interpreted result = interpret_text("M101 P1.5\nM2\n", options);
+  const auto code = result.last<operation::UserCode>();
+  EXPECT_EQ(code.number, 101);
+  EXPECT_EQ(code.p, 1.5);
+  EXPECT_EQ(code.q, -1);
+}
+
+TEST(Probing, a_preview_stops_before_the_end_as_rs274_does) {
+  const Interpreted result = interpret_text(
+      "G21 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nG20\nG38.3 X1\n"
+      "(debug,#5061 #5420)\nM2\n");
+  EXPECT_THAT(result.calls(), HasSubstr("TURN_PROBE_ON()\nSTRAIGHT_PROBE(10.0000, 0.0000, 0.0000, 0.0000, 0.0000, "
+                                        "0.0000)\nTURN_PROBE_OFF()\nMESSAGE(\"10.000000 0.000000 9.746000\")\n"));
+  EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"1.000000 0.990000\")\n"));
+}
+
+TEST(Probing, on_a_machine_without_a_probe_nothing_is_touched) {
+  InterpreterOptions options;
+  options.on_machine = true;
+  const Interpreted may = interpret_text("G21 F100\nG38.3 X10\n(debug,#5061 #5070 #5420)\nM2\n", options);
+  EXPECT_THAT(may.calls(), HasSubstr("MESSAGE(\"10.000000 0.000000 10.000000\")\n"));
+  EXPECT_FALSE(may.diagnostics.any_error());
+  const Interpreted must = interpret_text("G21 F100\nG38.4 X10\nG0 X11\nM2\n", options);
+  ASSERT_EQ(must.diagnostics.errors(), 1U);
+  EXPECT_EQ(must.diagnostics.all().front().code, "gcode.probe-untouched");
+  EXPECT_EQ(must.diagnostics.all().front().place.line, 2U);
+}
+
+TEST(Debug, messages_are_shown_or_not_by_5599) {
+  EXPECT_EQ(interpret_text("#5599=0\n(debug,x)\n#5599=1\n(debug,y)\n").calls(), "MESSAGE(\"y\")\n");
+}
+
+}  // namespace
+}  // namespace passo
