@@ -57,11 +57,10 @@ BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, Operat
 
 void BlockExecutor::start(const InterpreterOptions& options) {
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
-  state_.position = options.start;
+  state_.tools = options.tools;
   emit(operation::SetLengthUnits{options.units});
-  emit(operation::SetWorkOffset{1, Point{}});
-  emit(operation::SetG92Offset{});
-  emit(operation::SetRotation{});
+  start_frame();
+  state_.position = state_.frame.work_from_machine(options.start);
   emit(operation::SetFeedReference{});
   emit(operation::Reset{});
 }

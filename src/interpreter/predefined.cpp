@@ -53,6 +53,13 @@ double current_tool(const State& state) {
 double selected_tool(const State& state) {
   return state.selected_tool < 0 ? 0 : state.selected_tool;
 }
+double current_pocket(const State& state) {
+  return state.spindle_tool.pocket;
+}
+double selected_pocket(const State& state) {
+  const Tool* const tool = state.tools.find(state.selected_tool);
+  return tool == nullptr ? -1 : tool->pocket;
+}
 double tool_offset_on(const State& state) {
   return truth(state.modal[ModalGroup::tool_length] != code(49));
 }
@@ -98,6 +105,8 @@ constexpr PredefinedParameter table[] = {
     {"_speed_override", flag_of<&State::speed_override>},
     {"_current_tool", current_tool},
     {"_selected_tool", selected_tool},
+    {"_current_pocket", current_pocket},
+    {"_selected_pocket", selected_pocket},
     {"_x", work<Axis::x>},
     {"_y", work<Axis::y>},
     {"_z", work<Axis::z>},

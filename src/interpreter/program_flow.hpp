@@ -3,7 +3,8 @@
 // Constant memory: what is remembered are places in the file, of the constructs that are open and of the subs that were
 // met. What is skipped (a branch not taken, the body of a sub where it stands) is read line by line and only its
 // O-words are parsed; a construct is told from others inside it by its label, as RS274/NGC does. A sub that is called
-// before it was met is looked for once to the end of the file, then in NAME.ngc beside the program.
+// before it was met is looked for once to the end of the file, then in NAME.ngc beside the program and in
+// the folders that the options name.
 //
 // Bounded: calls nest 100 deep, and a program that goes round its loops without any operation is stopped.
 #pragma once
@@ -32,6 +33,7 @@ class ProgramFlow {
   struct Options {
     bool block_delete = false;
     std::uint64_t idle_passes = 0;
+    std::vector<std::string> sub_folders;  // after the program's own
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -126,7 +128,8 @@ class ProgramFlow {
   // Subs.
   File* find_sub(Symbol label);
   bool find_in(File& file, Symbol label);
-  File* open_beside(Symbol label);
+  File* open_named(Symbol label);
+  std::string places_looked_at() const;
 
   bool label_of(const Control& control, Symbol& label);
   bool argument(const Control& control, double& value);

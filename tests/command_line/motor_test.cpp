@@ -52,6 +52,7 @@ class MotorCommand : public passo::test::CommandLine {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out);
   }
+
 };
 
 TEST_F(MotorCommand, help_teaches_with_examples_that_run) {

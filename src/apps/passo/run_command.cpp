@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
+#include "passo/report/output_file.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -72,6 +73,15 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   return summary;
 }
 
+// What the program changed of them counts for the next one.
+Status<OutputError> save_parameters(const std::string& path, const Job& job) {
+  if (path.empty()) return Unit{};
+  Result<OutputFile, OutputError> file = OutputFile::open(path);
+  if (!file) return Failure{file.error()};
+  file->write(parameter_file_text(job.saved_parameters()));
+  return file->commit();
+}
+
 int fail(const std::string& message) {
   std::fprintf(stderr, "passo: error: %s\n", message.c_str());
   return exit_failed;
@@ -102,10 +112,10 @@ int run(const RunArguments& arguments) {
   if (!machine) return exit_bad_machine;
 
   std::optional<ProgramReader> program = open_program(arguments.program);
-  if (!program) return exit_bad_program;
+  const std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
+  if (!program || !options) return exit_bad_program;
   Diagnostics findings;
-  const InterpreterOptions options = interpreter_options(arguments.program);
-  const ProgramCheck check = check_program(program->again(), *machine, options, findings);
+  const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
 
@@ -115,7 +125,7 @@ int run(const RunArguments& arguments) {
   if (!outputs) return fail(outputs.error().message);
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, options, late);
+  Job job(std::move(*program), *machine, *options, late);
   const RunSummary summary = play(job, check, arguments, *machine, *outputs);
   if (const auto error = job.link().error()) return fail("the board: " + std::string(message_of(*error)));
   if (late.any_error()) {
@@ -124,6 +134,8 @@ int run(const RunArguments& arguments) {
   }
   const Status<OutputError> written = outputs->commit(summary);
   if (!written) return fail(written.error().message);
+  const Status<OutputError> saved = save_parameters(parameter_file(arguments.program, *options), job);
+  if (!saved) return fail(saved.error().message);
 
   if (arguments.json) {
     std::fputs(to_json(summary).c_str(), stdout);
