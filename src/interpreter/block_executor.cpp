@@ -58,6 +58,7 @@ BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, Operat
 void BlockExecutor::start(const InterpreterOptions& options) {
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
   state_.tools = options.tools;
+  has_settings_ = options.settings != nullptr;
   emit(operation::SetLengthUnits{options.units});
   start_frame();
   state_.position = state_.frame.work_from_machine(options.start);
@@ -69,8 +70,9 @@ void BlockExecutor::finish(Closing closing) {
   source_.line_number = -1;
   if (closing == Closing::percent) emit(operation::Finish{});
   if (closing == Closing::missing) note("interpreter: percent sign missing from end of file");
-  emit(operation::Reset{});  // twice, as rs274 does: the end of the program, and of the interpreter
+  // Twice, as rs274 does: the end of the program, and of the interpreter. With settings it does not get there.
   emit(operation::Reset{});
+  if (!has_settings_) emit(operation::Reset{});
 }
 
 void BlockExecutor::execute(const Block& block) {

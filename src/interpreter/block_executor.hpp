@@ -146,6 +146,7 @@ class BlockExecutor {
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;
   bool tool_was_loaded_ = false;
+  bool has_settings_ = false;
   bool ended_ = false;
 };
 

@@ -11,7 +11,8 @@ class Interpreter::Implementation {
       : saved_(options.parameters),
         parameters_(symbols_, state_, options.machine_units, options.settings),
         reporter_(diagnostics),
-        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.sub_folders}, state_, parameters_, symbols_, reporter_),
+        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.sub_folders}, state_, parameters_,
+              symbols_, reporter_),
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     parameters_.load(options.parameters);
     executor_.start(options);

@@ -33,10 +33,9 @@ void BlockExecutor::change_frame(const Operations&... operations) {
 void BlockExecutor::start_frame() {
   const int system = static_cast<int>(parameters_.get(work_system_parameter));
   state_.modal.set(work_system, code_of_system(system));
-  change_frame(operation::SetWorkOffset{static_cast<std::uint8_t>(system),
-                                        parameters_.point(work_offset_parameter(system))},
-               operation::SetG92Offset{active_g92()},
-               operation::SetRotation{parameters_.get(rotation_parameter(system))});
+  change_frame(
+      operation::SetWorkOffset{static_cast<std::uint8_t>(system), parameters_.point(work_offset_parameter(system))},
+      operation::SetG92Offset{active_g92()}, operation::SetRotation{parameters_.get(rotation_parameter(system))});
 }
 
 void BlockExecutor::use_tool_offset(const Point& offset) {

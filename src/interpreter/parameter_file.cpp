@@ -9,7 +9,9 @@
 namespace passo {
 
 bool is_always_saved(int number) {
-  const auto axes_from = [number](int first) { return number >= first && number < first + static_cast<int>(axis_count); };
+  const auto axes_from = [number](int first) {
+    return number >= first && number < first + static_cast<int>(axis_count);
+  };
   if (axes_from(first_home_parameter) || axes_from(second_home_parameter) || axes_from(g92_parameter)) return true;
   if (number == g92_active_parameter || number == work_system_parameter) return true;
   for (int system = 1; system <= work_systems; ++system) {

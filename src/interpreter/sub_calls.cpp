@@ -28,8 +28,8 @@ void ProgramFlow::call(Symbol label, const Control& control) {
   File* const file = find_sub(label);
   if (file == nullptr) {
     reporter_.error("gcode.unknown-sub", control.span, fmt::format("there is no sub {}", label_text(label)),
-                    fmt::format("o{} sub in this file, or in a file {}.ngc {}", label_text(label),
-                                symbols_.name(label), places_looked_at()));
+                    fmt::format("o{} sub in this file, or in a file {}.ngc {}", label_text(label), symbols_.name(label),
+                                places_looked_at()));
     return;
   }
   frame.place = file->subs.at(label.id);

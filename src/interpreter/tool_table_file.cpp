@@ -20,9 +20,7 @@ char upper(char c) {
 class TableReader {
  public:
   TableReader(ProgramReader reader, LengthUnits units, ToolTable& table, Diagnostics& diagnostics)
-      : fields_(std::move(reader), diagnostics),
-        unit_(units == LengthUnits::inch ? mm_per_inch : 1),
-        table_(table) {}
+      : fields_(std::move(reader), diagnostics), unit_(units == LengthUnits::inch ? mm_per_inch : 1), table_(table) {}
 
   void read() {
     while (fields_.next_line()) read_tool();

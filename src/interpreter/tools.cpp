@@ -85,16 +85,18 @@ bool BlockExecutor::set_tool_length(CodeNumber number) {
   return true;
 }
 
-// Of the tool of H; without it, of the one in the spindle.
+// Of the tool of H; without it or with H0, of the one in the spindle.
 bool BlockExecutor::tool_offset(Point& offset) {
-  std::int32_t number = state_.tool;
-  if (!words_.has('H')) {
-    offset = state_.spindle_tool.offset;
-  } else {
-    const Tool* tool = nullptr;
-    if (!whole_word('H', 0, highest_tool, number) || !find_tool(number, words_.span('H'), tool)) return false;
-    if (tool != nullptr) offset = tool->offset;
+  std::int32_t number = 0;
+  const Tool* tool = nullptr;
+  if (words_.has('H') && !whole_word('H', 0, highest_tool, number)) return false;
+  if (number == 0) {
+    number = state_.tool;
+    tool = &state_.spindle_tool;
+  } else if (!find_tool(number, words_.span('H'), tool)) {
+    return false;
   }
+  if (tool != nullptr) offset = tool->offset;
   if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_tool_table_told_, true)) {
     reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
                       fmt::format("the offset of tool {} is taken as zero: no tool table was given", number),
@@ -112,8 +114,8 @@ bool BlockExecutor::check_tool_entry_words(Tool*& tool) {
   const Tool* known = nullptr;
   if (!whole_word('P', 1, highest_tool, number) || !find_tool(number, words_.span('P'), known)) return false;
   if (known == nullptr) {
-    return fail("gcode.unknown-tool", words_.span('P'), fmt::format("tool {} is in no tool table: none was given", number),
-                "--tools FILE");
+    return fail("gcode.unknown-tool", words_.span('P'),
+                fmt::format("tool {} is in no tool table: none was given", number), "--tools FILE");
   }
   if (words_.has('Q') && !whole_word('Q', 0, highest_orientation, orientation)) return false;
   const LetterSet what = words_.present() & (axis_letters | LetterSet("RIJQ"));
@@ -155,8 +157,8 @@ void BlockExecutor::set_tool_offsets(Tool& tool) {
   }
   Frame frame = state_.frame;
   if (words_['L'] == 11) {
-    frame.follow({operation::SetWorkOffset{rotary_fixture, parameters_.point(work_offset_parameter(rotary_fixture))},
-                  source_});
+    frame.follow(
+        {operation::SetWorkOffset{rotary_fixture, parameters_.point(work_offset_parameter(rotary_fixture))}, source_});
     frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(rotary_fixture))}, source_});
     frame.follow({operation::SetG92Offset{}, source_});
   }

@@ -120,7 +120,7 @@ struct ChangeTool {
 };
 struct SetToolNumber {
   std::int32_t tool = 0;
-};                              // M61
+};  // M61
 // G10 L1, L10, L11: a tool of the table is another now. `place` 0: the copy of it that counts for the spindle.
 struct SetToolTableEntry {
   std::int32_t place = 0;
@@ -159,10 +159,10 @@ using OperationKind =
                  operation::StopSpeedFeedSync, operation::RigidTap, operation::Dwell, operation::SetSpindleSpeed,
                  operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist, operation::SetFlood,
                  operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-                 operation::StartToolChange, operation::ChangeTool, operation::SetToolNumber, operation::SetToolTableEntry, operation::ProgramStop,
-                 operation::OptionalProgramStop, operation::ProgramEnd, operation::PalletShuttle, operation::Finish,
-                 operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
-                 operation::SetFeedReference>;
+                 operation::StartToolChange, operation::ChangeTool, operation::SetToolNumber,
+                 operation::SetToolTableEntry, operation::ProgramStop, operation::OptionalProgramStop,
+                 operation::ProgramEnd, operation::PalletShuttle, operation::Finish, operation::Comment,
+                 operation::Message, operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {
