@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
-#include "passo/report/output_file.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -73,15 +72,6 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   return summary;
 }
 
-// What the program changed of them counts for the next one.
-Status<OutputError> save_parameters(const std::string& path, const Job& job) {
-  if (path.empty()) return Unit{};
-  Result<OutputFile, OutputError> file = OutputFile::open(path);
-  if (!file) return Failure{file.error()};
-  file->write(parameter_file_text(job.saved_parameters()));
-  return file->commit();
-}
-
 int fail(const std::string& message) {
   std::fprintf(stderr, "passo: error: %s\n", message.c_str());
   return exit_failed;
@@ -121,7 +111,8 @@ int run(const RunArguments& arguments) {
 
   std::signal(SIGINT, end_on_signal);
   std::signal(SIGTERM, end_on_signal);
-  Result<RunOutputs, OutputError> outputs = RunOutputs::open(arguments, *machine);
+  Result<RunOutputs, OutputError> outputs =
+      RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options));
   if (!outputs) return fail(outputs.error().message);
 
   Diagnostics late;
@@ -132,10 +123,8 @@ int run(const RunArguments& arguments) {
     show(late);
     return exit_bad_program;
   }
-  const Status<OutputError> written = outputs->commit(summary);
+  const Status<OutputError> written = outputs->commit(summary, job.saved_parameters());
   if (!written) return fail(written.error().message);
-  const Status<OutputError> saved = save_parameters(parameter_file(arguments.program, *options), job);
-  if (!saved) return fail(saved.error().message);
 
   if (arguments.json) {
     std::fputs(to_json(summary).c_str(), stdout);
