@@ -29,7 +29,7 @@ LengthUnits machine_units(const ProgramArguments& arguments, const InterpreterOp
   if (arguments.machine_units.empty() && options.settings) {
     if (const auto units = options.settings->machine_units()) return *units;
   }
-  const std::string_view name = arguments.machine_units.empty() ? arguments.default_units : arguments.machine_units;
+  const std::string name = arguments.machine_units.empty() ? arguments.default_units : arguments.machine_units;
   return name == "inch" ? LengthUnits::inch : LengthUnits::mm;
 }
 
