@@ -64,14 +64,18 @@ BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, Operat
 
 void BlockExecutor::start(const InterpreterOptions& options) {
   options_ = options;
+  if (options.settings) {
+    options_.orient_offset = options.settings->number("RS274NGC", "ORIENT_OFFSET").value_or(options.orient_offset);
+    options_.spindles = static_cast<int>(options.settings->number("TRAJ", "SPINDLES").value_or(options.spindles));
+  }
   state_.on_machine = options.on_machine;
-  state_.spindle_count = std::clamp(options.spindles, 1, static_cast<int>(most_spindles));
+  state_.spindle_count = std::clamp(options_.spindles, 1, static_cast<int>(most_spindles));
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
-  state_.position = options.start;
+  state_.tools = options.tools;
+  has_settings_ = options.settings != nullptr;
   emit(operation::SetLengthUnits{options.units});
-  emit(operation::SetWorkOffset{1, Point{}});
-  emit(operation::SetG92Offset{});
-  emit(operation::SetRotation{});
+  start_frame();
+  state_.position = state_.frame.work_from_machine(options.start);
   emit(operation::SetFeedReference{});
   emit(operation::Reset{});
 }
@@ -81,8 +85,9 @@ void BlockExecutor::finish(Closing closing) {
   source_.line_number = -1;
   if (closing == Closing::percent) emit(operation::Finish{});
   if (closing == Closing::missing) note("interpreter: percent sign missing from end of file");
-  emit(operation::Reset{});  // twice, as rs274 does: the end of the program, and of the interpreter
+  // Twice, as rs274 does: the end of the program, and of the interpreter. With settings it does not get there.
   emit(operation::Reset{});
+  if (!has_settings_) emit(operation::Reset{});
 }
 
 void BlockExecutor::execute(const Block& block) {

@@ -123,14 +123,24 @@ class BlockExecutor {
   bool arc_beside(const Point& start, PlanePoint center, std::int32_t turns);
   bool report_cutter(CutterFault fault, Span span);
   Operation origin() const { return {operation::Comment{}, source_, reporter_.file(), reporter_.block().text}; }
+  // Tools.
+  bool find_tool(std::int32_t number, Span span, const Tool*& tool);
+  void load_tool(std::int32_t number);
+  bool tool_offset(Point& offset);
+  bool set_tool_table_entry();
+  bool check_tool_entry_words(Tool*& tool);
+  void set_tool_offsets(Tool& tool);
 
   // The frame.
+  void start_frame();
   bool go_home(int parameter);
   bool store_home(int parameter);
+  bool set_table();
   bool set_work_offset();
   bool check_work_offset_words(int& system);
   bool set_g92(CodeNumber code);
   Point active_g92() const;
+  void use_tool_offset(const Point& offset);
   void activate_system(int system, bool with_g92);
   template <class... Operations>
   void change_frame(const Operations&... operations);
@@ -198,6 +208,8 @@ class BlockExecutor {
   InterpreterOptions options_;
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;
+  bool tool_was_loaded_ = false;
+  bool has_settings_ = false;
   bool ended_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "passo/interpreter/canon.hpp"
+#include "passo/interpreter/tool_table.hpp"
 
 namespace passo {
 namespace {
@@ -65,6 +66,7 @@ const char* name_of(Plane plane) {
 struct Call {
   Line& line;
   FeedMode feed_mode;
+  LengthUnits machine_units;
 
   void operator()(const operation::SetLengthUnits& set) const {
     line << (set.units == LengthUnits::inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)"
@@ -182,6 +184,15 @@ struct Call {
   void operator()(const operation::StartToolChange&) const { line << "START_CHANGE()"; }
   void operator()(const operation::ChangeTool& change) const { (line << "CHANGE_TOOL(").whole(change.tool) << ")"; }
   void operator()(const operation::SetToolNumber& set) const { (line << "CHANGE_TOOL_NUMBER(").whole(set.tool) << ")"; }
+  void operator()(const operation::SetToolTableEntry& set) const {
+    const double unit = machine_units == LengthUnits::inch ? mm_per_inch : 1;
+    ((line << "SET_TOOL_TABLE_ENTRY(").whole(set.place) << ", ").whole(set.tool->number) << ", ";
+    for (const Axis axis : all_axes) {
+      line.number(set.tool->offset[axis] / (is_rotary(axis) ? 1 : unit)) << (axis == Axis::w ? ", " : " ");
+    }
+    (line.number(set.tool->front_angle_deg) << ", ").number(set.tool->back_angle_deg) << ", ";
+    line.whole(set.tool->orientation) << ")";
+  }
   void operator()(const operation::ProgramStop&) const { line << "PROGRAM_STOP()"; }
   void operator()(const operation::OptionalProgramStop&) const { line << "OPTIONAL_PROGRAM_STOP()"; }
   void operator()(const operation::ProgramEnd&) const { line << "PROGRAM_END()"; }
@@ -222,7 +233,7 @@ void CanonPrinter::print(const Operation& operation, std::string& out) {
     print_head(++count_, operation.source.line_number, out);
   }
   Line line(out, units_);
-  std::visit(Call{line, feed_mode_}, operation.what);
+  std::visit(Call{line, feed_mode_, machine_units_}, operation.what);
   out += '\n';
 }
 

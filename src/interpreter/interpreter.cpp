@@ -8,11 +8,13 @@ namespace passo {
 class Interpreter::Implementation {
  public:
   Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
-      : parameters_(symbols_, state_),
+      : saved_(options.parameters),
+        parameters_(symbols_, state_, options.machine_units, options.settings),
         reporter_(diagnostics),
-        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.main_passes}, state_, parameters_,
-              symbols_, reporter_),
+        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.main_passes, options.sub_folders},
+              state_, parameters_, symbols_, reporter_),
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
+    parameters_.load(options.parameters);
     executor_.start(options);
   }
 
@@ -28,6 +30,12 @@ class Interpreter::Implementation {
     }
     operations_.pop();
     return true;
+  }
+
+  SavedParameters saved_parameters() const {
+    SavedParameters saved = saved_;
+    parameters_.save(saved);
+    return saved;
   }
 
   std::uint64_t offset() const { return flow_.offset(); }
@@ -66,6 +74,7 @@ class Interpreter::Implementation {
     }
   }
 
+  SavedParameters saved_;  // as they were before the program
   SymbolTable symbols_;
   MachineState state_;
   Parameters parameters_;
@@ -83,6 +92,10 @@ Interpreter::~Interpreter() = default;
 
 bool Interpreter::next(Operation& operation) {
   return implementation_->next(operation);
+}
+
+SavedParameters Interpreter::saved_parameters() const {
+  return implementation_->saved_parameters();
 }
 
 std::uint64_t Interpreter::offset() const {

@@ -7,7 +7,6 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr int work_systems = 9;
 // G54 … G59, G59.1 … G59.3.
 constexpr int system_of(CodeNumber number) {
   return number <= code(59) ? number / 10 - 53 : 6 + number % 10;
@@ -30,25 +29,17 @@ void BlockExecutor::change_frame(const Operations&... operations) {
   state_.position = state_.frame.work_from_machine(machine);
 }
 
-bool BlockExecutor::set_tool_length(CodeNumber number) {
-  state_.modal.set(tool_length, number);
-  Point offset;
-  if (number == code(43, 1)) {
-    offset = state_.frame.tool_offset();
-    for (const Axis axis : all_axes) {
-      if (words_.has(letter_of(axis))) offset[axis] = axis_word(axis);
-    }
-  } else if (number == code(43)) {
-    std::int32_t tool = state_.tool;
-    if (words_.has('H') && !whole_word('H', 0, highest_tool, tool)) return false;
-    if (tool != 0 && !std::exchange(missing_tool_table_told_, true)) {
-      reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
-                        fmt::format("the offset of tool {} is taken as zero: there is no tool table yet", tool),
-                        "G43.1 with the offset itself");
-    }
-  }
+// Where the last run left it: the system and the offsets that the parameters hold.
+void BlockExecutor::start_frame() {
+  const int system = static_cast<int>(parameters_.get(work_system_parameter));
+  state_.modal.set(work_system, code_of_system(system));
+  change_frame(
+      operation::SetWorkOffset{static_cast<std::uint8_t>(system), parameters_.point(work_offset_parameter(system))},
+      operation::SetG92Offset{active_g92()}, operation::SetRotation{parameters_.get(rotation_parameter(system))});
+}
+
+void BlockExecutor::use_tool_offset(const Point& offset) {
   change_frame(operation::SetToolOffset{offset});
-  return true;
 }
 
 void BlockExecutor::restore_tool_offset(const ModalSnapshot& saved) {
@@ -98,15 +89,17 @@ bool BlockExecutor::store_home(int parameter) {
   return true;
 }
 
+// G10: what it sets is told by L.
+bool BlockExecutor::set_table() {
+  const double table = words_.has('L') ? words_['L'] : -1;
+  if (table == 1 || table == 10 || table == 11) return set_tool_table_entry();
+  if (table == 2 || table == 20) return set_work_offset();
+  return fail("gcode.missing-word", words_.has('L') ? words_.span('L') : words_.span(non_modal),
+              "G10 without L1, L2, L10, L11 or L20",
+              "G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position, G10 L1 P1 Z… sets a tool");
+}
+
 bool BlockExecutor::check_work_offset_words(int& system) {
-  if (!words_.has('L') || !(words_['L'] == 2 || words_['L'] == 20)) {
-    const bool table = words_.has('L') && (words_['L'] == 1 || words_['L'] == 10 || words_['L'] == 11);
-    return fail(table ? "gcode.unsupported-code" : "gcode.missing-word",
-                words_.has('L') ? words_.span('L') : words_.span(non_modal),
-                table ? fmt::format("G10 L{} (tool table) is not supported yet", plain_number(words_['L']))
-                      : std::string("G10 without L2 or L20"),
-                "G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position");
-  }
   if (!words_.has('P')) {
     return fail("gcode.missing-word", words_.span(non_modal), "G10 without P",
                 "P, the work system: 1 to 9, or 0 for the active one");
@@ -115,6 +108,11 @@ bool BlockExecutor::check_work_offset_words(int& system) {
   if (!whole_word('P', 0, work_systems, number)) return false;
   if (words_['L'] == 20 && words_.has('R')) {
     return fail("gcode.unused-word", words_.span('R'), "R with G10 L20", "G10 L2 R… turns a work system");
+  }
+  for (const char letter : {'I', 'J', 'Q'}) {
+    if (!words_.has(letter)) continue;
+    return fail("gcode.unused-word", words_.span(letter), fmt::format("{} with G10 L{}", letter, words_['L']),
+                fmt::format("G10 L1 {}… is about a tool", letter));
   }
   system = number == 0 ? system_of(state_.modal[work_system]) : number;
   return true;

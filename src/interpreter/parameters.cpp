@@ -7,12 +7,16 @@
 namespace passo {
 namespace {
 
-constexpr int last_tool_parameter = 5413;
 constexpr int last_position_parameter = position_parameter + static_cast<int>(axis_count) - 1;
 
 }  // namespace
 
-Parameters::Parameters(SymbolTable& symbols, const MachineState& state) : symbols_(symbols), state_(state) {
+Parameters::Parameters(SymbolTable& symbols, const MachineState& state, LengthUnits machine_units,
+                       std::shared_ptr<const SettingsFile> settings)
+    : symbols_(symbols),
+      state_(state),
+      machine_unit_(machine_units == LengthUnits::inch ? mm_per_inch : 1),
+      settings_(std::move(settings)) {
   const std::span<const PredefinedParameter> all = predefined_parameters();
   for (std::size_t i = 0; i < all.size(); ++i) {
     Named& named = at(symbols_.intern(all[i].name));
@@ -28,10 +32,41 @@ bool Parameters::numbered(std::int64_t number, double& value) const {
   if (number >= position_parameter && number <= last_position_parameter) {
     const Axis axis = all_axes[static_cast<std::size_t>(number - position_parameter)];
     value = state_.tool_position()[axis] / state_.units_of(axis);
+  } else if (number >= tool_parameter && number <= last_tool_parameter) {
+    value = of_tool(static_cast<int>(number));
   } else {
     value = numbers_[static_cast<std::size_t>(number)];
   }
   return true;
+}
+
+// What is known of the tool in the spindle.
+double Parameters::of_tool(int number) const {
+  const Tool& tool = state_.spindle_tool;
+  if (number == tool_parameter) return state_.tool;
+  if (number < tool_shape_parameter) {
+    const Axis axis = all_axes[static_cast<std::size_t>(number - tool_offset_parameter)];
+    return tool.offset[axis] / unit_of(axis);
+  }
+  switch (number - tool_shape_parameter) {
+    case 0: return tool.diameter.value() / machine_unit_;
+    case 1: return tool.front_angle_deg;
+    case 2: return tool.back_angle_deg;
+    default: return tool.orientation;
+  }
+}
+
+void Parameters::load(const SavedParameters& saved) {
+  for (const auto& [number, value] : saved) {
+    if (is_settable(number)) set(number, value);
+  }
+}
+
+void Parameters::save(SavedParameters& saved) const {
+  for (auto& [number, value] : saved) value = get(number);
+  for (int number = 1; number <= highest_parameter; ++number) {
+    if (is_always_saved(number)) saved[number] = get(number);
+  }
 }
 
 bool Parameters::is_settable(std::int64_t number) {
@@ -41,21 +76,23 @@ bool Parameters::is_settable(std::int64_t number) {
 }
 
 bool Parameters::named(Symbol name, double& value) const {
-  if (name.id >= names_.size()) return false;
-  const Named& named = names_[name.id];
+  const Named named = name.id < names_.size() ? names_[name.id] : Named{};
   switch (named.kind) {
     case Named::Kind::predefined: value = predefined_parameters()[named.predefined].value(state_); return true;
     case Named::Kind::global: value = named.value; return named.depth >= 0;
     case Named::Kind::local: value = named.value; return named.depth == state_.call_depth;
     case Named::Kind::unseen: break;
   }
-  return false;
+  const std::optional<double> setting = settings_ ? settings_->parameter(symbols_.name(name)) : std::nullopt;
+  value = setting.value_or(0);
+  return setting.has_value();
 }
 
 bool Parameters::set_named(Symbol name, double value) {
   Named& named = at(name);
   if (named.kind == Named::Kind::predefined) return false;
   if (named.kind == Named::Kind::unseen) {
+    if (settings_ && settings_->parameter(symbols_.name(name))) return false;
     named.kind = symbols_.name(name).starts_with('_') ? Named::Kind::global : Named::Kind::local;
   }
   const std::int32_t depth = named.kind == Named::Kind::local ? state_.call_depth : 0;
@@ -69,12 +106,12 @@ bool Parameters::set_named(Symbol name, double value) {
 
 Point Parameters::point(int first) const {
   Point point;
-  std::copy_n(numbers_.begin() + first, axis_count, point.values.begin());
+  for (const Axis axis : all_axes) point[axis] = get(first + static_cast<int>(index_of(axis))) * unit_of(axis);
   return point;
 }
 
 void Parameters::set_point(int first, const Point& point) {
-  std::ranges::copy(point.values, numbers_.begin() + first);
+  for (const Axis axis : all_axes) set(first + static_cast<int>(index_of(axis)), point[axis] / unit_of(axis));
 }
 
 void Parameters::enter_sub(std::span<const double> arguments) {

@@ -2,14 +2,15 @@
 //
 // Numbered ones are 0 until set. #1 … #30 belong to the sub that runs, and so do names without a leading underscore;
 // names with one are global. Home positions and offsets (#5161, #5181, #5211, #5221 … #5390) *live* here, in
-// millimetres and degrees, whatever the program's units; what the machine does just now (#5420 …, #<_x>, #<_feed> …) is
-// computed when it is read and cannot be set.
+// the machine's unit and degrees, whatever the program's units; what the machine does just now (#5400 …, #5420 …,
+// #<_x>, #<_feed> …) is computed when it is read and cannot be set, and so is what its settings say (#<_ini[…]…>).
 //
 // Looking up a name is an index. A sub that sets a name of its caller's leaves the old value in an undo list.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@
 
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/symbols.hpp"
+#include "passo/interpreter/parameter_file.hpp"
+#include "passo/interpreter/settings_file.hpp"
 
 namespace passo {
 
@@ -35,7 +38,10 @@ inline constexpr int g92_parameter = 5211;
 inline constexpr int work_system_parameter = 5220;
 inline constexpr int tool_parameter = 5400;
 inline constexpr int tool_offset_parameter = 5401;
+inline constexpr int tool_shape_parameter = 5410;  // diameter, front angle, back angle, orientation
+inline constexpr int last_tool_parameter = 5413;
 inline constexpr int position_parameter = 5420;
+inline constexpr int work_systems = 9;
 constexpr int work_offset_parameter(int system) {
   return 5201 + 20 * system;
 }
@@ -45,7 +51,12 @@ constexpr int rotation_parameter(int system) {
 
 class Parameters final : public ParameterValues {
  public:
-  Parameters(SymbolTable& symbols, const MachineState& state);
+  Parameters(SymbolTable& symbols, const MachineState& state, LengthUnits machine_units = LengthUnits::mm,
+             std::shared_ptr<const SettingsFile> settings = nullptr);
+
+  // Before the program, and after it: those that are there, and those that are always saved.
+  void load(const SavedParameters& saved);
+  void save(SavedParameters& saved) const;
 
   bool numbered(std::int64_t number, double& value) const override;
   bool named(Symbol name, double& value) const override;
@@ -56,6 +67,7 @@ class Parameters final : public ParameterValues {
   void set(int number, double value) { numbers_[static_cast<std::size_t>(number)] = value; }
   double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
+  // Millimetres and degrees; nine parameters hold them in the machine's unit.
   Point point(int first) const;
   void set_point(int first, const Point& point);
 
@@ -84,9 +96,13 @@ class Parameters final : public ParameterValues {
     bool shares_numbers;
   };
   Named& at(Symbol name);
+  double of_tool(int number) const;
+  double unit_of(Axis axis) const { return is_rotary(axis) ? 1 : machine_unit_; }
 
   SymbolTable& symbols_;
   const MachineState& state_;
+  double machine_unit_;  // in millimetres
+  std::shared_ptr<const SettingsFile> settings_;
   std::array<double, highest_parameter + 1> numbers_{};
   std::vector<Named> names_;  // by symbol
   std::vector<Undo> undo_;

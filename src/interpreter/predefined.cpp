@@ -56,6 +56,13 @@ double current_tool(const State& state) {
 double selected_tool(const State& state) {
   return state.selected_tool < 0 ? 0 : state.selected_tool;
 }
+double current_pocket(const State& state) {
+  return state.spindle_tool.pocket;
+}
+double selected_pocket(const State& state) {
+  const Tool* const tool = state.tools.find(state.selected_tool);
+  return tool == nullptr ? -1 : tool->pocket;
+}
 double tool_offset_on(const State& state) {
   return truth(state.modal[ModalGroup::tool_length] != code(49));
 }
@@ -109,6 +116,8 @@ constexpr PredefinedParameter table[] = {
     {"_feed_hold", flag_of<&State::feed_hold>},
     {"_current_tool", current_tool},
     {"_selected_tool", selected_tool},
+    {"_current_pocket", current_pocket},
+    {"_selected_pocket", selected_pocket},
     {"_x", work<Axis::x>},
     {"_y", work<Axis::y>},
     {"_z", work<Axis::z>},

@@ -195,9 +195,9 @@ void ProgramFlow::begin_sub(Symbol label, const Control& control) {
 }
 
 void ProgramFlow::leave_sub(Symbol label, const Control& control) {
-  if (frames_.empty() || frames_.back().sub != label) {
-    stray(control, fmt::format("no sub {} is running", label_text(label)),
-          "endsub and return with the label of their sub");
+  // LinuxCNC does not look at the label of a return.
+  if (frames_.empty() || (control.kind == endsub && frames_.back().sub != label)) {
+    stray(control, fmt::format("no sub {} is running", label_text(label)), "endsub with the label of its sub");
     return;
   }
   const Frame frame = frames_.back();

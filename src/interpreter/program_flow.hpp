@@ -3,7 +3,8 @@
 // Constant memory: what is remembered are places in the file, of the constructs that are open and of the subs that were
 // met. What is skipped (a branch not taken, the body of a sub where it stands) is read line by line and only its
 // O-words are parsed; a construct is told from others inside it by its label, as RS274/NGC does. A sub that is called
-// before it was met is looked for once to the end of the file, then in NAME.ngc beside the program.
+// before it was met is looked for once to the end of the file, then in NAME.ngc beside the program and in
+// the folders that the options name.
 //
 // Bounded: calls nest 100 deep, and a program that goes round its loops without any operation is stopped.
 #pragma once
@@ -36,6 +37,7 @@ class ProgramFlow {
     bool block_delete = false;
     std::uint64_t idle_passes = 0;
     std::uint64_t main_passes = 1;
+    std::vector<std::string> sub_folders;  // after the program's own
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -148,13 +150,14 @@ class ProgramFlow {
   void leave_frame();
   File* find_sub(Symbol label);
   bool find_in(File& file, Symbol label);
-  File* open_beside(Symbol label);
   void report_unknown_sub(Symbol label, Span span, bool numbered);
   void call_program(const SubprogramJump& jump);
   void run_again();
   Followed end_program(const SubprogramJump& jump);
   bool restart_main(const SubprogramJump& jump);
   bool check_style(const SubPlace& place, Symbol label, Span span, bool called_by_m98);
+  File* open_named(Symbol label);
+  std::string places_looked_at() const;
 
   bool label_of(const Control& control, Symbol& label);
   bool argument(const Control& control, double& value);

@@ -59,31 +59,6 @@ void BlockExecutor::emit_feed_rate(double units) {
   emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
 }
 
-bool BlockExecutor::select_tool() {
-  if (!whole_word('T', 0, highest_tool, state_.selected_tool)) return false;
-  emit_ahead(operation::SelectTool{state_.selected_tool});
-  return true;
-}
-
-bool BlockExecutor::change_tool(CodeNumber number) {
-  if (number == code(61)) {
-    if (!words_.has('Q')) return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool");
-    if (!whole_word('Q', 0, highest_tool, state_.tool)) return false;
-    emit(operation::SetToolNumber{state_.tool});
-  } else {
-    if (state_.selected_tool < 0) {
-      return fail("gcode.missing-tool", words_.span(tool_change), "M6 and no tool was selected",
-                  "T before, or in this block");
-    }
-    state_.tool = state_.selected_tool;
-    emit(operation::StartToolChange{});
-    stop_spindles();
-    emit(operation::ChangeTool{state_.tool});
-  }
-  parameters_.set(tool_parameter, state_.tool);
-  return true;
-}
-
 bool BlockExecutor::switch_coolant(CodeNumber number) {
   const bool off = number == code(9);
   if (number == code(7) || off) emit(operation::SetMist{state_.mist = !off});
@@ -198,7 +173,7 @@ bool BlockExecutor::set_retract_mode(CodeNumber number) {
 
 bool BlockExecutor::run_non_modal(CodeNumber number) {
   switch (number) {
-    case code(10): return set_work_offset();
+    case code(10): return set_table();
     case code(28): return go_home(first_home_parameter);
     case code(28, 1): return store_home(first_home_parameter);
     case code(30): return go_home(second_home_parameter);

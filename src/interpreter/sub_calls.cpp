@@ -40,8 +40,8 @@ void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
   const std::string_view name = symbols_.name(label);
   reporter_.error("gcode.unknown-sub", span,
                   fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
-                  fmt::format("{}{}{} in this file, or in a file {}.ngc beside the program", numbered ? "O" : "o",
-                              label_text(label), numbered ? "" : " sub", name));
+                  fmt::format("{}{}{} in this file, or in a file {}.ngc {}", numbered ? "O" : "o", label_text(label),
+                              numbered ? "" : " sub", name, places_looked_at()));
   finish(closing_percent_ ? End::percent : End::error);
 }
 
@@ -58,7 +58,7 @@ ProgramFlow::File* ProgramFlow::find_sub(Symbol label) {
   for (const auto& file : files_) {
     if (file.get() != file_ && find_in(*file, label)) return file.get();
   }
-  return open_beside(label);
+  return open_named(label);
 }
 
 // Whether the file has the sub. Reads on from where subs are known, once, and comes back.
@@ -92,17 +92,30 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   return file.subs.contains(label.id);
 }
 
-ProgramFlow::File* ProgramFlow::open_beside(Symbol label) {
+// The first file of that name counts, as in LinuxCNC.
+ProgramFlow::File* ProgramFlow::open_named(Symbol label) {
   constexpr std::size_t most_files = 64;
-  if (files_.size() >= most_files) return nullptr;
-  const std::filesystem::path folder = std::filesystem::path(files_.front()->name).parent_path();
-  const std::filesystem::path path = folder / (std::string(symbols_.name(label)) + ".ngc");
-  std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem)) return nullptr;
-  auto reader = ProgramReader::open(path.string());
-  if (!reader) return nullptr;
-  files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
-  return find_in(*files_.back(), label) ? files_.back().get() : nullptr;
+  const std::string name = std::string(symbols_.name(label)) + ".ngc";
+  const auto open_in = [&](const std::filesystem::path& folder) -> File* {
+    const std::filesystem::path path = folder / name;
+    std::error_code problem;
+    if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
+    auto reader = ProgramReader::open(path.string());
+    if (!reader) return nullptr;
+    files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
+    return files_.back().get();
+  };
+  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path());
+  for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
+    file = open_in(options_.sub_folders[i]);
+  }
+  return file != nullptr && find_in(*file, label) ? file : nullptr;
+}
+
+std::string ProgramFlow::places_looked_at() const {
+  std::string places = "beside the program";
+  for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
+  return places;
 }
 
 }  // namespace passo

@@ -54,9 +54,10 @@ concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
               operation::SetRotation, operation::SetToolOffset, operation::SelectPlane, operation::SetMergeTolerance,
               operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-              operation::StartToolChange, operation::SetToolNumber, operation::PalletShuttle, operation::Finish,
-              operation::TurnProbe, operation::SetAdaptiveFeed, operation::SetFeedHold, operation::Comment,
-              operation::Message, operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
+              operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
+              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::SetAdaptiveFeed,
+              operation::SetFeedHold, operation::Comment, operation::Message, operation::Print, operation::Log,
+              operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {

@@ -201,6 +201,43 @@ TEST_F(CommandLine, check_finds_what_run_would_refuse_and_runs_nothing) {
   EXPECT_EQ(passo("check " + write("p.ngc", "G1 X1\n") + " -m " + router).code, 2);
 }
 
+TEST_F(CommandLine, parameters_go_from_one_run_to_the_next) {
+  const std::string parameters = "--parameters " + path("machine.var");
+  ASSERT_EQ(run_text("G21 G90\nG0 X5\nG10 L20 P2 X0\nM2\n", parameters).code, 0);
+  EXPECT_NE(read(path("machine.var")).find("5241\t5.000000\n"), std::string::npos);
+  const Outcome second = run_text("G21 G55 G0 X1\nM2\n", "--json " + parameters);
+  ASSERT_EQ(second.code, 0) << second.err;
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(second.out)["position_mm"]["X"], 6.0);
+}
+
+TEST_F(CommandLine, a_run_that_fails_leaves_the_parameters_as_they_were) {
+  const std::string file = write("machine.var", "5221\t1.5\n");
+  EXPECT_EQ(run_text("G0 X5\nG10 L2 P1 X7\nG12\nM2\n", "--parameters " + file).code, 2);
+  EXPECT_EQ(read(file), "5221\t1.5\n");
+  EXPECT_EQ(run_text("M2\n", "--parameters /no/such/folder/m.var").code, 1);
+}
+
+TEST_F(CommandLine, a_tool_table_counts_in_the_units_of_the_machine) {
+  const std::string table = write("shop.tbl", "T1 P1 Z2 D3\n");
+  const std::string program = write("t.ngc", "G21\nT1 M6 G43\nG0 Z1\nM2\n");
+  EXPECT_NE(passo("canon " + program + " -t " + table).out.find("OFFSET(0.0000 0.0000 50.8000,"), std::string::npos);
+  EXPECT_NE(passo("canon " + program + " -t " + table + " --machine-units mm").out.find("OFFSET(0.0000 0.0000 2.0000,"),
+            std::string::npos);
+  const Outcome run = passo("run " + program + " -m " + router + " --json --tools " + table);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(run.out)["position_mm"]["Z"], 3.0);
+}
+
+TEST_F(CommandLine, what_is_wrong_in_a_file_of_the_machine_is_told_with_its_place) {
+  const std::string program = write("t.ngc", "M2\n");
+  const std::string table = write("shop.tbl", "T1 P1\nT2 P1 Zx\n");
+  const Outcome outcome = passo("canon " + program + " -t " + table);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("shop.tbl:2:7: error:"), std::string::npos) << outcome.err;
+  EXPECT_EQ(passo("canon " + program + " -v no.var").code, 2);
+  EXPECT_EQ(passo("canon " + program + " -i no.ini").code, 2);
+}
+
 TEST_F(CommandLine, canon_prints_canonical_calls) {
   const Outcome outcome = passo("canon " + write("p.ngc", "G21 F600\nG1 X1 Y2\nM2\n"));
   EXPECT_EQ(outcome.code, 0);

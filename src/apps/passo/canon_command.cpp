@@ -11,7 +11,8 @@ namespace passo {
 
 int canon(const CanonArguments& arguments) {
   std::optional<ProgramReader> program = open_program(arguments.program);
-  if (!program) return exit_bad_program;
+  const std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
+  if (!program || !options) return exit_bad_program;
   Result<OutputFile, OutputError> output = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!output) {
     std::fprintf(stderr, "passo: error: %s\n", output.error().message.c_str());
@@ -19,8 +20,8 @@ int canon(const CanonArguments& arguments) {
   }
 
   Diagnostics findings;
-  Interpreter interpreter(std::move(*program), interpreter_options(arguments.program), findings);
-  CanonPrinter printer;
+  Interpreter interpreter(std::move(*program), *options, findings);
+  CanonPrinter printer(options->machine_units);
   Operation operation;
   std::string line;
   while (!output->failed() && !findings.full() && interpreter.next(operation)) {

@@ -33,11 +33,11 @@ int check(const CheckArguments& arguments) {
   show(diagnostics);
   if (!machine) return exit_bad_machine;
   std::optional<ProgramReader> program = open_program(arguments.program);
-  if (!program) return exit_bad_program;
+  const std::optional<InterpreterOptions> options = machine_options(arguments.program);
+  if (!program || !options) return exit_bad_program;
 
   Diagnostics findings;
-  const ProgramCheck result =
-      check_program(std::move(*program), *machine, machine_options(arguments.program), findings);
+  const ProgramCheck result = check_program(std::move(*program), *machine, *options, findings);
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     std::puts(findings_as_json(findings).dump(2, ' ', false, replace).c_str());

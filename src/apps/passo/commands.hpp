@@ -23,6 +23,15 @@ struct ProgramArguments {
   bool block_delete = false;  // skip lines that start with '/'
   bool inches = false;        // until the program says G20 or G21
   bool user_codes = false;    // M100 to M199 are allowed
+  std::string tools;          // tool table; empty: none
+  std::string parameters;     // parameter file; empty: none
+  std::string settings;       // ini file; empty: none
+  std::vector<std::string> sub_folders;
+  std::string machine_units;  // "mm" or "inch"; empty: as the settings say, else `default_units`
+  const char* default_units = "mm";
+  // The settings may name the tool table and the parameter file too. rs274, which canon prints like, ignores that.
+  bool files_of_settings = true;
+  bool parameters_may_lack = false;  // they are written after the run
 };
 
 struct RunArguments {

@@ -37,6 +37,22 @@ void add_program(CLI::App& command, ProgramArguments& arguments) {
   command.add_flag("--user-codes", arguments.user_codes, "allow M100 to M199; no program is run for them");
 }
 
+// Files of the machine that a program depends on. `letters`: with LinuxCNC's short names too (run has a -t of its own).
+void add_files(CLI::App& command, ProgramArguments& arguments, bool letters) {
+  const auto name = [letters](const char* letter, const char* word) {
+    return letters ? std::string(letter) + "," + word : std::string(word);
+  };
+  command.add_option(name("-t", "--tools"), arguments.tools, "tool table (.tbl): T1 P1 Z0.5 D3, a line a tool");
+  command.add_option(name("-v", "--parameters"), arguments.parameters, "numbered parameters (.var): offsets, homes");
+  command.add_option("-i,--settings", arguments.settings, "settings (.ini): subroutine path, #<_ini[section]name>");
+  command.add_option("--subs", arguments.sub_folders, "a folder where subs in files are looked for");
+  command
+      .add_option("--machine-units", arguments.machine_units,
+                  std::string("of lengths in these files and in #5161 to #5410; without it as the settings say, or ") +
+                      arguments.default_units)
+      ->check(CLI::IsMember({"mm", "inch"}));
+}
+
 void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
 }
@@ -52,6 +68,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& run_command = *app.add_subcommand("run", "run a program on the virtual machine");
   add_program(run_command, run_arguments.program);
   add_machine(run_command, run_arguments.machine);
+  add_files(run_command, run_arguments.program, false);
+  run_arguments.program.parameters_may_lack = true;
   run_command.add_option("-p,--picture", run_arguments.pictures, "draw the path (FILE.svg or FILE.png)");
   run_command.add_option("-t,--trace", run_arguments.traces, "write every step (FILE.vcd or FILE.csv)");
   run_command.add_option("-r,--report", run_arguments.report, "write the summary (FILE.json, else text)");
@@ -67,11 +85,15 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");
   add_program(check_command, check_arguments.program);
   add_machine(check_command, check_arguments.machine);
+  add_files(check_command, check_arguments.program, false);
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
 
   CanonArguments canon_arguments;
   CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");
   add_program(canon_command, canon_arguments.program);
+  canon_arguments.program.default_units = "inch";
+  canon_arguments.program.files_of_settings = false;
+  add_files(canon_command, canon_arguments.program, true);
   canon_command.add_option("-o,--output", canon_arguments.output, "write to a file");
 
   MachineArguments machine_arguments;

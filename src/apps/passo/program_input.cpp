@@ -2,8 +2,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include <unistd.h>
+
+#include "passo/interpreter/tool_table_file.hpp"
 
 namespace passo {
 
@@ -20,17 +23,61 @@ std::optional<ProgramReader> open_program(const ProgramArguments& arguments) {
   return std::nullopt;
 }
 
-InterpreterOptions interpreter_options(const ProgramArguments& arguments) {
+namespace {
+
+LengthUnits machine_units(const ProgramArguments& arguments, const InterpreterOptions& options) {
+  if (arguments.machine_units.empty() && options.settings) {
+    if (const auto units = options.settings->machine_units()) return *units;
+  }
+  const std::string name = arguments.machine_units.empty() ? arguments.default_units : arguments.machine_units;
+  return name == "inch" ? LengthUnits::inch : LengthUnits::mm;
+}
+
+void read_files(const ProgramArguments& arguments, InterpreterOptions& options, Diagnostics& diagnostics) {
+  if (!arguments.settings.empty()) {
+    auto settings = std::make_shared<SettingsFile>();
+    if (!settings->read(arguments.settings, diagnostics)) return;
+    const std::vector<std::string> folders = settings->sub_folders();
+    options.sub_folders.insert(options.sub_folders.end(), folders.begin(), folders.end());
+    options.settings = std::move(settings);
+  }
+  options.machine_units = machine_units(arguments, options);
+  std::string tools = arguments.tools;
+  if (tools.empty() && options.settings && arguments.files_of_settings) {
+    tools = options.settings->path_of("EMCIO", "TOOL_TABLE");
+  }
+  if (!tools.empty() && !read_tool_table(tools, options.machine_units, options.tools, diagnostics)) return;
+
+  const std::string parameters = parameter_file(arguments, options);
+  std::error_code problem;
+  const bool may_lack = arguments.parameters_may_lack || arguments.parameters.empty();
+  if (parameters.empty() || (may_lack && !std::filesystem::exists(parameters, problem))) return;
+  (void)read_parameter_file(parameters, options.parameters, diagnostics);
+}
+
+}  // namespace
+
+std::string parameter_file(const ProgramArguments& arguments, const InterpreterOptions& options) {
+  if (!arguments.parameters.empty() || !options.settings || !arguments.files_of_settings) return arguments.parameters;
+  return options.settings->path_of("RS274NGC", "PARAMETER_FILE");
+}
+
+std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments) {
   InterpreterOptions options;
+  options.sub_folders = arguments.sub_folders;
   options.block_delete = arguments.block_delete;
   options.units = arguments.inches ? LengthUnits::inch : LengthUnits::mm;
   options.user_codes = arguments.user_codes;
+  Diagnostics diagnostics;
+  read_files(arguments, options, diagnostics);
+  show(diagnostics);
+  if (diagnostics.any_error()) return std::nullopt;
   return options;
 }
 
-InterpreterOptions machine_options(const ProgramArguments& arguments) {
-  InterpreterOptions options = interpreter_options(arguments);
-  options.on_machine = true;
+std::optional<InterpreterOptions> machine_options(const ProgramArguments& arguments) {
+  std::optional<InterpreterOptions> options = interpreter_options(arguments);
+  if (options) options->on_machine = true;
   return options;
 }
 

@@ -14,9 +14,13 @@ namespace passo {
 // Opens the program, or says on standard error why not.
 std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
 
-// For a look at what the program means, and for a run on the machine.
-InterpreterOptions interpreter_options(const ProgramArguments& arguments);
-InterpreterOptions machine_options(const ProgramArguments& arguments);
+// What the interpreter needs, with the files that the arguments name read; says on standard error what is wrong with
+// them. For a look at what the program means, and for a run on the machine.
+std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments);
+std::optional<InterpreterOptions> machine_options(const ProgramArguments& arguments);
+
+// The parameter file that the arguments or the settings name; empty: none.
+std::string parameter_file(const ProgramArguments& arguments, const InterpreterOptions& options);
 
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);

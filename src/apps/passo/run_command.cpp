@@ -102,28 +102,29 @@ int run(const RunArguments& arguments) {
   if (!machine) return exit_bad_machine;
 
   std::optional<ProgramReader> program = open_program(arguments.program);
-  if (!program) return exit_bad_program;
+  std::optional<InterpreterOptions> options = machine_options(arguments.program);
+  if (!program || !options) return exit_bad_program;
+  options->main_passes = arguments.passes;
   Diagnostics findings;
-  InterpreterOptions options = machine_options(arguments.program);
-  options.main_passes = arguments.passes;
-  const ProgramCheck check = check_program(program->again(), *machine, options, findings);
+  const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
 
   std::signal(SIGINT, end_on_signal);
   std::signal(SIGTERM, end_on_signal);
-  Result<RunOutputs, OutputError> outputs = RunOutputs::open(arguments, *machine);
+  Result<RunOutputs, OutputError> outputs =
+      RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options));
   if (!outputs) return fail(outputs.error().message);
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, options, late);
+  Job job(std::move(*program), *machine, *options, late);
   const RunSummary summary = play(job, check, arguments, *machine, *outputs);
   if (const auto error = job.link().error()) return fail("the board: " + std::string(message_of(*error)));
   if (late.any_error()) {
     show(late);
     return exit_bad_program;
   }
-  const Status<OutputError> written = outputs->commit(summary);
+  const Status<OutputError> written = outputs->commit(summary, job.saved_parameters());
   if (!written) return fail(written.error().message);
 
   if (arguments.json) {

@@ -46,6 +46,7 @@ struct RunOutputs::State {
   std::vector<PictureFile> pictures;
   std::vector<TraceFile> traces;
   std::optional<OutputFile> report;
+  std::optional<OutputFile> parameters;
   bool report_is_json = false;
   PathRecorder recorder;
   VirtualMachine* machine = nullptr;
@@ -89,7 +90,8 @@ bool is_trace_name(const std::string& path) {
   return ends_with(path, ".vcd") || ends_with(path, ".csv");
 }
 
-Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, const MachineDescription& machine) {
+Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, const MachineDescription& machine,
+                                                 const std::string& parameters) {
   auto state = std::make_unique<State>();
   for (const std::string& path : arguments.pictures) {
     const Status<OutputError> added = state->add_picture(path);
@@ -104,6 +106,11 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
     if (!file) return Failure{file.error()};
     state->report.emplace(std::move(*file));
     state->report_is_json = ends_with(arguments.report, ".json");
+  }
+  if (!parameters.empty()) {
+    Result<OutputFile, OutputError> file = OutputFile::open(parameters);
+    if (!file) return Failure{file.error()};
+    state->parameters.emplace(std::move(*file));
   }
   return RunOutputs(std::move(state));
 }
@@ -126,7 +133,7 @@ bool RunOutputs::failed() const {
 }
 
 // Everything is written before the first file gets its name: all of them appear, or none.
-Status<OutputError> RunOutputs::commit(const RunSummary& summary) {
+Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedParameters& parameters) {
   for (State::TraceFile& trace : state_->traces) trace.trace->finish(state_->machine->now());
   for (State::PictureFile& picture : state_->pictures) {
     const std::string title = std::filesystem::path(summary.program).filename();
@@ -135,11 +142,13 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary) {
     if (!drawn) return drawn;
   }
   if (state_->report) state_->report->write(state_->report_is_json ? to_json(summary) : to_text(summary, false));
+  if (state_->parameters) state_->parameters->write(parameter_file_text(parameters));
 
   std::vector<OutputFile*> files;
   for (State::TraceFile& trace : state_->traces) files.push_back(trace.file.get());
   for (State::PictureFile& picture : state_->pictures) files.push_back(&picture.file);
   if (state_->report) files.push_back(&*state_->report);
+  if (state_->parameters) files.push_back(&*state_->parameters);
   for (OutputFile* file : files) {
     Status<OutputError> committed = file->commit();
     if (!committed) return committed;

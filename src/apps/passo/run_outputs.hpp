@@ -23,8 +23,9 @@ bool is_trace_name(const std::string& path);
 
 class RunOutputs {
  public:
-  // Fails when a file cannot be written.
-  static Result<RunOutputs, OutputError> open(const RunArguments& arguments, const MachineDescription& machine);
+  // `parameters`: the file that they go to after the run; empty: none. Fails when a file cannot be written.
+  static Result<RunOutputs, OutputError> open(const RunArguments& arguments, const MachineDescription& machine,
+                                              const std::string& parameters);
 
   RunOutputs(RunOutputs&&) noexcept;
   RunOutputs& operator=(RunOutputs&&) noexcept;
@@ -35,7 +36,7 @@ class RunOutputs {
   // A file cannot take more: there is no point in going on.
   bool failed() const;
   // After the job has come to its end.
-  Status<OutputError> commit(const RunSummary& summary);
+  Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters);
 
  private:
   struct State;

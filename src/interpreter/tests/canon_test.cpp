@@ -8,6 +8,8 @@
 #include "kit/golden.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/interpreter/tool_table_file.hpp"
+
 namespace passo {
 namespace {
 
@@ -19,7 +21,14 @@ class Golden : public testing::TestWithParam<std::string> {};
 
 TEST_P(Golden, program_prints_its_canonical_calls) {
   const fs::path program = golden / (GetParam() + ".ngc");
-  const Interpreted result = interpret_text(contents(program.string()));
+  InterpreterOptions options;
+  const fs::path table = golden / (GetParam() + ".tbl");
+  if (fs::exists(table)) {  // in inches, as rs274 reads it
+    Diagnostics diagnostics;
+    options.machine_units = LengthUnits::inch;
+    ASSERT_TRUE(read_tool_table(table.string(), options.machine_units, options.tools, diagnostics));
+  }
+  const Interpreted result = interpret_text(contents(program.string()), options);
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
   test::expect_golden("src/interpreter/tests/golden/" + GetParam() + ".canon", result.canon);
 }

@@ -37,14 +37,15 @@ struct Interpreted {
 
 inline void interpret(ProgramReader reader, const InterpreterOptions& options, Interpreted& result) {
   Interpreter interpreter(std::move(reader), options, result.diagnostics);
-  CanonPrinter printer;
+  CanonPrinter printer(options.machine_units);
   Operation operation;
   while (interpreter.next(operation)) {
     printer.print(operation, result.canon);
     const bool borrows = std::holds_alternative<operation::Comment>(operation.what) ||
                          std::holds_alternative<operation::Message>(operation.what) ||
                          std::holds_alternative<operation::Print>(operation.what) ||
-                         std::holds_alternative<operation::Log>(operation.what);
+                         std::holds_alternative<operation::Log>(operation.what) ||
+                         std::holds_alternative<operation::SetToolTableEntry>(operation.what);
     if (!borrows) result.operations.push_back(operation);
   }
 }

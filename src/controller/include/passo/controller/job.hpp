@@ -48,6 +48,7 @@ class Job {
   VirtualMachine& machine() { return machine_; }
   const InProcessLink& link() const { return link_; }
   const Frame& frame() const { return path_builder_.frame(); }
+  SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
 
   // The nominal time of what has been planned so far.
   Seconds nominal_time() const { return nominal_time_; }

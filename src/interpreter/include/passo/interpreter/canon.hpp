@@ -17,11 +17,15 @@ namespace passo {
 
 class CanonPrinter {
  public:
+  // `machine_units`: of tool table entries, which are printed as the table holds them.
+  explicit CanonPrinter(LengthUnits machine_units = LengthUnits::mm) : machine_units_(machine_units) {}
+
   // Appends one line, with its line end, to `out`.
   void print(const Operation& operation, std::string& out);
 
  private:
   std::uint64_t count_ = 0;
+  LengthUnits machine_units_;
   LengthUnits units_ = LengthUnits::mm;
   FeedMode feed_mode_ = FeedMode::units_per_minute;
 };

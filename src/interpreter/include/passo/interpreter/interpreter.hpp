@@ -5,11 +5,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/operation.hpp"
+#include "passo/interpreter/parameter_file.hpp"
+#include "passo/interpreter/settings_file.hpp"
+#include "passo/interpreter/tool_table.hpp"
 
 namespace passo {
 
@@ -17,6 +22,13 @@ struct InterpreterOptions {
   bool block_delete = false;            // lines that start with '/' are skipped
   LengthUnits units = LengthUnits::mm;  // before the program says G20 or G21
   Point start;                          // machine position at the start
+  // Of lengths in parameters (#5161 to #5390, #5401 to #5410) and in `parameters`.
+  LengthUnits machine_units = LengthUnits::mm;
+  ToolTable tools;                       // without a name: nobody gave one
+  SavedParameters parameters;            // what was saved after the last run
+  std::vector<std::string> sub_folders;  // where subs in files are looked for, after the program's own folder
+  // What #<_ini[section]name> asks; null: nothing.
+  std::shared_ptr<const SettingsFile> settings;
   // Passes of a loop without any operation between, before it is stopped with a diagnostic.
   std::uint64_t idle_passes = 1'000'000;
   // Who answers when the program asks the machine (probe, inputs, #<_task>): a preview as LinuxCNC's `rs274` does,
@@ -35,6 +47,9 @@ class Interpreter final : public Source<Operation> {
   ~Interpreter() override;
 
   [[nodiscard]] bool next(Operation& operation) override;
+
+  // What is to be saved for the next run: InterpreterOptions::parameters with what the program changed.
+  SavedParameters saved_parameters() const;
 
   // Bytes of the program read so far in its main line, for progress.
   std::uint64_t offset() const;

@@ -14,6 +14,8 @@
 
 namespace passo {
 
+struct Tool;
+
 enum class Plane : std::uint8_t { xy, zx, yz };  // G17, G18, G19
 enum class LengthUnits : std::uint8_t { mm, inch };
 enum class FeedMode : std::uint8_t { units_per_minute, inverse_time, units_per_revolution };  // G94, G93, G95
@@ -177,7 +179,12 @@ struct ChangeTool {
 };
 struct SetToolNumber {
   std::int32_t tool = 0;
-};                              // M61
+};  // M61
+// G10 L1, L10, L11: a tool of the table is another now. `place` 0: the copy of it that counts for the spindle.
+struct SetToolTableEntry {
+  std::int32_t place = 0;
+  const Tool* tool = nullptr;  // borrowed, until the next operation is asked for
+};
 struct ProgramStop {};          // M0
 struct OptionalProgramStop {};  // M1
 struct ProgramEnd {};           // M2, M30
@@ -213,9 +220,9 @@ using OperationKind = std::variant<
     operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
     operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput, operation::SetAnalogOutput,
     operation::ReadInput, operation::UserCode, operation::StartToolChange, operation::ChangeTool,
-    operation::SetToolNumber, operation::ProgramStop, operation::OptionalProgramStop, operation::ProgramEnd,
-    operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message, operation::Print,
-    operation::Log, operation::Reset, operation::SetFeedReference>;
+    operation::SetToolNumber, operation::SetToolTableEntry, operation::ProgramStop, operation::OptionalProgramStop,
+    operation::ProgramEnd, operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message,
+    operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {

@@ -18,7 +18,8 @@ namespace passo {
 struct Tool {
   std::int32_t number = 0;  // 0: no tool
   std::int32_t pocket = 0;
-  Point offset;
+  std::int32_t place = 0;  // among the tools of its table, from 1, as they are written there
+  Point offset = {};
   Mm diameter{0};                // below 0 it turns G41 into G42 and back
   double front_angle_deg = 0;    // lathe tools
   double back_angle_deg = 0;     // lathe tools
@@ -40,7 +41,9 @@ class ToolTable {
   }
   // False where there is a tool of this number already, or no room.
   [[nodiscard]] bool add(const Tool& tool) {
-    return tools_.size() < most_tools && tools_.try_emplace(tool.number, tool).second;
+    if (tools_.size() >= most_tools || !tools_.try_emplace(tool.number, tool).second) return false;
+    tools_[tool.number].place = static_cast<std::int32_t>(tools_.size());
+    return true;
   }
   const std::map<std::int32_t, Tool>& all() const { return tools_; }
 

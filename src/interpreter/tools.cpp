@@ -1,0 +1,183 @@
+// BlockExecutor: tools. Which one is in the spindle, what its offset is, and what the tool table says of it.
+#include <cmath>
+
+#include "block_executor.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+constexpr std::int32_t highest_orientation = 9;
+constexpr int rotary_fixture = 9;  // G10 L11 measures in G59.3
+
+}  // namespace
+
+// Null, and no error, for "no tool" (0) and where there is no table to look in.
+bool BlockExecutor::find_tool(std::int32_t number, Span span, const Tool*& tool) {
+  tool = state_.tools.find(number);
+  if (tool != nullptr || number == 0 || state_.tools.name.empty()) return true;
+  return fail("gcode.unknown-tool", span, fmt::format("there is no tool {} in {}", number, state_.tools.name),
+              fmt::format("a line T{} P… in the tool table", number));
+}
+
+bool BlockExecutor::select_tool() {
+  std::int32_t number = 0;
+  const Tool* tool = nullptr;
+  if (!whole_word('T', 0, highest_tool, number) || !find_tool(number, words_.span('T'), tool)) return false;
+  state_.selected_tool = number;
+  emit_ahead(operation::SelectTool{number});
+  return true;
+}
+
+bool BlockExecutor::change_tool(CodeNumber number) {
+  if (number == code(61)) {
+    std::int32_t tool = 0;
+    const Tool* known = nullptr;
+    if (!words_.has('Q')) return fail("gcode.missing-word", words_.span(tool_change), "M61 without Q", "Q, the tool");
+    if (!whole_word('Q', 0, highest_tool, tool) || !find_tool(tool, words_.span('Q'), known)) return false;
+    load_tool(tool);
+    emit(operation::SetToolNumber{tool});
+    return true;
+  }
+  if (state_.selected_tool < 0) {
+    return fail("gcode.missing-tool", words_.span(tool_change), "M6 and no tool was selected",
+                "T before, or in this block");
+  }
+  load_tool(state_.selected_tool);
+  emit(operation::StartToolChange{});
+  stop_spindles();
+  emit(operation::ChangeTool{state_.tool});
+  return true;
+}
+
+void BlockExecutor::load_tool(std::int32_t number) {
+  const Tool* const known = state_.tools.find(number);
+  state_.spindle_tool = known != nullptr ? *known : Tool{.number = number};
+  state_.tool = number;
+  tool_was_loaded_ = true;
+}
+
+bool BlockExecutor::set_tool_length(CodeNumber number) {
+  Point offset;
+  if (number == code(43, 1) || (number == code(43, 2) && !words_.has('H'))) {
+    if (number == code(43, 2) && !words_.any_axis()) {
+      return fail("gcode.missing-word", words_.span(tool_length), "G43.2 without H and without axis words",
+                  "H, the tool whose offset is added, or the offset itself");
+    }
+    offset = state_.frame.tool_offset();
+    const bool adds = number == code(43, 2);
+    for (const Axis axis : all_axes) {
+      if (words_.has(letter_of(axis))) offset[axis] = axis_word(axis) + (adds ? offset[axis] : 0);
+    }
+  } else if (number != code(49)) {
+    if (number == code(43, 2) && words_.any_axis()) {
+      return fail("gcode.unused-word", words_.span('H'), "G43.2 with H and with axis words",
+                  "one of them: a tool's offset or the offset itself");
+    }
+    if (!tool_offset(offset)) return false;
+    if (number == code(43, 2)) offset = offset + state_.frame.tool_offset();
+  }
+  state_.modal.set(tool_length, number);
+  use_tool_offset(offset);
+  return true;
+}
+
+// Of the tool of H; without it or with H0, of the one in the spindle.
+bool BlockExecutor::tool_offset(Point& offset) {
+  std::int32_t number = 0;
+  const Tool* tool = nullptr;
+  if (words_.has('H') && !whole_word('H', 0, highest_tool, number)) return false;
+  if (number == 0) {
+    number = state_.tool;
+    tool = &state_.spindle_tool;
+  } else if (!find_tool(number, words_.span('H'), tool)) {
+    return false;
+  }
+  if (tool != nullptr) offset = tool->offset;
+  if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_tool_table_told_, true)) {
+    reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
+                      fmt::format("the offset of tool {} is taken as zero: no tool table was given", number),
+                      "--tools FILE, or G43.1 with the offset itself");
+  }
+  return true;
+}
+
+bool BlockExecutor::check_tool_entry_words(Tool*& tool) {
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", words_.span(non_modal), "G10 without P", "P, the tool that is set");
+  }
+  std::int32_t number = 0;
+  std::int32_t orientation = 0;
+  const Tool* known = nullptr;
+  if (!whole_word('P', 1, highest_tool, number) || !find_tool(number, words_.span('P'), known)) return false;
+  if (known == nullptr) {
+    return fail("gcode.unknown-tool", words_.span('P'),
+                fmt::format("tool {} is in no tool table: none was given", number), "--tools FILE");
+  }
+  if (words_.has('Q') && !whole_word('Q', 0, highest_orientation, orientation)) return false;
+  const LetterSet what = words_.present() & (axis_letters | LetterSet("RIJQ"));
+  if (!what.any()) {
+    return fail("gcode.missing-word", words_.span(non_modal), "G10 that sets nothing of the tool",
+                "axis words, R (radius), I and J (angles) or Q (orientation)");
+  }
+  tool = state_.tools.find(number);
+  return true;
+}
+
+// G10 L1: the tool's offset is… L10: such that this is the given position once G43 is active. L11: the same, in G59.3
+// and without a G92 offset.
+bool BlockExecutor::set_tool_table_entry() {
+  Tool* tool = nullptr;
+  if (!check_tool_entry_words(tool)) return false;
+  set_tool_offsets(*tool);
+  if (words_.has('R')) tool->diameter = Mm(2 * words_['R'] * state_.length_unit());
+  if (words_.has('I')) tool->front_angle_deg = words_['I'];
+  if (words_.has('J')) tool->back_angle_deg = words_['J'];
+  if (words_.has('Q')) tool->orientation = static_cast<std::int32_t>(std::round(words_['Q']));
+  emit(operation::SetToolTableEntry{tool->place, tool});
+  // Until a tool is loaded the first one of the table counts as the one in the spindle, as in rs274.
+  const bool in_spindle = tool_was_loaded_ ? tool->number == state_.tool : tool->place == 1;
+  if (in_spindle) {
+    state_.spindle_tool = *tool;
+    state_.tool = tool->number;
+    emit(operation::SetToolTableEntry{0, &state_.spindle_tool});
+  }
+  return true;
+}
+
+void BlockExecutor::set_tool_offsets(Tool& tool) {
+  if (words_['L'] == 1) {
+    for (const Axis axis : all_axes) {
+      if (words_.has(letter_of(axis))) tool.offset[axis] = axis_word(axis);
+    }
+    return;
+  }
+  Frame frame = state_.frame;
+  if (words_['L'] == 11) {
+    frame.follow(
+        {operation::SetWorkOffset{rotary_fixture, parameters_.point(work_offset_parameter(rotary_fixture))}, source_});
+    frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(rotary_fixture))}, source_});
+    frame.follow({operation::SetG92Offset{}, source_});
+  }
+  // With the tool's offset as it is this is `here`; the tool's offset takes up the difference to what is wanted.
+  frame.follow({operation::SetToolOffset{tool.offset}, source_});
+  const Point machine = state_.machine_position();
+  Point wanted = frame.work_from_machine(machine);
+  bool any_of_plane = false;
+  for (const Axis axis : all_axes) {
+    if (!words_.has(letter_of(axis))) continue;
+    wanted[axis] = axis_word(axis);
+    any_of_plane |= axis == Axis::x || axis == Axis::y;
+  }
+  const Point moved = tool.offset + (machine - frame.machine_from_work(wanted));
+  for (const Axis axis : all_axes) {
+    const bool in_plane = axis == Axis::x || axis == Axis::y;
+    if (words_.has(letter_of(axis)) || (in_plane && any_of_plane && frame.rotation_degrees() != 0)) {
+      tool.offset[axis] = moved[axis];
+    }
+  }
+}
+
+}  // namespace passo
