@@ -13,9 +13,11 @@
 
 #include "arc_center.hpp"
 #include "block_words.hpp"
+#include "drilling_cycle.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
+#include "threading_cycle.hpp"
 
 #include "passo/base/ring.hpp"
 #include "passo/interpreter/interpreter.hpp"
@@ -37,6 +39,9 @@ class BlockExecutor {
   void finish(Closing closing);
   // After M2, M30 or (ABORT,…).
   bool ended() const { return ended_; }
+  // A cycle of the last block has more operations to give.
+  bool busy() const { return cycle_ != Cycle::none; }
+  void go_on();
 
  private:
   // What a group does with its code. False when that failed: the rest of the block is not executed.
@@ -99,6 +104,28 @@ class BlockExecutor {
   double axis_word(Axis axis) const;
   Span motion_span() const;
 
+  // Cycles: checked as a whole when they start, then a hole, a peck or a pass a step.
+  enum class Cycle : std::uint8_t { none, drilling, threading };
+  static constexpr std::size_t longest_cycle_step = 16;
+  bool step_cycle();
+  bool start_drilling(CodeNumber code);
+  bool refuse_boring(CodeNumber code);
+  bool check_drilling(CodeNumber code);
+  bool check_drilling_words(CodeNumber code, bool first);
+  bool check_drilling_spindle(CodeNumber code);
+  void prepare_drilling(CodeNumber code);
+  bool step_drilling();
+  bool go_to_hole();
+  bool peck();
+  void finish_hole();
+  void tap();
+  void move_along(Axis axis, double height, bool rapid);
+  bool start_threading();
+  bool check_threading();
+  bool check_threading_words();
+  bool step_threading();
+  void cut_thread(double depth);
+
   // The frame.
   bool go_home(int parameter);
   bool store_home(int parameter);
@@ -131,6 +158,11 @@ class BlockExecutor {
   OperationSource source_;
   std::string text_;  // of its comment, with parameters filled in
   std::vector<double> assigned_;
+
+  Cycle cycle_ = Cycle::none;
+  DrillingWords drilling_words_;
+  DrillingCycle drilling_;
+  ThreadingCycle thread_;
 
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;

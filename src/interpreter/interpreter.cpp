@@ -32,6 +32,7 @@ class Interpreter::Implementation {
  private:
   // One block: none, one or several operations.
   void step() {
+    if (executor_.busy()) return executor_.go_on();
     const Block* const block = executor_.ended() ? nullptr : flow_.next();
     text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {

@@ -59,6 +59,8 @@ struct MachineState {
   Point position;   // work coordinates, millimetres and degrees
   double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
   SpindleState spindle;
+  operation::SetPathMode path_mode;  // what cycles, which stop at their corners, put back
+  operation::SetMergeTolerance merge;
   bool mist = false;
   bool flood = false;
   bool feed_override = true;

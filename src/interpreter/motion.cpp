@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "block_executor.hpp"
+#include "plane_axes.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -13,19 +14,6 @@ using enum ModalGroup;
 constexpr double highest_turns = 1e6;
 constexpr double slowest_inverse_time = 0.1;  // units a minute, as LinuxCNC bounds it
 
-struct PlaneAxes {
-  Axis first;
-  Axis second;
-  Axis normal;
-};
-constexpr PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::xy: return {Axis::x, Axis::y, Axis::z};
-    case Plane::zx: return {Axis::z, Axis::x, Axis::y};
-    case Plane::yz: return {Axis::y, Axis::z, Axis::x};
-  }
-  return {Axis::x, Axis::y, Axis::z};
-}
 // The word that says where the centre is along an axis.
 constexpr char center_letter(Axis axis) {
   return axis == Axis::x ? 'I' : axis == Axis::y ? 'J' : 'K';
@@ -53,6 +41,8 @@ FeedLength feed_length(const Point& step) {
 }  // namespace
 
 bool BlockExecutor::move(CodeNumber number) {
+  const bool drills = number >= code(73) && number <= code(89) && number != code(76) && number != code(80);
+  if (!drills) drilling_words_ = {};
   state_.modal.set(motion, number);
   switch (number) {
     case code(0): return traverse();
@@ -61,6 +51,18 @@ bool BlockExecutor::move(CodeNumber number) {
     case code(3): return arc(false);
     case code(33): return threading(false);
     case code(33, 1): return threading(true);
+    case code(73):
+    case code(74):
+    case code(81):
+    case code(82):
+    case code(83):
+    case code(84):
+    case code(85):
+    case code(86):
+    case code(89): return start_drilling(number);
+    case code(76): return start_threading();
+    case code(87):
+    case code(88): return refuse_boring(number);
     default: note("interpreter: motion mode set to none"); return true;  // G80
   }
 }

@@ -174,11 +174,13 @@ bool BlockExecutor::set_path_mode(CodeNumber number) {
     // P alone is also how far points may be merged; negative ones are none, as in LinuxCNC.
     const double path = words_.has('P') ? std::max(0.0, words_['P']) : 0;
     const double merge = words_.has('Q') ? std::max(0.0, words_['Q']) : path;
-    emit(operation::SetPathMode{PathMode::continuous, Mm(path * unit)});
-    emit(operation::SetMergeTolerance{Mm(merge * unit)});
+    state_.path_mode = {PathMode::continuous, Mm(path * unit)};
+    state_.merge = {Mm(merge * unit)};
   } else {
-    emit(operation::SetPathMode{number == code(61) ? PathMode::exact_path : PathMode::exact_stop, Mm(0)});
+    state_.path_mode = {number == code(61) ? PathMode::exact_path : PathMode::exact_stop, Mm(0)};
   }
+  emit(state_.path_mode);
+  if (number == code(64)) emit(state_.merge);
   return true;
 }
 
