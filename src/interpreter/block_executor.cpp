@@ -87,6 +87,7 @@ void BlockExecutor::execute(const Block& block) {
 
 // A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
 void BlockExecutor::go_on() {
+  if (cycle_ == Cycle::contour) return;
   while (cycle_ != Cycle::none && operations_.size() + longest_cycle_step <= OperationQueue::capacity()) {
     if (!step_cycle()) {
       cycle_ = Cycle::none;
@@ -100,6 +101,8 @@ bool BlockExecutor::step_cycle() {
   switch (cycle_) {
     case Cycle::drilling: return step_drilling();
     case Cycle::threading: return step_threading();
+    case Cycle::lathe: return step_lathe();
+    case Cycle::contour:
     case Cycle::none: break;
   }
   return true;

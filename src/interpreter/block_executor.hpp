@@ -8,12 +8,14 @@
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "arc_center.hpp"
 #include "block_words.hpp"
 #include "drilling_cycle.hpp"
+#include "lathe_cycle.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
@@ -42,6 +44,16 @@ class BlockExecutor {
   // A cycle of the last block has more operations to give.
   bool busy() const { return cycle_ != Cycle::none; }
   void go_on();
+
+  // A lathe cycle wants the blocks of this sub, one after the other, in place of execute().
+  bool wants_contour() const { return cycle_ == Cycle::contour; }
+  Symbol contour_sub() const { return lathe_->sub; }
+  Span contour_span() const { return lathe_->span; }
+  void add_to_contour(const Block& block);
+  void end_contour();
+  void abandon_cycle();
+  // The line of the cycle whose contour was read last.
+  std::string_view contour_text() const { return lathe_->text; }
 
  private:
   // What a group does with its code. False when that failed: the rest of the block is not executed.
@@ -105,7 +117,7 @@ class BlockExecutor {
   Span motion_span() const;
 
   // Cycles: checked as a whole when they start, then a hole, a peck or a pass a step.
-  enum class Cycle : std::uint8_t { none, drilling, threading };
+  enum class Cycle : std::uint8_t { none, drilling, threading, contour, lathe };
   static constexpr std::size_t longest_cycle_step = 16;
   bool step_cycle();
   bool start_drilling(CodeNumber code);
@@ -125,6 +137,20 @@ class BlockExecutor {
   bool check_threading_words();
   bool step_threading();
   void cut_thread(double depth);
+  bool start_lathe(CodeNumber code);
+  bool check_lathe(CodeNumber code);
+  LathePoint lathe_point(const Point& point) const;
+  bool add_segment(const Block& block);
+  bool contour_point(LathePoint& end);
+  bool contour_arc(LatheSegment& segment);
+  bool add_corner(const LatheSegment& behind);
+  void lead_out();
+  LatheFault plan_roughing();
+  LatheFault plan_finishing();
+  bool step_lathe();
+  bool emit_lathe_move(const LatheMove& move);
+  bool report_contour(LatheFault fault);
+  bool fail_contour(std::string message, std::string expected);
 
   // The frame.
   bool go_home(int parameter);
@@ -163,6 +189,7 @@ class BlockExecutor {
   DrillingWords drilling_words_;
   DrillingCycle drilling_;
   ThreadingCycle thread_;
+  std::unique_ptr<LatheCycle> lathe_;  // made when there is one
 
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;

@@ -32,6 +32,7 @@ class Interpreter::Implementation {
  private:
   // One block: none, one or several operations.
   void step() {
+    if (executor_.wants_contour()) return read_contour();
     if (executor_.busy()) return executor_.go_on();
     const Block* const block = executor_.ended() ? nullptr : flow_.next();
     text_ = block != nullptr ? block->text : std::string_view();
@@ -50,6 +51,15 @@ class Interpreter::Implementation {
       const bool at_percent = flow_.end() == ProgramFlow::End::percent;
       executor_.finish(at_percent ? BlockExecutor::Closing::percent : BlockExecutor::Closing::none);
     }
+  }
+
+  // The blocks of a lathe cycle's sub are not executed: they are its contour.
+  void read_contour() {
+    if (!flow_.call_for_contour(executor_.contour_sub(), executor_.contour_span())) return executor_.abandon_cycle();
+    while (const Block* const block = flow_.next()) executor_.add_to_contour(*block);
+    if (flow_.end() != ProgramFlow::End::none) return executor_.abandon_cycle();
+    executor_.end_contour();
+    text_ = executor_.contour_text();
   }
 
   SymbolTable symbols_;

@@ -61,6 +61,13 @@ bool BlockExecutor::move(CodeNumber number) {
     case code(86):
     case code(89): return start_drilling(number);
     case code(76): return start_threading();
+    case code(70):
+    case code(71):
+    case code(71, 1):
+    case code(71, 2):
+    case code(72):
+    case code(72, 1):
+    case code(72, 2): return start_lathe(number);
     case code(87):
     case code(88): return refuse_boring(number);
     default: note("interpreter: motion mode set to none"); return true;  // G80

@@ -68,6 +68,10 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
 
 const Block* ProgramFlow::next() {
   while (end_ == End::none) {
+    if (frames_.size() < contour_depth_) {
+      contour_depth_ = 0;
+      return nullptr;
+    }
     switch (read()) {
       case Read::end:
         while (any_open()) {

@@ -41,6 +41,8 @@ class ProgramFlow {
   // The next block to execute; null at the end of the program.
   const Block* next();
   End end() const { return end_; }
+  // Calls a sub; next() then gives the blocks of this call, and once null at its end. False: there is no such sub.
+  bool call_for_contour(Symbol sub, Span span);
   // There was an operation since the last block: the loops do something.
   void note_progress() { idle_passes_ = 0; }
 
@@ -150,6 +152,7 @@ class ProgramFlow {
   std::vector<Open> open_;
   std::vector<Frame> frames_;
   std::uint64_t idle_passes_ = 0;
+  std::size_t contour_depth_ = 0;  // of the call that next() stops behind; 0: none
   bool begun_ = false;           // something else than a comment or an empty line was read
   bool opened_percent_ = false;  // the program began with '%'
   End end_ = End::none;
