@@ -121,7 +121,6 @@ class BlockExecutor {
   static constexpr std::size_t longest_cycle_step = 16;
   bool step_cycle();
   bool start_drilling(CodeNumber code);
-  bool refuse_boring(CodeNumber code);
   bool check_drilling(CodeNumber code);
   bool check_drilling_words(CodeNumber code, bool first);
   bool check_drilling_spindle(CodeNumber code);

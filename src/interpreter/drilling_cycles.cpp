@@ -31,16 +31,6 @@ constexpr bool needs_dwell(CodeNumber number) {
 
 }  // namespace
 
-bool BlockExecutor::refuse_boring(CodeNumber number) {
-  drilling_words_ = {};
-  const bool back = number == code(87);
-  return fail("gcode.unsupported-code", motion_span(),
-              back ? "G87 (back boring) is not supported: the spindle has to stop at a known angle"
-                   : "G88 (boring, manual retract) is not supported: the tool is moved by hand in the middle of a block",
-              back ? "the moves themselves, with M19 before the tool goes in"
-                   : "G86 or G89, or the moves themselves with M0");
-}
-
 bool BlockExecutor::start_drilling(CodeNumber number) {
   const PlaneAxes axes = axes_of(state_.modal.plane());
   const bool goes_on = drilling_words_.code == number && drilling_words_.plane == state_.modal.plane();
@@ -88,8 +78,8 @@ bool BlockExecutor::check_drilling(CodeNumber number) {
                 "G94 or G95 before");
   }
   if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.cycle-compensation", motion_span(),
-                fmt::format("{} while cutter compensation is on", name), "G40 before");
+    return fail("gcode.cycle-compensation", motion_span(), fmt::format("{} while cutter compensation is on", name),
+                "G40 before");
   }
   for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'}) {
     if (!words_.has(letter)) continue;

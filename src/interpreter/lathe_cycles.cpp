@@ -219,8 +219,8 @@ void BlockExecutor::end_contour() {
   cycle_ = Cycle::lathe;
 }
 
-// A contour that ends inside the stock is led out of it, and that way out is set off as well; but where the contour ends
-// along the cuts, it ends there, and the way out (LatheRoughing adds it) is at its very end.
+// A contour that ends inside the stock is led out of it, and that way out is set off as well; but where the contour
+// ends along the cuts, it ends there, and the way out (LatheRoughing adds it) is at its very end.
 void BlockExecutor::lead_out() {
   std::vector<LatheSegment>& segments = lathe_->contour.segments;
   const LathePoint start = lathe_point(lathe_->start);
@@ -289,6 +289,7 @@ bool BlockExecutor::emit_lathe_move(const LatheMove& move) {
       lathe_->roughing ? lathe_->roughing->orientation() : lathe_->finishing->orientation();
   const double unit = state_.length_unit();
   const LathePoint end = orientation.to_program(move.end) * unit;
+  if (!std::isfinite(end.real()) || !std::isfinite(end.imag())) return report_contour(LatheFault::stuck);
   const PlanePoint from{state_.position[Axis::z], state_.position[Axis::x]};
   state_.position[Axis::z] = end.real();
   state_.position[Axis::x] = end.imag();

@@ -43,8 +43,11 @@ LatheRoughing::LatheRoughing(LatheContour contour, Extent extent, double depth_o
 
 bool LatheRoughing::step(LatheMoves& moves) {
   if (phase_ == Phase::done) return false;
+  const LathePoint before = tool_;
+  const double level_before = level_;
   next_step(moves);
-  idle_steps_ = moves.size() > 0 ? 0 : idle_steps_ + 1;
+  const bool progress = std::abs(tool_ - before) > same || level_ < level_before;
+  idle_steps_ = progress ? 0 : idle_steps_ + 1;
   if (idle_steps_ > most_idle_steps) fault_ = LatheFault::stuck;
   return fault_ == LatheFault::none;
 }
@@ -90,11 +93,8 @@ void LatheRoughing::cut(LatheMoves& moves) {
     if (z - same > tool_.real()) continue;
     if (distance < same) {
       if (hit == at_) continue;
-      if (is_same(tool_, contour_.segments[hit].start)) {
-        at_ = hit;
-      } else {
-        level_ -= depth_of_cut_;
-      }
+      if (!is_same(tool_, contour_.segments[hit].start)) break;
+      at_ = hit;
       return;
     }
     // A short cut leaves no room for the whole lift.
@@ -103,9 +103,9 @@ void LatheRoughing::cut(LatheMoves& moves) {
     moves.rapid(LathePoint(z, tool_.imag()) + LathePoint(lift, lift));
     moves.rapid(tool_ + LathePoint(-lift, lift));
     at_ == 0 ? moves.rapid(tool_) : moves.line(tool_);
-    level_ -= depth_of_cut_;
-    return;
+    break;
   }
+  level_ -= depth_of_cut_;
 }
 
 void LatheRoughing::go_up(LatheMoves& moves) {

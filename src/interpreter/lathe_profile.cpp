@@ -34,7 +34,12 @@ bool meet_lines(LatheSegment& first, LatheSegment& second) {
     meet(first, second, first.end);
     return true;
   }
-  meet(first, second, first.start + direction * (cross(second.start - first.start, other) / sine));
+  // Where the second line is the axis: the part of the first one that leads there.
+  const LathePoint turn = -std::conj(other) / std::abs(other);
+  const LathePoint from = (first.start - second.end) * turn;
+  const LathePoint to = (first.end - second.end) * turn;
+  const double part = from.imag() / std::imag(from - to);
+  meet(first, second, (from + part * (to - from)) / turn + second.end);
   return true;
 }
 

@@ -66,8 +66,8 @@ class LatheContour {
   std::vector<LatheSegment> segments;
   LatheOrientation orientation;
 
-  void turn();     // for facing
-  void orient();   // by mirroring: Z falls, X rises
+  void turn();    // for facing
+  void orient();  // by mirroring: Z falls, X rises
   bool goes_one_way() const;
   // Fillets and chamfers become arcs and lines.
   LatheFault work_out_corners();

@@ -22,6 +22,10 @@ constexpr std::string_view name_of(Plane plane) {
   return plane == Plane::xy ? "XY (G17)" : plane == Plane::zx ? "ZX (G18)" : "YZ (G19)";
 }
 
+constexpr bool drills(CodeNumber number) {
+  return number == code(73) || number == code(74) || (number > code(80) && number <= code(89));
+}
+
 struct FeedLength {
   double length = 0;
   bool rotary = false;
@@ -41,8 +45,7 @@ FeedLength feed_length(const Point& step) {
 }  // namespace
 
 bool BlockExecutor::move(CodeNumber number) {
-  const bool drills = number >= code(73) && number <= code(89) && number != code(76) && number != code(80);
-  if (!drills) drilling_words_ = {};
+  if (!drills(number)) drilling_words_ = {};
   state_.modal.set(motion, number);
   switch (number) {
     case code(0): return traverse();
@@ -68,8 +71,6 @@ bool BlockExecutor::move(CodeNumber number) {
     case code(72):
     case code(72, 1):
     case code(72, 2): return start_lathe(number);
-    case code(87):
-    case code(88): return refuse_boring(number);
     default: note("interpreter: motion mode set to none"); return true;  // G80
   }
 }

@@ -153,8 +153,8 @@ class ProgramFlow {
   std::vector<Frame> frames_;
   std::uint64_t idle_passes_ = 0;
   std::size_t contour_depth_ = 0;  // of the call that next() stops behind; 0: none
-  bool begun_ = false;           // something else than a comment or an empty line was read
-  bool opened_percent_ = false;  // the program began with '%'
+  bool begun_ = false;             // something else than a comment or an empty line was read
+  bool opened_percent_ = false;    // the program began with '%'
   End end_ = End::none;
 };
 

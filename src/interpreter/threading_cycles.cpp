@@ -1,8 +1,8 @@
 // BlockExecutor: the threading cycle G76.
 //
-// Depths count from the thread's crest. Pass n goes J * n^(1/R) deep, the last ones (with H spring passes) K. With Q the
-// tool follows the thread's flank: the deeper, the further back along Z it starts. E and L let the tool in and out on a
-// slope, on which the pitch grows so that along the slope the turns stay as far apart.
+// Depths count from the thread's crest. Pass n goes J * n^(1/R) deep, the last ones (with H spring passes) K. With Q
+// the tool follows the thread's flank: the deeper, the further back along Z it starts. E and L let the tool in and out
+// on a slope, on which the pitch grows so that along the slope the turns stay as far apart.
 #include <cmath>
 #include <numbers>
 
@@ -130,8 +130,9 @@ void BlockExecutor::cut_thread(double depth) {
   const double bottom = crest - thread.outward * thread.full_depth;
   const double first = thread.start[Axis::z] - depth * back;
   const double last = thread.end[Axis::z] + (thread.full_depth - depth) * back;
-  const double slope_pitch =
-      thread.taper == 0 ? thread.pitch : thread.pitch * std::hypot(thread.taper, thread.full_depth) / std::abs(thread.taper);
+  const double slope_pitch = thread.taper == 0
+                                 ? thread.pitch
+                                 : thread.pitch * std::hypot(thread.taper, thread.full_depth) / std::abs(thread.taper);
   Point at = thread.start;
   const auto rapid = [&](double x, double z) {
     at[Axis::x] = x, at[Axis::z] = z;

@@ -47,12 +47,14 @@ constexpr std::string_view word_list =
     "G53|G54|G55|G59.3|G61|G64|G7|G8|G80|G90|G90.1|G91|G91.1|G92|G92.1|G92.2|G92.3|G93|G94|G95|M0|"
     "M2|M3|M5|M6|M7|M9|M49|M61|X1|X-2.5|Y3|Z.5|A90|U2|I1|J-1|K.5|R5|R-7|P1|P2|Q.1|F100|S200|T3|@5|"
     "^30|X#1|Y[#2+1]|#1=3|#2=[#1*2]|#<a>=1|X#<a>|(msg,x)|(debug,#1 #<a>)|;c|/|N10|H2|D1|%|G81|Z1e3|"
-    "X99999999999";
+    "X99999999999|G82|G83|G73|G84|G74|G85|G86|G89|G98|G99|L3|Z-5|R.5|G76|P.4|I-2|J.3|K1|E.1|G70 Q7|G71 Q7|G71.2 Q7|G72 "
+    "Q7|"
+    "X20 Z2|C.1";
 constexpr std::string_view control_list =
     "o1 sub|o1 endsub|o1 call|o1 call [1] [2]|o1 return [3]|o2 if [#1]|o2 elseif [1]|o2 else|"
     "o2 endif|o3 while [#1 LT 5]|o3 endwhile|o4 do|o4 while [0]|o4 while [1]|o5 repeat [3]|"
     "o5 endrepeat|o3 break|o5 continue|o4 break|o[#1] call|o<b> sub|o<b> endsub|o<b> call [#1]|"
-    "o3 continue|o6";
+    "o3 continue|o6|o7 sub|G1 X5 Z-2|X7 Z-6 A.3|G3 X9 Z-8 K-2|X11|o7 endsub";
 
 std::vector<std::string> split(std::string_view list) {
   std::vector<std::string> parts;
