@@ -102,7 +102,30 @@ void BlockExecutor::execute(const Block& block) {
   if (!block.assignments.empty() && !assign(block)) return;
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
-  if (words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
+  go_on();
+}
+
+// A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
+void BlockExecutor::go_on() {
+  if (cycle_ == Cycle::contour) return;
+  while (cycle_ != Cycle::none && operations_.has_room()) {
+    if (!step_cycle()) {
+      cycle_ = Cycle::none;
+      return;
+    }
+  }
+  if (cycle_ == Cycle::none && words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
+}
+
+bool BlockExecutor::step_cycle() {
+  switch (cycle_) {
+    case Cycle::drilling: return step_drilling();
+    case Cycle::threading: return step_threading();
+    case Cycle::lathe: return step_lathe();
+    case Cycle::contour:
+    case Cycle::none: break;
+  }
+  return true;
 }
 
 bool BlockExecutor::execute_words() {

@@ -9,6 +9,7 @@
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,12 +18,15 @@
 #include "arc_center.hpp"
 #include "block_words.hpp"
 #include "cutter_compensation.hpp"
+#include "drilling_cycle.hpp"
+#include "lathe_cycle.hpp"
 #include "machine_state.hpp"
 #include "modal_snapshot.hpp"
 #include "operation_queue.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
 #include "subprogram_jump.hpp"
+#include "threading_cycle.hpp"
 
 #include "passo/interpreter/interpreter.hpp"
 
@@ -48,6 +52,19 @@ class BlockExecutor {
   void leave_sub(const OperationSource& source);
   // M99 in the main program, which does not run once more.
   void end_program(bool pallet);
+  // A cycle of the last block has more operations to give.
+  bool busy() const { return cycle_ != Cycle::none; }
+  void go_on();
+
+  // A lathe cycle wants the blocks of this sub, one after the other, in place of execute().
+  bool wants_contour() const { return cycle_ == Cycle::contour; }
+  Symbol contour_sub() const { return lathe_->sub; }
+  Span contour_span() const { return lathe_->span; }
+  void add_to_contour(const Block& block);
+  void end_contour();
+  void abandon_cycle();
+  // The line of the cycle whose contour was read last.
+  std::string_view contour_text() const { return lathe_->text; }
 
  private:
   // What a group does with its code. False when that failed: the rest of the block is not executed.
@@ -130,6 +147,40 @@ class BlockExecutor {
   bool set_tool_table_entry();
   bool check_tool_entry_words(Tool*& tool);
   void set_tool_offsets(Tool& tool);
+  // Cycles: checked as a whole when they start, then a hole, a peck or a pass a step.
+  enum class Cycle : std::uint8_t { none, drilling, threading, contour, lathe };
+  static constexpr std::size_t longest_cycle_step = 16;
+  bool step_cycle();
+  bool start_drilling(CodeNumber code);
+  bool check_drilling(CodeNumber code);
+  bool check_drilling_words(CodeNumber code, bool first);
+  bool check_drilling_spindle(CodeNumber code);
+  void prepare_drilling(CodeNumber code);
+  bool step_drilling();
+  bool go_to_hole();
+  bool peck();
+  void finish_hole();
+  void tap();
+  void move_along(Axis axis, double height, bool rapid);
+  bool start_threading();
+  bool check_threading();
+  bool check_threading_words();
+  bool step_threading();
+  void cut_thread(double depth);
+  bool start_lathe(CodeNumber code);
+  bool check_lathe(CodeNumber code);
+  LathePoint lathe_point(const Point& point) const;
+  bool add_segment(const Block& block);
+  bool contour_point(LathePoint& end);
+  bool contour_arc(LatheSegment& segment);
+  bool add_corner(const LatheSegment& behind);
+  void lead_out();
+  LatheFault plan_roughing();
+  LatheFault plan_finishing();
+  bool step_lathe();
+  bool emit_lathe_move(const LatheMove& move);
+  bool report_contour(LatheFault fault);
+  bool fail_contour(std::string message, std::string expected);
 
   // The frame.
   void start_frame();
@@ -206,6 +257,12 @@ class BlockExecutor {
 
   std::vector<ModalSnapshot> snapshots_;  // by call depth
   InterpreterOptions options_;
+  Cycle cycle_ = Cycle::none;
+  DrillingWords drilling_words_;
+  DrillingCycle drilling_;
+  ThreadingCycle thread_;
+  std::unique_ptr<LatheCycle> lathe_;  // made when there is one
+
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;
   bool tool_was_loaded_ = false;

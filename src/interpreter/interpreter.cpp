@@ -43,6 +43,8 @@ class Interpreter::Implementation {
  private:
   // One block: none, one or several operations.
   void step() {
+    if (executor_.wants_contour()) return read_contour();
+    if (executor_.busy()) return executor_.go_on();
     const Block* const block = executor_.ended() ? nullptr : flow_.next();
     text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {
@@ -72,6 +74,15 @@ class Interpreter::Implementation {
         return;
       case ProgramFlow::Followed::main_ends: executor_.end_program(false); return;
     }
+  }
+
+  // The blocks of a lathe cycle's sub are not executed: they are its contour.
+  void read_contour() {
+    if (!flow_.call_for_contour(executor_.contour_sub(), executor_.contour_span())) return executor_.abandon_cycle();
+    while (const Block* const block = flow_.next()) executor_.add_to_contour(*block);
+    if (flow_.end() != ProgramFlow::End::none) return executor_.abandon_cycle();
+    executor_.end_contour();
+    text_ = executor_.contour_text();
   }
 
   SavedParameters saved_;  // as they were before the program

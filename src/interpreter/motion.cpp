@@ -22,6 +22,10 @@ constexpr std::string_view name_of(Plane plane) {
   return plane == Plane::xy ? "XY (G17)" : plane == Plane::zx ? "ZX (G18)" : "YZ (G19)";
 }
 
+constexpr bool drills(CodeNumber number) {
+  return number == code(73) || number == code(74) || (number > code(80) && number <= code(89));
+}
+
 struct FeedLength {
   double length = 0;
   bool rotary = false;
@@ -41,6 +45,7 @@ FeedLength feed_length(const Point& step) {
 }  // namespace
 
 bool BlockExecutor::move(CodeNumber number) {
+  if (!drills(number)) drilling_words_ = {};
   state_.modal.set(motion, number);
   const bool good = move_by(number);
   if (cutter_.active()) {
@@ -62,6 +67,23 @@ bool BlockExecutor::move_by(CodeNumber number) {
     case code(38, 3):
     case code(38, 4):
     case code(38, 5): return probe(number);
+    case code(73):
+    case code(74):
+    case code(81):
+    case code(82):
+    case code(83):
+    case code(84):
+    case code(85):
+    case code(86):
+    case code(89): return start_drilling(number);
+    case code(76): return start_threading();
+    case code(70):
+    case code(71):
+    case code(71, 1):
+    case code(71, 2):
+    case code(72):
+    case code(72, 1):
+    case code(72, 2): return start_lathe(number);
     default: note("interpreter: motion mode set to none"); return true;  // G80
   }
 }

@@ -75,6 +75,10 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
 const Block* ProgramFlow::next() {
   if (again_) run_again();
   while (end_ == End::none) {
+    if (frames_.size() < contour_depth_) {
+      contour_depth_ = 0;
+      return nullptr;
+    }
     switch (read()) {
       case Read::end:
         while (any_open()) {
@@ -101,7 +105,11 @@ const Block* ProgramFlow::next() {
     begun_ = true;
     state_.line = block_.line;
     obey(*block_.control);
-    if (left_sub_) return nullptr;
+    if (contour_depth_ != 0) {
+      left_sub_.reset();  // nothing was executed there, so nothing is put back
+    } else if (left_sub_) {
+      return nullptr;
+    }
   }
   return nullptr;
 }

@@ -52,6 +52,8 @@ class ProgramFlow {
   enum class Followed : std::uint8_t { goes_on, left_sub, main_ends };
   Followed follow(const SubprogramJump& jump);
   End end() const { return end_; }
+  // Calls a sub; next() then gives the blocks of this call, and once null at its end. False: there is no such sub.
+  bool call_for_contour(Symbol sub, Span span);
   // There was an operation since the last block: the loops do something.
   void note_progress() { idle_passes_ = 0; }
 
@@ -184,9 +186,10 @@ class ProgramFlow {
   std::optional<Again> again_;
   std::uint64_t idle_passes_ = 0;
   std::uint64_t main_passes_ = 0;
-  bool begun_ = false;            // something else than a comment or an empty line was read
-  bool opened_percent_ = false;   // the program began with '%'
-  bool closing_percent_ = false;  // and a search for a sub came to the closing one
+  std::size_t contour_depth_ = 0;  // of the call that next() stops behind; 0: none
+  bool begun_ = false;             // something else than a comment or an empty line was read
+  bool opened_percent_ = false;    // the program began with '%'
+  bool closing_percent_ = false;   // and a search for a sub came to the closing one
   End end_ = End::none;
 };
 

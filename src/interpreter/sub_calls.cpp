@@ -53,6 +53,17 @@ void ProgramFlow::enter(const Frame& frame, File* file) {
   reporter_.look_at(block_, file_->name);
 }
 
+bool ProgramFlow::call_for_contour(Symbol sub, Span span) {
+  Control control;
+  control.kind = ControlKind::call;
+  control.span = span;
+  const std::size_t depth = frames_.size() + 1;
+  call(sub, control);
+  if (frames_.size() != depth) return false;
+  contour_depth_ = depth;
+  return true;
+}
+
 ProgramFlow::File* ProgramFlow::find_sub(Symbol label) {
   if (find_in(*file_, label)) return file_;
   for (const auto& file : files_) {

@@ -50,12 +50,16 @@ constexpr std::string_view word_list =
     "^30|X#1|Y[#2+1]|#1=3|#2=[#1*2]|#<a>=1|X#<a>|(msg,x)|(debug,#1 #<a>)|;c|/|N10|H2|D1|%|G81|Z1e3|"
     "X99999999999|M19|$0|$-1|E1|L2|M50|M51|M52|M53|M62|M66|M67|M68|M70|M71|M72|M73|M98|M98 P1|M98 P2 "
     "L3|M99|G38.2|G38.3|"
-    "G38.5|G96|G97|M101|O1|O2|#5599=0|(PROBEOPEN x)|(PROBECLOSE)";
+    "G38.5|G96|G97|M101|O1|O2|#5599=0|(PROBEOPEN "
+    "x)|(PROBECLOSE)|G82|G83|G73|G84|G74|G85|G86|G89|G98|G99|L3|Z-5|R.5|G76|P.4|I-2|J.3|K1|E.1|G70 Q7|G71 Q7|G71.2 "
+    "Q7|G72 "
+    "Q7|"
+    "X20 Z2|C.1";
 constexpr std::string_view control_list =
     "o1 sub|o1 endsub|o1 call|o1 call [1] [2]|o1 return [3]|o2 if [#1]|o2 elseif [1]|o2 else|"
     "o2 endif|o3 while [#1 LT 5]|o3 endwhile|o4 do|o4 while [0]|o4 while [1]|o5 repeat [3]|"
     "o5 endrepeat|o3 break|o5 continue|o4 break|o[#1] call|o<b> sub|o<b> endsub|o<b> call [#1]|"
-    "o3 continue|o6";
+    "o3 continue|o6|o7 sub|G1 X5 Z-2|X7 Z-6 A.3|G3 X9 Z-8 K-2|X11|o7 endsub";
 
 std::vector<std::string> split(std::string_view list) {
   std::vector<std::string> parts;
