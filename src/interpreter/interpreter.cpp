@@ -1,6 +1,7 @@
 #include "passo/interpreter/interpreter.hpp"
 
 #include "block_executor.hpp"
+#include "grbl.hpp"
 #include "program_flow.hpp"
 
 namespace passo {
@@ -10,9 +11,12 @@ class Interpreter::Implementation {
   Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
       : parameters_(symbols_, state_),
         reporter_(diagnostics),
-        flow_(std::move(reader), {options.block_delete, options.idle_passes}, state_, parameters_, symbols_, reporter_),
+        flow_(std::move(reader), flow_options(options), state_, parameters_, symbols_, reporter_),
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     executor_.start(options);
+    if (options.dialect != Dialect::grbl) return;
+    diagnostics.look_up_rules_with(grbl_error);
+    state_.modal.set(ModalGroup::motion, code(0));  // where LinuxCNC waits for a first motion code
   }
 
   bool next(Operation& operation) {
@@ -29,13 +33,24 @@ class Interpreter::Implementation {
 
   std::uint64_t offset() const { return flow_.offset(); }
 
+  void watch(BlockWatcher& watcher) {
+    watcher_ = &watcher;
+    flow_.watch(watcher);
+  }
+
  private:
+  // grbl throws the '/' away and runs the line.
+  static ProgramFlow::Options flow_options(const InterpreterOptions& options) {
+    return {options.block_delete && options.dialect != Dialect::grbl, options.idle_passes, options.dialect};
+  }
+
   // One block: none, one or several operations.
   void step() {
     const Block* const block = executor_.ended() ? nullptr : flow_.next();
     text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {
       executor_.execute(*block);
+      if (watcher_ != nullptr) watcher_->after(state_);
       if (!operations_.empty()) flow_.note_progress();
       return;
     }
@@ -60,6 +75,7 @@ class Interpreter::Implementation {
   BlockExecutor executor_;
   std::string_view text_;  // of the block at hand
   bool finished_ = false;
+  BlockWatcher* watcher_ = nullptr;
 };
 
 Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
@@ -68,6 +84,10 @@ Interpreter::~Interpreter() = default;
 
 bool Interpreter::next(Operation& operation) {
   return implementation_->next(operation);
+}
+
+void Interpreter::watch(BlockWatcher& watcher) {
+  implementation_->watch(watcher);
 }
 
 std::uint64_t Interpreter::offset() const {

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "block_watcher.hpp"
 #include "block_words.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
@@ -22,6 +23,7 @@
 
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/program_reader.hpp"
+#include "passo/interpreter/interpreter.hpp"
 
 namespace passo {
 
@@ -32,6 +34,7 @@ class ProgramFlow {
   struct Options {
     bool block_delete = false;
     std::uint64_t idle_passes = 0;
+    Dialect dialect = Dialect::linuxcnc;
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -46,6 +49,8 @@ class ProgramFlow {
 
   // After M2 in a program that began with '%': whether the closing '%' is missing from the rest of the file.
   bool lacks_closing_percent();
+
+  void watch(BlockWatcher& watcher) { watcher_ = &watcher; }
 
   std::uint64_t offset() const { return files_.front()->reader.position().offset; }
 
@@ -86,6 +91,7 @@ class ProgramFlow {
   enum class Read : std::uint8_t { block, skipped, end };
   Read read();
   bool parse(std::string_view text, std::uint32_t line);
+  bool is_of_dialect();
   bool is_percent_end();
   const Block* finish(End end);
 
@@ -153,6 +159,7 @@ class ProgramFlow {
   bool begun_ = false;           // something else than a comment or an empty line was read
   bool opened_percent_ = false;  // the program began with '%'
   End end_ = End::none;
+  BlockWatcher* watcher_ = nullptr;
 };
 
 }  // namespace passo

@@ -22,6 +22,7 @@ struct ProgramArguments {
   std::string program;        // "-": standard input
   bool block_delete = false;  // skip lines that start with '/'
   bool inches = false;        // until the program says G20 or G21
+  std::string dialect = "linuxcnc";  // or grbl
 };
 
 struct RunArguments {
@@ -47,6 +48,12 @@ struct CanonArguments {
   std::string output;  // empty: standard output
 };
 int canon(const CanonArguments& arguments);
+
+struct ExplainArguments {
+  ProgramArguments program;  // its `program`: FILE, FILE:LINE or FILE:FROM-TO
+  bool json = false;
+};
+int explain(const ExplainArguments& arguments);
 
 struct MachineArguments {
   std::string machine;

@@ -24,6 +24,7 @@ InterpreterOptions interpreter_options(const ProgramArguments& arguments) {
   InterpreterOptions options;
   options.block_delete = arguments.block_delete;
   options.units = arguments.inches ? LengthUnits::inch : LengthUnits::mm;
+  options.dialect = arguments.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
   return options;
 }
 

@@ -13,7 +13,13 @@
 
 namespace passo {
 
+class BlockWatcher;
+
+// Whose G-code: LinuxCNC's RS274/NGC, or the part of it that grbl 1.1 accepts, with grbl's numbers in the diagnostics.
+enum class Dialect : std::uint8_t { linuxcnc, grbl };
+
 struct InterpreterOptions {
+  Dialect dialect = Dialect::linuxcnc;
   bool block_delete = false;            // lines that start with '/' are skipped
   LengthUnits units = LengthUnits::mm;  // before the program says G20 or G21
   Point start;                          // machine position at the start
@@ -27,6 +33,9 @@ class Interpreter final : public Source<Operation> {
   ~Interpreter() override;
 
   [[nodiscard]] bool next(Operation& operation) override;
+
+  // What this module's explain() sees blocks with; borrowed.
+  void watch(BlockWatcher& watcher);
 
   // Bytes of the program read so far in its main line, for progress.
   std::uint64_t offset() const;
