@@ -23,9 +23,7 @@ constexpr LetterMeaning g_letters[] = {
     {"R", code(2), code(3), Quantity::length, "the arc's radius is {}"},
     {"P", code(2), code(3), Quantity::number, "{} turns, the last one a part of one perhaps"},
     {"P", code(4), code(4), Quantity::seconds, "wait {}"},
-    {"L", code(10), code(10), Quantity::number, "what G10 sets: kind {}"},
-    {"P", code(10), code(10), Quantity::number, "of number {}"},
-    {"R", code(10), code(10), Quantity::number, "R of what G10 sets: {}"},
+    {"P", code(10), code(10), Quantity::number, "number {} of what G10 sets"},
     {"K", code(33), code(33, 1), Quantity::length, "{} along for each turn of the spindle"},
     {"D", code(41), code(42), Quantity::number, "the radius of tool {}"},
     {"D", code(41, 1), code(41, 1), Quantity::length, "a tool {} wide"},
@@ -78,8 +76,7 @@ std::string on_axis(double millimetres_or_degrees, Axis axis) {
 // The words of one block, and what its codes make of them.
 class Meanings {
  public:
-  Meanings(const std::vector<WordValue>& words, const MachineState& before, const MachineState& after)
-      : after_(after) {
+  Meanings(const std::vector<WordValue>& words, const MachineState& before, const MachineState& after) : after_(after) {
     bool any_axis = false;
     for (const WordValue& word : words) {
       any_axis |= word.letter != 0 && (axis_letters | polar_letters).has(word.letter);
@@ -148,9 +145,9 @@ class Meanings {
   }
 
   std::string of_axis(Axis axis, double value) const {
-    const std::string given = fmt::format(
-        "{} {}", letter_of(axis),
-        quantity_in_words(value, is_rotary(axis) ? Quantity::degrees : Quantity::length, after_));
+    const std::string given =
+        fmt::format("{} {}", letter_of(axis),
+                    quantity_in_words(value, is_rotary(axis) ? Quantity::degrees : Quantity::length, after_));
     if (taker_ == nullptr) return given + ", which no code uses";
     if (taker_->group == ModalGroup::tool_length) return "tool offset " + given;
     if (goes_to_its_words(*taker_)) {
@@ -163,7 +160,8 @@ class Meanings {
     switch (taker_->number) {
       case code(10): return "set " + given;
       case code(28):
-      case code(30): return fmt::format("this axis goes home, by way of {}{}", after_.modal.incremental() ? "+" : "", given);
+      case code(30):
+        return fmt::format("this axis goes home, by way of {}{}", after_.modal.incremental() ? "+" : "", given);
       case code(52): return "shift the work systems by " + given;
       case code(92): return "this place is " + given + " from now on";
       default: return given;
@@ -174,6 +172,7 @@ class Meanings {
     for (const CodeEntry* entry : codes_) {
       if (!entry->letters.has(letter)) continue;
       if (is_arc(*entry) && letter >= 'I' && letter <= 'K') return of_center(letter, value);
+      if (entry->letter == 'G' && entry->number == code(10) && letter == 'L') return what_g10_sets(value);
       const auto table = entry->letter == 'G' ? std::span<const LetterMeaning>(g_letters) : m_letters;
       for (const LetterMeaning& line : table) {
         if (line.letters[0] != letter || entry->number < line.first || entry->number > line.last) continue;
@@ -182,6 +181,12 @@ class Meanings {
       return fmt::format("a value of {}: {}", spelling(*entry), plain_number(value));
     }
     return "used by no code of the block";
+  }
+
+  static std::string what_g10_sets(double kind) {
+    if (kind == 2) return "set the origin of a work system";
+    if (kind == 20) return "set a work system so that this place is at the axis words";
+    return fmt::format("set an entry of the tool table, kind {}", plain_number(kind));
   }
 
   std::string of_center(char letter, double value) const {
@@ -252,8 +257,8 @@ std::vector<WordValue> word_values(const Block& block, const Parameters& paramet
   if (block.line_number) values.push_back({fmt::format("N{}", *block.line_number), 0, 0, true, "the line's number"});
   for (const Word& word : block.words) {
     const Evaluation value = value_of(word.value);
-    values.push_back({std::string(text_of(block, word.span)), word.letter, value ? *value : 0,
-                      static_cast<bool>(value), {}});
+    values.push_back(
+        {std::string(text_of(block, word.span)), word.letter, value ? *value : 0, static_cast<bool>(value), {}});
   }
   for (const Assignment& assignment : block.assignments) {
     const Evaluation value = value_of(assignment.value);
@@ -281,7 +286,7 @@ std::vector<WordValue> word_values(const Block& block, const Parameters& paramet
 }
 
 std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const MachineState& before,
-                                 const MachineState& after) {
+                                              const MachineState& after) {
   const Meanings meanings(words, before, after);
   std::vector<Explanation::Word> said;
   if (const CodeEntry* const implied = meanings.implied_motion()) {

@@ -14,8 +14,8 @@ namespace passo {
 
 // A word or parameter of a block and what it was worth when the block began: the block may change what it is made of.
 struct WordValue {
-  std::string word;    // as written
-  char letter = 0;     // of a word; 0: something else, and `meaning` says what
+  std::string word;  // as written
+  char letter = 0;   // of a word; 0: something else, and `meaning` says what
   double value = 0;
   bool known = false;  // it has a value
   std::string meaning;

@@ -16,8 +16,8 @@ class BlockWatcher {
  public:
   virtual ~BlockWatcher() = default;
   // All borrowed, until the call returns. `file` is the name of the file that the block is in.
-  virtual void before(const Block& block, std::string_view file, const MachineState& state, const Parameters& parameters,
-                      const SymbolTable& symbols) = 0;
+  virtual void before(const Block& block, std::string_view file, const MachineState& state,
+                      const Parameters& parameters, const SymbolTable& symbols) = 0;
   virtual void after(const MachineState& state) = 0;
 };
 

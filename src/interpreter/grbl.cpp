@@ -22,52 +22,29 @@ struct Accepted {
 constexpr Use yes = Use::yes;
 constexpr Use without_effect = Use::without_effect;
 constexpr Accepted accepted[] = {
-    {'G', code(0), yes},
-    {'G', code(1), yes},
-    {'G', code(2), yes},
-    {'G', code(3), yes},
-    {'G', code(4), yes},
-    {'G', code(10), yes},
-    {'G', code(17), yes},
-    {'G', code(18), yes},
-    {'G', code(19), yes},
-    {'G', code(20), yes},
-    {'G', code(21), yes},
-    {'G', code(28), yes},
-    {'G', code(28, 1), yes},
-    {'G', code(30), yes},
-    {'G', code(30, 1), yes},
-    {'G', code(38, 2), yes},
-    {'G', code(38, 3), yes},
-    {'G', code(38, 4), yes},
-    {'G', code(38, 5), yes},
-    {'G', code(40), without_effect},  // there is no cutter compensation
-    {'G', code(43, 1), yes},
-    {'G', code(49), yes},
-    {'G', code(53), yes},
-    {'G', code(54), yes},
-    {'G', code(55), yes},
-    {'G', code(56), yes},
-    {'G', code(57), yes},
-    {'G', code(58), yes},
-    {'G', code(59), yes},
-    {'G', code(61), without_effect},  // there is no other path mode
-    {'G', code(80), yes},
-    {'G', code(90), yes},
-    {'G', code(91), yes},
-    {'G', code(91, 1), without_effect},  // centres are incremental always
-    {'G', code(92), yes},
-    {'G', code(92, 1), yes},
-    {'G', code(93), yes},
-    {'G', code(94), yes},
-    {'M', code(0), yes},
-    {'M', code(1), without_effect},
-    {'M', code(2), yes},
-    {'M', code(3), yes},
-    {'M', code(4), yes},
-    {'M', code(5), yes},
-    {'M', code(8), yes},
-    {'M', code(9), yes},
+    {'G', code(0), yes},     {'G', code(1), yes},
+    {'G', code(2), yes},     {'G', code(3), yes},
+    {'G', code(4), yes},     {'G', code(10), yes},
+    {'G', code(17), yes},    {'G', code(18), yes},
+    {'G', code(19), yes},    {'G', code(20), yes},
+    {'G', code(21), yes},    {'G', code(28), yes},
+    {'G', code(28, 1), yes}, {'G', code(30), yes},
+    {'G', code(30, 1), yes}, {'G', code(38, 2), yes},
+    {'G', code(38, 3), yes}, {'G', code(38, 4), yes},
+    {'G', code(38, 5), yes}, {'G', code(40), without_effect},  // there is no cutter compensation
+    {'G', code(43, 1), yes}, {'G', code(49), yes},
+    {'G', code(53), yes},    {'G', code(54), yes},
+    {'G', code(55), yes},    {'G', code(56), yes},
+    {'G', code(57), yes},    {'G', code(58), yes},
+    {'G', code(59), yes},    {'G', code(61), without_effect},  // there is no other path mode
+    {'G', code(80), yes},    {'G', code(90), yes},
+    {'G', code(91), yes},    {'G', code(91, 1), without_effect},  // centres are incremental always
+    {'G', code(92), yes},    {'G', code(92, 1), yes},
+    {'G', code(93), yes},    {'G', code(94), yes},
+    {'M', code(0), yes},     {'M', code(1), without_effect},
+    {'M', code(2), yes},     {'M', code(3), yes},
+    {'M', code(4), yes},     {'M', code(5), yes},
+    {'M', code(8), yes},     {'M', code(9), yes},
     {'M', code(30), yes},
 };
 constexpr LetterSet accepted_letters = "FGIJKLMNPRSTXYZ";
@@ -118,15 +95,15 @@ struct Translation {
   int number;
 };
 constexpr Translation translations[] = {
-    {"gcode.unexpected-text", 1},   {"gcode.bad-character", 1},        {"gcode.unknown-word", 1},
-    {"gcode.missing-value", 2},     {"gcode.number-out-of-range", 2},  {"gcode.negative-word", 4},
-    {"gcode.line-too-long", 11},    {"gcode.unknown-code", 20},        {"gcode.unsupported-code", 20},
-    {"gcode.modal-conflict", 21},   {"gcode.missing-feed", 22},        {"gcode.not-whole", 23},
-    {"gcode.axis-conflict", 24},    {"gcode.ambiguous-word", 36},      {"gcode.repeated-word", 25},
-    {"gcode.missing-axis", 26},     {"gcode.missing-word", 28},        {"gcode.g53-without-move", 30},
-    {"gcode.missing-motion", 31},   {"gcode.wrong-center", 36},        {"gcode.arc-radii-differ", 33},
-    {"gcode.zero-arc", 33},         {"gcode.impossible-arc", 34},      {"gcode.missing-center", 35},
-    {"gcode.mixed-arc", 36},        {"gcode.unused-word", 36},
+    {"gcode.unexpected-text", 1}, {"gcode.bad-character", 1},       {"gcode.unknown-word", 1},
+    {"gcode.missing-value", 2},   {"gcode.number-out-of-range", 2}, {"gcode.negative-word", 4},
+    {"gcode.line-too-long", 11},  {"gcode.unknown-code", 20},       {"gcode.unsupported-code", 20},
+    {"gcode.modal-conflict", 21}, {"gcode.missing-feed", 22},       {"gcode.not-whole", 23},
+    {"gcode.axis-conflict", 24},  {"gcode.ambiguous-word", 36},     {"gcode.repeated-word", 25},
+    {"gcode.missing-axis", 26},   {"gcode.missing-word", 28},       {"gcode.g53-without-move", 30},
+    {"gcode.missing-motion", 31}, {"gcode.wrong-center", 36},       {"gcode.arc-radii-differ", 33},
+    {"gcode.zero-arc", 33},       {"gcode.impossible-arc", 34},     {"gcode.missing-center", 35},
+    {"gcode.mixed-arc", 36},      {"gcode.unused-word", 36},
 };
 
 const Error& error_of(int number) {
@@ -151,7 +128,7 @@ class GrblCheck {
     for (const Word& word : block_.words) {
       if (!take(word)) return false;
     }
-    return groups_agree() && words_suffice();
+    return words_suffice();
   }
 
  private:
@@ -226,6 +203,16 @@ class GrblCheck {
     }
     const CodeEntry* const entry = find_code(word.letter, number);
     const std::size_t group = index_of(entry->group);
+    // G49 counts as a user of the axis words too, though it uses none.
+    if (entry->axes != AxisUse::none || entry->group == ModalGroup::tool_length) {
+      if (axis_user_ != nullptr) {
+        return fail(24, word.span,
+                    fmt::format("{} and {} both use the axis words", spelling(*axis_user_), spelling(*entry)),
+                    "two blocks");
+      }
+      axis_user_ = entry;
+      code_span_ = word.span;
+    }
     if (codes_[group] != nullptr) {
       return fail(21, word.span,
                   fmt::format("{} and {} are of the same group ({})", spelling(*codes_[group]), spelling(*entry),
@@ -233,7 +220,6 @@ class GrblCheck {
                   "one of them, or two blocks");
     }
     codes_[group] = entry;
-    if (entry->axes != AxisUse::none || entry->group == ModalGroup::tool_length) code_span_ = word.span;
     return true;
   }
   // G codes where grbl expects digits behind the point.
@@ -265,14 +251,6 @@ class GrblCheck {
   bool uses_axes(ModalGroup group) const {
     const CodeEntry* const entry = code_of(group);
     return entry != nullptr && entry->axes != AxisUse::none;
-  }
-
-  bool groups_agree() {
-    // G49 counts as a user of the axis words too, though it uses none.
-    const int users = static_cast<int>(uses_axes(ModalGroup::motion)) +
-                      static_cast<int>(uses_axes(ModalGroup::non_modal)) +
-                      static_cast<int>(code_of(ModalGroup::tool_length) != nullptr);
-    return users <= 1 || fail(24, code_span_, "two codes of the block use the axis words", "two blocks");
   }
 
   bool words_suffice() {
@@ -339,7 +317,8 @@ class GrblCheck {
   std::array<double, letter_count> values_{};
   std::array<Span, letter_count> spans_{};
   std::array<const CodeEntry*, modal_group_count> codes_{};
-  Span code_span_{1, 1};  // of the last code that may use the axis words
+  const CodeEntry* axis_user_ = nullptr;  // the code that may use the axis words
+  Span code_span_{1, 1};                  // its place
 };
 
 bool is_without_effect(const Block& block, const Word& word) {

@@ -2,8 +2,8 @@
 //
 // A block is checked against the table of grbl.cpp before anything is made of it, and what grbl accepts without effect
 // (comments, M1, G40, G61, G91.1) is taken out of it. What is left means the same as in LinuxCNC's dialect, and is
-// executed by the same code. Source: grbl's documentation (doc/markdown/interface.md, doc/csv/error_codes_en_US.csv) and
-// its behaviour, version 1.1 as it is built by default: without M7.
+// executed by the same code. Source: grbl's documentation (doc/markdown/interface.md, doc/csv/error_codes_en_US.csv)
+// and its behaviour, version 1.1 as it is built by default: without M7.
 #pragma once
 
 #include <string>

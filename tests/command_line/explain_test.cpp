@@ -11,7 +11,8 @@ using testing::Not;
 
 using Explain = passo::test::CommandLine;
 
-constexpr const char* program = "G10 L2 P1 X25\nG1 X10 F600\no1 repeat [3]\nG91 G1 X1\no1 endrepeat\nG1 H2\nM2\nG0 X1\n";
+constexpr const char* program =
+    "G10 L2 P1 X25\nG1 X10 F600\no1 repeat [3]\nG91 G1 X1\no1 endrepeat\nG1 H2\nM2\nG0 X1\n";
 
 TEST_F(Explain, says_what_a_line_does_where_it_is_and_under_which_modes) {
   const std::string file = write("p.ngc", program);

@@ -19,9 +19,9 @@ enum ExitCode : int {
 };
 
 struct ProgramArguments {
-  std::string program;        // "-": standard input
-  bool block_delete = false;  // skip lines that start with '/'
-  bool inches = false;        // until the program says G20 or G21
+  std::string program;               // "-": standard input
+  bool block_delete = false;         // skip lines that start with '/'
+  bool inches = false;               // until the program says G20 or G21
   std::string dialect = "linuxcnc";  // or grbl
 };
 

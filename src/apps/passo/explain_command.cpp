@@ -32,14 +32,17 @@ bool read_range(std::string_view text, LineRange& range) {
   const std::size_t dash = text.find('-');
   if (!read_number(text.substr(0, dash), range.first)) return false;
   range.last = range.first;
-  return dash == std::string_view::npos || (read_number(text.substr(dash + 1), range.last) && range.last >= range.first);
+  return dash == std::string_view::npos ||
+         (read_number(text.substr(dash + 1), range.last) && range.last >= range.first);
 }
 
 // FILE, FILE:LINE or FILE:FROM-TO. A colon may be a part of the file's name: what is behind the last one decides.
 bool read_place(const std::string& text, Place& place) {
   const std::size_t colon = text.rfind(':');
-  const bool has_range = colon != std::string::npos && colon + 1 < text.size() && text.find('/', colon) == std::string::npos;
-  if (colon != std::string::npos && colon > 0 && has_range && read_range(std::string_view(text).substr(colon + 1), place.lines)) {
+  const bool has_range =
+      colon != std::string::npos && colon + 1 < text.size() && text.find('/', colon) == std::string::npos;
+  if (colon != std::string::npos && colon > 0 && has_range &&
+      read_range(std::string_view(text).substr(colon + 1), place.lines)) {
     place.file = text.substr(0, colon);
     return true;
   }
@@ -71,7 +74,8 @@ class Writer {
                           line.executions == 1 ? "" : "s");
     }
     std::size_t width = 0;
-    for (const Explanation::Word& word : line.words) width = std::max(width, std::min<std::size_t>(word.word.size(), 24));
+    for (const Explanation::Word& word : line.words)
+      width = std::max(width, std::min<std::size_t>(word.word.size(), 24));
     for (const Explanation::Word& word : line.words) row(printable(word.word), width, word.meaning);
     if (line.words.empty()) out_ += "  nothing to do\n";
     heading("operations");
@@ -128,10 +132,14 @@ nlohmann::ordered_json as_json(const Explanation& line) {
   const auto position = [](const Explanation::Position& at) -> nlohmann::ordered_json {
     return {{"work", as_json(at.work)}, {"machine", as_json(at.machine)}};
   };
-  return {{"line", line.line},         {"text", line.text},
-          {"executions", line.executions}, {"words", words},
-          {"operations", line.operations}, {"before", position(line.before)},
-          {"after", position(line.after)}, {"modes", modes},
+  return {{"line", line.line},
+          {"text", line.text},
+          {"executions", line.executions},
+          {"words", words},
+          {"operations", line.operations},
+          {"before", position(line.before)},
+          {"after", position(line.after)},
+          {"modes", modes},
           {"findings", as_json(line.findings)}};
 }
 

@@ -91,8 +91,8 @@ void check_expression(const std::string& text) {
   if (evaluator.value("[" + text + "]EQ[" + text + "]", other)) require(other == 1, "x EQ x is not 1", text);
   if (evaluator.value("[" + text + "]LT[" + text + "]", other)) require(other == 0, "x LT x is not 0", text);
   if (evaluator.value("ABS[" + text + "]", other)) require(other == std::abs(value), "ABS", text);
-  if (evaluator.value("FIX[" + text + "]", other)) require(other <= value && value - other < 1, "FIX", text);
-  if (evaluator.value("FUP[" + text + "]", other)) require(other >= value && other - value < 1, "FUP", text);
+  if (evaluator.value("FIX[" + text + "]", other)) require(other <= value && value - other <= 1, "FIX", text);
+  if (evaluator.value("FUP[" + text + "]", other)) require(other >= value && other - value <= 1, "FUP", text);
   if (evaluator.value("SIN[" + text + "]", other)) require(std::abs(other) <= 1, "SIN", text);
   const bool has_root = evaluator.value("SQRT[" + text + "]", other);
   if (has_root) require(value >= 0 && std::abs(other * other - value) <= 1e-12 * std::abs(value), "SQRT", text);

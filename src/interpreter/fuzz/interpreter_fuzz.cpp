@@ -26,8 +26,7 @@ void require(bool condition, const char* what) {
 void check_diagnostics(const Diagnostics& diagnostics) {
   for (const Diagnostic& finding : diagnostics.all()) {
     require(!finding.message.empty() && !finding.code.empty(), "a finding without words");
-    require(finding.place.column == 0 || finding.text.empty() ||
-                finding.place.column - 1 <= finding.text.size(),
+    require(finding.place.column == 0 || finding.text.empty() || finding.place.column - 1 <= finding.text.size(),
             "a finding outside its line");
     static_cast<void>(render(finding, true));
   }

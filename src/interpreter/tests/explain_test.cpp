@@ -49,7 +49,7 @@ TEST(Explain, a_move_is_said_with_its_ends_in_work_and_machine) {
 }
 
 TEST(Explain, the_modes_are_those_the_line_runs_under) {
-  const Explanation line = line_of("G20 G91 F10 S900 M3 M8 T4\nG55 G18 G1 X1\nG21 G90\nM2\n", 2);
+  const Explanation line = line_of("G20 G91\nF10 S900 M3 M8 T4\nG55 G18 G1 X1\nG21 G90\nM2\n", 3);
   EXPECT_EQ(mode(line, "units").code, "G20");
   EXPECT_EQ(mode(line, "units").meaning, "inches");
   EXPECT_FALSE(mode(line, "units").set_here);

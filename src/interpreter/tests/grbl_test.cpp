@@ -41,22 +41,22 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"M48\nM2", 20}, Refusal{"G0 A1\nM2", 20}, Refusal{"G0 X1 Q1\nM2", 20}, Refusal{"o1 sub\nM2", 20},
         Refusal{"G10 L1 P1 Z1\nM2", 20}, Refusal{"G10 L2 P1 X1 R5\nM2", 20}, Refusal{"G999.5\nM2", 20},
         Refusal{"G0 G1 X1\nM2", 24}, Refusal{"G80 G0 X1\nM2", 21}, Refusal{"G20 G21\nM2", 21}, Refusal{"M3 M5\nM2", 21},
-        Refusal{"M1 M0\nM2", 21}, Refusal{"G54 G55\nM2", 21}, Refusal{"G1 X1\nM2", 22},
-        Refusal{"G93\nG1 X1\nM2", 22}, Refusal{"G59.1\nM2", 23}, Refusal{"G17.1\nM2", 23}, Refusal{"M3.1\nM2", 23},
-        Refusal{"G0 G28 X1\nM2", 24}, Refusal{"G0 G49 X1\nM2", 24}, Refusal{"G92 G1 X1 F1\nM2", 24},
-        Refusal{"G0 X1 X2\nM2", 25}, Refusal{"G92\nM2", 26}, Refusal{"G10 L2 P1\nM2", 26},
-        Refusal{"F9 G2 I1\nM2", 26}, Refusal{"N10000001 G0\nM2", 27}, Refusal{"G4\nM2", 28},
-        Refusal{"G10 P1 X1\nM2", 28}, Refusal{"G10 L2 P7 X1\nM2", 29}, Refusal{"F9 G53 G2 X1 I.5\nM2", 30},
-        Refusal{"G80 X1\nM2", 31}, Refusal{"F9 G2 Z1 I1\nM2", 32}, Refusal{"F9 G18 G2 Y1 I1\nM2", 32},
-        Refusal{"F9 G2 X1 Y9 I1\nM2", 33}, Refusal{"F9 G2 X9 R1\nM2", 34}, Refusal{"F9 G2 X1\nM2", 35},
-        Refusal{"F9 G2 X1 K1\nM2", 35}, Refusal{"F9 G2 X2 I1 P2\nM2", 36}, Refusal{"G0 X1 L2\nM2", 36},
-        Refusal{"F9 G2 X2 I1 R1\nM2", 36}, Refusal{"G43.1 X1\nM2", 37}, Refusal{"G43.1\nM2", 37},
-        Refusal{"G43.1 X1 Z1\nM2", 37}, Refusal{"T256\nM2", 38}));
+        Refusal{"M1 M0\nM2", 21}, Refusal{"G54 G55\nM2", 21}, Refusal{"G1 X1\nM2", 22}, Refusal{"G93\nG1 X1\nM2", 22},
+        Refusal{"G59.1\nM2", 23}, Refusal{"G17.1\nM2", 23}, Refusal{"M3.1\nM2", 23}, Refusal{"G0 G28 X1\nM2", 24},
+        Refusal{"G0 G49 X1\nM2", 24}, Refusal{"G92 G1 X1 F1\nM2", 24}, Refusal{"G0 X1 X2\nM2", 25},
+        Refusal{"G92\nM2", 26}, Refusal{"G10 L2 P1\nM2", 26}, Refusal{"F9 G2 I1\nM2", 26},
+        Refusal{"N10000001 G0\nM2", 27}, Refusal{"G4\nM2", 28}, Refusal{"G10 P1 X1\nM2", 28},
+        Refusal{"G10 L2 P7 X1\nM2", 29}, Refusal{"F9 G53 G2 X1 I.5\nM2", 30}, Refusal{"G80 X1\nM2", 31},
+        Refusal{"F9 G2 Z1 I1\nM2", 32}, Refusal{"F9 G18 G2 Y1 I1\nM2", 32}, Refusal{"F9 G2 X1 Y9 I1\nM2", 33},
+        Refusal{"F9 G2 X9 R1\nM2", 34}, Refusal{"F9 G2 X1\nM2", 35}, Refusal{"F9 G2 X1 K1\nM2", 35},
+        Refusal{"F9 G2 X2 I1 P2\nM2", 36}, Refusal{"G0 X1 L2\nM2", 36}, Refusal{"F9 G2 X2 I1 R1\nM2", 36},
+        Refusal{"G43.1 X1\nM2", 37}, Refusal{"G43.1\nM2", 37}, Refusal{"G43.1 X1 Z1\nM2", 37},
+        Refusal{"T256\nM2", 38}));
 
 TEST(Grbl, accepts_what_it_knows) {
   const Interpreted result = as_grbl(
       "G17 G21 G90 G94 G54 G49 G80\n"
-      "G10 L2 P1 X1 Y2\nG10 L20 P0 Z3\nG0 X1 Y1\nG1 Z-1 F100\nG2 X2 Y1 I.5\nG3 X3 R.5\nG18 G2 X4 I.5 G17\n"
+      "G10 L2 P1 X1 Y2\nG10 L20 P0 Z3\nG0 X1 Y1\nG1 Z-1 F100\nG2 X2 Y1 I.5\nG3 X3 R.5\nG18 G2 X4 I.5\nG17\n"
       "G28 Z1\nG28.1\nG30\nG30.1\nG43.1 Z2\nG53 G0 Z0\nG55\nG59\nG92 X0\nG92.1\nG93 G1 X1 F2\nG94\nG4 P.1\n"
       "M3 S1000\nM4\nM5\nM8\nM9\nM0\nT255\nG91\nG20\nN10000000 G0 X1\nM30\n");
   EXPECT_TRUE(result.diagnostics.all().empty()) << result.rendered();
@@ -86,7 +86,8 @@ TEST(Grbl, takes_what_has_no_effect_without_effect) {
 TEST(Grbl, counts_neither_blanks_nor_comments_of_a_line) {
   const std::string blanks(100, ' ');
   const std::string comment = "(" + std::string(100, 'c') + ")";
-  EXPECT_FALSE(as_grbl("G0" + blanks + "X1" + comment + "Y1 ;" + std::string(99, 'c') + "\nM2").diagnostics.any_error());
+  EXPECT_FALSE(
+      as_grbl("G0" + blanks + "X1" + comment + "Y1 ;" + std::string(99, 'c') + "\nM2").diagnostics.any_error());
   EXPECT_FALSE(as_grbl("G0X" + std::string(76, '1').replace(1, 1, ".") + "\nM2").diagnostics.any_error());
   EXPECT_TRUE(as_grbl("G0X" + std::string(77, '1').replace(1, 1, ".") + "\nM2").diagnostics.any_error());
 }

@@ -27,9 +27,9 @@ struct Diagnostic {
   std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
   std::string file;  // as the user named it
   SourcePlace place;
-  std::string message;   // one sentence without a full stop: what is wrong, with the value found
-  std::string expected;  // what would have been right, or how to mend it; may be empty
-  std::string text;      // the source line, for the caret; may be empty
+  std::string message;    // one sentence without a full stop: what is wrong, with the value found
+  std::string expected;   // what would have been right, or how to mend it; may be empty
+  std::string text;       // the source line, for the caret; may be empty
   std::string rule = {};  // where it is written that this is wrong, or another program's number for it; may be empty
 };
 

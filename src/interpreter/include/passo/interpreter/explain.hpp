@@ -1,7 +1,7 @@
 // explain: what the lines of a program do, in words, and under which modal state each of them runs.
 //
-// Not from the line alone: the program is run up to it, so that parameters have their values, the active motion is known
-// and positions are true. A line in a loop is explained as it is first executed.
+// Not from the line alone: the program is run up to it, so that parameters have their values, the active motion is
+// known and positions are true. A line in a loop is explained as it is first executed.
 #pragma once
 
 #include <cstdint>
