@@ -21,7 +21,7 @@ TEST_F(Explain, says_what_a_line_does_where_it_is_and_under_which_modes) {
   EXPECT_THAT(line.out, HasSubstr(file + ":2: G1 X10 F600\n"));
   EXPECT_THAT(line.out, HasSubstr("  X10   to X 10 mm (work), 35 mm (machine)\n"));
   EXPECT_THAT(line.out, HasSubstr("    STRAIGHT_FEED(10.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"));
-  EXPECT_THAT(line.out, HasSubstr("work     X 0 mm, Y 0 mm, Z 0 mm  ->  X 10 mm, Y 0 mm, Z 0 mm\n"));
+  EXPECT_THAT(line.out, HasSubstr("work     X -25 mm, Y 0 mm, Z 0 mm  ->  X 10 mm, Y 0 mm, Z 0 mm\n"));
   EXPECT_THAT(line.out, HasSubstr("    motion              G1    feed move  (set here)\n"));
   EXPECT_THAT(line.out, HasSubstr("    units               G21   millimetres\n"));
   EXPECT_THAT(line.out, Not(HasSubstr("\x1b")));
