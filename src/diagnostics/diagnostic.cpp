@@ -69,6 +69,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.place.line > 0 && std::ranges::any_of(all_, is_same)) return;
   if (diagnostic.severity == Severity::error && ++errors_ > limit_) return;
   if (diagnostic.severity == Severity::warning && all_.size() >= 4 * limit_) return;
+  if (diagnostic.rule.empty() && rule_of_ != nullptr) diagnostic.rule = rule_of_(diagnostic.code);
   all_.push_back(std::move(diagnostic));
 }
 
@@ -95,6 +96,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
                        paint("1;32", "^" + std::string(length - 1, '~')));
   }
   if (!diagnostic.expected.empty()) out += fmt::format("      = expected: {}\n", diagnostic.expected);
+  if (!diagnostic.rule.empty()) out += fmt::format("      = rule: {}\n", diagnostic.rule);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "passo/interpreter/interpreter.hpp"
 
 #include "block_executor.hpp"
+#include "grbl.hpp"
 #include "program_flow.hpp"
 
 namespace passo {
@@ -11,11 +12,13 @@ class Interpreter::Implementation {
       : saved_(options.parameters),
         parameters_(symbols_, state_, options.machine_units, options.settings),
         reporter_(diagnostics),
-        flow_(std::move(reader), {options.block_delete, options.idle_passes, options.main_passes, options.sub_folders},
-              state_, parameters_, symbols_, reporter_),
+        flow_(std::move(reader), flow_options(options), state_, parameters_, symbols_, reporter_),
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     parameters_.load(options.parameters);
     executor_.start(options);
+    if (options.dialect != Dialect::grbl) return;
+    diagnostics.look_up_rules_with(grbl_error);
+    state_.modal.set(ModalGroup::motion, code(0));  // where LinuxCNC waits for a first motion code
   }
 
   bool next(Operation& operation) {
@@ -40,7 +43,18 @@ class Interpreter::Implementation {
 
   std::uint64_t offset() const { return flow_.offset(); }
 
+  void watch(BlockWatcher& watcher) {
+    watcher_ = &watcher;
+    flow_.watch(watcher);
+  }
+
  private:
+  // grbl throws the '/' away and runs the line.
+  static ProgramFlow::Options flow_options(const InterpreterOptions& options) {
+    return {options.block_delete && options.dialect != Dialect::grbl, options.idle_passes, options.main_passes,
+            options.sub_folders, options.dialect};
+  }
+
   // One block: none, one or several operations.
   void step() {
     if (executor_.wants_contour()) return read_contour();
@@ -50,6 +64,7 @@ class Interpreter::Implementation {
     if (block != nullptr) {
       executor_.execute(*block);
       if (const auto jump = executor_.take_jump()) follow(*jump);
+      if (watcher_ != nullptr) watcher_->after(state_);
       if (!operations_.empty()) flow_.note_progress();
       return;
     }
@@ -95,6 +110,7 @@ class Interpreter::Implementation {
   BlockExecutor executor_;
   std::string_view text_;  // of the block at hand
   bool finished_ = false;
+  BlockWatcher* watcher_ = nullptr;
 };
 
 Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
@@ -107,6 +123,10 @@ bool Interpreter::next(Operation& operation) {
 
 SavedParameters Interpreter::saved_parameters() const {
   return implementation_->saved_parameters();
+}
+
+void Interpreter::watch(BlockWatcher& watcher) {
+  implementation_->watch(watcher);
 }
 
 std::uint64_t Interpreter::offset() const {

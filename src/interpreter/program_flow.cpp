@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "grbl.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -98,6 +99,7 @@ const Block* ProgramFlow::next() {
       if (is_percent_end()) return finish(End::percent);
       continue;
     }
+    if (watcher_ != nullptr) watcher_->before(block_, file_->name, state_, parameters_, symbols_);
     if (!block_.control) {
       begun_ = begun_ || !block_.words.empty() || !block_.assignments.empty();
       return &block_;
@@ -105,6 +107,7 @@ const Block* ProgramFlow::next() {
     begun_ = true;
     state_.line = block_.line;
     obey(*block_.control);
+    if (watcher_ != nullptr) watcher_->after(state_);
     if (contour_depth_ != 0) {
       left_sub_.reset();  // nothing was executed there, so nothing is put back
     } else if (left_sub_) {
@@ -127,9 +130,13 @@ ProgramFlow::Read ProgramFlow::read() {
 bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   std::set<std::uint32_t>& unreadable = file_->unreadable;
   if (!unreadable.empty() && unreadable.contains(line)) return false;
-  if (file_->parser.parse(text, line, block_, reporter_.diagnostics())) return true;
+  if (file_->parser.parse(text, line, block_, reporter_.diagnostics()) && is_of_dialect()) return true;
   unreadable.insert(line);
   return false;
+}
+
+bool ProgramFlow::is_of_dialect() {
+  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(block_, state_, reporter_);
 }
 
 // A '%' before everything else opens the program, the next one closes it.

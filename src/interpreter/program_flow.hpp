@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "block_watcher.hpp"
 #include "block_words.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
@@ -26,6 +27,7 @@
 
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/program_reader.hpp"
+#include "passo/interpreter/interpreter.hpp"
 
 namespace passo {
 
@@ -38,6 +40,7 @@ class ProgramFlow {
     std::uint64_t idle_passes = 0;
     std::uint64_t main_passes = 1;
     std::vector<std::string> sub_folders;  // after the program's own
+    Dialect dialect = Dialect::linuxcnc;
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -59,6 +62,8 @@ class ProgramFlow {
 
   // After M2 in a program that began with '%': whether the closing '%' is missing from the rest of the file.
   bool lacks_closing_percent();
+
+  void watch(BlockWatcher& watcher) { watcher_ = &watcher; }
 
   std::uint64_t offset() const { return files_.front()->reader.position().offset; }
 
@@ -108,6 +113,7 @@ class ProgramFlow {
   enum class Read : std::uint8_t { block, skipped, end };
   Read read();
   bool parse(std::string_view text, std::uint32_t line);
+  bool is_of_dialect();
   bool is_percent_end();
   bool closes_program(std::string_view text);
   const Block* finish(End end);
@@ -191,6 +197,7 @@ class ProgramFlow {
   bool opened_percent_ = false;    // the program began with '%'
   bool closing_percent_ = false;   // and a search for a sub came to the closing one
   End end_ = End::none;
+  BlockWatcher* watcher_ = nullptr;
 };
 
 }  // namespace passo

@@ -2,8 +2,8 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "findings_json.hpp"
 #include "program_input.hpp"
-#include <nlohmann/json.hpp>
 
 #include "passo/controller/job.hpp"
 
@@ -11,18 +11,7 @@ namespace passo {
 namespace {
 
 nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Diagnostic& finding : findings.all()) {
-    list.push_back({{"severity", finding.severity == Severity::error ? "error" : "warning"},
-                    {"code", finding.code},
-                    {"file", finding.file},
-                    {"line", finding.place.line},
-                    {"column", finding.place.column},
-                    {"length", finding.place.length},
-                    {"message", finding.message},
-                    {"expected", finding.expected}});
-  }
-  return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", list}};
+  return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ struct ProgramArguments {
   // The settings may name the tool table and the parameter file too. rs274, which canon prints like, ignores that.
   bool files_of_settings = true;
   bool parameters_may_lack = false;  // they are written after the run
+  std::string dialect = "linuxcnc";  // or grbl
 };
 
 struct RunArguments {
@@ -58,6 +59,12 @@ struct CanonArguments {
   std::string output;  // empty: standard output
 };
 int canon(const CanonArguments& arguments);
+
+struct ExplainArguments {
+  ProgramArguments program;  // its `program`: FILE, FILE:LINE or FILE:FROM-TO
+  bool json = false;
+};
+int explain(const ExplainArguments& arguments);
 
 struct MachineArguments {
   std::string machine;

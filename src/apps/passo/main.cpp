@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   passo run part.ngc -m router.toml --json | jq .time_s       for scripts
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo canon part.ngc                                        what it means, as canonical calls
+  passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
@@ -30,9 +31,16 @@ constexpr const char* examples = R"(Examples:
 
 Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
 
-void add_program(CLI::App& command, ProgramArguments& arguments) {
-  command.add_option("PROGRAM", arguments.program, "G-code file; - reads standard input")->required();
-  command.add_flag("--block-delete", arguments.block_delete, "skip lines that start with /");
+void add_program(CLI::App& command, ProgramArguments& arguments,
+                 const char* what = "G-code file; - reads standard input") {
+  command.add_option("PROGRAM", arguments.program, what)->required();
+  CLI::Option& block_delete =
+      *command.add_flag("--block-delete", arguments.block_delete, "skip lines that start with /");
+  command.add_option("--dialect", arguments.dialect, "whose G-code: linuxcnc (the default), or grbl, version 1.1")
+      ->check([&block_delete](const std::string& name) -> std::string {
+        if (name != "linuxcnc" && name != "grbl") return name + " is no dialect: expected linuxcnc or grbl";
+        return name == "grbl" && block_delete.count() > 0 ? "grbl knows no --block-delete: it runs such lines" : "";
+      });
   command.add_flag("--inches", arguments.inches, "lengths are inches until the program says G20 or G21");
   command.add_flag("--user-codes", arguments.user_codes, "allow M100 to M199; no program is run for them");
 }
@@ -96,6 +104,14 @@ int parse_and_run(int argc, char** argv) {
   add_files(canon_command, canon_arguments.program, true);
   canon_command.add_option("-o,--output", canon_arguments.output, "write to a file");
 
+  ExplainArguments explain_arguments;
+  CLI::App& explain_command = *app.add_subcommand("explain", "say in words what lines of a program do");
+  add_program(explain_command, explain_arguments.program, "FILE:LINE, FILE:FROM-TO or FILE");
+  explain_command.add_flag("--json", explain_arguments.json, "print it as JSON");
+  explain_command.footer(
+      "Examples:\n  passo explain part.ngc:12             what it does, with positions and modes as they are there\n"
+      "  passo explain part.ngc:10-20 --json   for scripts");
+
   MachineArguments machine_arguments;
   CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
@@ -117,6 +133,7 @@ int parse_and_run(int argc, char** argv) {
   if (run_command.parsed()) return run(run_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
+  if (explain_command.parsed()) return explain(explain_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);

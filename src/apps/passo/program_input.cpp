@@ -67,6 +67,7 @@ std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& ar
   options.sub_folders = arguments.sub_folders;
   options.block_delete = arguments.block_delete;
   options.units = arguments.inches ? LengthUnits::inch : LengthUnits::mm;
+  options.dialect = arguments.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
   options.user_codes = arguments.user_codes;
   Diagnostics diagnostics;
   read_files(arguments, options, diagnostics);

@@ -27,9 +27,10 @@ struct Diagnostic {
   std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
   std::string file;  // as the user named it
   SourcePlace place;
-  std::string message;   // one sentence without a full stop: what is wrong, with the value found
-  std::string expected;  // what would have been right, or how to mend it; may be empty
-  std::string text;      // the source line, for the caret; may be empty
+  std::string message;    // one sentence without a full stop: what is wrong, with the value found
+  std::string expected;   // what would have been right, or how to mend it; may be empty
+  std::string text;       // the source line, for the caret; may be empty
+  std::string rule = {};  // where it is written that this is wrong, or another program's number for it; may be empty
 };
 
 // Collects diagnostics up to a limit of errors; the rest is counted, not kept. The same finding at the same place (a
@@ -39,6 +40,9 @@ class Diagnostics {
   explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}
 
   void add(Diagnostic diagnostic);
+  // What to write as the rule of a diagnostic that comes without one, by its code; the stage that knows gives it.
+  using RuleOf = std::string (*)(std::string_view code);
+  void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
   const std::vector<Diagnostic>& all() const { return all_; }
   std::size_t errors() const { return errors_; }
   bool any_error() const { return errors_ > 0; }
@@ -47,6 +51,7 @@ class Diagnostics {
 
  private:
   std::size_t limit_;
+  RuleOf rule_of_ = nullptr;
   std::size_t errors_ = 0;
   std::vector<Diagnostic> all_;
 };
@@ -57,6 +62,7 @@ class Diagnostics {
 //       3 | G1 X10
 //         |    ^~~
 //         = expected: F before the first feed move, or on it
+//         = rule: grbl error:22, undefined feed rate
 std::string render(const Diagnostic& diagnostic, bool colour);
 // All of them, each as above, and a closing line that counts ("2 errors").
 std::string render(const Diagnostics& diagnostics, bool colour);

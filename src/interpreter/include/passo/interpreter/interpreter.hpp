@@ -18,7 +18,13 @@
 
 namespace passo {
 
+class BlockWatcher;
+
+// Whose G-code: LinuxCNC's RS274/NGC, or the part of it that grbl 1.1 accepts, with grbl's numbers in the diagnostics.
+enum class Dialect : std::uint8_t { linuxcnc, grbl };
+
 struct InterpreterOptions {
+  Dialect dialect = Dialect::linuxcnc;
   bool block_delete = false;            // lines that start with '/' are skipped
   LengthUnits units = LengthUnits::mm;  // before the program says G20 or G21
   Point start;                          // machine position at the start
@@ -50,6 +56,8 @@ class Interpreter final : public Source<Operation> {
 
   // What is to be saved for the next run: InterpreterOptions::parameters with what the program changed.
   SavedParameters saved_parameters() const;
+  // What this module's explain() sees blocks with; borrowed.
+  void watch(BlockWatcher& watcher);
 
   // Bytes of the program read so far in its main line, for progress.
   std::uint64_t offset() const;

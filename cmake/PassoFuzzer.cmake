@@ -1,0 +1,32 @@
+# passo_fuzzer(<name> SOURCES … CORPUS <folder> MODULES … LIBRARIES …)
+#
+# Always: the test <name>_replay, which feeds the corpus to the fuzzer's function, with any compiler.
+# With PASSO_FUZZ=ON (clang only): the libFuzzer executable <name>. The sources of the modules under test are compiled a
+# second time for it, since it steers by instrumented branches.
+option(PASSO_FUZZ "Build the fuzzers (clang only)" OFF)
+
+function(passo_fuzzer name)
+  cmake_parse_arguments(ARG "" "CORPUS" "SOURCES;MODULES;LIBRARIES" ${ARGN})
+  if(PASSO_BUILD_TESTS)
+    list(TRANSFORM ARG_MODULES PREPEND "passo_" OUTPUT_VARIABLE libraries)
+    passo_test(${name}_replay SOURCES ${ARG_SOURCES} "${PROJECT_SOURCE_DIR}/tests/kit/corpus_replay.cpp"
+      LIBRARIES ${libraries} ${ARG_LIBRARIES}
+      DEFINITIONS PASSO_FUZZER="${name}" PASSO_CORPUS="${CMAKE_CURRENT_SOURCE_DIR}/${ARG_CORPUS}")
+  endif()
+  if(NOT PASSO_FUZZ)
+    return()
+  endif()
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "PASSO_FUZZ needs clang: libFuzzer is a part of it")
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  foreach(module IN LISTS ARG_MODULES)
+    get_target_property(sources passo_${module} SOURCES)
+    list(TRANSFORM sources PREPEND "${PROJECT_SOURCE_DIR}/src/${module}/")
+    target_sources(${name} PRIVATE ${sources})
+    target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/src/${module}/include")
+  endforeach()
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} passo_compiler)
+  target_compile_options(${name} PRIVATE -UNDEBUG -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer,address,undefined)
+endfunction()

@@ -1,0 +1,190 @@
+// passo explain: what a line of a program does, in words, and which modes it runs under.
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstdlib>
+
+#include "commands.hpp"
+#include "findings_json.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "passo/interpreter/explain.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::uint32_t most_lines = 10'000;
+
+struct Place {
+  std::string file;
+  LineRange lines;
+  bool whole_file = false;
+};
+
+bool read_number(std::string_view text, std::uint32_t& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() && number >= 1;
+}
+
+bool read_range(std::string_view text, LineRange& range) {
+  const std::size_t dash = text.find('-');
+  if (!read_number(text.substr(0, dash), range.first)) return false;
+  range.last = range.first;
+  return dash == std::string_view::npos ||
+         (read_number(text.substr(dash + 1), range.last) && range.last >= range.first);
+}
+
+// FILE, FILE:LINE or FILE:FROM-TO. A colon may be a part of the file's name: what is behind the last one decides.
+bool read_place(const std::string& text, Place& place) {
+  const std::size_t colon = text.rfind(':');
+  const bool has_range =
+      colon != std::string::npos && colon + 1 < text.size() && text.find('/', colon) == std::string::npos;
+  if (colon != std::string::npos && colon > 0 && has_range &&
+      read_range(std::string_view(text).substr(colon + 1), place.lines)) {
+    place.file = text.substr(0, colon);
+    return true;
+  }
+  if (colon != std::string::npos && access(text.c_str(), F_OK) != 0) return false;
+  place.file = text;
+  place.lines = {1, most_lines};
+  place.whole_file = true;
+  return true;
+}
+
+int refuse(const std::string& message) {
+  std::fprintf(stderr, "passo: error: %s\n", message.c_str());
+  return exit_bad_program;
+}
+
+class Writer {
+ public:
+  explicit Writer(bool colour) : colour_(colour) {}
+
+  void write(const Explanation& line, const std::string& file, bool whole_run) {
+    out_ += fmt::format("{} {}\n", paint("1", fmt::format("{}:{}:", file, line.line)), printable(line.text));
+    for (const Diagnostic& finding : line.findings) out_ += render(finding, colour_);
+    if (line.executions == 0) {
+      out_ += whole_run ? "  never executed\n" : "  not executed as far as the program was run\n";
+      return;
+    }
+    if (line.executions > 1 || !whole_run) {
+      out_ += fmt::format("  executed {}{} time{}; this is the first\n", whole_run ? "" : "at least ", line.executions,
+                          line.executions == 1 ? "" : "s");
+    }
+    std::size_t width = 0;
+    for (const Explanation::Word& word : line.words)
+      width = std::max(width, std::min<std::size_t>(word.word.size(), 24));
+    for (const Explanation::Word& word : line.words) row(printable(word.word), width, word.meaning);
+    if (line.words.empty()) out_ += "  nothing to do\n";
+    heading("operations");
+    for (const std::string& operation : line.operations) out_ += fmt::format("    {}\n", printable(operation));
+    if (line.operations.empty()) out_ += "    none\n";
+    heading("position");
+    position("work", line.before.work, line.after.work);
+    position("machine", line.before.machine, line.after.machine);
+    heading("modes");
+    for (const Explanation::Mode& mode : line.modes) {
+      const std::string text = mode.code.empty() ? mode.meaning : fmt::format("{:<6}{}", mode.code, mode.meaning);
+      out_ += fmt::format("    {:<20}{}{}\n", mode.name, text, mode.set_here ? paint("32", "  (set here)") : "");
+    }
+  }
+  const std::string& text() const { return out_; }
+
+ private:
+  // What a program holds may not steer the terminal.
+  static std::string printable(std::string text) {
+    for (char& c : text) {
+      if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = ' ';
+    }
+    return text;
+  }
+  std::string paint(const char* style, const std::string& text) const {
+    return colour_ ? fmt::format("\x1b[{}m{}\x1b[0m", style, text) : text;
+  }
+  void heading(const char* text) { out_ += "  " + paint("1", text) + "\n"; }
+  void row(const std::string& word, std::size_t width, const std::string& meaning) {
+    out_ += fmt::format("  {:<{}}  {}\n", word, width, meaning);
+  }
+  void position(const char* name, const Point& before, const Point& after) {
+    out_ += before == after ? fmt::format("    {:<9}{}\n", name, in_words(after))
+                            : fmt::format("    {:<9}{}  ->  {}\n", name, in_words(before), in_words(after));
+  }
+
+  std::string out_;
+  bool colour_;
+};
+
+nlohmann::ordered_json as_json(const Point& point) {
+  nlohmann::ordered_json values;
+  for (const Axis axis : all_axes) values[std::string(1, letter_of(axis))] = point[axis];
+  return values;
+}
+
+nlohmann::ordered_json as_json(const Explanation& line) {
+  nlohmann::ordered_json words = nlohmann::ordered_json::array();
+  for (const auto& [word, meaning] : line.words) words.push_back({{"word", word}, {"meaning", meaning}});
+  nlohmann::ordered_json modes = nlohmann::ordered_json::array();
+  for (const Explanation::Mode& mode : line.modes) {
+    modes.push_back({{"name", mode.name}, {"code", mode.code}, {"meaning", mode.meaning}, {"set_here", mode.set_here}});
+  }
+  const auto position = [](const Explanation::Position& at) -> nlohmann::ordered_json {
+    return {{"work", as_json(at.work)}, {"machine", as_json(at.machine)}};
+  };
+  return {{"line", line.line},
+          {"text", line.text},
+          {"executions", line.executions},
+          {"words", words},
+          {"operations", line.operations},
+          {"before", position(line.before)},
+          {"after", position(line.after)},
+          {"modes", modes},
+          {"findings", as_json(line.findings)}};
+}
+
+}  // namespace
+
+int explain(const ExplainArguments& arguments) {
+  Place place;
+  if (!read_place(arguments.program.program, place)) {
+    return refuse(fmt::format("{}: expected FILE, FILE:LINE or FILE:FROM-TO, lines from 1", arguments.program.program));
+  }
+  ProgramArguments program_arguments = arguments.program;
+  program_arguments.program = place.file;
+  std::optional<ProgramReader> program = open_program(program_arguments);
+  const std::optional<InterpreterOptions> options = interpreter_options(program_arguments);
+  if (!program || !options) return exit_bad_program;
+
+  Diagnostics findings(1000);
+  const Explanations result = explain(std::move(*program), *options, place.lines, findings);
+  if (result.lines.empty()) {
+    return refuse(fmt::format("{} has {} lines: expected a line from 1 to {}", place.file, result.lines_in_file,
+                              result.lines_in_file));
+  }
+  if (place.whole_file && result.lines_in_file > most_lines) {
+    return refuse(fmt::format("{} has {} lines: expected {}:FROM-TO, {} lines at most", place.file,
+                              result.lines_in_file, place.file, most_lines));
+  }
+
+  if (arguments.json) {
+    nlohmann::ordered_json lines = nlohmann::ordered_json::array();
+    for (const Explanation& line : result.lines) lines.push_back(as_json(line));
+    const nlohmann::ordered_json whole{{"file", place.file}, {"whole_run", result.whole_run}, {"lines", lines}};
+    std::puts(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  } else {
+    Writer writer(is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr);
+    for (const Explanation& line : result.lines) writer.write(line, place.file, result.whole_run);
+    std::fputs(writer.text().c_str(), stdout);
+  }
+  if (std::fflush(stdout) != 0) {
+    std::fprintf(stderr, "passo: error: cannot write to standard output\n");
+    return exit_failed;
+  }
+  const auto is_error = [](const Diagnostic& finding) { return finding.severity == Severity::error; };
+  const bool wrong = std::ranges::any_of(
+      result.lines, [&](const Explanation& line) { return std::ranges::any_of(line.findings, is_error); });
+  return wrong ? exit_bad_program : exit_done;
+}
+
+}  // namespace passo

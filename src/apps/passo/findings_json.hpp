@@ -1,0 +1,28 @@
+// Findings as JSON, the same from every command.
+#pragma once
+
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+
+inline nlohmann::ordered_json as_json(std::span<const Diagnostic> findings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Diagnostic& finding : findings) {
+    list.push_back({{"severity", finding.severity == Severity::error ? "error" : "warning"},
+                    {"code", finding.code},
+                    {"file", finding.file},
+                    {"line", finding.place.line},
+                    {"column", finding.place.column},
+                    {"length", finding.place.length},
+                    {"message", finding.message},
+                    {"expected", finding.expected},
+                    {"rule", finding.rule}});
+  }
+  return list;
+}
+
+}  // namespace passo

@@ -1,0 +1,299 @@
+#include "block_in_words.hpp"
+
+#include <cmath>
+#include <span>
+
+#include "reporter.hpp"
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+enum class Quantity : std::uint8_t { number, length, degrees, seconds, speed };
+
+// What a letter means with a code. A code that is in no line here says "a value of" itself.
+struct LetterMeaning {
+  const char* letters;
+  CodeNumber first;  // G codes from here…
+  CodeNumber last;   // …to here
+  Quantity quantity;
+  const char* text;  // {}: the value
+};
+constexpr LetterMeaning g_letters[] = {
+    {"R", code(2), code(3), Quantity::length, "the arc's radius is {}"},
+    {"P", code(2), code(3), Quantity::number, "{} turns, the last one a part of one perhaps"},
+    {"P", code(4), code(4), Quantity::seconds, "wait {}"},
+    {"P", code(10), code(10), Quantity::number, "number {} of what G10 sets"},
+    {"K", code(33), code(33, 1), Quantity::length, "{} along for each turn of the spindle"},
+    {"D", code(41), code(42), Quantity::number, "the radius of tool {}"},
+    {"D", code(41, 1), code(41, 1), Quantity::length, "a tool {} wide"},
+    {"D", code(42, 1), code(42, 1), Quantity::length, "a tool {} wide"},
+    {"H", code(43), code(43, 2), Quantity::number, "of tool {} in the tool table"},
+    {"P", code(64), code(64), Quantity::length, "leave the programmed path by {} at most"},
+    {"Q", code(64), code(64), Quantity::length, "merge moves that are straight within {}"},
+    {"R", code(73), code(74), Quantity::length, "the retract plane is at {}"},
+    {"R", code(81), code(89), Quantity::length, "the retract plane is at {}"},
+    {"L", code(73), code(74), Quantity::number, "{} times"},
+    {"L", code(81), code(89), Quantity::number, "{} times"},
+    {"Q", code(73), code(73), Quantity::length, "{} deeper with each peck"},
+    {"Q", code(83), code(83), Quantity::length, "{} deeper with each peck"},
+    {"P", code(74), code(74), Quantity::seconds, "wait {} at the bottom"},
+    {"P", code(81), code(89), Quantity::seconds, "wait {} at the bottom"},
+    {"D", code(96), code(96), Quantity::speed, "{} at most"},
+};
+constexpr LetterMeaning m_letters[] = {
+    {"R", code(19), code(19), Quantity::degrees, "to {}"},
+    {"Q", code(19), code(19), Quantity::seconds, "within {}"},
+    {"Q", code(61), code(61), Quantity::number, "tool {}"},
+    {"P", code(62), code(66), Quantity::number, "digital number {}"},
+    {"E", code(66), code(68), Quantity::number, "analog number {}"},
+    {"Q", code(66), code(66), Quantity::seconds, "for {} at most"},
+    {"Q", code(67), code(68), Quantity::number, "to {}"},
+    {"P", code(98), code(98), Quantity::number, "of subprogram {}"},
+    {"L", code(98), code(98), Quantity::number, "{} times"},
+};
+
+std::string rounded(double value) {
+  return plain_number(std::round(value * 1e6) / 1e6 + 0.0);
+}
+
+std::string quantity_in_words(double value, Quantity quantity, const MachineState& state) {
+  switch (quantity) {
+    case Quantity::length:
+      return state.modal.inches() ? fmt::format("{} in ({} mm)", plain_number(value), rounded(value * mm_per_inch))
+                                  : fmt::format("{} mm", plain_number(value));
+    case Quantity::degrees: return fmt::format("{} degrees", plain_number(value));
+    case Quantity::seconds: return fmt::format("{} s", plain_number(value));
+    case Quantity::speed: return fmt::format("{} rev/min", plain_number(value));
+    default: return plain_number(value);
+  }
+}
+
+std::string on_axis(double millimetres_or_degrees, Axis axis) {
+  return fmt::format("{} {}", rounded(millimetres_or_degrees), is_rotary(axis) ? "degrees" : "mm");
+}
+
+// The words of one block, and what its codes make of them.
+class Meanings {
+ public:
+  Meanings(const std::vector<WordValue>& words, const MachineState& before, const MachineState& after) : after_(after) {
+    bool any_axis = false;
+    for (const WordValue& word : words) {
+      any_axis |= word.letter != 0 && (axis_letters | polar_letters).has(word.letter);
+      if (const CodeEntry* const entry = code_of(word)) codes_.push_back(entry);
+    }
+    for (const CodeEntry* entry : codes_) {
+      // G53 with its move, and a motion with what only sets: the one that uses the axis words takes them.
+      if (entry->axes != AxisUse::none && (taker_ == nullptr || entry->group != ModalGroup::motion)) taker_ = entry;
+      machine_ = machine_ || (entry->letter == 'G' && entry->number == code(53));
+    }
+    if (taker_ != nullptr) return;
+    implied_ = find_code('G', before.modal[ModalGroup::motion]);
+    if (implied_ == nullptr || !(any_axis || is_arc(*implied_))) return;
+    taker_ = implied_;
+    codes_.push_back(implied_);
+  }
+
+  // "the active motion" where axis words are moved by it.
+  const CodeEntry* implied_motion() const { return taker_ == implied_ ? implied_ : nullptr; }
+
+  std::string of(const WordValue& word) const {
+    if (word.letter == 0) return word.meaning;
+    if (!word.known) return "has no value";
+    switch (word.letter) {
+      case 'G':
+      case 'M': return of_code(word);
+      case 'F': return of_feed(word.value);
+      case 'S':
+        return after_.modal[ModalGroup::spindle_mode] == code(96)
+                   ? fmt::format("surface speed {} {}", plain_number(word.value),
+                                 after_.modal.inches() ? "feet/min" : "m/min")
+                   : fmt::format("spindle speed {} rev/min", plain_number(word.value));
+      case 'T': return fmt::format("select tool {}", plain_number(word.value));
+      case '@': return "distance from the origin " + quantity_in_words(word.value, Quantity::length, after_);
+      case '^': return "direction " + quantity_in_words(word.value, Quantity::degrees, after_);
+      default: break;
+    }
+    const auto axis = axis_of(word.letter);
+    return axis ? of_axis(*axis, word.value) : of_letter(word.letter, word.value);
+  }
+
+ private:
+  static const CodeEntry* code_of(const WordValue& word) {
+    if ((word.letter != 'G' && word.letter != 'M') || !word.known || !(std::abs(word.value) < 1000)) return nullptr;
+    return find_code(word.letter, static_cast<CodeNumber>(std::lround(word.value * 10)));
+  }
+  static bool is_arc(const CodeEntry& entry) {
+    return entry.letter == 'G' && (entry.number == code(2) || entry.number == code(3));
+  }
+
+  static std::string of_code(const WordValue& word) {
+    const CodeEntry* const entry = code_of(word);
+    if (entry == nullptr) return "no code of the language";
+    return std::string(entry->what) + (entry->support == Support::yes ? "" : ", which is not supported yet");
+  }
+
+  std::string of_feed(double value) const {
+    if (after_.modal.inverse_time()) return fmt::format("the move takes 1/{} minute", plain_number(value));
+    return fmt::format("feed {} {}{}", plain_number(value), after_.modal.inches() ? "inches" : "mm",
+                       after_.modal.per_revolution() ? " a revolution" : " a minute");
+  }
+
+  // Straight moves and arcs end at their words; what a cycle does with them is its own.
+  static bool goes_to_its_words(const CodeEntry& entry) {
+    return entry.letter == 'G' && entry.group == ModalGroup::motion && entry.number < code(70);
+  }
+
+  std::string of_axis(Axis axis, double value) const {
+    const std::string given =
+        fmt::format("{} {}", letter_of(axis),
+                    quantity_in_words(value, is_rotary(axis) ? Quantity::degrees : Quantity::length, after_));
+    if (taker_ == nullptr) return given + ", which no code uses";
+    if (taker_->group == ModalGroup::tool_length) return "tool offset " + given;
+    if (goes_to_its_words(*taker_)) {
+      const std::string machine = on_axis(after_.machine_position()[axis], axis) + " (machine)";
+      if (machine_) return fmt::format("to {} {}", letter_of(axis), machine);
+      const std::string target =
+          fmt::format("to {} {} (work), {}", letter_of(axis), on_axis(after_.position[axis], axis), machine);
+      return after_.modal.incremental() ? fmt::format("by {}, {}", given, target) : target;
+    }
+    switch (taker_->number) {
+      case code(10): return "set " + given;
+      case code(28):
+      case code(30):
+        return fmt::format("this axis goes home, by way of {}{}", after_.modal.incremental() ? "+" : "", given);
+      case code(52): return "shift the work systems by " + given;
+      case code(92): return "this place is " + given + " from now on";
+      default: return given;
+    }
+  }
+
+  std::string of_letter(char letter, double value) const {
+    for (const CodeEntry* entry : codes_) {
+      if (!entry->letters.has(letter)) continue;
+      if (is_arc(*entry) && letter >= 'I' && letter <= 'K') return of_center(letter, value);
+      if (entry->letter == 'G' && entry->number == code(10) && letter == 'L') return what_g10_sets(value);
+      const auto table = entry->letter == 'G' ? std::span<const LetterMeaning>(g_letters) : m_letters;
+      for (const LetterMeaning& line : table) {
+        if (line.letters[0] != letter || entry->number < line.first || entry->number > line.last) continue;
+        return fmt::format(fmt::runtime(line.text), quantity_in_words(value, line.quantity, after_));
+      }
+      return fmt::format("a value of {}: {}", spelling(*entry), plain_number(value));
+    }
+    return "used by no code of the block";
+  }
+
+  static std::string what_g10_sets(double kind) {
+    if (kind == 2) return "set the origin of a work system";
+    if (kind == 20) return "set a work system so that this place is at the axis words";
+    return fmt::format("set an entry of the tool table, kind {}", plain_number(kind));
+  }
+
+  std::string of_center(char letter, double value) const {
+    const char axis = static_cast<char>('X' + (letter - 'I'));
+    const std::string length = quantity_in_words(value, Quantity::length, after_);
+    return after_.modal[ModalGroup::arc_distance] == code(90, 1)
+               ? fmt::format("the arc's centre is at {} {}", axis, length)
+               : fmt::format("the arc's centre is {} in {} from its start", length, axis);
+  }
+
+  const MachineState& after_;
+  std::vector<const CodeEntry*> codes_;
+  const CodeEntry* taker_ = nullptr;    // of the axis words
+  const CodeEntry* implied_ = nullptr;  // the motion that is active, where it takes them
+  bool machine_ = false;                // G53
+};
+
+std::string_view text_of(const Block& block, Span span) {
+  if (span.column == 0 || span.column > block.text.size()) return {};
+  return block.text.substr(span.column - 1, span.length);
+}
+
+const char* meaning_of(Comment::Kind kind) {
+  using Kind = Comment::Kind;
+  switch (kind) {
+    case Kind::message: return "a message to the operator";
+    case Kind::debug: return "a message to the operator, with the values of parameters";
+    case Kind::print: return "printed, with the values of parameters";
+    case Kind::log: return "a line for the log file";
+    case Kind::log_open:
+    case Kind::log_append: return "opens the log file";
+    case Kind::log_close: return "closes the log file";
+    case Kind::abort: return "the program gives up";
+    case Kind::probe_open: return "opens the file for probe results";
+    case Kind::probe_close: return "closes the file for probe results";
+    default: return "a comment";
+  }
+}
+
+const char* meaning_of(ControlKind kind) {
+  switch (kind) {
+    case ControlKind::sub: return "a sub begins: passed over until it is called";
+    case ControlKind::endsub: return "the sub ends: back to where it was called";
+    case ControlKind::call: return "call of a sub";
+    case ControlKind::return_: return "back from the sub to where it was called";
+    case ControlKind::do_: return "a loop begins that asks at its end";
+    case ControlKind::while_: return "a loop that goes on while the value is not 0";
+    case ControlKind::endwhile: return "the loop's end: back to ask again";
+    case ControlKind::if_: return "only if the value is not 0";
+    case ControlKind::elseif: return "else, only if the value is not 0";
+    case ControlKind::else_: return "else";
+    case ControlKind::endif: return "end of the if";
+    case ControlKind::repeat: return "a loop of so many passes";
+    case ControlKind::endrepeat: return "the loop's end: back for the next pass";
+    case ControlKind::break_: return "leave the loop";
+    case ControlKind::continue_: return "on with the next pass of the loop";
+    default: return "a numbered program";
+  }
+}
+
+}  // namespace
+
+std::vector<WordValue> word_values(const Block& block, const Parameters& parameters, const SymbolTable& symbols) {
+  std::vector<WordValue> values;
+  const auto value_of = [&](const Expression& expression) { return evaluate(block, expression, parameters); };
+  if (block.block_delete) values.push_back({"/", 0, 0, true, "skipped when block delete is on"});
+  if (block.percent) values.push_back({"%", 0, 0, true, "begins or ends the program"});
+  if (block.line_number) values.push_back({fmt::format("N{}", *block.line_number), 0, 0, true, "the line's number"});
+  for (const Word& word : block.words) {
+    const Evaluation value = value_of(word.value);
+    values.push_back(
+        {std::string(text_of(block, word.span)), word.letter, value ? *value : 0, static_cast<bool>(value), {}});
+  }
+  for (const Assignment& assignment : block.assignments) {
+    const Evaluation value = value_of(assignment.value);
+    std::string name = fmt::format("<{}>", symbols.name(assignment.symbol));
+    if (assignment.index) {
+      const Evaluation index = value_of(*assignment.index);
+      name = index ? plain_number(*index) : std::string("?");
+    }
+    values.push_back({std::string(text_of(block, assignment.span)), 0, 0, true,
+                      value ? fmt::format("parameter #{} becomes {}", name, plain_number(*value))
+                            : fmt::format("parameter #{}: there is no value", name)});
+  }
+  if (block.control) {
+    std::string meaning = meaning_of(block.control->kind);
+    for (std::size_t i = 0; i < block.control->arguments.size(); ++i) {
+      const Evaluation value = value_of(block.control->arguments[i]);
+      meaning += fmt::format("{}{}", i == 0 ? ": " : ", ", value ? plain_number(*value) : std::string("no value"));
+    }
+    values.push_back({std::string(text_of(block, block.control->span)), 0, 0, true, std::move(meaning)});
+  }
+  for (const Comment& comment : block.comments) {
+    values.push_back({std::string(text_of(block, comment.span)), 0, 0, true, meaning_of(comment.kind)});
+  }
+  return values;
+}
+
+std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const MachineState& before,
+                                              const MachineState& after) {
+  const Meanings meanings(words, before, after);
+  std::vector<Explanation::Word> said;
+  if (const CodeEntry* const implied = meanings.implied_motion()) {
+    said.push_back({fmt::format("({})", spelling(*implied)), fmt::format("{}, still active", implied->what)});
+  }
+  for (const WordValue& word : words) said.push_back({word.word, meanings.of(word)});
+  return said;
+}
+
+}  // namespace passo

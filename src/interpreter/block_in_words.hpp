@@ -1,0 +1,30 @@
+// A block's words and the machine's modes, each said in words with its value and units.
+#pragma once
+
+#include <vector>
+
+#include "machine_state.hpp"
+#include "parameters.hpp"
+
+#include "passo/gcode/block.hpp"
+#include "passo/gcode/symbols.hpp"
+#include "passo/interpreter/explain.hpp"
+
+namespace passo {
+
+// A word or parameter of a block and what it was worth when the block began: the block may change what it is made of.
+struct WordValue {
+  std::string word;  // as written
+  char letter = 0;   // of a word; 0: something else, and `meaning` says what
+  double value = 0;
+  bool known = false;  // it has a value
+  std::string meaning;
+};
+std::vector<WordValue> word_values(const Block& block, const Parameters& parameters, const SymbolTable& symbols);
+
+// `before` and `after` are the states around the block: words are meant in the units of the state after.
+std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const MachineState& before,
+                                              const MachineState& after);
+std::vector<Explanation::Mode> modes_in_words(const MachineState& before, const MachineState& after);
+
+}  // namespace passo

@@ -1,0 +1,24 @@
+// BlockWatcher: sees each block before and after it is executed, with the state it runs under. For explain().
+//
+// Called once for each execution, so a watcher that minds only some lines has to look at the line first.
+#pragma once
+
+#include <string_view>
+
+#include "machine_state.hpp"
+#include "parameters.hpp"
+
+#include "passo/gcode/block.hpp"
+
+namespace passo {
+
+class BlockWatcher {
+ public:
+  virtual ~BlockWatcher() = default;
+  // All borrowed, until the call returns. `file` is the name of the file that the block is in.
+  virtual void before(const Block& block, std::string_view file, const MachineState& state,
+                      const Parameters& parameters, const SymbolTable& symbols) = 0;
+  virtual void after(const MachineState& state) = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,351 @@
+#include "grbl.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "passo/gcode/expression.hpp"
+
+namespace passo {
+namespace {
+
+enum class Use : std::uint8_t { yes, without_effect };
+
+struct Accepted {
+  char letter;
+  CodeNumber number;
+  Use use;
+};
+constexpr Use yes = Use::yes;
+constexpr Use without_effect = Use::without_effect;
+constexpr Accepted accepted[] = {
+    {'G', code(0), yes},     {'G', code(1), yes},
+    {'G', code(2), yes},     {'G', code(3), yes},
+    {'G', code(4), yes},     {'G', code(10), yes},
+    {'G', code(17), yes},    {'G', code(18), yes},
+    {'G', code(19), yes},    {'G', code(20), yes},
+    {'G', code(21), yes},    {'G', code(28), yes},
+    {'G', code(28, 1), yes}, {'G', code(30), yes},
+    {'G', code(30, 1), yes}, {'G', code(38, 2), yes},
+    {'G', code(38, 3), yes}, {'G', code(38, 4), yes},
+    {'G', code(38, 5), yes}, {'G', code(40), without_effect},  // there is no cutter compensation
+    {'G', code(43, 1), yes}, {'G', code(49), yes},
+    {'G', code(53), yes},    {'G', code(54), yes},
+    {'G', code(55), yes},    {'G', code(56), yes},
+    {'G', code(57), yes},    {'G', code(58), yes},
+    {'G', code(59), yes},    {'G', code(61), without_effect},  // there is no other path mode
+    {'G', code(80), yes},    {'G', code(90), yes},
+    {'G', code(91), yes},    {'G', code(91, 1), without_effect},  // centres are incremental always
+    {'G', code(92), yes},    {'G', code(92, 1), yes},
+    {'G', code(93), yes},    {'G', code(94), yes},
+    {'M', code(0), yes},     {'M', code(1), without_effect},
+    {'M', code(2), yes},     {'M', code(3), yes},
+    {'M', code(4), yes},     {'M', code(5), yes},
+    {'M', code(8), yes},     {'M', code(9), yes},
+    {'M', code(30), yes},
+};
+constexpr LetterSet accepted_letters = "FGIJKLMNPRSTXYZ";
+constexpr LetterSet never_negative = "FNPST";
+constexpr LetterSet grbl_axes = "XYZ";
+
+constexpr std::size_t longest_grbl_line = 79;  // a buffer of 80, without blanks and comments
+constexpr double highest_grbl_tool = 255;
+constexpr double highest_line_number = 10'000'000;
+constexpr double work_systems = 6;
+
+// grbl's errors for programs. 3 and 5 to 19 are of its settings and states, and none of a program's.
+struct Error {
+  int number;
+  std::string_view code;  // of grbl's own checks
+  std::string_view what;
+};
+constexpr Error errors[] = {
+    {1, "grbl.expected-letter", "expected a command letter"},
+    {2, "grbl.bad-number", "bad number format"},
+    {3, "grbl.system-command", "invalid $ system command"},
+    {4, "grbl.negative-value", "negative value"},
+    {11, "grbl.line-overflow", "line overflow"},
+    {20, "grbl.unsupported-command", "unsupported or invalid command"},
+    {21, "grbl.modal-group-violation", "modal group violation"},
+    {22, "grbl.undefined-feed", "undefined feed rate"},
+    {23, "grbl.not-integer", "command value is not an integer"},
+    {24, "grbl.axis-command-conflict", "two commands use the axis words"},
+    {25, "grbl.word-repeated", "a word is repeated"},
+    {26, "grbl.no-axis-words", "no axis words"},
+    {27, "grbl.bad-line-number", "invalid line number"},
+    {28, "grbl.missing-word", "a value word is missing"},
+    {29, "grbl.unsupported-coordinate-system", "unsupported work coordinate system"},
+    {30, "grbl.g53-motion", "G53 allows G0 and G1 only"},
+    {31, "grbl.axis-words-exist", "axis words that no command uses"},
+    {32, "grbl.no-axis-words-in-plane", "no axis words in the plane"},
+    {33, "grbl.invalid-target", "invalid target"},
+    {34, "grbl.arc-radius", "arc radius"},
+    {35, "grbl.no-offsets-in-plane", "no arc offsets in the plane"},
+    {36, "grbl.unused-words", "unused value words"},
+    {37, "grbl.tool-length-axis", "tool length offset is for one axis only"},
+    {38, "grbl.highest-tool", "tool number above the maximum"},
+};
+
+// grbl's number for what the interpreter itself finds.
+struct Translation {
+  std::string_view code;
+  int number;
+};
+constexpr Translation translations[] = {
+    {"gcode.unexpected-text", 1}, {"gcode.bad-character", 1},       {"gcode.unknown-word", 1},
+    {"gcode.missing-value", 2},   {"gcode.number-out-of-range", 2}, {"gcode.negative-word", 4},
+    {"gcode.line-too-long", 11},  {"gcode.unknown-code", 20},       {"gcode.unsupported-code", 20},
+    {"gcode.modal-conflict", 21}, {"gcode.missing-feed", 22},       {"gcode.not-whole", 23},
+    {"gcode.axis-conflict", 24},  {"gcode.ambiguous-word", 36},     {"gcode.repeated-word", 25},
+    {"gcode.missing-axis", 26},   {"gcode.missing-word", 28},       {"gcode.g53-without-move", 30},
+    {"gcode.missing-motion", 31}, {"gcode.wrong-center", 36},       {"gcode.arc-radii-differ", 33},
+    {"gcode.zero-arc", 33},       {"gcode.impossible-arc", 34},     {"gcode.missing-center", 35},
+    {"gcode.mixed-arc", 36},      {"gcode.unused-word", 36},
+};
+
+const Error& error_of(int number) {
+  return *std::ranges::find(errors, number, &Error::number);
+}
+
+Use use_of(char letter, CodeNumber number, bool& known) {
+  const auto* const found = std::ranges::find_if(
+      accepted, [&](const Accepted& entry) { return entry.letter == letter && entry.number == number; });
+  known = found != std::end(accepted);
+  return known ? found->use : Use::yes;
+}
+
+// One block on its way into grbl.
+class GrblCheck {
+ public:
+  GrblCheck(const Block& block, const MachineState& state, Reporter& reporter)
+      : block_(block), state_(state), reporter_(reporter) {}
+
+  bool passes() {
+    if (!lines_shape()) return false;
+    for (const Word& word : block_.words) {
+      if (!take(word)) return false;
+    }
+    return words_suffice();
+  }
+
+ private:
+  bool fail(int number, Span span, std::string message, std::string expected) {
+    reporter_.error(error_of(number).code, span, std::move(message), std::move(expected));
+    return false;
+  }
+
+  bool lines_shape() {
+    if (block_.percent) return fail(1, {1, 1}, "grbl knows no '%'", "no '%': the sender takes it out");
+    std::size_t length = 0;
+    std::size_t comment_at = 0;
+    for (std::size_t i = 0; i < block_.text.size(); ++i) {
+      while (comment_at < block_.comments.size() && i >= end_of(block_.comments[comment_at].span)) ++comment_at;
+      const bool in_comment = comment_at < block_.comments.size() && i + 1 >= block_.comments[comment_at].span.column;
+      const char c = block_.text[i];
+      if (!in_comment && c > ' ' && c != '/' && ++length > longest_grbl_line) {
+        return fail(11, {static_cast<std::uint32_t>(i + 1), 1}, "the line is too long for grbl",
+                    fmt::format("{} characters at most, without blanks and comments", longest_grbl_line));
+      }
+    }
+    if (block_.control) return fail(20, block_.control->span, "grbl knows no O-words", "a program without them");
+    if (!block_.assignments.empty()) {
+      return fail(1, block_.assignments.front().span, "grbl knows no parameters", "a program without them");
+    }
+    if (block_.line_number && line_number() > highest_line_number) {
+      return fail(27, {1, 1}, fmt::format("grbl takes no line number N{}", *block_.line_number), "N10000000 at most");
+    }
+    return true;
+  }
+  static std::size_t end_of(Span span) { return std::size_t{span.column} - 1 + span.length; }
+  double line_number() const {
+    double number = 0;
+    for (const char digit : *block_.line_number) {
+      if (digit < '0' || digit > '9') break;
+      number = number * 10 + (digit - '0');
+    }
+    return number;
+  }
+
+  bool take(const Word& word) {
+    if (word.letter == '@' || word.letter == '^' || word.letter == '$') {
+      return fail(1, word.span, fmt::format("grbl knows no {}", word.letter), "letters");
+    }
+    const Instruction& value = block_.code[word.value.first];
+    if (word.value.count != 1 || value.op != ExpressionOp::number) {
+      return fail(2, word.span, "grbl knows no parameters and expressions", "a number");
+    }
+    if (!accepted_letters.has(word.letter)) {
+      return fail(20, word.span, fmt::format("grbl knows no word {}", word.letter), "F I J K L N P R S T X Y Z");
+    }
+    if (word.letter == 'G' || word.letter == 'M') return take_code(word, value.number);
+    return take_value(word, value.number);
+  }
+
+  bool take_code(const Word& word, double value) {
+    const double tenths = std::round(value * 10);
+    const bool readable = value >= 0 && value < 1000;
+    const auto number = readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1};
+    bool known = false;
+    (void)use_of(word.letter, number, known);
+    if (!readable || std::abs(value * 10 - tenths) > 1e-3 || !known) {
+      bool whole_known = false;
+      (void)use_of(word.letter, static_cast<CodeNumber>(readable ? std::floor(value) * 10 : -1), whole_known);
+      // grbl looks at the whole number first: G54.1 is a G54 with digits too many, and G64 is nothing at all.
+      const bool fraction = readable && std::abs(value - std::round(value)) > 1e-3;
+      const bool digits_too_many =
+          fraction && (word.letter == 'M' || (whole_known && !has_fractions(word.letter, static_cast<int>(value))));
+      return fail(digits_too_many ? 23 : 20, word.span,
+                  fmt::format("grbl does not know {}{}", word.letter, plain_number(value)),
+                  "a code of grbl 1.1, docs/gcode.md lists them");
+    }
+    const CodeEntry* const entry = find_code(word.letter, number);
+    const std::size_t group = index_of(entry->group);
+    // G49 counts as a user of the axis words too, though it uses none.
+    if (entry->axes != AxisUse::none || entry->group == ModalGroup::tool_length) {
+      if (axis_user_ != nullptr) {
+        return fail(24, word.span,
+                    fmt::format("{} and {} both use the axis words", spelling(*axis_user_), spelling(*entry)),
+                    "two blocks");
+      }
+      axis_user_ = entry;
+      code_span_ = word.span;
+    }
+    if (codes_[group] != nullptr) {
+      return fail(21, word.span,
+                  fmt::format("{} and {} are of the same group ({})", spelling(*codes_[group]), spelling(*entry),
+                              name_of(entry->group)),
+                  "one of them, or two blocks");
+    }
+    codes_[group] = entry;
+    return true;
+  }
+  // G codes where grbl expects digits behind the point.
+  static bool has_fractions(char letter, int whole) {
+    return letter == 'G' && (whole == 28 || whole == 30 || whole == 38 || whole == 43 || whole == 61 || whole == 90 ||
+                             whole == 91 || whole == 92);
+  }
+
+  bool take_value(const Word& word, double value) {
+    if (never_negative.has(word.letter) && value < 0) {
+      return fail(4, word.span, fmt::format("{} is {}", word.letter, plain_number(value)), "0 or more");
+    }
+    if (word.letter == 'T' && value > highest_grbl_tool) {
+      return fail(38, word.span, fmt::format("tool {} is above grbl's highest", plain_number(value)), "T255 at most");
+    }
+    present_.add(word.letter);
+    values_[letter_index(word.letter)] = value;
+    spans_[letter_index(word.letter)] = word.span;
+    return true;
+  }
+  bool has(char letter) const { return present_.has(letter); }
+  double value(char letter) const { return values_[letter_index(letter)]; }
+  Span span(char letter) const { return spans_[letter_index(letter)]; }
+  bool any_axis() const { return (present_ & grbl_axes).any(); }
+
+  bool uses_axes(const CodeEntry* entry) const { return entry != nullptr && entry->axes != AxisUse::none; }
+
+  const CodeEntry* code_of(ModalGroup group) const { return codes_[index_of(group)]; }
+  bool uses_axes(ModalGroup group) const {
+    const CodeEntry* const entry = code_of(group);
+    return entry != nullptr && entry->axes != AxisUse::none;
+  }
+
+  bool words_suffice() {
+    const CodeEntry* const tool_length = code_of(ModalGroup::tool_length);
+    if (tool_length != nullptr && tool_length->number == code(43, 1) &&
+        (present_ & grbl_axes).bits() != LetterSet("Z").bits()) {
+      return fail(37, code_span_, "G43.1 offsets the axis Z alone", "Z, and no other axis word");
+    }
+    const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
+    if (non_modal != nullptr && non_modal->number == code(10)) return g10_suffices();
+    if (uses_axes(ModalGroup::non_modal) || tool_length != nullptr) return true;
+    return arc_suffices();
+  }
+
+  bool g10_suffices() {
+    if (!any_axis()) return fail(26, code_span_, "G10 without axis words", "X, Y or Z");
+    if (!has('P') || !has('L')) return fail(28, code_span_, "G10 needs P and L", "P0 to P6, and L2 or L20");
+    const double kind = std::trunc(value('L'));
+    if (value('P') >= work_systems + 1) return fail(29, span('P'), "grbl has six work systems", "P0 to P6");
+    if (kind != 2 && kind != 20) return fail(20, span('L'), "grbl knows G10 L2 and L20", "L2 or L20");
+    if (has('R')) return fail(kind == 2 ? 20 : 36, span('R'), "grbl does not turn work systems", "no R");
+    return true;
+  }
+
+  // An arc needs a word of an axis of its plane, where LinuxCNC takes the centre alone for a full circle.
+  bool arc_suffices() {
+    const CodeEntry* const written = code_of(ModalGroup::motion);
+    const CodeNumber motion = written != nullptr ? written->number : state_.modal[ModalGroup::motion];
+    if (motion == code(80) && any_axis()) {
+      return fail(31, first_axis_span(), "axis words after G80, which moves nothing", "G0, G1, G2 or G3");
+    }
+    if (motion != code(2) && motion != code(3)) return true;
+    const bool center = (present_ & LetterSet("IJKR")).any();
+    if (written == nullptr && !any_axis() && !center) return true;
+    const Span at = written != nullptr ? code_span_ : block_.words.front().span;
+    if (!any_axis()) {
+      return written == nullptr ? fail(36, at, "centre words without axis words", "the end of the arc")
+                                : fail(26, at, "an arc without axis words", "the end of the arc");
+    }
+    const CodeEntry* const new_plane = code_of(ModalGroup::plane);
+    const CodeNumber plane = new_plane != nullptr ? new_plane->number : state_.modal[ModalGroup::plane];
+    const LetterSet in_plane = plane == code(17) ? "XY" : plane == code(18) ? "XZ" : "YZ";
+    const LetterSet offsets = plane == code(17) ? "IJ" : plane == code(18) ? "IK" : "JK";
+    if (!(present_ & in_plane).any()) return fail(32, at, "no axis word of the arc's plane", "one at least");
+    if (!has('R') && !(present_ & offsets).any()) {
+      return fail(35, at, "no centre in the arc's plane", "R, or one of I J K of the plane");
+    }
+    if (has('P') && code_of(ModalGroup::non_modal) == nullptr) {
+      return fail(36, span('P'), "grbl's arcs have no P", "one block for each turn");
+    }
+    return true;
+  }
+  Span first_axis_span() const {
+    for (const char letter : {'X', 'Y', 'Z'}) {
+      if (has(letter)) return span(letter);
+    }
+    return {1, 1};
+  }
+
+  const Block& block_;
+  const MachineState& state_;
+  Reporter& reporter_;
+  LetterSet present_;
+  std::array<double, letter_count> values_{};
+  std::array<Span, letter_count> spans_{};
+  std::array<const CodeEntry*, modal_group_count> codes_{};
+  const CodeEntry* axis_user_ = nullptr;  // the code that may use the axis words
+  Span code_span_{1, 1};                  // its place
+};
+
+bool is_without_effect(const Block& block, const Word& word) {
+  if (word.letter != 'G' && word.letter != 'M') return false;
+  bool known = false;
+  const double value = block.code[word.value.first].number;
+  return use_of(word.letter, static_cast<CodeNumber>(std::lround(value * 10)), known) == Use::without_effect;
+}
+
+}  // namespace
+
+bool accept_as_grbl(Block& block, const MachineState& state, Reporter& reporter) {
+  if (!GrblCheck(block, state, reporter).passes()) return false;
+  std::erase_if(block.words, [&](const Word& word) { return is_without_effect(block, word); });
+  for (Comment& comment : block.comments) comment.kind = Comment::Kind::plain;
+  return true;
+}
+
+std::string grbl_error(std::string_view code) {
+  int number = 0;
+  for (const Translation& line : translations) {
+    if (line.code == code) number = line.number;
+  }
+  for (const Error& error : errors) {
+    if (error.code == code || error.number == number) return fmt::format("grbl error:{}, {}", error.number, error.what);
+  }
+  return {};
+}
+
+}  // namespace passo
