@@ -48,6 +48,17 @@ class ModalState {
   std::array<CodeNumber, modal_group_count> active_{};
 };
 
+// G51: X Y Z of the program are taken by a factor, as seen from a centre. For what a move says, not for offsets.
+struct Scaling {
+  bool on = false;
+  Point center;  // work coordinates
+  std::array<double, 3> factors = {1, 1, 1};
+
+  double factor(Axis axis) const { return on && index_of(axis) < factors.size() ? factors[index_of(axis)] : 1; }
+  double place(Axis axis, double value) const { return center[axis] + way(axis, value - center[axis]); }
+  double way(Axis axis, double value) const { return value * factor(axis); }
+};
+
 struct SpindleState {
   double speed = 0;  // S: revolutions a minute
   SpindleDirection direction = SpindleDirection::off;
@@ -58,6 +69,7 @@ struct MachineState {
   Frame frame;
   Point position;   // work coordinates, millimetres and degrees
   double feed = 0;  // F in millimetres, a minute or a revolution; 0: none given
+  Scaling scaling;
   SpindleState spindle;
   bool mist = false;
   bool flood = false;

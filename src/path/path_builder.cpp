@@ -18,6 +18,10 @@ constexpr double still = 1e-9;
 // How far the chords of an arc that lies in no plane of the machine may leave it.
 constexpr Mm chord_tolerance{0.001};
 
+// How far the chords of a spline may leave it: this share of the path's tolerance, or where that is 0 as above.
+constexpr double spline_share = 0.1;
+constexpr Mm least_spline_tolerance{1e-5};
+
 // After an error a move needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
 
@@ -115,7 +119,7 @@ bool PathBuilder::next(PathItem& item) {
     item = *std::exchange(held_, std::nullopt);
     return true;
   }
-  bool has_item = take_chord(item);
+  bool has_item = take_chord(item) || take_spline_chord(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
   if (outputs() == handed_on_) return has_item;
@@ -163,6 +167,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StraightTraverse& move) { return take_line(move.end, true, item); },
           [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
           [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
+          [&](const operation::NurbsFeed& curve) { return take_spline(curve, item); },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
           [&](const operation::RigidTap& tap) { return expand(tap), false; },
@@ -249,6 +254,45 @@ bool PathBuilder::take_chord(PathItem& item) {
     auto& segment = std::get<Segment>(item);
     segment.mode = PathMode::continuous;
     segment.tolerance = chord_tolerance;
+    return true;
+  }
+  return false;
+}
+
+// A frame takes a curve to the curve of the points it takes the control points to.
+bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item) {
+  const Point start = frame_.work_from_machine(position_);
+  const auto machine_of = [&](const operation::ControlPoint& point) {
+    Point work = start;
+    work[Axis::x] = point.x;
+    work[Axis::y] = point.y;
+    return machine_end(work);
+  };
+  control_.clear();
+  for (const operation::ControlPoint& point : curve.points) {
+    control_.push_back({Vector3::of(machine_of(point)), point.weight});
+  }
+  spline_tolerance_ =
+      tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : chord_tolerance;
+  const auto error = spline_.begin(control_, curve.order - 1, *ChordTolerance::of(spline_tolerance_));
+  if (!error) return take_spline_chord(item);
+  report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
+  position_ = machine_of(curve.points.back());
+  return false;
+}
+
+bool PathBuilder::take_spline_chord(PathItem& item) {
+  Chord chord;
+  while (spline_.next(chord)) {
+    Point end = position_;
+    end[Axis::x] = chord.end.x;
+    end[Axis::y] = chord.end.y;
+    if (!take_curve(Curve::line(position_, end), false, item)) continue;
+    if (!spline_.at_end()) {
+      auto& segment = std::get<Segment>(item);
+      segment.mode = PathMode::continuous;
+      segment.tolerance = spline_tolerance_;
+    }
     return true;
   }
   return false;

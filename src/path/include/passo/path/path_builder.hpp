@@ -1,7 +1,9 @@
 // PathBuilder: operations -> segments. Follows the frame, keeps geometry exact (no chords), checks the travel.
 //
-// The one exception: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the
-// machine, and is walked in chords within a thousandth of a millimetre.
+// Two exceptions: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the
+// machine, and is walked in chords within a thousandth of a millimetre. And until the planner knows every curve by its
+// length, a spline is walked in chords within a tenth of the path's tolerance, or a thousandth of a millimetre where
+// that is 0.
 //
 // Between the interpreter and the planner. Segments join without gap: each begins, bit for bit, where the one before
 // ended. Moves shorter than a nanometre's thousandth are rounding, not moves, and are dropped. Outputs (spindle,
@@ -14,11 +16,13 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/path/segment.hpp"
+#include "passo/path/spline_chords.hpp"
 
 namespace passo {
 
@@ -55,6 +59,8 @@ class PathBuilder final : public Source<PathItem> {
   bool take_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_chord(PathItem& item);
+  bool take_spline(const operation::NurbsFeed& curve, PathItem& item);
+  bool take_spline_chord(PathItem& item);
   bool take_curve(const Curve& curve, bool rapid, PathItem& item);
 
   Point machine_end(const Point& work_end) const;
@@ -83,6 +89,10 @@ class PathBuilder final : public Source<PathItem> {
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
+  // A spline, of which chords are still to come. The control points' memory is kept from one to the next.
+  SplineChords spline_;
+  std::vector<SplinePoint> control_;
+  Mm spline_tolerance_{0};
 
   Operation operation_;  // the one in hand
   std::array<OperationKind, 4> tap_;
