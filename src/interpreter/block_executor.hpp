@@ -107,6 +107,7 @@ class BlockExecutor {
   bool quadratic_spline();
   bool nurbs_point();
   bool check_nurbs();
+  bool check_nurbs_feed();
   bool add_nurbs_point(bool first);
   bool end_nurbs();
   void close_nurbs();

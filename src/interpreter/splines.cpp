@@ -151,15 +151,17 @@ bool BlockExecutor::check_nurbs() {
     return fail("gcode.spline-compensated", motion_span(), "a NURBS while the cutter's radius is compensated",
                 "G40 before, or lines and arcs");
   }
-  if (state_.modal.inverse_time()) {
-    return fail("gcode.spline-inverse-time", motion_span(), "a NURBS in inverse time (G93)", "G94 or G95 before");
-  }
   std::int32_t order = 0;
   if (words_.has('L')) {
     if (!whole_word('L', quadratic_order, highest_order, order)) return false;
     nurbs_.order = std::max(nurbs_.order, order);
   }
-  return check_spline_axes() && check_feed();
+  return check_spline_axes() && check_nurbs_feed();
+}
+
+bool BlockExecutor::check_nurbs_feed() {
+  if (!state_.modal.inverse_time()) return check_feed();
+  return fail("gcode.spline-inverse-time", motion_span(), "a NURBS in inverse time (G93)", "G94 or G95 before");
 }
 
 bool BlockExecutor::add_nurbs_point(bool first) {
@@ -205,7 +207,7 @@ bool BlockExecutor::end_nurbs() {
                 fmt::format("a NURBS of order {} with {} control points", nurbs_.order, nurbs_.points.size()),
                 fmt::format("{} at least; the start is the first, and a lower L needs fewer", nurbs_.order));
   }
-  if (!check_feed()) return false;
+  if (!check_nurbs_feed()) return false;
   emit(operation::NurbsFeed{nurbs_.points, nurbs_.order});
   return true;
 }
@@ -219,7 +221,8 @@ void BlockExecutor::close_nurbs() {
 // Between G5.2 and G5.3: what would move the tool or the frame, or ends the program, is told, and the curve given up.
 void BlockExecutor::check_nurbs_is_closed() {
   const auto belongs = [](const CodeEntry& entry) {
-    const bool stops = entry.group == stopping && entry.number <= code(1);
+    const bool ends = entry.number == code(2) || entry.number == code(30) || entry.number == code(60);
+    const bool stops = entry.group == stopping && !ends;
     return entry.number == code(5, 2) || entry.number == code(5, 3) || stops ||
            (entry.group == non_modal && entry.number == code(4));
   };

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "spline_chords.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -111,8 +112,11 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
     : operations_(operations),
       options_(options),
       diagnostics_(diagnostics),
+      spline_(std::make_unique<SplineChords>()),
       position_(options.start),
       tolerance_(options.tolerance) {}
+
+PathBuilder::~PathBuilder() = default;
 
 bool PathBuilder::next(PathItem& item) {
   if (held_) {
@@ -268,13 +272,13 @@ bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item)
     work[Axis::y] = point.y;
     return machine_end(work);
   };
-  control_.clear();
+  spline_->clear();
   for (const operation::ControlPoint& point : curve.points) {
-    control_.push_back({Vector3::of(machine_of(point)), point.weight});
+    spline_->add(Vector3::of(machine_of(point)), point.weight);
   }
   spline_tolerance_ =
       tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : chord_tolerance;
-  const auto error = spline_.begin(control_, curve.order - 1, *ChordTolerance::of(spline_tolerance_));
+  const auto error = spline_->begin(curve.order - 1, *ChordTolerance::of(spline_tolerance_));
   if (!error) return take_spline_chord(item);
   report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
   position_ = machine_of(curve.points.back());
@@ -283,12 +287,12 @@ bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item)
 
 bool PathBuilder::take_spline_chord(PathItem& item) {
   Chord chord;
-  while (spline_.next(chord)) {
+  while (spline_->next(chord)) {
     Point end = position_;
     end[Axis::x] = chord.end.x;
     end[Axis::y] = chord.end.y;
     if (!take_curve(Curve::line(position_, end), false, item)) continue;
-    if (!spline_.at_end()) {
+    if (!spline_->at_end()) {
       auto& segment = std::get<Segment>(item);
       segment.mode = PathMode::continuous;
       segment.tolerance = spline_tolerance_;

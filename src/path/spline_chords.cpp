@@ -1,8 +1,7 @@
-#include "passo/path/spline_chords.hpp"
+#include "spline_chords.hpp"
 
 #include <algorithm>
 #include <type_traits>
-#include <vector>
 
 namespace passo {
 namespace {
@@ -35,8 +34,8 @@ std::optional<CurveError> SplineChords::cut(const Result<C, CurveError>& curve, 
   return std::nullopt;
 }
 
-std::optional<CurveError> SplineChords::begin(std::span<const SplinePoint> points, int degree,
-                                              ChordTolerance tolerance) {
+std::optional<CurveError> SplineChords::begin(int degree, ChordTolerance tolerance) {
+  const std::span<const SplinePoint> points(points_);
   cut_.emplace<std::monostate>();
   at_end_ = true;
   const bool one_piece = points.size() == static_cast<std::size_t>(degree) + 1;

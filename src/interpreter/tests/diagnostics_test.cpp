@@ -80,6 +80,7 @@ const Wrong wrongs[] = {
     {"G5.2 X1 Y1 P1\nX2 Y1 P1\nG5.3\n", "gcode.missing-feed", 1, 1, 4},
     {"G93 G5 X1 I1 J1 P1 Q1\n", "gcode.missing-feed", 1, 5, 2},
     {"G93 G5.2 X1 Y1 P1 F1\nG5.3\n", "gcode.spline-inverse-time", 1, 5, 4},
+    {"F1 G5.2 X1 Y1 P1\nX2 Y2 P1\nG93\nG5.3 F2\n", "gcode.spline-inverse-time", 4, 1, 4},
     {"F1 G53 G5.1 X1 I1 J1\n", "gcode.g53-without-move", 1, 4, 3},
     {"F1 G5.2 X1 P1\nG5.3\n", "gcode.missing-word", 1, 9, 2},
     {"F1 G5.2 X1 Y1\nG5.3\n", "gcode.missing-word", 1, 4, 4},

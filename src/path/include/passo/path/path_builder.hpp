@@ -14,17 +14,18 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
 #include "passo/path/segment.hpp"
-#include "passo/path/spline_chords.hpp"
 
 namespace passo {
+
+class SplineChords;
 
 struct TravelLimit {
   double low = 0;
@@ -44,6 +45,7 @@ class PathBuilder final : public Source<PathItem> {
  public:
   // `options` outlives the builder.
   PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics);
+  ~PathBuilder() override;
 
   [[nodiscard]] bool next(PathItem& item) override;
 
@@ -89,9 +91,8 @@ class PathBuilder final : public Source<PathItem> {
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
-  // A spline, of which chords are still to come. The control points' memory is kept from one to the next.
-  SplineChords spline_;
-  std::vector<SplinePoint> control_;
+  // A spline, of which chords are still to come.
+  std::unique_ptr<SplineChords> spline_;
   Mm spline_tolerance_{0};
 
   Operation operation_;  // the one in hand
