@@ -81,6 +81,11 @@ void BlockExecutor::start(const InterpreterOptions& options) {
 }
 
 void BlockExecutor::finish(Closing closing) {
+  if (nurbs_.open && !nurbs_.wrong && !reporter_.full()) {
+    reporter_.error("gcode.open-nurbs", {1, 1},
+                    fmt::format("the program ends while the NURBS that begins in line {} is open", nurbs_.line),
+                    "G5.3 before");
+  }
   (void)cutter_.release();
   source_.line_number = -1;
   if (closing == Closing::percent) emit(operation::Finish{});
@@ -129,6 +134,7 @@ bool BlockExecutor::step_cycle() {
 }
 
 bool BlockExecutor::execute_words() {
+  if (nurbs_.open) check_nurbs_is_closed();
   if (words_.groups() != 0 && !run(steps_before_words)) return false;
   if (words_.has('F') && !set_feed_rate()) return false;
   if (words_.has('S') && !set_spindle_speed()) return false;

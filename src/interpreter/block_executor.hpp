@@ -9,6 +9,7 @@
 // Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -118,6 +119,9 @@ class BlockExecutor {
   bool end_point(Point& end);
   bool machine_end_point(Point& end);
   bool apply_polar(Point& end);
+  double scaled_place(Axis axis, double value) const;
+  double scaled_way(Axis axis, double value) const;
+  bool check_scaling(CodeNumber code);
   bool traverse();
   bool feed();
   bool arc(bool clockwise);
@@ -125,6 +129,21 @@ class BlockExecutor {
   bool center_words(PlanePoint start, PlanePoint& center);
   bool arc_turns(std::int32_t& turns);
   bool report_arc(const ArcCenter& arc);
+
+  // Splines.
+  bool check_spline();
+  bool check_spline_axes();
+  bool fail_pair(std::string_view name, char first, char second, std::string expected);
+  bool cubic_spline();
+  bool quadratic_spline();
+  bool nurbs_point();
+  bool check_nurbs();
+  bool check_nurbs_feed();
+  bool add_nurbs_point(bool first);
+  bool end_nurbs();
+  void close_nurbs();
+  void check_nurbs_is_closed();
+
   bool threading(bool tapping);
   bool check_feed();
   void emit_inverse_time_feed(double length, bool rotary);
@@ -190,6 +209,7 @@ class BlockExecutor {
   bool set_work_offset();
   bool check_work_offset_words(int& system);
   bool set_g92(CodeNumber code);
+  bool set_scaling();
   Point active_g92() const;
   void use_tool_offset(const Point& offset);
   void activate_system(int system, bool with_g92);
@@ -262,6 +282,20 @@ class BlockExecutor {
   DrillingCycle drilling_;
   ThreadingCycle thread_;
   std::unique_ptr<LatheCycle> lathe_;  // made when there is one
+  // The control points of a G5 or G5.1, which its operation borrows; and where the last G5 leads on from its end, as
+  // long as G5 follows G5.
+  std::array<operation::ControlPoint, 4> spline_{};
+  std::optional<PlanePoint> spline_exit_;
+  // From G5.2 to G5.3. Memory grows with the points of the longest NURBS, up to a bound, and is kept.
+  struct OpenNurbs {
+    static constexpr std::size_t most_points = 4096;
+    std::vector<operation::ControlPoint> points = {};
+    std::int32_t order = 0;
+    std::uint32_t line = 0;  // where it begins
+    bool wrong = false;      // a point was refused, and that was told
+    bool open = false;
+  };
+  OpenNurbs nurbs_;
 
   bool missing_feed_told_ = false;
   bool missing_tool_table_told_ = false;

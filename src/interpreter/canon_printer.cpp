@@ -120,6 +120,10 @@ struct Call {
     line.length(arc.end, plane[2]) << ", ";
     line.rotary(arc.end) << ")";
   }
+  // rs274 tells no more than how many control points there are.
+  void operator()(const operation::NurbsFeed& curve) const {
+    (line << "NURBS_FEED(").whole(static_cast<std::int64_t>(curve.points.size())) << ", ...)";
+  }
   void operator()(const operation::StartSpeedFeedSync& start) const {
     (line << "START_SPEED_FEED_SYNC(").six_digits(start.pitch.value() / line.scale())
         << (start.velocity_mode ? ",1)" : ",0)");

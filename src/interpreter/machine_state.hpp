@@ -49,6 +49,17 @@ class ModalState {
   std::array<CodeNumber, modal_group_count> active_{};
 };
 
+// G51: X Y Z of the program are taken by a factor, as seen from a centre. For what a move says, not for offsets.
+struct Scaling {
+  bool on = false;
+  Point center;  // work coordinates
+  std::array<double, 3> factors = {1, 1, 1};
+
+  double factor(Axis axis) const { return on && index_of(axis) < factors.size() ? factors[index_of(axis)] : 1; }
+  double place(Axis axis, double value) const { return center[axis] + way(axis, value - center[axis]); }
+  double way(Axis axis, double value) const { return value * factor(axis); }
+};
+
 inline constexpr std::size_t most_spindles = 8;
 struct SpindleState {
   double speed = 0;          // S: revolutions a minute; under constant surface speed metres or feet a minute
@@ -70,6 +81,7 @@ struct MachineState {
   Point position;      // work coordinates, millimetres and degrees; with cutter compensation on the contour
   Point cutter_shift;  // from there to the tool's centre
   double feed = 0;     // F in millimetres, a minute or a revolution; 0: none given
+  Scaling scaling;
   std::array<SpindleState, most_spindles> spindles;
   int spindle_count = 1;
   bool mist = false;

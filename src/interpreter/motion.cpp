@@ -56,11 +56,17 @@ bool BlockExecutor::move(CodeNumber number) {
 }
 
 bool BlockExecutor::move_by(CodeNumber number) {
+  if (!check_scaling(number)) return false;
+  if (number != code(5)) spline_exit_.reset();
   switch (number) {
     case code(0): return traverse();
     case code(1): return feed();
     case code(2): return arc(true);
     case code(3): return arc(false);
+    case code(5): return cubic_spline();
+    case code(5, 1): return quadratic_spline();
+    case code(5, 2): return nurbs_point();
+    case code(5, 3): return end_nurbs();
     case code(33): return threading(false);
     case code(33, 1): return threading(true);
     case code(38, 2):
@@ -100,7 +106,7 @@ bool BlockExecutor::end_point(Point& end) {
   const bool incremental = state_.modal.incremental();
   for (const Axis axis : all_axes) {
     if (!words_.has(letter_of(axis))) continue;
-    end[axis] = axis_word(axis) + (incremental ? end[axis] : 0);
+    end[axis] = incremental ? end[axis] + scaled_way(axis, axis_word(axis)) : scaled_place(axis, axis_word(axis));
   }
   return !(words_.present() & polar_letters).any() || apply_polar(end);
 }
@@ -124,6 +130,36 @@ bool BlockExecutor::machine_end_point(Point& end) {
     if (words_.has(letter_of(axis)) || (turned && (axis == Axis::x || axis == Axis::y))) end[axis] = work[axis];
   }
   return true;
+}
+
+// Without G51 bit for bit what the program says.
+double BlockExecutor::scaled_place(Axis axis, double value) const {
+  return state_.scaling.factor(axis) == 1 ? value : state_.scaling.place(axis, value);
+}
+double BlockExecutor::scaled_way(Axis axis, double value) const {
+  return state_.scaling.way(axis, value);
+}
+
+// What cannot be scaled is refused: an arc would become an ellipse, and cycles are made of depths and retracts.
+bool BlockExecutor::check_scaling(CodeNumber number) {
+  if (!state_.scaling.on) return true;
+  if (words_.has_code(non_modal, code(53))) return true;
+  if ((words_.present() & polar_letters).any()) {
+    return fail("gcode.scaled-motion", motion_span(), "polar coordinates while G51 scales", "G50 before, or X and Y");
+  }
+  if (number == code(2) || number == code(3)) {
+    const PlaneAxes plane_axes = axes_of(state_.modal.plane());
+    const double first = state_.scaling.factor(plane_axes.first);
+    const double second = state_.scaling.factor(plane_axes.second);
+    if (first == second) return true;
+    return fail("gcode.uneven-scaling", motion_span(),
+                fmt::format("an arc while {} is scaled by {} and {} by {}", letter_of(plane_axes.first),
+                            plain_number(first), letter_of(plane_axes.second), plain_number(second)),
+                "the same factor for both axes of the plane (G51 P), or a spline, which may be stretched");
+  }
+  if (number <= code(5, 3) || number == code(33) || number == code(80)) return true;
+  return fail("gcode.scaled-motion", motion_span(), fmt::format("{} while G51 scales", spelling('G', number)),
+              "G50 before");
 }
 
 // @ is a distance from the origin and ^ an angle about it; what is not given stays.
@@ -228,7 +264,8 @@ bool BlockExecutor::find_arc_center(bool clockwise, const Point& end, ArcCenter&
     return fail("gcode.mixed-arc", words_.span('R'), "an arc with a radius and a centre", "R, or I J K");
   }
   if (words_.has('R')) {
-    found = center_from_radius(from, to, words_['R'] * state_.length_unit(), clockwise, tolerance);
+    const double scale = std::abs(state_.scaling.factor(plane_axes.first));
+    found = center_from_radius(from, to, words_['R'] * state_.length_unit() * scale, clockwise, tolerance);
   } else if (by_center) {
     PlanePoint center;
     if (!center_words(from, center)) return false;
@@ -258,7 +295,8 @@ bool BlockExecutor::center_words(PlanePoint start, PlanePoint& center) {
   for (const auto& [axis, value] : {std::pair{plane_axes.first, &center.first}, {plane_axes.second, &center.second}}) {
     const char letter = center_letter(axis);
     if (words_.has(letter)) {
-      *value += words_[letter] * unit;
+      const double word = words_[letter] * unit;
+      *value = absolute ? scaled_place(axis, word) : *value + scaled_way(axis, word);
     } else if (absolute) {
       return fail("gcode.missing-center", motion_span(),
                   fmt::format("an arc with an absolute centre (G90.1) without {}", letter),

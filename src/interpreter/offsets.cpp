@@ -74,6 +74,7 @@ void BlockExecutor::activate_system(int system, bool with_g92) {
 bool BlockExecutor::go_home(int parameter) {
   Point end;
   if (!end_point(end)) return false;
+  spline_exit_.reset();
   emit(operation::StraightTraverse{end});
   const Point home = state_.frame.work_from_machine(parameters_.point(parameter));
   for (const Axis axis : all_axes) {
@@ -186,6 +187,40 @@ bool BlockExecutor::set_g92(CodeNumber number) {
   parameters_.set(g92_active_parameter, active ? 1 : 0);
   if (number != code(92, 2)) parameters_.set_point(g92_parameter, offset);
   change_frame(operation::SetG92Offset{offset});
+  return true;
+}
+
+// G51, as in grblHAL: X Y Z is the centre (else the tool is), P the factor of all three, I J K those of X Y Z. A factor
+// that is not given stays as it was.
+bool BlockExecutor::set_scaling() {
+  constexpr char letters[] = {'I', 'J', 'K'};
+  if (!words_.has('P') && !(words_.present() & LetterSet("IJK")).any()) {
+    return fail("gcode.missing-word", words_.span(non_modal), "G51 without a factor",
+                "P, the factor of X Y Z, or I J K, one for each");
+  }
+  Scaling scaling = state_.scaling;
+  if (!scaling.on) scaling.factors = {1, 1, 1};
+  for (std::size_t i = 0; i < scaling.factors.size(); ++i) {
+    const char letter = words_.has('P') ? 'P' : letters[i];
+    if (words_.has('P') && words_.has(letters[i])) {
+      return fail("gcode.unused-word", words_.span(letters[i]), fmt::format("{} beside P in G51", letters[i]),
+                  "P, or I J K");
+    }
+    if (!words_.has(letter)) continue;
+    if (words_[letter] == 0) {
+      return fail("gcode.zero-scale", words_.span(letter), "a factor of 0 leaves nothing", "another factor");
+    }
+    scaling.factors[i] = words_[letter];
+  }
+  for (const Axis axis : all_axes) {
+    if (words_.has(letter_of(axis)) && index_of(axis) >= scaling.factors.size()) {
+      return fail("gcode.scale-axis", words_.span(letter_of(axis)),
+                  fmt::format("{} in G51, which scales X Y Z", letter_of(axis)), "X, Y and Z, the centre");
+    }
+    scaling.center[axis] = words_.has(letter_of(axis)) ? axis_word(axis) : state_.position[axis];
+  }
+  scaling.on = true;
+  state_.scaling = scaling;
   return true;
 }
 

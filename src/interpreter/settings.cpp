@@ -34,10 +34,13 @@ bool BlockExecutor::set_feed_rate() {
                 "F of 0 or more");
   }
   if (state_.modal.inverse_time()) {
-    if (motion_ == nullptr || motion_->number < code(1) || motion_->number > code(3)) {
-      reporter_.warning("gcode.unused-feed", words_.span('F'),
-                        "F has no effect: in inverse time (G93) it counts for the G1, G2 or G3 of its own block",
-                        "F with each feed move");
+    const CodeNumber mover = motion_ == nullptr ? code(80) : motion_->number;
+    const bool feeds = mover >= code(1) && mover <= code(5, 1);
+    if (!feeds) {
+      reporter_.warning(
+          "gcode.unused-feed", words_.span('F'),
+          "F has no effect: in inverse time (G93) it counts for the G1, G2, G3, G5 or G5.1 of its own block",
+          "F with each feed move");
     }
     return true;  // with the move, whose length it needs
   }
@@ -178,6 +181,8 @@ bool BlockExecutor::run_non_modal(CodeNumber number) {
     case code(28, 1): return store_home(first_home_parameter);
     case code(30): return go_home(second_home_parameter);
     case code(30, 1): return store_home(second_home_parameter);
+    case code(50): state_.scaling = Scaling{}; return true;
+    case code(51): return set_scaling();
     case code(52):
     case code(92):
     case code(92, 1):

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "spline_chords.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -17,6 +18,10 @@ constexpr double still = 1e-9;
 
 // How far the chords of an arc that lies in no plane of the machine may leave it.
 constexpr Mm chord_tolerance{0.001};
+
+// How far the chords of a spline may leave it: this share of the path's tolerance, or where that is 0 as above.
+constexpr double spline_share = 0.1;
+constexpr Mm least_spline_tolerance{1e-5};
 
 // After an error a move needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
@@ -108,15 +113,18 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
     : operations_(operations),
       options_(options),
       diagnostics_(diagnostics),
+      spline_(std::make_unique<SplineChords>()),
       position_(options.start),
       tolerance_(options.tolerance) {}
+
+PathBuilder::~PathBuilder() = default;
 
 bool PathBuilder::next(PathItem& item) {
   if (held_) {
     item = *std::exchange(held_, std::nullopt);
     return true;
   }
-  bool has_item = take_chord(item);
+  bool has_item = take_chord(item) || take_spline_chord(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
   if (outputs() == handed_on_) return has_item;
@@ -165,6 +173,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
           [&](const operation::StraightProbe& probe) { return take_probe(probe.end, item); },
           [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
+          [&](const operation::NurbsFeed& curve) { return take_spline(curve, item); },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
           [&](const operation::RigidTap& tap) { return expand(tap), false; },
@@ -294,6 +303,45 @@ bool PathBuilder::take_chord(PathItem& item) {
     auto& segment = std::get<Segment>(item);
     segment.mode = PathMode::continuous;
     segment.tolerance = chord_tolerance;
+    return true;
+  }
+  return false;
+}
+
+// A frame takes a curve to the curve of the points it takes the control points to.
+bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item) {
+  const Point start = frame_.work_from_machine(position_);
+  const auto machine_of = [&](const operation::ControlPoint& point) {
+    Point work = start;
+    work[Axis::x] = point.x;
+    work[Axis::y] = point.y;
+    return machine_end(work);
+  };
+  spline_->clear();
+  for (const operation::ControlPoint& point : curve.points) {
+    spline_->add(Vector3::of(machine_of(point)), point.weight);
+  }
+  spline_tolerance_ =
+      tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : chord_tolerance;
+  const auto error = spline_->begin(curve.order - 1, *ChordTolerance::of(spline_tolerance_));
+  if (!error) return take_spline_chord(item);
+  report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
+  position_ = machine_of(curve.points.back());
+  return false;
+}
+
+bool PathBuilder::take_spline_chord(PathItem& item) {
+  Chord chord;
+  while (spline_->next(chord)) {
+    Point end = position_;
+    end[Axis::x] = chord.end.x;
+    end[Axis::y] = chord.end.y;
+    if (!take_curve(Curve::line(position_, end), false, item)) continue;
+    if (!spline_->at_end()) {
+      auto& segment = std::get<Segment>(item);
+      segment.mode = PathMode::continuous;
+      segment.tolerance = spline_tolerance_;
+    }
     return true;
   }
   return false;

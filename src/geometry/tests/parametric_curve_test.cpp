@@ -90,8 +90,9 @@ TEST_F(RandomCurves, bound_the_deviation_of_any_chord_from_above_and_closely_whe
           if (std::isfinite(bound)) {
             ASSERT_LE(bound, farthest * 1.6L + 1e-10L);
           }
-          // Round the tip of a slim ellipse the bound for what reaches beyond the chord is not as close.
-          if (to - from < whole * 0.02 && drawn.kind != "helix" && drawn.kind != "ellipse") {
+          // Not as close: round the tip of a slim ellipse, for what reaches beyond the chord; on an arc whose radius
+          // grows, most of which is along the chord.
+          if (to - from < whole * 0.02 && drawn.kind != "helix" && drawn.kind != "ellipse" && drawn.kind != "arc") {
             ASSERT_LE(bound, farthest * 1.05L + 1e-10L);
           }
         },

@@ -29,6 +29,11 @@ void run(const std::string& program) {
   Operation operation;
   for (int i = 0; i < most_operations && interpreter.next(operation); ++i) {
     printer.print(operation, canon);
+    if (const auto* const curve = std::get_if<operation::NurbsFeed>(&operation.what)) {
+      ASSERT_GE(curve->points.size(), static_cast<std::size_t>(curve->order)) << program;
+      for (const operation::ControlPoint& point : curve->points)
+        ASSERT_TRUE(std::isfinite(point.x) && std::isfinite(point.y) && point.weight > 0) << program;
+    }
     const auto* const feed = std::get_if<operation::StraightFeed>(&operation.what);
     const auto* const arc = std::get_if<operation::ArcFeed>(&operation.what);
     if (feed == nullptr && arc == nullptr) continue;
@@ -43,7 +48,8 @@ void run(const std::string& program) {
 }
 
 constexpr std::string_view word_list =
-    "G0|G1|G2|G3|G4|G10|L2|L20|G17|G18|G19|G20|G21|G28|G28.1|G30|G33|G33.1|G40|G41|G41.1|G42.1|D.5|D-3|L3|G43|G43.1|"
+    "G0|G1|G2|G3|G4|G5|G5.1|G5.2|G5.3|G50|G51|G10|L2|L20|G17|G18|G19|G20|G21|G28|G28.1|G30|G33|G33.1|G40|G41|G41.1|G42."
+    "1|D.5|D-3|L3|G43|G43.1|"
     "G49|G52|"
     "G53|G54|G55|G59.3|G61|G64|G7|G8|G80|G90|G90.1|G91|G91.1|G92|G92.1|G92.2|G92.3|G93|G94|G95|M0|"
     "M2|M3|M5|M6|M7|M9|M49|M61|X1|X-2.5|Y3|Z.5|A90|U2|I1|J-1|K.5|R5|R-7|P1|P2|Q.1|F100|S200|T3|@5|"

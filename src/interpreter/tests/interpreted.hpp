@@ -15,6 +15,7 @@ namespace passo {
 struct Interpreted {
   std::string canon;                  // as `rs274 -g` prints it
   std::vector<Operation> operations;  // without borrowed text
+  std::vector<std::vector<operation::ControlPoint>> splines;
   Diagnostics diagnostics{1000};
 
   std::string rendered() const { return render(diagnostics, false); }
@@ -45,7 +46,11 @@ inline void interpret(ProgramReader reader, const InterpreterOptions& options, I
                          std::holds_alternative<operation::Message>(operation.what) ||
                          std::holds_alternative<operation::Print>(operation.what) ||
                          std::holds_alternative<operation::Log>(operation.what) ||
-                         std::holds_alternative<operation::SetToolTableEntry>(operation.what);
+                         std::holds_alternative<operation::SetToolTableEntry>(operation.what) ||
+                         std::holds_alternative<operation::NurbsFeed>(operation.what);
+    if (const auto* curve = std::get_if<operation::NurbsFeed>(&operation.what)) {
+      result.splines.emplace_back(curve->points.begin(), curve->points.end());
+    }
     if (!borrows) result.operations.push_back(operation);
   }
 }

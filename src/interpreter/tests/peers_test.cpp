@@ -166,7 +166,6 @@ TEST(Peers, sample_programs_print_the_canonical_calls_of_linuxcnc) {
   SKIP_WITHOUT_PEERS();
   const std::map<std::string, std::string> outside = {
       {"skeleton.ngc", "T1 M6 G43, after which rs274 alone takes Z to be where it was"},
-      {"systems.ngc", "splines"},
       {"x-trim.ngc", "a sub in a file that is not there"}};
   InterpreterOptions options = options_of_rs274();
   Diagnostics diagnostics;

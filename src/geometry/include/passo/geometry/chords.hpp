@@ -103,9 +103,10 @@ class Chords final : public Source<Chord> {
     find_longest(rest);
     double to = good_ < rest ? u_ + good_ : piece_end_;
     if (good_ < rest && rest < 2 * good_) {
+      // Only where both halves are good: else there are more to come than two, and halving would waste them.
       const double half = u_ + rest / 2;
       const Mm there = curve_.deviation(u_, half);
-      if (there <= tolerance_) {
+      if (there <= tolerance_ && curve_.deviation(half, piece_end_) <= tolerance_) {
         to = half;
         deviation_ = there;
       }
@@ -144,14 +145,12 @@ class Chords final : public Source<Chord> {
 
   double next_guess(double guess, Mm deviation, double bad, double rest) const {
     if (!std::isfinite(deviation.value())) return (good_ + bad) / 2;
-    // Within the bracket, and not so near its ends that little is learned; without one, not less than an eighth at
-    // once.
-    const bool bracketed = bad <= rest;
-    const double margin = bracketed ? (bad - good_) / 8 : 0;
-    const double low = good_ > 0 ? good_ + margin : guess / 8;
-    const double high = bracketed ? bad - margin : rest;
-    if (deviation == Mm(0)) return high;
-    return std::clamp(guess * std::sqrt(tolerance_ * (1 - nearness) / deviation), low, high);
+    const double by_square = deviation > Mm(0) ? guess * std::sqrt(tolerance_ * (1 - nearness) / deviation) : rest;
+    if (bad > rest) return std::clamp(by_square, good_, rest);
+    // Where the square law leads out of the bracket it is wrong (the tip of an ellipse): halve the bracket.
+    const bool inside = by_square > good_ && by_square < bad;
+    if (!inside) return (good_ + bad) / 2;
+    return std::max(by_square, good_ > 0 ? good_ : guess / 8);  // nothing good yet: not less than an eighth at once
   }
 
   static constexpr double nearness = 0.02;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <variant>
 
@@ -74,6 +75,18 @@ struct ArcFeed {
   Mm first_center;
   Mm second_center;
   std::int32_t turns = 1;
+};
+// A feed along a rational B-spline in X and Y; the other axes stay. Its degree is `order` - 1 (2 to 9), its knots are
+// clamped with all spans 1 long; so it begins at the first control point, where the tool is, and ends at the last.
+// A Bézier curve (G5, G5.1) is one with as many control points as its order.
+struct ControlPoint {
+  double x = 0;  // mm
+  double y = 0;
+  double weight = 1;  // above 0
+};
+struct NurbsFeed {
+  std::span<const ControlPoint> points;  // `order` at least; borrowed, until the next operation is asked for
+  std::int32_t order = 3;
 };
 // Spindle-synchronised feed (G33): `pitch` mm a revolution until the synchronised stretch ends.
 struct StartSpeedFeedSync {
@@ -210,19 +223,21 @@ struct SetFeedReference {};  // always XYZ
 
 }  // namespace operation
 
-using OperationKind = std::variant<
-    operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
-    operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
-    operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse, operation::StraightFeed,
-    operation::ArcFeed, operation::StartSpeedFeedSync, operation::StopSpeedFeedSync, operation::RigidTap,
-    operation::Dwell, operation::SetSpindleSpeed, operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist,
-    operation::SetFlood, operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-    operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
-    operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput, operation::SetAnalogOutput,
-    operation::ReadInput, operation::UserCode, operation::StartToolChange, operation::ChangeTool,
-    operation::SetToolNumber, operation::SetToolTableEntry, operation::ProgramStop, operation::OptionalProgramStop,
-    operation::ProgramEnd, operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message,
-    operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
+using OperationKind =
+    std::variant<operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation,
+                 operation::SetToolOffset, operation::SelectPlane, operation::SetFeedMode, operation::SetFeedRate,
+                 operation::SetPathMode, operation::SetMergeTolerance, operation::StraightTraverse,
+                 operation::StraightFeed, operation::ArcFeed, operation::NurbsFeed, operation::StartSpeedFeedSync,
+                 operation::StopSpeedFeedSync, operation::RigidTap, operation::Dwell, operation::SetSpindleSpeed,
+                 operation::SetSpindleMode, operation::TurnSpindle, operation::SetMist, operation::SetFlood,
+                 operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+                 operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
+                 operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput,
+                 operation::SetAnalogOutput, operation::ReadInput, operation::UserCode, operation::StartToolChange,
+                 operation::ChangeTool, operation::SetToolNumber, operation::SetToolTableEntry, operation::ProgramStop,
+                 operation::OptionalProgramStop, operation::ProgramEnd, operation::PalletShuttle, operation::Finish,
+                 operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
+                 operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {

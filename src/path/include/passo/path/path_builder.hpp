@@ -1,7 +1,9 @@
 // PathBuilder: operations -> segments. Follows the frame, keeps geometry exact (no chords), checks the travel.
 //
-// The one exception: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the
-// machine, and is walked in chords within a thousandth of a millimetre.
+// Two exceptions: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the
+// machine, and is walked in chords within a thousandth of a millimetre. And until the planner knows every curve by its
+// length, a spline is walked in chords within a tenth of the path's tolerance, or a thousandth of a millimetre where
+// that is 0.
 //
 // Between the interpreter and the planner. Segments join without gap: each begins, bit for bit, where the one before
 // ended. Moves shorter than a nanometre's thousandth are rounding, not moves, and are dropped. Outputs (spindle,
@@ -12,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,6 +24,8 @@
 #include "passo/path/segment.hpp"
 
 namespace passo {
+
+class SplineChords;
 
 struct TravelLimit {
   double low = 0;
@@ -40,6 +45,7 @@ class PathBuilder final : public Source<PathItem> {
  public:
   // `options` outlives the builder.
   PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics);
+  ~PathBuilder() override;
 
   [[nodiscard]] bool next(PathItem& item) override;
 
@@ -56,6 +62,8 @@ class PathBuilder final : public Source<PathItem> {
   bool take_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_chord(PathItem& item);
+  bool take_spline(const operation::NurbsFeed& curve, PathItem& item);
+  bool take_spline_chord(PathItem& item);
   bool take_curve(const Curve& curve, bool rapid, PathItem& item);
 
   Point machine_end(const Point& work_end) const;
@@ -87,6 +95,9 @@ class PathBuilder final : public Source<PathItem> {
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
+  // A spline, of which chords are still to come.
+  std::unique_ptr<SplineChords> spline_;
+  Mm spline_tolerance_{0};
 
   Operation operation_;  // the one in hand
   std::array<OperationKind, 4> tap_;
