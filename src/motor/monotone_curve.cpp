@@ -36,18 +36,18 @@ double end_slope(const Piece& end, const Piece& next) {
 
 }  // namespace
 
-Result<MonotoneCurve, CurveError> MonotoneCurve::through(std::vector<CurvePoint> points) {
+Result<MonotoneCurve, CurvePointsError> MonotoneCurve::through(std::vector<CurvePoint> points) {
   if (points.size() < 2) {
-    return Failure{CurveError{fmt::format("a curve needs at least 2 points, not {}", points.size())}};
+    return Failure{CurvePointsError{fmt::format("a curve needs at least 2 points, not {}", points.size())}};
   }
   for (const CurvePoint& point : points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-      return Failure{CurveError{fmt::format("{:g}:{:g} is no point of a curve", point.x, point.y)}};
+      return Failure{CurvePointsError{fmt::format("{:g}:{:g} is no point of a curve", point.x, point.y)}};
     }
   }
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].x > points[i - 1].x) continue;
-    return Failure{CurveError{
+    return Failure{CurvePointsError{
         fmt::format("the points must go up along the curve, and {:g} comes after {:g}", points[i].x, points[i - 1].x)}};
   }
   return MonotoneCurve(std::move(points));

@@ -60,7 +60,7 @@ Result<MonotoneCurve, MotorError> falling_curve(const char* name, const Rotor& r
     }
     plain.push_back({rate * 2 * std::numbers::pi / rotor.steps_per_revolution, point.torque.value});
   }
-  Result<MonotoneCurve, CurveError> curve = MonotoneCurve::through(std::move(plain));
+  Result<MonotoneCurve, CurvePointsError> curve = MonotoneCurve::through(std::move(plain));
   if (!curve) return Failure{MotorError{fmt::format("{}: {}", name, curve.error().message)}};
   if (!(curve->points().front().y > 0)) {
     return Failure{MotorError{fmt::format("{}: the torque is 0 from the first point on", name)}};

@@ -21,14 +21,14 @@ struct CurvePoint {
   double y = 0;
 };
 
-struct CurveError {
+struct CurvePointsError {
   std::string message;
 };
 
 class MonotoneCurve {
  public:
   // At least two points with x ascending, all of them finite.
-  static Result<MonotoneCurve, CurveError> through(std::vector<CurvePoint> points);
+  static Result<MonotoneCurve, CurvePointsError> through(std::vector<CurvePoint> points);
 
   double at(double x) const;
   const std::vector<CurvePoint>& points() const { return points_; }
