@@ -23,8 +23,6 @@ using testing::IsEmpty;
 using testing::SizeIs;
 __extension__ typedef __int128 Wide;  // NOLINT: products of three lengths
 
-constexpr std::int32_t largest = 2'147'483'647;
-
 // Lengths of very different sizes, all signs, zero now and then.
 class RandomLines : public testing::Test {
  protected:
