@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "curve_arguments.hpp"
+#include "program_input.hpp"
 #include <fmt/format.h>
 
 #include "passo/geometry/step_chords.hpp"
@@ -13,11 +14,6 @@
 
 namespace passo {
 namespace {
-
-int refuse(const std::string& words) {
-  fmt::print(stderr, "passo: error: {}\n", words);
-  return exit_bad_program;
-}
 
 int fail(const OutputError& error) {
   fmt::print(stderr, "passo: error: {}\n", error.message);

@@ -53,11 +53,6 @@ bool read_place(const std::string& text, Place& place) {
   return true;
 }
 
-int refuse(const std::string& message) {
-  std::fprintf(stderr, "passo: error: %s\n", message.c_str());
-  return exit_bad_program;
-}
-
 class Writer {
  public:
   explicit Writer(bool colour) : colour_(colour) {}

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "commands.hpp"
+#include "program_input.hpp"
 #include "progress_display.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,11 +16,6 @@
 
 namespace passo {
 namespace {
-
-int refuse(const std::string& words) {
-  fmt::print(stderr, "passo: error: {}\n", words);
-  return exit_bad_program;
-}
 
 template <class T>
 using Parsed = Result<T, std::string>;
