@@ -3,6 +3,7 @@
 #include "block_executor.hpp"
 #include "grbl.hpp"
 #include "program_flow.hpp"
+#include "rules.hpp"
 
 namespace passo {
 
@@ -16,8 +17,9 @@ class Interpreter::Implementation {
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     parameters_.load(options.parameters);
     executor_.start(options);
+    diagnostics.look_up_rules_with(rule_of);
     if (options.dialect != Dialect::grbl) return;
-    diagnostics.look_up_rules_with(grbl_error);
+    diagnostics.look_up_rules_with([](const Diagnostic& diagnostic) { return grbl_error(diagnostic.code); });
     state_.modal.set(ModalGroup::motion, code(0));  // where LinuxCNC waits for a first motion code
   }
 

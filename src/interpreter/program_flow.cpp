@@ -71,6 +71,16 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
   (void)parameters_.set_named(value_name_, 0);
   (void)parameters_.set_named(returned_name_, 0);
   reporter_.look_at(block_, file_->name);
+  reporter_.tell_calls_of(*this);
+}
+
+std::vector<CallPlace> ProgramFlow::calls() const {
+  std::vector<CallPlace> calls;
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    calls.push_back(
+        {(frame->place.numbered ? "O" : "o") + label_text(frame->sub), frame->caller->name, frame->return_to.line - 1});
+  }
+  return calls;
 }
 
 const Block* ProgramFlow::next() {
@@ -121,16 +131,23 @@ ProgramFlow::Read ProgramFlow::read() {
   std::string_view text;
   std::uint32_t line = 0;
   block_at_ = file_->reader.position();
-  if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
+  if (reporter_.full() || !next_line(text, line)) return Read::end;
   if (options_.block_delete && is_deleted(text)) return Read::skipped;
   return parse(text, line) ? Read::block : Read::skipped;
+}
+
+bool ProgramFlow::next_line(std::string_view& text, std::uint32_t& line) {
+  const bool good = file_->reader.next_line(text, line, faults_);
+  if (!faults_.all().empty()) reporter_.pass_on(faults_);
+  return good;
 }
 
 // A line that is no G-code is told once, however often a loop comes by.
 bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   std::set<std::uint32_t>& unreadable = file_->unreadable;
   if (!unreadable.empty() && unreadable.contains(line)) return false;
-  if (file_->parser.parse(text, line, block_, reporter_.diagnostics()) && is_of_dialect()) return true;
+  if (file_->parser.parse(text, line, block_, faults_) && is_of_dialect()) return true;
+  reporter_.pass_on(faults_);
   unreadable.insert(line);
   return false;
 }
@@ -149,7 +166,7 @@ bool ProgramFlow::is_percent_end() {
 // What is behind the closing '%' of the main file is no program.
 bool ProgramFlow::closes_program(std::string_view text) {
   if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
-  return closing_percent_ = std::exchange(file_->seen_percent, true);
+  return std::exchange(file_->seen_percent, true);
 }
 
 bool ProgramFlow::lacks_closing_percent() {
@@ -221,8 +238,7 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
                     fmt::format("{} in the numbered program O{}, which begins at line {}",
                                 control.kind == endsub ? "endsub" : "return", label_text(label), frame.place.at.line),
                     "M99");
-    finish(End::error);
-    return;
+    return leave_frame();
   }
   double value = 0;
   if (!control.arguments.empty() && !value_of(block_, control.arguments.front(), parameters_, reporter_, value)) return;
@@ -427,7 +443,7 @@ bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
     std::string_view text;
     std::uint32_t line = 0;
     block_at_ = file_->reader.position();
-    if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
+    if (reporter_.full() || !next_line(text, line)) return false;
     if (within_percents && closes_program(text)) return false;
     if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
     if (!parse(text, line) || !block_.control) continue;

@@ -6,7 +6,8 @@
 // before it was met is looked for once to the end of the file, then in NAME.ngc beside the program and in
 // the folders that the options name.
 //
-// Bounded: calls nest 100 deep, and a program that goes round its loops without any operation is stopped.
+// Bounded: calls nest 100 deep, and a program that goes round its loops without any operation, or calls a thousand
+// times what is not there, is stopped.
 #pragma once
 
 #include <array>
@@ -33,7 +34,7 @@ namespace passo {
 
 inline constexpr std::size_t deepest_call = 100;
 
-class ProgramFlow {
+class ProgramFlow final : public CallStack {
  public:
   struct Options {
     bool block_delete = false;
@@ -64,6 +65,8 @@ class ProgramFlow {
   bool lacks_closing_percent();
 
   void watch(BlockWatcher& watcher) { watcher_ = &watcher; }
+
+  std::vector<CallPlace> calls() const override;
 
   std::uint64_t offset() const { return files_.front()->reader.position().offset; }
 
@@ -112,6 +115,7 @@ class ProgramFlow {
   // Lines.
   enum class Read : std::uint8_t { block, skipped, end };
   Read read();
+  bool next_line(std::string_view& text, std::uint32_t& line);
   bool parse(std::string_view text, std::uint32_t line);
   bool is_of_dialect();
   bool is_percent_end();
@@ -165,7 +169,8 @@ class ProgramFlow {
   bool restart_main(const SubprogramJump& jump);
   bool check_style(const SubPlace& place, Symbol label, Span span, bool called_by_m98);
   File* open_named(Symbol label);
-  std::string places_looked_at() const;
+  File* open_in(const std::string& folder, const std::string& name);
+  std::string places_looked_at(const std::string& file) const;
 
   bool label_of(const Control& control, Symbol& label);
   bool argument(const Control& control, double& value);
@@ -179,6 +184,7 @@ class ProgramFlow {
   Parameters& parameters_;
   SymbolTable& symbols_;
   Reporter& reporter_;
+  Diagnostics faults_;    // of the line that is read
   Symbol value_name_;     // #<_value>: what the last sub returned
   Symbol returned_name_;  // #<_value_returned>
 
@@ -192,10 +198,10 @@ class ProgramFlow {
   std::optional<Again> again_;
   std::uint64_t idle_passes_ = 0;
   std::uint64_t main_passes_ = 0;
+  std::uint64_t unknown_calls_ = 0;
   std::size_t contour_depth_ = 0;  // of the call that next() stops behind; 0: none
   bool begun_ = false;             // something else than a comment or an empty line was read
   bool opened_percent_ = false;    // the program began with '%'
-  bool closing_percent_ = false;   // and a search for a sub came to the closing one
   End end_ = End::none;
   BlockWatcher* watcher_ = nullptr;
 };

@@ -62,7 +62,20 @@ void Reporter::add(Severity severity, std::string_view code, std::uint32_t line,
                     .place = place,
                     .message = std::move(message),
                     .expected = std::move(expected),
-                    .text = std::string(text)});
+                    .text = std::string(text),
+                    .calls = calls()});
+}
+
+void Reporter::pass_on(Diagnostics& faults) {
+  for (Diagnostic fault : faults.all()) {
+    fault.calls = calls();
+    diagnostics_.add(std::move(fault));
+  }
+  faults = Diagnostics();
+}
+
+std::vector<CallPlace> Reporter::calls() const {
+  return stack_ == nullptr ? std::vector<CallPlace>() : stack_->calls();
 }
 
 std::string plain_number(double value) {

@@ -37,12 +37,14 @@ bool ProgramFlow::has_room_for_call(Span span) {
 
 // Says where it was looked for.
 void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
-  const std::string_view name = symbols_.name(label);
+  const std::string sub = fmt::format("{}{}{}", numbered ? "O" : "o", label_text(label), numbered ? "" : " sub");
+  const std::string file = std::string(symbols_.name(label)) + ".ngc";
   reporter_.error("gcode.unknown-sub", span,
                   fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
-                  fmt::format("{}{}{} in this file, or in a file {}.ngc {}", numbered ? "O" : "o", label_text(label),
-                              numbered ? "" : " sub", name, places_looked_at()));
-  finish(closing_percent_ ? End::percent : End::error);
+                  fmt::format("{} in this file, or in a file {} {}", sub, file, places_looked_at(file)));
+  // The run goes on to find more errors, but not for ever with a loop of calls that lead nowhere.
+  constexpr std::uint64_t most_unknown_calls = 1000;
+  if (++unknown_calls_ == most_unknown_calls) finish(End::error);
 }
 
 void ProgramFlow::enter(const Frame& frame, File* file) {
@@ -105,27 +107,37 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
 
 // The first file of that name counts, as in LinuxCNC.
 ProgramFlow::File* ProgramFlow::open_named(Symbol label) {
-  constexpr std::size_t most_files = 64;
   const std::string name = std::string(symbols_.name(label)) + ".ngc";
-  const auto open_in = [&](const std::filesystem::path& folder) -> File* {
-    const std::filesystem::path path = folder / name;
-    std::error_code problem;
-    if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
-    auto reader = ProgramReader::open(path.string());
-    if (!reader) return nullptr;
-    files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
-    return files_.back().get();
-  };
-  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path());
+  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path().string(), name);
   for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
-    file = open_in(options_.sub_folders[i]);
+    file = open_in(options_.sub_folders[i], name);
   }
   return file != nullptr && find_in(*file, label) ? file : nullptr;
 }
 
-std::string ProgramFlow::places_looked_at() const {
+ProgramFlow::File* ProgramFlow::open_in(const std::string& folder, const std::string& name) {
+  constexpr std::size_t most_files = 64;
+  const std::filesystem::path path = std::filesystem::path(folder) / name;
+  for (const auto& file : files_) {
+    if (file->name == path.string()) return file.get();
+  }
+  std::error_code problem;
+  if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
+  auto reader = ProgramReader::open(path.string());
+  if (!reader) return nullptr;
+  files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
+  return files_.back().get();
+}
+
+// Files that have the right name and not the sub are told too: a sub is called as it is spelled in its file.
+std::string ProgramFlow::places_looked_at(const std::string& file) const {
   std::string places = "beside the program";
   for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
+  for (const auto& open : files_) {
+    if (open.get() == file_) continue;
+    const bool has_its_name = std::filesystem::path(open->name).filename() == file;
+    places += fmt::format("; {} {}", open->name, has_its_name ? "is there without it" : "was looked through");
+  }
   return places;
 }
 

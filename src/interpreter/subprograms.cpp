@@ -1,7 +1,7 @@
 // ProgramFlow: numbered programs as Fanuc writes them: O1234, called with M98 P1234 L, ended with M99.
 //
 // They share #1 … #30 with their caller and have names of their own, as in LinuxCNC, and like there the two styles of
-// subs do not mix. What cannot be called ends the run: what follows counts on it.
+// subs do not mix. What cannot be called is told and passed over, so that the run finds what else is wrong.
 #include "program_flow.hpp"
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@ namespace passo {
 
 ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
   if (jump.call) {
-    if (!jump.good) finish(End::error);
     if (jump.good && jump.passes > 0) call_program(jump);
     return Followed::goes_on;
   }
@@ -42,8 +41,8 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
     reporter_.error("gcode.mixed-subs", jump.span,
                     fmt::format("M99 in o{} sub, which begins at line {}", label_text(frame.sub), frame.place.at.line),
                     fmt::format("o{0} endsub, or o{0} return", label_text(frame.sub)));
-    finish(End::error);
-    return Followed::goes_on;
+    leave_frame();
+    return Followed::left_sub;
   }
   File* const file = file_;
   const bool again = --frame.passes_left > 0;
@@ -77,7 +76,6 @@ bool ProgramFlow::check_style(const SubPlace& place, Symbol label, Span span, bo
                       ? fmt::format("M98 calls o{} sub, at line {}", name, place.at.line)
                       : fmt::format("O{} at line {} is a numbered program, called like a sub", name, place.at.line),
                   called_by_m98 ? fmt::format("o{} call", name) : fmt::format("M98 P{}", name));
-  finish(End::error);
   return false;
 }
 

@@ -406,6 +406,9 @@ TEST(Peers, main_programs_with_o_words_give_the_calls_of_linuxcnc_up_to_their_en
         "illegal-end-main-with-eof", "illegal-no-m30-before-osub", "illegal-sub-after-percent"}) {
     calls += interpret_file(folder / ("test-" + std::string(program) + ".ngc"), options_of_rs274()).canon;
   }
+  // LinuxCNC ends where it finds no sub, in the last of them. Passo goes on, for more errors.
+  const std::size_t gone_on = calls.rfind('\n', calls.rfind("returned from sub 2"));
+  calls.erase(gone_on, calls.find('\n', gone_on + 1) - gone_on);
   EXPECT_EQ(first_difference(numbered_calls(contents((folder / "expected").string())), numbered_calls(calls)), "");
 }
 
