@@ -69,6 +69,7 @@ std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& ar
   options.units = arguments.inches ? LengthUnits::inch : LengthUnits::mm;
   options.dialect = arguments.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
   options.user_codes = arguments.user_codes;
+  options.idle_passes = arguments.loop_limit;
   Diagnostics diagnostics;
   read_files(arguments, options, diagnostics);
   show(diagnostics);
