@@ -74,15 +74,6 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
   reporter_.tell_calls_of(*this);
 }
 
-std::vector<CallPlace> ProgramFlow::calls() const {
-  std::vector<CallPlace> calls;
-  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
-    calls.push_back(
-        {(frame->place.numbered ? "O" : "o") + label_text(frame->sub), frame->caller->name, frame->return_to.line - 1});
-  }
-  return calls;
-}
-
 const Block* ProgramFlow::next() {
   if (again_) run_again();
   while (end_ == End::none) {
@@ -248,18 +239,6 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
   (void)parameters_.set_named(value_name_, value);
   (void)parameters_.set_named(returned_name_, control.arguments.empty() ? 0 : 1);
   leave_frame();
-}
-
-void ProgramFlow::leave_frame() {
-  const Frame frame = frames_.back();
-  open_.resize(frame.first_open);
-  frames_.pop_back();
-  parameters_.leave_sub();
-  state_.call_depth = static_cast<int>(frames_.size());
-  file_ = frame.caller;
-  file_->reader.seek(frame.return_to);
-  reporter_.look_at(block_, file_->name);
-  left_sub_ = frame.return_to.line - 1;
 }
 
 void ProgramFlow::begin_if(Symbol label, const Control& control) {

@@ -1,4 +1,4 @@
-// ProgramFlow: calling subs, and finding them.
+// ProgramFlow: calling subs, leaving them, and finding them.
 #include <filesystem>
 
 #include "program_flow.hpp"
@@ -53,6 +53,27 @@ void ProgramFlow::enter(const Frame& frame, File* file) {
   file_ = file;
   file_->reader.seek(frame.place.after);
   reporter_.look_at(block_, file_->name);
+}
+
+void ProgramFlow::leave_frame() {
+  const Frame frame = frames_.back();
+  open_.resize(frame.first_open);
+  frames_.pop_back();
+  parameters_.leave_sub();
+  state_.call_depth = static_cast<int>(frames_.size());
+  file_ = frame.caller;
+  file_->reader.seek(frame.return_to);
+  reporter_.look_at(block_, file_->name);
+  left_sub_ = frame.return_to.line - 1;
+}
+
+std::vector<CallPlace> ProgramFlow::calls() const {
+  std::vector<CallPlace> calls;
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    calls.push_back(
+        {(frame->place.numbered ? "O" : "o") + label_text(frame->sub), frame->caller->name, frame->return_to.line - 1});
+  }
+  return calls;
 }
 
 bool ProgramFlow::call_for_contour(Symbol sub, Span span) {

@@ -169,6 +169,33 @@ TEST_F(CommandLine, all_errors_of_a_program_come_in_one_go) {
   EXPECT_NE(outcome.err.find("3 errors"), std::string::npos) << outcome.err;
 }
 
+TEST_F(CommandLine, findings_tell_their_rule_and_the_calls_as_text_and_as_data) {
+  const std::string text = "G21\no<slot> call\nM2\no<slot> sub\nG4\no<slot> endsub\n";
+  const Outcome outcome = run_text(text);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("= rule: RS274/NGC 3.5.4, dwell\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("= in o<slot>, called at " + path("p.ngc") + ":2\n"), std::string::npos) << outcome.err;
+  const Outcome data = passo("check --json " + path("p.ngc") + " -m " + router);
+  const auto finding = nlohmann::json::parse(data.out)["findings"][0];
+  EXPECT_EQ(finding["rule"], "RS274/NGC 3.5.4, dwell");
+  EXPECT_EQ(finding["calls"].size(), 1U);
+  EXPECT_EQ(finding["calls"][0]["sub"], "o<slot>");
+  EXPECT_EQ(finding["calls"][0]["line"], 2);
+}
+
+TEST_F(CommandLine, a_loop_that_does_nothing_is_stopped_at_its_o_word_after_as_many_passes_as_are_allowed) {
+  const std::string program = write("p.ngc", "#1=0\no7 while [#1 LT 50]\n#1=[#1+1]\no7 endwhile\nM2\n");
+  EXPECT_EQ(passo("canon " + program).code, 0);
+  EXPECT_EQ(passo("canon --loop-limit 50 " + program).code, 0);
+  for (const std::string& command : {"canon "s, "explain "s, "check -m " + router + " ", "run -m " + router + " "}) {
+    const Outcome outcome = passo(command + "--loop-limit 49 " + program);
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_NE((outcome.out + outcome.err).find(":2:1: error: the loop went round 49 times"), std::string::npos)
+        << command;
+  }
+  EXPECT_EQ(passo("canon --loop-limit 0 " + program).code, 2);
+}
+
 TEST_F(CommandLine, crlf_cr_and_a_byte_order_mark_are_fine) {
   for (const char* text : {"G21 F600\r\nG1 X1\r\nM2\r\n", "G21 F600\rG1 X1\rM2\r", "\xEF\xBB\xBFG21 F600\nG1 X1\nM2"}) {
     EXPECT_EQ(run_text(text).code, 0);
