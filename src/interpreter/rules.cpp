@@ -1,10 +1,9 @@
 #include "rules.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
+#include <iterator>
 
 #include "code_table.hpp"
 

@@ -1,8 +1,8 @@
 // Where the language's rules are written: each diagnostic names the chapter that it comes from.
 //
 // RS274/NGC is NIST IR 6556, "The NIST RS274NGC Interpreter - Version 3" (2000); what LinuxCNC added to the language is
-// in its manual, whose chapters and headings are named as they are in version 2.9; what is Passo's alone, in
-// docs/gcode.md.
+// in its manual, whose chapters and headings are named as they are in version 2.9 (2.10 for G70 to G72); what is
+// Passo's alone, in docs/gcode.md.
 #pragma once
 
 #include <span>

@@ -6,6 +6,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "../grbl.hpp"
 #include "interpreted.hpp"
