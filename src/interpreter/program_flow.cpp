@@ -1,5 +1,6 @@
 #include "program_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "grbl.hpp"
@@ -66,11 +67,11 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
       reporter_(reporter),
       value_name_(symbols.intern("_value")),
       returned_name_(symbols.intern("_value_returned")) {
-  files_.push_back(std::make_unique<File>(std::move(reader), symbols_));
+  files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
   file_ = files_.front().get();
   (void)parameters_.set_named(value_name_, 0);
   (void)parameters_.set_named(returned_name_, 0);
-  reporter_.look_at(block_, file_->name);
+  look_at(line_);
 }
 
 const Block* ProgramFlow::next() {
@@ -90,23 +91,23 @@ const Block* ProgramFlow::next() {
           const Frame& frame = frames_.back();
           report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}, 0});
         }
-        block_.text = {};  // the reader's, and gone
+        block_->text = {};  // the reader's, and gone
         return finish(End::file);
       case Read::skipped: continue;
       case Read::block: break;
     }
-    if (block_.percent) {
+    if (block_->percent) {
       if (is_percent_end()) return finish(End::percent);
       continue;
     }
-    if (watcher_ != nullptr) watcher_->before(block_, file_->name, state_, parameters_, symbols_);
-    if (!block_.control) {
-      begun_ = begun_ || !block_.words.empty() || !block_.assignments.empty();
-      return &block_;
+    if (watcher_ != nullptr) watcher_->before(*block_, file_->name, state_, parameters_, symbols_);
+    if (!block_->control) {
+      begun_ = begun_ || !block_->words.empty() || !block_->assignments.empty();
+      return block_;
     }
     begun_ = true;
-    state_.line = block_.line;
-    obey(*block_.control);
+    state_.line = block_->line;
+    obey(*block_->control);
     if (watcher_ != nullptr) watcher_->after(state_);
     if (contour_depth_ != 0) {
       left_sub_.reset();  // nothing was executed there, so nothing is put back
@@ -118,25 +119,50 @@ const Block* ProgramFlow::next() {
 }
 
 ProgramFlow::Read ProgramFlow::read() {
+  block_at_ = file_->reader.position();
+  if (reporter_.full()) return Read::end;
+  if (recall()) return Read::block;
   std::string_view text;
   std::uint32_t line = 0;
-  block_at_ = file_->reader.position();
-  if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
-  if (options_.block_delete && is_deleted(text)) return Read::skipped;
-  return parse(text, line) ? Read::block : Read::skipped;
+  if (!file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
+  const bool good = !(options_.block_delete && is_deleted(text)) && parse(text, line);
+  file_->read_to = std::max(file_->read_to, block_at_.offset + 1);
+  return good ? Read::block : Read::skipped;
 }
 
-// A line that is no G-code is told once, however often a loop comes by.
+// The next line's block, where it is kept.
+bool ProgramFlow::recall() {
+  if (block_at_.offset >= file_->read_to) return false;
+  KeptBlock* const kept = kept_.find(file_->number, block_at_);
+  if (kept == nullptr) return false;
+  file_->reader.seek(kept->after);
+  look_at(kept->block);
+  return true;
+}
+
+// A line that is no G-code is told once, however often a loop comes by. One that comes a second time is kept.
 bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   std::set<std::uint32_t>& unreadable = file_->unreadable;
   if (!unreadable.empty() && unreadable.contains(line)) return false;
-  if (file_->parser.parse(text, line, block_, reporter_.diagnostics()) && is_of_dialect()) return true;
+  KeptBlock* kept = nullptr;
+  if (block_at_.offset < file_->read_to && text.size() <= KeptBlocks::longest_text) {
+    kept = &kept_.make_room(file_->number, block_at_, file_->reader.position(), text);
+    text = kept->text;
+  }
+  look_at(kept != nullptr ? kept->block : line_);
+  if (file_->parser.parse(text, line, *block_, reporter_.diagnostics()) && is_of_dialect()) return true;
+  if (kept != nullptr) KeptBlocks::drop(*kept);
   unreadable.insert(line);
   return false;
 }
 
+void ProgramFlow::look_at(Block& block) {
+  block_ = &block;
+  reporter_.look_at(block, file_->name);
+}
+
 bool ProgramFlow::is_of_dialect() {
-  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(block_, state_, reporter_);
+  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(*block_, state_, reporter_);
 }
 
 // A '%' before everything else opens the program, the next one closes it.
@@ -225,7 +251,8 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
     return;
   }
   double value = 0;
-  if (!control.arguments.empty() && !value_of(block_, control.arguments.front(), parameters_, reporter_, value)) return;
+  if (!control.arguments.empty() && !value_of(*block_, control.arguments.front(), parameters_, reporter_, value))
+    return;
   if (control.kind == endsub) {
     for (std::size_t i = frame.first_open; i < open_.size(); ++i) report_unclosed(open_[i]);
   }
@@ -242,7 +269,7 @@ void ProgramFlow::leave_frame() {
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = frame.caller;
   file_->reader.seek(frame.return_to);
-  reporter_.look_at(block_, file_->name);
+  look_at(*block_);
   left_sub_ = frame.return_to.line - 1;
 }
 
@@ -259,7 +286,7 @@ void ProgramFlow::begin_if(Symbol label, const Control& control) {
 // From a branch that was not taken to the one that is, or behind the endif.
 bool ProgramFlow::skip_branch(const Open& from) {
   while (skip_to(from, kinds({elseif, else_, endif}))) {
-    const Control& control = *block_.control;
+    const Control& control = *block_->control;
     double condition = 1;
     if (control.kind == endif) return open_.pop_back(), true;
     if (control.kind == else_) return true;
@@ -382,7 +409,7 @@ bool ProgramFlow::go_round(const Open& loop) {
   if (++idle_passes_ <= options_.idle_passes) return true;
   file_->reader.seek(loop.at);
   (void)read();
-  reporter_.error("gcode.endless-loop", block_.control ? block_.control->span : Span{1, 1},
+  reporter_.error("gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
                   fmt::format("the loop went round {} times without any operation", options_.idle_passes),
                   "a loop that ends, or that moves");
   finish(End::error);
@@ -402,7 +429,7 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
       finish(End::error);
       return false;
     }
-    const ControlKind kind = block_.control->kind;
+    const ControlKind kind = block_->control->kind;
     if (!frames_.empty() && kind == endsub && label == frames_.back().sub && opening.kind != sub) {
       report_unclosed(opening);
       while (any_open()) open_.pop_back();
@@ -427,11 +454,13 @@ bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
     std::string_view text;
     std::uint32_t line = 0;
     block_at_ = file_->reader.position();
-    if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
-    if (within_percents && closes_program(text)) return false;
-    if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
-    if (!parse(text, line) || !block_.control) continue;
-    if (label_of(*block_.control, label)) return true;
+    if (within_percents || !recall()) {
+      if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
+      if (within_percents && closes_program(text)) return false;
+      if (!may_be_control(text) || (options_.block_delete && is_deleted(text)) || !parse(text, line)) continue;
+    }
+    if (!block_->control) continue;
+    if (label_of(*block_->control, label)) return true;
   }
 }
 
@@ -439,7 +468,7 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   label = control.label;
   if (!control.computed_label) return true;
   double value = 0;
-  if (!value_of(block_, *control.computed_label, parameters_, reporter_, value)) return false;
+  if (!value_of(*block_, *control.computed_label, parameters_, reporter_, value)) return false;
   const double whole = std::round(value);
   if (std::abs(value - whole) > whole_tolerance || whole < 0 || whole > 1e9) {
     reporter_.error("gcode.bad-o-word", control.computed_label->span,
@@ -451,7 +480,7 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
 }
 
 bool ProgramFlow::argument(const Control& control, double& value) {
-  if (!control.arguments.empty()) return value_of(block_, control.arguments.front(), parameters_, reporter_, value);
+  if (!control.arguments.empty()) return value_of(*block_, control.arguments.front(), parameters_, reporter_, value);
   reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] behind it");
   return false;
 }
@@ -474,11 +503,12 @@ void ProgramFlow::report_unclosed(const Open& open) {
   file_->reader.seek(here);
 }
 
-// After a look elsewhere in the file: the block's text is the reader's, and gone.
+// After a look elsewhere in the file: the block's text is the reader's, and gone, unless it is kept.
 void ProgramFlow::reread_block_text() {
+  if (block_ != &line_) return;
   std::uint32_t line = 0;
   file_->reader.seek(block_at_);
-  if (!file_->reader.next_line(block_.text, line, reporter_.diagnostics())) block_.text = {};
+  if (!file_->reader.next_line(block_->text, line, reporter_.diagnostics())) block_->text = {};
 }
 
 bool ProgramFlow::stray(const Control& control, std::string message, std::string expected) {
