@@ -1,8 +1,8 @@
 // KeptBlocks: the blocks of lines that are read again, so that the body of a loop or of a sub is parsed once.
 //
 // A line's block has its place by the line's number, and the next one that falls there takes it: a body of as many
-// lines as there are places is kept whole. Bounded: about 1 KiB a place in use, 10 MiB where every line is the longest
-// one and all operators. A place keeps its capacity, so that lines that take turns allocate nothing once it is warm.
+// lines as there are places is kept whole. Bounded: about 1 KiB a place in use, 10 MiB in all at the very worst. A
+// place keeps its capacity, so that lines that take turns allocate nothing once it is warm.
 #pragma once
 
 #include <cstddef>

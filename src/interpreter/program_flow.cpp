@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grbl.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -12,28 +11,6 @@ namespace {
 using enum ControlKind;
 
 constexpr double whole_tolerance = 1e-4;
-
-// 'O' first, after white space, '/' and N with its number: all that is looked at in a line that is skipped.
-bool may_be_control(std::string_view text) {
-  std::size_t i = 0;
-  const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
-  while (at(" \t/")) ++i;
-  if (at("nN")) {
-    ++i;
-    while (at(" \t0123456789.")) ++i;
-  }
-  return at("oO");
-}
-
-bool is_deleted(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first != std::string_view::npos && text[first] == '/';
-}
-
-bool is_percent(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%';
-}
 
 std::string_view name_of(ControlKind kind) {
   switch (kind) {
@@ -118,76 +95,11 @@ const Block* ProgramFlow::next() {
   return nullptr;
 }
 
-ProgramFlow::Read ProgramFlow::read() {
-  block_at_ = file_->reader.position();
-  if (reporter_.full()) return Read::end;
-  if (recall()) return Read::block;
-  std::string_view text;
-  std::uint32_t line = 0;
-  if (!file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
-  const bool good = !(options_.block_delete && is_deleted(text)) && parse(text, line);
-  file_->read_to = std::max(file_->read_to, block_at_.offset + 1);
-  return good ? Read::block : Read::skipped;
-}
-
-// The next line's block, where it is kept.
-bool ProgramFlow::recall() {
-  if (block_at_.offset >= file_->read_to) return false;
-  KeptBlock* const kept = kept_.find(file_->number, block_at_);
-  if (kept == nullptr) return false;
-  file_->reader.seek(kept->after);
-  look_at(kept->block);
-  return true;
-}
-
-// A line that is no G-code is told once, however often a loop comes by. One that comes a second time is kept.
-bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
-  std::set<std::uint32_t>& unreadable = file_->unreadable;
-  if (!unreadable.empty() && unreadable.contains(line)) return false;
-  KeptBlock* kept = nullptr;
-  if (block_at_.offset < file_->read_to && text.size() <= KeptBlocks::longest_text) {
-    kept = &kept_.make_room(file_->number, block_at_, file_->reader.position(), text);
-    text = kept->text;
-  }
-  look_at(kept != nullptr ? kept->block : line_);
-  if (file_->parser.parse(text, line, *block_, reporter_.diagnostics()) && is_of_dialect()) return true;
-  if (kept != nullptr) KeptBlocks::drop(*kept);
-  unreadable.insert(line);
-  return false;
-}
-
-void ProgramFlow::look_at(Block& block) {
-  block_ = &block;
-  reporter_.look_at(block, file_->name);
-}
-
-bool ProgramFlow::is_of_dialect() {
-  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(*block_, state_, reporter_);
-}
-
 // A '%' before everything else opens the program, the next one closes it.
 bool ProgramFlow::is_percent_end() {
   const bool ends = std::exchange(begun_, true);
   opened_percent_ = opened_percent_ || !ends;
   return ends;
-}
-
-// What is behind the closing '%' of the main file is no program.
-bool ProgramFlow::closes_program(std::string_view text) {
-  if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
-  return closing_percent_ = std::exchange(file_->seen_percent, true);
-}
-
-bool ProgramFlow::lacks_closing_percent() {
-  if (!opened_percent_) return false;
-  ProgramReader& reader = files_.front()->reader;
-  if (!frames_.empty()) reader.seek(frames_.front().return_to);
-  std::string_view text;
-  std::uint32_t line = 0;
-  while (reader.next_line(text, line, reporter_.diagnostics())) {
-    if (is_percent(text)) return false;
-  }
-  return true;
 }
 
 const Block* ProgramFlow::finish(End end) {
@@ -448,22 +360,6 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
   }
 }
 
-// The next O-word, whatever stands before it.
-bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
-  for (;;) {
-    std::string_view text;
-    std::uint32_t line = 0;
-    block_at_ = file_->reader.position();
-    if (within_percents || !recall()) {
-      if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
-      if (within_percents && closes_program(text)) return false;
-      if (!may_be_control(text) || (options_.block_delete && is_deleted(text)) || !parse(text, line)) continue;
-    }
-    if (!block_->control) continue;
-    if (label_of(*block_->control, label)) return true;
-  }
-}
-
 bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   label = control.label;
   if (!control.computed_label) return true;
@@ -501,14 +397,6 @@ void ProgramFlow::report_unclosed(const Open& open) {
                                           : fmt::format("o{} {}", label_text(open.label), name_of_end(open.kind)));
   reread_block_text();
   file_->reader.seek(here);
-}
-
-// After a look elsewhere in the file: the block's text is the reader's, and gone, unless it is kept.
-void ProgramFlow::reread_block_text() {
-  if (block_ != &line_) return;
-  std::uint32_t line = 0;
-  file_->reader.seek(block_at_);
-  if (!file_->reader.next_line(block_->text, line, reporter_.diagnostics())) block_->text = {};
 }
 
 bool ProgramFlow::stray(const Control& control, std::string message, std::string expected) {
