@@ -1,6 +1,7 @@
 #include "block_executor.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "comment_text.hpp"
@@ -135,11 +136,12 @@ bool BlockExecutor::step_cycle() {
 
 bool BlockExecutor::execute_words() {
   if (nurbs_.open) check_nurbs_is_closed();
-  if (words_.groups() != 0 && !run(steps_before_words)) return false;
+  const bool only_moves = (words_.groups() & ~bit_of(motion)) == 0;  // as most blocks do
+  if (!only_moves && !run(steps_before_words)) return false;
   if (words_.has('F') && !set_feed_rate()) return false;
   if (words_.has('S') && !set_spindle_speed()) return false;
   if (words_.has('T') && !select_tool()) return false;
-  if (words_.groups() != 0 && !run(steps_after_words)) return false;
+  if (!only_moves && !run(steps_after_words)) return false;
   return motion_ == nullptr || move(motion_->number);
 }
 
@@ -197,8 +199,8 @@ bool BlockExecutor::check_words_used() {
     used = used | entry->letters;
     axes |= entry->axes != AxisUse::none;
   };
-  if (words_.groups() != 0) {
-    for (std::size_t group = 0; group < modal_group_count; ++group) add(words_.code(static_cast<ModalGroup>(group)));
+  for (std::uint32_t groups = words_.groups(); groups != 0; groups &= groups - 1) {
+    add(words_.code(static_cast<ModalGroup>(std::countr_zero(groups))));
   }
   add(motion_);
   if (axes) used = used | axis_letters;

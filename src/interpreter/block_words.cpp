@@ -67,7 +67,7 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
   }
   codes_[group] = entry;
   code_spans_[group] = word.span;
-  groups_ |= std::uint32_t{1} << group;
+  groups_ |= bit_of(entry->group);
   return true;
 }
 

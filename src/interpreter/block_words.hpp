@@ -12,6 +12,11 @@
 
 namespace passo {
 
+// The bit of a group in BlockWords::groups().
+constexpr std::uint32_t bit_of(ModalGroup group) {
+  return std::uint32_t{1} << index_of(group);
+}
+
 class BlockWords {
  public:
   // Evaluates the words of `block`. False when one is wrong: unknown, twice there, of a group already seen; all of them
@@ -31,7 +36,7 @@ class BlockWords {
     return entry != nullptr && entry->number == number;
   }
   Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
-  // Bit g: there is a code of group g.
+  // Of those that the block has a code of.
   std::uint32_t groups() const { return groups_; }
 
  private:

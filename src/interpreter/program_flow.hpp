@@ -1,10 +1,12 @@
 // ProgramFlow: which block comes next. Reads lines, obeys O-words, goes back for loops and away for subs.
 //
 // Constant memory: what is remembered are places in the file, of the constructs that are open and of the subs that were
-// met. What is skipped (a branch not taken, the body of a sub where it stands) is read line by line and only its
-// O-words are parsed; a construct is told from others inside it by its label, as RS274/NGC does. A sub that is called
-// before it was met is looked for once to the end of the file, then in NAME.ngc beside the program and in
-// the folders that the options name.
+// met, and the blocks of some hundred lines that come again (KeptBlocks). What is skipped (a branch not taken, the body
+// of a sub where it stands) is read line by line and only its O-words are parsed; a construct is told from others
+// inside it by its label, as RS274/NGC does. A sub that is called before it was met is looked for once to the end of
+// the file, then in NAME.ngc beside the program and in the folders that the options name.
+//
+// A line that is kept costs about 25 ns before it is executed; parsing it 100 to 200 ns.
 //
 // Bounded: calls nest 100 deep, and a program that goes round its loops without any operation, or calls a thousand
 // times what is not there, is stopped.
@@ -21,6 +23,7 @@
 
 #include "block_watcher.hpp"
 #include "block_words.hpp"
+#include "kept_blocks.hpp"
 #include "machine_state.hpp"
 #include "parameters.hpp"
 #include "reporter.hpp"
@@ -78,13 +81,18 @@ class ProgramFlow final : public CallStack {
   };
   // A file of the program: the main one, or one with a sub.
   struct File {
-    File(ProgramReader opened, SymbolTable& symbols)
-        : reader(std::move(opened)), name(reader.name()), parser(name, symbols) {}
+    File(ProgramReader opened, std::size_t ordinal, SymbolTable& symbols)
+        : reader(std::move(opened)),
+          number(static_cast<std::uint32_t>(ordinal)),
+          name(reader.name()),
+          parser(name, symbols) {}
     ProgramReader reader;
+    std::uint32_t number;
     std::string name;
     BlockParser parser;
     std::unordered_map<std::uint32_t, SubPlace> subs;  // by label
     ReaderPosition seen;                               // subs before this place are known
+    std::uint64_t read_to = 0;                         // a line that begins before it was read before
     bool seen_all = false;
     bool seen_percent = false;           // the one that opens the program
     std::set<std::uint32_t> unreadable;  // lines that are no G-code
@@ -117,6 +125,8 @@ class ProgramFlow final : public CallStack {
   Read read();
   bool next_line(std::string_view& text, std::uint32_t& line);
   bool parse(std::string_view text, std::uint32_t line);
+  bool recall();
+  void look_at(Block& block);
   bool is_of_dialect();
   bool is_percent_end();
   bool closes_program(std::string_view text);
@@ -189,9 +199,11 @@ class ProgramFlow final : public CallStack {
   Symbol returned_name_;  // #<_value_returned>
 
   std::vector<std::unique_ptr<File>> files_;
-  File* file_ = nullptr;  // the one that is read
-  Block block_;
-  ReaderPosition block_at_;  // the line of block_
+  File* file_ = nullptr;     // the one that is read
+  Block* block_ = &line_;    // the one at hand: line_, or a kept one
+  ReaderPosition block_at_;  // its line
+  Block line_;
+  KeptBlocks kept_;
   std::vector<Open> open_;
   std::vector<Frame> frames_;
   std::optional<std::uint32_t> left_sub_;

@@ -15,7 +15,7 @@ void ProgramFlow::call(Symbol label, const Control& control) {
   }
   std::array<double, sub_parameters> arguments{};
   for (std::size_t i = 0; i < control.arguments.size(); ++i) {
-    if (!value_of(block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
+    if (!value_of(*block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
   }
 
   Frame frame{file_, file_->reader.position(), label, {}, open_.size(), 1};
@@ -52,7 +52,7 @@ void ProgramFlow::enter(const Frame& frame, File* file) {
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = file;
   file_->reader.seek(frame.place.after);
-  reporter_.look_at(block_, file_->name);
+  look_at(*block_);
 }
 
 void ProgramFlow::leave_frame() {
@@ -63,7 +63,7 @@ void ProgramFlow::leave_frame() {
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = frame.caller;
   file_->reader.seek(frame.return_to);
-  reporter_.look_at(block_, file_->name);
+  look_at(*block_);
   left_sub_ = frame.return_to.line - 1;
 }
 
@@ -100,7 +100,7 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   if (file.subs.contains(label.id)) return true;
   if (file.seen_all) return false;
   File* const reading = file_;
-  const Block current = block_;  // the call's, which the search overwrites
+  const Block current = *block_;  // the call's, which the search overwrites
   const ReaderPosition here = file.reader.position();
   const ReaderPosition call_at = block_at_;
   file_ = &file;
@@ -109,20 +109,20 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   while (!file.seen_all && !file.subs.contains(label.id)) {
     if (!read_control(found, true)) {
       file.seen_all = true;
-    } else if (block_.control->kind == ControlKind::sub || block_.control->kind == ControlKind::program) {
-      const bool numbered = block_.control->kind == ControlKind::program;
+    } else if (block_->control->kind == ControlKind::sub || block_->control->kind == ControlKind::program) {
+      const bool numbered = block_->control->kind == ControlKind::program;
       file.subs.try_emplace(found.id, SubPlace{block_at_, file.reader.position(), numbered});
     }
   }
   file.seen = file.reader.position();
   file.reader.seek(here);
   file_ = reading;
-  block_ = current;
+  line_ = current;
+  look_at(line_);
   block_at_ = call_at;
-  if (&file == file_) {
-    reread_block_text();
-    file.reader.seek(here);
-  }
+  const ReaderPosition next = file_->reader.position();
+  reread_block_text();
+  file_->reader.seek(next);
   return file.subs.contains(label.id);
 }
 
@@ -146,7 +146,7 @@ ProgramFlow::File* ProgramFlow::open_in(const std::string& folder, const std::st
   if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
   auto reader = ProgramReader::open(path.string());
   if (!reader) return nullptr;
-  files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
+  files_.push_back(std::make_unique<File>(std::move(*reader), files_.size(), symbols_));
   return files_.back().get();
 }
 
