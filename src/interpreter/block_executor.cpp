@@ -34,6 +34,7 @@ const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
     {feed_mode, &BlockExecutor::set_feed_mode},
 };
 const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
+    {macro, &BlockExecutor::end_macro_calls},
     {input_output, &BlockExecutor::use_input_output},
     {tool_change, &BlockExecutor::change_tool},
     {spindle, &BlockExecutor::run_spindle_group},
@@ -99,7 +100,9 @@ void BlockExecutor::finish(Closing closing) {
 void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   source_ = {block.line, line_number_of(block)};
-  if (!words_.read(block, parameters_, reporter_)) return;
+  const bool readable = words_.read(block, parameters_, reporter_);
+  if (words_.calls_macro()) return call_macro(readable);
+  if (!readable) return;
   if (!resolve_motion() || !check_words_used() || !check_words_shared() || !check_cutter_compensation()) return;
   if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
     jump(stops->number);
@@ -109,6 +112,7 @@ void BlockExecutor::execute(const Block& block) {
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
   go_on();
+  if (modal_macro_ && moves()) call_modal_macro();
 }
 
 // A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
@@ -252,18 +256,24 @@ bool BlockExecutor::jump(CodeNumber number) {
     return fail("gcode.unused-word", assignments.front().span,
                 fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
   }
-  SubprogramJump found{.call = call, .good = true, .program = 0, .passes = 1, .span = words_.span(stopping)};
-  if (call) {
-    constexpr double highest_program = 999'999'999;
-    if (!words_.has('P')) {
-      found.good = fail("gcode.missing-word", found.span, "M98 without P", "P, the number of the program to call");
-    } else {
-      found.good = whole_word('P', 0, highest_program, found.program) &&
-                   (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
-    }
-  }
+  SubprogramJump found;
+  found.kind = call ? SubprogramJump::Kind::call : SubprogramJump::Kind::leave;
+  found.span = words_.span(stopping);
+  if (call) found.good = program_words(found);
+  if (!call && state_.call_depth == 0) modal_macro_.reset();  // the main program begins again
   jump_ = found;
   return true;
+}
+
+// P, the program, and L, how often.
+bool BlockExecutor::program_words(SubprogramJump& found) {
+  constexpr double highest_program = 999'999'999;
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", found.span, fmt::format("{} without P", found.code()),
+                "P, the number of the program to call");
+  }
+  return whole_word('P', 0, highest_program, found.program) &&
+         (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
 }
 
 // All values are computed before any is stored: in `#1=2 #2=#1` the second one sees the old #1.

@@ -28,6 +28,8 @@ class BlockWords {
   double operator[](char letter) const { return values_[letter_index(letter)]; }
   Span span(char letter) const { return spans_[letter_index(letter)]; }
   LetterSet present() const { return present_; }  // without G, M, N, O
+  // G65 or G66: what is behind it are arguments, M too.
+  bool calls_macro() const { return calls_macro_; }
   bool any_axis() const { return (present_ & (axis_letters | polar_letters)).any(); }
 
   const CodeEntry* code(ModalGroup group) const { return codes_[index_of(group)]; }
@@ -44,6 +46,7 @@ class BlockWords {
   bool read_number(const Word& word, double value, Reporter& reporter);
 
   LetterSet present_;
+  bool calls_macro_ = false;
   std::uint32_t groups_ = 0;
   // Only what present_ and groups_ speak of is up to date, except codes_.
   std::array<double, letter_count> values_{};

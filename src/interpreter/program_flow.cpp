@@ -336,6 +336,12 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
       file_->reader.seek(block_at_);  // the sub ends here
       return false;
     }
+    if (kind == sub && opening.kind == sub) {
+      stray(*block_->control, fmt::format("a sub inside the sub {}", label_text(opening.label)),
+            "endsub before the next sub");
+      finish(End::error);
+      return false;
+    }
     if (label != opening.label) continue;
     const bool closes = (end_of(opening.kind) >> static_cast<unsigned>(kind) & 1U) != 0;
     if (kind == opening.kind && !closes) {
@@ -390,13 +396,6 @@ void ProgramFlow::report_unclosed(const Open& open) {
 bool ProgramFlow::stray(const Control& control, std::string message, std::string expected) {
   reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
   return false;
-}
-
-// As it is written behind the O: 100, <name>.
-std::string ProgramFlow::label_text(Symbol label) const {
-  const std::string_view name = symbols_.name(label);
-  const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
-  return number ? std::string(name) : fmt::format("<{}>", name);
 }
 
 }  // namespace passo

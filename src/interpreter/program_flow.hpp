@@ -55,7 +55,8 @@ class ProgramFlow final : public CallStack {
   const Block* next();
   // Whether a sub was just left, and the line it was called from.
   std::optional<std::uint32_t> take_left_sub() { return std::exchange(left_sub_, std::nullopt); }
-  // M98 or M99 in the block just executed. main_ends: M99 in a main program that does not run once more.
+  // What the block just executed asks for: M98, M99, a macro. main_ends: M99 in a main program that does not run once
+  // more.
   enum class Followed : std::uint8_t { goes_on, left_sub, main_ends };
   Followed follow(const SubprogramJump& jump);
   End end() const { return end_; }
@@ -111,7 +112,9 @@ class ProgramFlow final : public CallStack {
     Symbol sub;
     SubPlace place;
     std::size_t first_open = 0;
-    std::uint64_t passes_left = 1;  // M98 L
+    std::uint64_t passes_left = 1;                                     // L of M98, G65, G66
+    bool modal_macro = false;                                          // called by G66
+    std::optional<std::array<double, sub_parameters>> arguments = {};  // of a macro
   };
 
   // A numbered program that was left and has passes to go.
@@ -174,10 +177,11 @@ class ProgramFlow final : public CallStack {
   bool find_in(File& file, Symbol label);
   void report_unknown_sub(Symbol label, Span span, bool numbered);
   void call_program(const SubprogramJump& jump);
+  void enter_program(const Frame& frame, File* file);
   void run_again();
   Followed end_program(const SubprogramJump& jump);
   bool restart_main(const SubprogramJump& jump);
-  bool check_style(const SubPlace& place, Symbol label, Span span, bool called_by_m98);
+  bool check_style(const SubPlace& place, Symbol label, Span span, std::string_view caller);
   File* open_named(Symbol label);
   File* open_in(const std::string& folder, const std::string& name);
   std::string places_looked_at(const std::string& file) const;

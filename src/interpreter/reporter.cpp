@@ -23,6 +23,10 @@ void Reporter::error(const EvaluationError& error) {
   const std::string operand = plain_number(error.operand);
   switch (error.kind) {
     case Kind::unknown_parameter:
+      if (what.find("_hal[") != std::string::npos || what.find("_HAL[") != std::string::npos) {
+        return this->error("gcode.no-hal", error.span, fmt::format("there is no HAL here, and so no {}", what),
+                           "a parameter of the program; EXISTS[] of a HAL pin is 0");
+      }
       return this->error("gcode.unknown-parameter", error.span, fmt::format("{} has no value", what),
                          "a parameter that was set before; #1 to #5601, #<name>, or a predefined #<_name>");
     case Kind::bad_parameter_number:

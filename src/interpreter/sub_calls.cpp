@@ -22,7 +22,7 @@ void ProgramFlow::call(Symbol label, const Control& control) {
   File* const file = find_sub(label);
   if (file == nullptr) return report_unknown_sub(label, control.span, false);
   frame.place = file->subs.at(label.id);
-  if (!check_style(frame.place, label, control.span, false)) return;
+  if (!check_style(frame.place, label, control.span, {})) return;
   parameters_.enter_sub({arguments.data(), control.arguments.size()});
   enter(frame, file);
 }
@@ -160,6 +160,13 @@ std::string ProgramFlow::places_looked_at(const std::string& file) const {
     places += fmt::format("; {} {}", open->name, has_its_name ? "is there without it" : "was looked through");
   }
   return places;
+}
+
+// As it is written behind the O: 100, <name>.
+std::string ProgramFlow::label_text(Symbol label) const {
+  const std::string_view name = symbols_.name(label);
+  const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
+  return number ? std::string(name) : fmt::format("<{}>", name);
 }
 
 }  // namespace passo

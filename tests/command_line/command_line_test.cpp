@@ -255,6 +255,24 @@ TEST_F(CommandLine, a_tool_table_counts_in_the_units_of_the_machine) {
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(run.out)["position_mm"]["Z"], 3.0);
 }
 
+TEST_F(CommandLine, a_good_run_writes_the_tools_that_it_set) {
+  const std::string table = write("shop.tbl", "; my tools\nT2 P1 Z2 ; drill\nT1 P7 D3\n");
+  ASSERT_EQ(run_text("G21\nG10 L1 P2 Z3.25\nM2\n", "--tools " + table).code, 0);
+  EXPECT_EQ(read(table), "; my tools\nT2 P1 Z3.25 ; drill\nT1 P7 D3\n");
+  EXPECT_EQ(run_text("G21\nG10 L1 P2 Z4\nG12\nM2\n", "--tools " + table).code, 2);
+  EXPECT_EQ(passo("check " + write("t.ngc", "G21\nG10 L1 P2 Z5\nM2\n") + " -m " + router + " --tools " + table).code,
+            0);
+  EXPECT_EQ(read(table), "; my tools\nT2 P1 Z3.25 ; drill\nT1 P7 D3\n");
+}
+
+TEST_F(CommandLine, canon_alone_has_the_example_tools_of_rs274) {
+  const std::string program = write("t.ngc", "G20\nG43 H1\nM2\n");
+  const Outcome canon = passo("canon " + program);
+  EXPECT_NE(canon.out.find("OFFSET(0.0000 0.0000 0.5110,"), std::string::npos) << canon.out;
+  EXPECT_NE(canon.err.find("the offset of tool 1 is that of an example"), std::string::npos) << canon.err;
+  EXPECT_NE(passo("check " + program + " -m " + router).err.find("taken as zero"), std::string::npos);
+}
+
 TEST_F(CommandLine, what_is_wrong_in_a_file_of_the_machine_is_told_with_its_place) {
   const std::string program = write("t.ngc", "M2\n");
   const std::string table = write("shop.tbl", "T1 P1\nT2 P1 Zx\n");
