@@ -26,6 +26,7 @@ void add_stretch(double start, double distance, double from, double to, double l
 
 void add_phases(const SpeedProfile& profile, PlannedMove& move) {
   move.phase_count = 0;
+  move.to = Mm(profile.length);
   const double length = profile.length;
   const double twice = 2 * profile.acceleration;
   const double crest = (profile.entry_squared + profile.exit_squared) / 2 + profile.acceleration * length;
