@@ -138,6 +138,27 @@ Curve Curve::cubic(const Point& start, const Point& start_tangent, const Point& 
   return curve;
 }
 
+// Not by arc(): a spiral's parameter is its length only on the whole, and a part keeps the parameter of the whole.
+Curve Curve::part(Mm from, Mm to) const {
+  Curve piece = *this;
+  piece.start_ = at(from);
+  piece.end_ = at(to);
+  piece.length_ = (to - from).value();
+  if (shape_ == Shape::arc) {
+    const double share = 1 / length_;
+    const double growth = (arc_.end_radius - arc_.start_radius) * share;
+    const double turn = arc_.sweep * share;
+    piece.arc_.start_radius = arc_.start_radius + growth * from.value();
+    piece.arc_.end_radius = arc_.start_radius + growth * to.value();
+    piece.arc_.start_angle = arc_.start_angle + turn * from.value();
+    piece.arc_.sweep = turn * piece.length_;
+  } else if (shape_ == Shape::cubic) {
+    piece.slope_ = tangent(from);
+    piece.square_ = second_derivative(from) * 0.5;
+  }
+  return piece;
+}
+
 Point Curve::at(Mm s) const {
   if (s.value() <= 0) return start_;
   if (s.value() >= length_) return end_;

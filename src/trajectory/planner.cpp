@@ -2,41 +2,44 @@
 
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "cell.hpp"
+#include "cell_queue.hpp"
 #include "speed_profile.hpp"
-
-#include "passo/trajectory/segment_limits.hpp"
+#include "speed_window.hpp"
 
 namespace passo {
 namespace {
 
-// Speeds are kept squared: that is what grows and falls in proportion to the way.
-struct Queued {
-  Segment segment;
-  double length = 0;
-  double acceleration = 0;
-  double top_squared = 0;
-  double entry_cap = 0;      // squared: by the junction before it and the tops on both sides
-  double entry_if_rest = 0;  // how fast it may be entered if the path came to rest behind the queue
-  double entry_if_open = 0;  // the same if the path went straight on there for ever
+// Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
+constexpr double tangent_tolerance = 1e-6;
 
-  // How far apart the squares of the speeds at its two ends may be.
-  double reach() const { return 2 * acceleration * length; }
-};
+bool has_corner(const Curve& before, const Curve& after) {
+  const Point change = after.tangent(Mm(0)) - before.tangent(before.length());
+  return std::any_of(change.values.begin(), change.values.end(),
+                     [](double part) { return std::abs(part) > tangent_tolerance; });
+}
+
+std::size_t limited_axes(const MotionLimits& limits) {
+  return static_cast<std::size_t>(std::count_if(limits.acceleration.values.begin(), limits.acceleration.values.end(),
+                                                [](MmPerSecond2 limit) { return limit > MmPerSecond2(0); }));
+}
 
 }  // namespace
 
 class Planner::Implementation {
  public:
   Implementation(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
-      : path_(path), limits_(limits), most_queued_(std::max<std::size_t>(most_queued, 2)) {}
+      : path_(path),
+        limits_(limits),
+        cutter_(limits_),
+        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {}
 
   bool next(MotionItem& item) {
-    while (decided_ == 0 && !(queue_.empty() && closed_)) look_ahead();
-    if (!queue_.empty()) {
+    while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
+    if (!cells_.empty()) {
       give_move(item);
       return true;
     }
@@ -47,104 +50,141 @@ class Planner::Implementation {
   }
 
  private:
-  // Each pass over the queue is paid for by as many new segments as it found undecided, which makes planning
-  // amortised linear.
+  // Each pass over the queue is paid for by as many new cells as it found undecided, which makes planning amortised
+  // linear.
   void look_ahead() {
-    const std::size_t wanted = std::clamp<std::size_t>(2 * queue_.size(), first_window, most_queued_);
-    while (!closed_ && queue_.size() < wanted) pull();
+    const std::size_t wanted = std::max<std::size_t>(2 * cells_.size(), first_window);
+    while (!closed_ && !cells_.full() && cells_.size() < wanted) pull();
     plan_backwards();
     decide_forwards();
   }
 
+  // One more cell, or the end of the stretch.
   void pull() {
+    if (cutting_ && cutter_.next(piece_)) {
+      append(piece_);
+      return;
+    }
+    cutting_ = false;
     if (!path_.next(pulled_)) {
       closed_ = true;
     } else if (const auto* action = std::get_if<Action>(&pulled_)) {
       action_ = *action;
       closed_ = true;
-    } else if (const auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
-      append(segment);
+    } else if (auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
+      begin(segment);
     }
   }
 
-  void append(const Segment& segment) {
-    const SegmentLimits own = segment_limits(segment, limits_);
-    const double top = own.speed.value() * own.speed.value();
-    double cap = 0;
-    bool straight = false;
-    if (!queue_.empty()) {
-      const Segment& before = queue_.back().segment;
-      const Junction junction = junction_between(before, segment, straight_, limits_);
-      cap = std::min({junction.speed.value() * junction.speed.value(), top, queue_.back().top_squared});
-      straight = junction.straight;
-    }
-    straight_ = straight ? straight_ + segment.curve.length() : segment.curve.length();
-    queue_.push_back({.segment = segment,
-                      .length = segment.curve.length().value(),
-                      .acceleration = own.acceleration.value(),
-                      .top_squared = top,
-                      .entry_cap = cap});
+  void begin(const Segment& segment) {
+    at_rest_ = segments_.empty() || segments_.back().mode == PathMode::exact_stop ||
+               has_corner(segments_.back().curve, segment.curve);
+    segments_.push_back(segment);
+    cutter_.begin(segments_.back());
+    cutting_ = true;
+  }
+
+  void append(const CellCutter::Piece& piece) {
+    const double cap = at_rest_ || cells_.empty() ? 0 : std::min(cells_.back().cell.top_squared, piece.cell.top_squared);
+    at_rest_ = false;
+    cells_.push(piece).entry_cap = cap;
+  }
+
+  double entry_to(std::size_t i, double exit_most) const {
+    const CellQueue::Entry& entry = cells_[i];
+    const Cell& cell = entry.cell;
+    if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
+    return largest_entry(cells_.demands(i), entry.entry_cap, std::min(exit_most, cell.top_squared));
+  }
+  double exit_from(std::size_t i, double entry, double exit_most) const {
+    const Cell& cell = cells_[i].cell;
+    const double most = std::min(exit_most, cell.top_squared);
+    if (cell.straight) return std::min(most, entry + 2 * cell.acceleration * cell.length);
+    return largest_exit(cells_.demands(i), entry, most);
   }
 
   // What is behind the queue lies between a stop at once and nothing that slows it. Both are carried back; from where
   // a cap makes them equal they stay equal, and whatever comes later changes nothing before.
   void plan_backwards() {
     double if_rest = 0;
-    double if_open = closed_ || queue_.empty() ? 0 : queue_.back().top_squared;
-    for (auto queued = queue_.rbegin(); queued != queue_.rend(); ++queued) {
-      if_rest = queued->entry_if_rest = std::min(queued->entry_cap, if_rest + queued->reach());
-      if_open = queued->entry_if_open = std::min(queued->entry_cap, if_open + queued->reach());
+    double if_open = closed_ || cells_.empty() ? 0 : cells_.back().cell.top_squared;
+    for (std::size_t i = cells_.size(); i-- > 0;) {
+      const bool equal = if_rest == if_open;
+      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);
+      if_open = cells_[i].entry_if_open = equal ? if_rest : entry_to(i, if_open);
     }
   }
 
-  // A segment's exit is decided where both agree, or where accelerating from rest does not even reach the lower one.
+  // A cell's exit is decided where both agree, or where accelerating as it may does not even reach the lower one.
   void decide_forwards() {
     double entry = speed_squared_;
-    for (decided_ = 0; decided_ < queue_.size(); ++decided_) {
-      const double reached = entry + queue_[decided_].reach();
-      const bool last = decided_ + 1 == queue_.size();
-      const double if_rest = last ? 0 : queue_[decided_ + 1].entry_if_rest;
-      const double if_open = last ? (closed_ ? 0 : queue_[decided_].top_squared) : queue_[decided_ + 1].entry_if_open;
-      if (if_rest != if_open && reached > if_rest) break;
-      entry = std::min(reached, if_rest);
+    for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
+      const bool last = decided_ + 1 == cells_.size();
+      const double if_rest = last ? 0 : cells_[decided_ + 1].entry_if_rest;
+      const double if_open =
+          last ? (closed_ ? 0 : cells_[decided_].cell.top_squared) : cells_[decided_ + 1].entry_if_open;
+      const double exit = exit_from(decided_, entry, if_rest);
+      if (if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
+      entry = exit;
     }
     // A queue that is full and holds hardly more than the braking distance is played to its middle as if the path came
     // to rest at its end: slower, and safe, and still linear.
-    if (queue_.size() >= most_queued_) decided_ = std::max(decided_, queue_.size() / 2);
+    if (cells_.full()) decided_ = std::max(decided_, cells_.size() / 2);
   }
 
   void give_move(MotionItem& item) {
-    const Queued& head = queue_.front();
-    const double exit_limit = queue_.size() > 1 ? queue_[1].entry_if_rest : 0;
-    const double exit = std::min(exit_limit, speed_squared_ + head.reach());
-
     auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) move = &item.emplace<PlannedMove>();
-    move->segment = head.segment;
-    add_phases({.length = head.length,
-                .acceleration = head.acceleration,
-                .top_squared = head.top_squared,
-                .entry_squared = speed_squared_,
-                .exit_squared = exit},
-               *move);
+    const Segment& segment = segments_.front();
+    move->segment = segment;
+    move->phase_count = 0;
+    const double length = segment.curve.length().value();
+    bool ended = false;
+    while (decided_ > 0 && !ended && move->phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
+      ended = give_cell(*move, length);
+    }
+    if (ended) segments_.pop_front();
+  }
+
+  // Whether the cell ends its segment.
+  bool give_cell(PlannedMove& move, double segment_length) {
+    const Cell& cell = cells_[0].cell;
+    const double exit = exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0);
+    if (cell.straight) {
+      add_phases({.start = cell.start,
+                  .length = cell.length,
+                  .acceleration = cell.acceleration,
+                  .top_squared = cell.top_squared,
+                  .entry_squared = speed_squared_,
+                  .exit_squared = exit},
+                 move);
+    } else {
+      add_phase(cell.start, cell.length, speed_squared_, exit, move);
+    }
+    const bool ended = cell.start + cell.length >= segment_length;
+    move.to = Mm(ended ? segment_length : cell.start + cell.length);
     speed_squared_ = exit;
-    queue_.pop_front();
+    cells_.pop();
     --decided_;
+    return ended;
   }
 
   static constexpr std::size_t first_window = 64;
 
   Source<PathItem>& path_;
   const MotionLimits limits_;
-  const std::size_t most_queued_;
+  CellCutter cutter_;
 
-  std::deque<Queued> queue_;
-  std::size_t decided_ = 0;   // segments at its head whose exit speed nothing to come can change
-  Mm straight_{0};            // the way at its end that leads in one direction
+  std::deque<Segment> segments_;  // whose cells are in the queue, or are being cut
+  CellQueue cells_;
+  bool cutting_ = false;
+  bool at_rest_ = true;       // the next cell begins at rest
+  std::size_t decided_ = 0;   // cells at the head whose exit speed nothing to come can change
   double speed_squared_ = 0;  // at the head's start
   bool closed_ = false;       // an action or the program's end follows the queue: it ends at rest
   std::optional<Action> action_;
   PathItem pulled_;
+  CellCutter::Piece piece_;
 };
 
 Planner::Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)

@@ -39,7 +39,7 @@ std::vector<PathItem> polyline(const std::vector<Point>& corners, double speed) 
 }
 
 std::vector<MotionItem> plan(const std::vector<PathItem>& path, const MotionLimits& limits,
-                             std::size_t most_queued = Planner::most_queued_segments) {
+                             std::size_t most_queued = Planner::most_queued_cells) {
   test::ListSource<PathItem> source(path);
   Planner planner(source, limits, most_queued);
   return test::drain(planner);

@@ -42,6 +42,10 @@ class Curve {
   static Curve arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                    double second_center, double sweep);
 
+  // The piece from one s to another, as a curve of its own: the same places, tangents and second derivatives. Its
+  // ends are at(from) and at(to), bit for bit.
+  Curve part(Mm from, Mm to) const;
+
   Shape shape() const { return shape_; }
   const ArcData& arc_data() const { return arc_; }
   // The coefficients of a cubic: P = start + first s + second s² + third s³.
