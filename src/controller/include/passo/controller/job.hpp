@@ -45,6 +45,7 @@ class Job {
   // Who wants to watch, before the first advance().
   Tap<PathItem>& path() { return watched_path_; }
   Tap<MotionItem>& motion() { return watched_motion_; }
+  Tap<BoardItem>& board() { return watched_board_; }
   VirtualMachine& machine() { return machine_; }
   const InProcessLink& link() const { return link_; }
   const Frame& frame() const { return path_builder_.frame(); }
@@ -64,8 +65,9 @@ class Job {
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
-  VirtualMachine machine_;        // what is at the other end of the wire
-  InProcessLink link_;            // board segments -> wire
+  Tap<BoardItem> watched_board_;
+  VirtualMachine machine_;  // what is at the other end of the wire
+  InProcessLink link_;      // board segments -> wire
 
   BoardItem item_;
   Seconds nominal_time_{0};
