@@ -138,6 +138,22 @@ Curve Curve::cubic(const Point& start, const Point& start_tangent, const Point& 
   return curve;
 }
 
+Curve Curve::part(Mm from, Mm to) const {
+  if (from <= Mm(0) && to >= length()) return *this;
+  Curve part = *this;
+  part.start_ = at(from);
+  part.end_ = at(to);
+  part.length_ = (to - from).value();
+  const double first = from / length();
+  const double last = to / length();
+  const double growth = arc_.end_radius - arc_.start_radius;
+  part.arc_.start_radius = arc_.start_radius + first * growth;
+  part.arc_.end_radius = arc_.start_radius + last * growth;
+  part.arc_.start_angle = arc_.start_angle + first * arc_.sweep;
+  part.arc_.sweep = (last - first) * arc_.sweep;
+  return part;
+}
+
 Point Curve::at(Mm s) const {
   if (s.value() <= 0) return start_;
   if (s.value() >= length_) return end_;

@@ -42,6 +42,9 @@ class Curve {
   static Curve arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                    double second_center, double sweep);
 
+  // The part of a line or an arc from `from` to `to`, both on it, with the same dP/ds and d²P/ds² at every place.
+  Curve part(Mm from, Mm to) const;
+
   Shape shape() const { return shape_; }
   const ArcData& arc_data() const { return arc_; }
   // The coefficients of a cubic: P = start + first s + second s² + third s³.
