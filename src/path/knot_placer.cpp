@@ -81,7 +81,7 @@ bool KnotPlacer::find_node(Node& node) {
   }
   node.s = (piece(first).end() + piece(cluster.last).end()) / 2;
   node.width = width_of(cluster);
-  if (cluster.last == first && node.width == unlimited) node.width = 0;  // straight on: there is nothing to round
+  if (cluster.last == first && goes_on(piece(first), piece(first + 1))) node.width = 0;  // there is nothing to round
   node.before = first;
   node.after = cluster.last + 1;
   junction_ = node.after;
@@ -94,13 +94,16 @@ double KnotPlacer::width_of(const Cluster& cluster) const {
   double width = unlimited;
   const double turn = distance(before.last_tangent, after.first_tangent);
   if (turn > no_change) width = std::min(width, corner_width * cluster.tube / turn);
-  if (before.segment.curve.shape() == Curve::Shape::line && after.segment.curve.shape() == Curve::Shape::line) {
-    return width;
-  }
+  if (before.is_line() && after.is_line()) return width;
   const double change = distance(before.last_bend, after.first_bend);
-  if (change <= no_change) return width;
-  width = std::min(width, std::sqrt(bend_width * cluster.tube / change));
+  if (change > no_change) width = std::min(width, std::sqrt(bend_width * cluster.tube / change));
   return std::min(width, arc_width / std::max(length_of(before.last_bend), length_of(after.first_bend)));
+}
+
+// Whether tangent and second derivative go on without a change.
+bool KnotPlacer::goes_on(const Piece& before, const Piece& after) {
+  return distance(before.last_tangent, after.first_tangent) <= no_change &&
+         distance(before.last_bend, after.first_bend) <= no_change;
 }
 
 // Takes in the next junction where it may.
@@ -115,8 +118,8 @@ bool KnotPlacer::extend(Cluster& cluster) {
   if (extent > cluster_share * width_of(larger)) return false;
   const Point& direction = piece(cluster.first).last_tangent;
   larger.turn = std::max(larger.turn, distance(between.first_tangent, direction));
-  if (between.segment.curve.shape() != Curve::Shape::line) {
-    larger.turn = std::max(larger.turn, distance(between.last_tangent, direction));
+  if (!between.is_line()) {
+    larger.turn += between.segment.curve.curvature() * between.length;
   }
   if (extent * larger.turn > cluster_tube * larger.tube) return false;
   cluster = larger;
@@ -149,8 +152,8 @@ void KnotPlacer::fill_gap() {
     next_room = share_of_room * length;
   }
   const auto count = [](double w, double within) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        knots_from_node, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(knots_from_node, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
   };
   const std::size_t knots = count(width, room) + 1;  // with the node
   const std::size_t next_knots = count(next_width, next_room);
@@ -191,8 +194,8 @@ void KnotPlacer::add_knot(double s) {
   while (s >= piece(knot_piece_).end() && reader_.has(knot_piece_ + 1)) ++knot_piece_;
   in_stretch_ = true;
   const Piece& at = piece(knot_piece_);
-  steps_.push_back({.mark = Mark::knot,
-                    .knot = {.s = s, .piece = knot_piece_, .along = std::min(s - at.start, at.length)}});
+  const double along = s >= at.end() ? at.length : std::min(s - at.start, at.length);
+  steps_.push_back({.mark = Mark::knot, .knot = {.s = s, .piece = knot_piece_, .along = along}});
 }
 
 }  // namespace passo

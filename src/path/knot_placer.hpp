@@ -65,6 +65,7 @@ class KnotPlacer {
   bool find_node(Node& node);
   bool extend(Cluster& cluster);
   double width_of(const Cluster& cluster) const;
+  static bool goes_on(const Piece& before, const Piece& after);
   static double room_of(const Node& node, const Node& before, const Node& after);
   void fill_gap();
   void add_knot(double s);

@@ -60,12 +60,11 @@ inline constexpr bool is_one_of = (std::is_same_v<What, Others> || ...);
 template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
-              operation::SetRotation, operation::SetToolOffset, operation::SelectPlane,
-              operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-              operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
-              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::SetAdaptiveFeed,
-              operation::SetFeedHold, operation::Comment, operation::Message, operation::Print, operation::Log,
-              operation::Reset, operation::SetFeedReference>;
+              operation::SetRotation, operation::SetToolOffset, operation::SelectPlane, operation::SetFeedOverride,
+              operation::SetSpeedOverride, operation::SelectTool, operation::StartToolChange, operation::SetToolNumber,
+              operation::SetToolTableEntry, operation::PalletShuttle, operation::Finish, operation::TurnProbe,
+              operation::SetAdaptiveFeed, operation::SetFeedHold, operation::Comment, operation::Message,
+              operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {

@@ -26,6 +26,7 @@ struct Piece {
   Point last_bend;
 
   double end() const { return start + length; }
+  bool is_line() const { return segment.curve.shape() == Curve::Shape::line; }
 };
 
 class RunReader {

@@ -106,8 +106,7 @@ TubeSpline::End TubeSpline::end_at(std::int64_t k) const {
     return end;
   }
   end.place = site.place + site.off;
-  end.tangent =
-      at(k - 1).control * site.slope[0] + site.control * site.slope[1] + at(k + 1).control * site.slope[2];
+  end.tangent = at(k - 1).control * site.slope[0] + site.control * site.slope[1] + at(k + 1).control * site.slope[2];
   end.deviation = length_of(site.off);
   return end;
 }
@@ -332,15 +331,16 @@ void TubeSpline::relax(std::int64_t k) {
 
 // ---- checks --------------------------------------------------------------------------------------------------------
 
-// Between two places d apart the deviation e is at most the larger of both plus d²/8 of the largest |e''|, which is at
-// most |p''| (a straight line of s: largest at an end) plus the path's curvature.
+// Between two places d apart the deviation e is at most the larger of both plus d²/8 of the largest |e''|. p'' is a
+// straight line of s; the path's d²P/ds² is nothing on a line, and on an arc of the curvature c it leaves its chord by
+// at most d²/8 c³. So |e''| is at most its larger end plus that.
 TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const Site& site = at(k);
   const Site& next = at(k + 1);
   const double width = site.width;
-  const double bend = std::max(length_of(site.bend), length_of(next.bend));
-  const double largest = std::sqrt(std::max({dot(site.off, site.off), dot(next.off, next.off),
-                                             dot(site.mid_off, site.mid_off)}));
+  const double largest =
+      std::sqrt(std::max({dot(site.off, site.off), dot(next.off, next.off), dot(site.mid_off, site.mid_off)}));
+  const double bend = std::sqrt(std::max(dot(site.bend, site.bend), dot(next.bend, next.bend)));
   const double slack = std::max(site.slack[0], site.slack[1]);
   Worst worst;
   worst.excess = largest + slack + (bend + site.curvature) * width * width / 32 - site.tube;
@@ -348,37 +348,40 @@ TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   worst.excess = -site.tube;
 
   // Quarter by quarter, and at the vertices between.
-  const Point slope = at(k - 1).control * site.slope[0] + site.control * site.slope[1] + at(k + 1).control * site.slope[2];
-  const auto off_at = [&](double u, const Point& path) {
+  const Point slope =
+      at(k - 1).control * site.slope[0] + site.control * site.slope[1] + at(k + 1).control * site.slope[2];
+  const auto place_of = [&](const Piece& path, double u) {
+    const Mm along(std::max(0.0, site.knot.s + u - path.start));
     const double cube = u * u * u / (6 * width);
-    return (site.place - path) + site.off + slope * u + site.bend * (u * u / 2) + (next.bend - site.bend) * cube;
+    Place place;
+    place.off = (site.place - path.segment.curve.at(along)) + site.off + slope * u + site.bend * (u * u / 2) +
+                (next.bend - site.bend) * cube;
+    place.off_bend = site.bend + (next.bend - site.bend) * (u / width) - path.segment.curve.second_derivative(along);
+    return place;
   };
-  std::uint64_t number = site.knot.piece;
   double from = 0;
-  Point off = site.off;
-  for (int quarter = 1; from < width;) {
+  int quarter = 1;
+  for (std::uint64_t number = site.knot.piece; from < width && number <= next.knot.piece; ++number) {
     const Piece& path = piece(number);
-    const double vertex = path.end() - site.knot.s;
-    double to = width * quarter / 4;
-    const bool at_vertex = vertex < to && number < next.knot.piece;
-    if (at_vertex) to = std::max(vertex, from);
-    const Point next_off = quarter == 4 && !at_vertex
-                               ? next.off
-                               : off_at(to, path.segment.curve.at(Mm(std::max(0.0, site.knot.s + to - path.start))));
-    const double from_length = length_of(off);
-    const double to_length = length_of(next_off);
-    const double between = (to - from) * (to - from) / 8 * (bend + path.segment.curve.curvature());
-    const double excess = std::max(from_length, to_length) + between - path.tube;
-    if (excess > worst.excess) {
-      const bool at_from = from_length > to_length;
-      worst = {.excess = excess, .along = at_from ? from : to, .off = at_from ? off : next_off};
-    }
-    from = to;
-    off = next_off;
-    if (at_vertex) {
-      ++number;
-    } else {
-      ++quarter;
+    const double curvature = path.segment.curve.curvature();
+    const double end = number < next.knot.piece ? std::min(path.end() - site.knot.s, width) : width;
+    Place before = place_of(path, from);
+    while (from < end) {
+      const double to = std::min(end, width * quarter / 4);
+      const Place after = place_of(path, to);
+      const double from_off = length_of(before.off);
+      const double to_off = length_of(after.off);
+      const double square = (to - from) * (to - from) / 8;
+      const double off_bend =
+          std::sqrt(std::max(dot(before.off_bend, before.off_bend), dot(after.off_bend, after.off_bend)));
+      const double between = square * (off_bend + square * curvature * curvature * curvature);
+      const double excess = std::max(from_off, to_off) + between - path.tube;
+      if (excess > worst.excess) {
+        worst = from_off > to_off ? Worst{excess, from, before.off} : Worst{excess, to, after.off};
+      }
+      if (to >= width * quarter / 4) ++quarter;
+      from = to;
+      before = after;
     }
   }
   return worst;
@@ -412,7 +415,7 @@ std::array<double, 4> TubeSpline::weights_at(std::int64_t k, double along) const
 
 // Moves the controls the least way that takes the excess off.
 void TubeSpline::push_back(std::int64_t k, const Worst& worst) {
-  constexpr double a_little_more = 1.02;
+  constexpr double a_little_more = 1e-3;  // of the tube
   const double off = length_of(worst.off);
   if (!(off > 0)) return;
   const std::array<double, 4> weights = weights_at(k, worst.along);
@@ -421,7 +424,7 @@ void TubeSpline::push_back(std::int64_t k, const Worst& worst) {
     if (is_free(k - 1 + static_cast<std::int64_t>(i))) squares += weights[i] * weights[i];
   }
   if (!(squares > 0)) return;
-  const double amount = std::min(worst.excess * a_little_more, off);
+  const double amount = std::min(worst.excess + a_little_more * at(k).tube, off);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::int64_t control = k - 1 + static_cast<std::int64_t>(i);
     if (is_free(control)) move<axis_count>(control, worst.off * (-amount / off * weights[i] / squares));

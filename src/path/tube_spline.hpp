@@ -32,7 +32,8 @@ class TubeSpline {
 
   explicit TubeSpline(const RunReader& reader) : reader_(reader) {}
 
-  // The knots of a stretch, at least four, and its end. After the end, and before more knots, every span is to be taken.
+  // The knots of a stretch, at least four, and its end. After the end, and before more knots, every span is to be
+  // taken.
   void add(const Knot& knot);
   void close();
 
@@ -56,12 +57,12 @@ class TubeSpline {
   struct Site {
     // What the sweeps use.
     Point control;
-    Point off;      // p - P at the knot
-    Point bend;     // p'' at the knot
-    Point mid_off;  // p - P in the middle of the span
+    Point off;         // p - P at the knot
+    Point bend;        // p'' at the knot
+    Point mid_off;     // p - P in the middle of the span
     double reach = 0;  // squares of how far they may be off
     double mid_reach = 0;
-    Three pull{};                 // the step of the control is minus the sum of pull times bend
+    Three pull{};  // the step of the control is minus the sum of pull times bend
     Three value{};
     Three bend_of{};
     std::array<double, 4> mid{};  // what a move of the control does in the middles of the spans k-2 to k+1
@@ -70,9 +71,9 @@ class TubeSpline {
     Point place;      // P at the knot
     Point mid_place;  // P in the middle of the span
     Three slope{};
-    double width = 0;  // of the span
-    double tube = 0;   // around the span
-    double curvature = 0;    // of the path in the span, at most
+    double width = 0;               // of the span
+    double tube = 0;                // around the span
+    double curvature = 0;           // of the path in the span, at most
     std::array<double, 2> slack{};  // how far vertices in each half of the span stick out
     bool checked = false;
   };
@@ -110,6 +111,10 @@ class TubeSpline {
     double excess = 0;  // mm beyond the tube; at most 0: it is in the tube
     double along = 0;   // s in the span
     Point off;
+  };
+  struct Place {
+    Point off;       // p - P
+    Point off_bend;  // p'' - P''
   };
   Worst worst_of(std::int64_t k) const;
   void check(std::int64_t k);

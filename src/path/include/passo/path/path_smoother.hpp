@@ -5,8 +5,8 @@
 // stay what they are, cut to what is left. Lines that are straight within the merge tolerance become one before.
 // Segments come out as lines, arcs and cubics (Curve::cubic); actions unchanged.
 //
-// Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes, millimetres
-// and degrees alike. Segments join bit for bit. Within a run dP/ds and d²P/ds² go on without a jump; the
+// Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes,
+// millimetres and degrees alike. Segments join bit for bit. Within a run dP/ds and d²P/ds² go on without a jump; the
 // segment at its end has the mode exact_stop. What comes out does not depend on how it is pulled. Memory is bounded:
 // 128 knots, of 64 segments each at most. Time: about a microsecond a segment. See docs/decisions/0013.
 #pragma once
