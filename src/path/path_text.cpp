@@ -67,6 +67,7 @@ std::string to_text(const Segment& segment) {
         fmt::format(" arc {}{} centre {} {} sweep {}", letter_of(arc.first), letter_of(arc.second),
                     number(arc.first_center), number(arc.second_center), number(arc.sweep * 180 / std::numbers::pi));
   }
+  if (curve.shape() == Curve::Shape::cubic) text += " cubic";
   text += " length " + number(curve.length().value());
   if (std::isfinite(segment.speed.value())) text += " speed " + number(segment.speed.value());
   text += fmt::format(" {}", name_of(segment.mode));
