@@ -16,6 +16,7 @@
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -62,6 +63,7 @@ class Job {
   Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
   Tap<PathItem> watched_path_;
+  PathSmoother smoother_;  // corners -> curves within the tolerance
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
