@@ -15,11 +15,11 @@ constexpr double strongest = 1e9;
 
 // The most that the path turns in a cell, in radians. What is taken off the limits grows with its square on an arc,
 // about (3/4) turn²; with half of it lost time would double in both directions: more cells, or more slack.
-constexpr double turn_a_cell = 0.05;
+constexpr double turn_a_cell = 0.025;
 
 // A cell is at most this part of the way that braking from full speed takes, so that the switch from speeding up to
 // braking is nearly where it is best; at the ends of an arc, where rests are, a finer one.
-constexpr double braking_share = 1.0 / 16;
+constexpr double braking_share = 1.0 / 64;
 constexpr double braking_share_at_ends = 1.0 / 64;
 constexpr double growth = 2;
 constexpr double most_cells = 10'000;  // of a segment
