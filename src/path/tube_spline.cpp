@@ -88,13 +88,18 @@ void TubeSpline::advance() {
 
 bool TubeSpline::next(Span& span) {
   const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps - 1 - lag * (checks - 1);
-  const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag;
+  const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag - 1;
   if (taken_ > final) return false;
   span.from = end_at(taken_);
   span.to = end_at(taken_ + 1);
-  span.in_tube = at(taken_).checked || worst_of(taken_).excess <= 0;
+  span.in_tube = is_in_tube(taken_);
+  span.goes_on = (closed_ && taken_ == knots_ - 2) || is_in_tube(taken_ + 1);
   ++taken_;
   return true;
+}
+
+bool TubeSpline::is_in_tube(std::int64_t k) const {
+  return at(k).checked || worst_of(k).excess <= 0;
 }
 
 // The ends of a stretch are the path's own, to the bit.

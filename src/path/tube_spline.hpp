@@ -48,6 +48,7 @@ class TubeSpline {
     End from;
     End to;
     bool in_tube = true;  // shown to be
+    bool goes_on = true;  // into a span that is in the tube, or beyond the stretch
   };
   [[nodiscard]] bool next(Span& span);
 
@@ -120,6 +121,7 @@ class TubeSpline {
   void check(std::int64_t k);
   void push_back(std::int64_t k, const Worst& worst);
   std::array<double, 4> weights_at(std::int64_t k, double along) const;
+  bool is_in_tube(std::int64_t k) const;
   End end_at(std::int64_t k) const;
 
   const RunReader& reader_;
