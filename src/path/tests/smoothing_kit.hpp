@@ -68,24 +68,6 @@ struct Faults {
   std::string where;          // the deviation is largest
 };
 
-// How far `place` is from the path around s; s is moved to where it is nearest.
-inline double distance_near(const ByLength& path, const Point& place, double window, double& s) {
-  double best = apart(path.at(s), place);
-  double best_s = s;
-  for (double reach = window; reach > window * 1e-4; reach /= 50) {
-    const double middle = best_s;
-    for (int i = -100; i <= 100; ++i) {
-      const double to = std::clamp(middle + reach * i / 100, 0.0, path.length());
-      const double d = apart(path.at(to), place);
-      if (d >= best) continue;
-      best = d;
-      best_s = to;
-    }
-  }
-  s = best_s;
-  return best;
-}
-
 // How far the junction after a segment may be rounded; 0: it is a rest.
 inline double junction_tolerance(const ByLength& path, std::size_t k) {
   if (k + 1 == path.size() || path[k].mode == PathMode::exact_stop) return 0;
@@ -106,6 +88,25 @@ inline double tolerance_at(const ByLength& path, double s) {
     if (tolerance > 0) least = std::min(least, tolerance);
   }
   return least;
+}
+
+// How far `place` is outside of the tube around the path near s; s is moved to where it is least.
+inline double excess_near(const ByLength& path, const Point& place, double window, double& s) {
+  const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
+  double best = excess_at(s);
+  double best_s = s;
+  for (double reach = window; reach > window * 1e-4; reach /= 50) {
+    const double middle = best_s;
+    for (int i = -100; i <= 100; ++i) {
+      const double to = std::clamp(middle + reach * i / 100, 0.0, path.length());
+      const double excess = excess_at(to);
+      if (excess >= best) continue;
+      best = excess;
+      best_s = to;
+    }
+  }
+  s = best_s;
+  return best;
 }
 
 // With an exact stop before each action.
@@ -161,14 +162,13 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       const double along = length * i / samples;
       const Point place = curve.at(Mm(along));
       double at = std::min(s + along, path.length());
-      const double tolerance = tolerance_at(path, at);
-      double off = apart(path.at(at), place);
-      if (off > tolerance) {
-        off = distance_near(path, place, 20 * tolerance, at);
+      double excess = apart(path.at(at), place) - tolerance_at(path, at);
+      if (excess > 0) {
+        excess = excess_near(path, place, 20 * tolerance_at(path, at), at);
         s = at - along;
       }
-      if (off - tolerance <= faults.excess) continue;
-      faults.excess = off - tolerance;
+      if (excess <= faults.excess) continue;
+      faults.excess = excess;
       faults.where = "at " + std::to_string(at) + " of\n" + to_text(*segment) + "beside\n" +
                      to_text(path[path.index_at(at)]);
     }
