@@ -43,15 +43,16 @@ void Relaxation::scatter(Lanes AxisLanes::*lanes, std::int64_t k, const Point& v
 template <std::size_t axes>
 void Relaxation::move(std::size_t at, const std::array<double, axes>& step) {
   const Factors& factors = factors_[at];
+  const auto off_factors = FourLanes::load(factors.off.data());
+  const auto bend_factors = FourLanes::load(factors.bend.data());
+  const auto middle_factors = FourLanes::load(factors.middle.data());
+  const auto add = [](double* to, FourLanes change) { (FourLanes::load(to) + change).store(to); };
   for (std::size_t i = 0; i < axes; ++i) {
-    const double d = step[i];
-    double* const off = &axes_[i].off[at - 1];
-    double* const bend = &axes_[i].bend[at - 1];
-    double* const middle = &axes_[i].middle[at - 2];
-    axes_[i].control[at] += d;
-    for (std::size_t lane = 0; lane < 4; ++lane) off[lane] += factors.off[lane] * d;
-    for (std::size_t lane = 0; lane < 4; ++lane) bend[lane] += factors.bend[lane] * d;
-    for (std::size_t lane = 0; lane < 4; ++lane) middle[lane] += factors.middle[lane] * d;
+    AxisLanes& axis = axes_[i];
+    axis.control[at] += step[i];
+    add(&axis.off[at - 1], off_factors * step[i]);
+    add(&axis.bend[at - 1], bend_factors * step[i]);
+    add(&axis.middle[at - 2], middle_factors * step[i]);
   }
 }
 
@@ -59,49 +60,52 @@ void Relaxation::move(std::int64_t k, const Point& step) {
   move<axis_count>(slot(k), step.values);
 }
 
-// The longest share of the step that leaves no place farther off than it may be, or than it is.
+// The longest share of the step that leaves no place farther off than it may be, or than it is. Mostly all of the step
+// is allowed, which is found for four places at once.
 template <std::size_t axes>
 double Relaxation::allowed_share(std::size_t at, const std::array<double, axes>& step, double square) const {
-  const Factors& factors = factors_[at];
-  Four now{};  // squares of the deviations
-  Four along{};
-  Four middle_now{};
-  Four middle_along{};
+  FourLanes off;  // squares of the deviations
+  FourLanes along;
+  FourLanes middle;
+  FourLanes middle_along;
   for (std::size_t i = 0; i < axes; ++i) {
-    const double d = step[i];
-    const double* const off = &axes_[i].off[at - 1];
-    const double* const middle = &axes_[i].middle[at - 2];
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-      now[lane] += off[lane] * off[lane];
-      along[lane] += off[lane] * d;
-      middle_now[lane] += middle[lane] * middle[lane];
-      middle_along[lane] += middle[lane] * d;
-    }
+    const auto here = FourLanes::load(&axes_[i].off[at - 1]);
+    const auto between = FourLanes::load(&axes_[i].middle[at - 2]);
+    off = off + here * here;
+    along = along + here * step[i];
+    middle = middle + between * between;
+    middle_along = middle_along + between * step[i];
   }
-  double share = 1;
-  const auto shorten = [&](double factor, double off, double off_along, double reach) {
-    const double a = factor * factor * square;
-    const double b = factor * off_along;
-    const double most = std::max(reach, off);
-    if (off + share * (2 * b + share * a) <= most) return;
-    share = std::max(0.0, (std::sqrt(std::max(b * b + a * (most - off), 0.0)) - b) / a);
+  const Factors& factors = factors_[at];
+  const auto moved = [&](FourLanes now, FourLanes toward, const Four& by) {
+    const auto factor = FourLanes::load(by.data());
+    return now + factor * (toward * 2 + factor * square);
   };
-  // Mostly all of the step is allowed, which is found for four places at once.
-  int beyond = 0;
+  const auto reach = FourLanes::load(&reach_[at - 1]);
+  const auto middle_reach = FourLanes::load(&middle_reach_[at - 2]);
+  const bool beyond = any_above(moved(off, along, factors.off), off, reach);
+  const bool middle_beyond = any_above(moved(middle, middle_along, factors.middle), middle, middle_reach);
+  double share = 1;
+  if (beyond) share = shorten(share, square, factors.off, off, along, reach);
+  if (middle_beyond) share = shorten(share, square, factors.middle, middle, middle_along, middle_reach);
+  return share;
+}
+
+// What is left of the share of a step where |off + share factor step|² is to be at most the square of the reach.
+double Relaxation::shorten(double share, double square, const Four& factors, FourLanes off, FourLanes along,
+                           FourLanes reach) {
+  Four now{};
+  Four toward{};
+  Four most{};
+  off.store(now.data());
+  along.store(toward.data());
+  reach.store(most.data());
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    const double factor = factors.off[lane];
-    const double then = now[lane] + factor * (2 * along[lane] + factor * square);
-    beyond |= then > std::max(reach_[at - 1 + lane], now[lane]) ? 1 : 0;
-    const double middle_factor = factors.middle[lane];
-    const double middle_then = middle_now[lane] + middle_factor * (2 * middle_along[lane] + middle_factor * square);
-    beyond |= middle_then > std::max(middle_reach_[at - 2 + lane], middle_now[lane]) ? 1 : 0;
-  }
-  if (beyond == 0) return share;
-  for (std::size_t lane = 0; lane < 3; ++lane) {
-    shorten(factors.off[lane], now[lane], along[lane], reach_[at - 1 + lane]);
-  }
-  for (std::size_t lane = 0; lane < 4; ++lane) {
-    shorten(factors.middle[lane], middle_now[lane], middle_along[lane], middle_reach_[at - 2 + lane]);
+    const double a = factors[lane] * factors[lane] * square;
+    const double b = factors[lane] * toward[lane];
+    const double room = std::max(most[lane] - now[lane], 0.0);
+    if (share * (2 * b + share * a) <= room) continue;
+    share = std::max(0.0, (std::sqrt(b * b + a * room) - b) / a);
   }
   return share;
 }
@@ -120,7 +124,9 @@ void Relaxation::relax(std::int64_t k) {
   if (square < no_step * no_step) return;
   const double share = allowed_share<axes>(at, step, square);
   if (share == 0) return;
-  for (double& value : step) value *= share;
+  if (share < 1) {
+    for (double& value : step) value *= share;
+  }
   move<axes>(at, step);
 }
 

@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdint>
 
+#include "four_lanes.hpp"
+
 #include "passo/geometry/axes.hpp"
 
 namespace passo {
@@ -67,6 +69,9 @@ class Relaxation {
   void move(std::size_t at, const std::array<double, axes>& step);
   template <std::size_t axes>
   double allowed_share(std::size_t at, const std::array<double, axes>& step, double square) const;
+
+  static double shorten(double share, double square, const Four& factors, FourLanes off, FourLanes along,
+                        FourLanes reach);
 
   std::int64_t base_ = -1;  // the number in slot 0
   std::array<AxisLanes, axis_count> axes_{};
