@@ -115,6 +115,7 @@ bool PathSmoother::Implementation::give_span(PathItem& item) {
     Segment segment = segment_of(span_);
     segment.curve = Curve::cubic(span_.from.place, span_.from.tangent, span_.to.place, span_.to.tangent,
                                  Mm(span_.to.knot.s - span_.from.knot.s));
+    if (!span_.goes_on) segment.mode = PathMode::exact_stop;
     item = std::move(segment);
   } else {
     cut_span();

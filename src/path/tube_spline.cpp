@@ -14,16 +14,13 @@ constexpr double share_of_tube = 0.98;
 // What is left of the tube, at least, where vertices between those places stick out.
 constexpr double least_share = 0.1;
 
-// Steps shorter than this (mm) are none.
-constexpr double no_step = 1e-12;
-
 // Behind how many controls a stage works on the one before it; a control feels three on each side.
 constexpr std::int64_t reach_of_control = 3;
 constexpr std::int64_t lag = reach_of_control + 1;
 
-bool moves_many_axes(const Curve& curve) {
+bool moves_more_than_xyz(const Curve& curve) {
   const Point steepest = curve.steepest();
-  return std::any_of(steepest.values.begin() + 4, steepest.values.end(), [](double slope) { return slope != 0; });
+  return std::any_of(steepest.values.begin() + 3, steepest.values.end(), [](double slope) { return slope != 0; });
 }
 
 }  // namespace
@@ -41,7 +38,9 @@ void TubeSpline::add(const Knot& knot) {
     taken_ = 0;
     closed_ = false;
     wide_ = false;
+    relaxation_.begin();
   }
+  relaxation_.make_room(knots_ + 2, taken_ - 1);
   Site& site = at(knots_);
   site.knot = knot;
   site.place = piece(knot.piece).segment.curve.at(Mm(knot.along));
@@ -54,7 +53,6 @@ void TubeSpline::add(const Knot& knot) {
 void TubeSpline::close() {
   assert(knots_ >= 4);
   closed_ = true;
-  at(knots_ - 1).reach = at(knots_ - 2).mid_reach;
   at(knots_ - 1).width = 0;
   while (controls_ <= knots_) advance();
   // Nothing more comes: each sweep and each check goes on to the end.
@@ -88,13 +86,18 @@ void TubeSpline::advance() {
 
 bool TubeSpline::next(Span& span) {
   const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps - 1 - lag * (checks - 1);
-  const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag;
+  const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag - 1;
   if (taken_ > final) return false;
   span.from = end_at(taken_);
   span.to = end_at(taken_ + 1);
-  span.in_tube = at(taken_).checked || worst_of(taken_).excess <= 0;
+  span.in_tube = is_in_tube(taken_);
+  span.goes_on = (closed_ && taken_ == knots_ - 2) || is_in_tube(taken_ + 1);
   ++taken_;
   return true;
+}
+
+bool TubeSpline::is_in_tube(std::int64_t k) const {
+  return at(k).checked || worst_of(k).excess <= 0;
 }
 
 // The ends of a stretch are the path's own, to the bit.
@@ -105,9 +108,10 @@ TubeSpline::End TubeSpline::end_at(std::int64_t k) const {
     end.tangent = piece(site.knot.piece).segment.curve.tangent(Mm(site.knot.along));
     return end;
   }
-  end.place = site.place + site.off;
-  end.tangent = at(k - 1).control * site.slope[0] + site.control * site.slope[1] + at(k + 1).control * site.slope[2];
-  end.deviation = length_of(site.off);
+  const Point off = relaxation_.off(k);
+  end.place = site.place + off;
+  end.tangent = slope_at(k);
+  end.deviation = length_of(off);
   return end;
 }
 
@@ -132,21 +136,18 @@ void TubeSpline::survey(Site& site, const Site& next) {
     if (i > site.knot.piece && piece(i).start >= to) break;
     site.tube = std::min(site.tube, piece(i).tube);
     site.curvature = std::max(site.curvature, piece(i).segment.curve.curvature());
-    wide_ = wide_ || moves_many_axes(piece(i).segment.curve);
+    wide_ = wide_ || moves_more_than_xyz(piece(i).segment.curve);
   }
   site.slack[0] = slack_between(from, site.place, mid, site.mid_place, site.knot.piece, number);
   site.slack[1] = slack_between(mid, site.mid_place, to, next.place, number, next.knot.piece);
 
   const auto reach = [](double tube, double slack) {
-    const double within = std::max(share_of_tube * tube - slack, least_share * tube);
-    return within * within;
+    return std::max(share_of_tube * tube - slack, least_share * tube);
   };
-  site.mid_reach = reach(site.tube, std::max(site.slack[0], site.slack[1]));
-  site.reach = reach(site.tube, site.slack[0]);
-  if (knots_ > 2) {
-    const Site& before = at(knots_ - 3);
-    site.reach = std::min(site.reach, reach(before.tube, before.slack[1]));
-  }
+  const std::int64_t k = knots_ - 2;
+  relaxation_.set_middle_reach(k, reach(site.tube, std::max(site.slack[0], site.slack[1])));
+  const double behind = k > 0 ? reach(at(k - 1).tube, at(k - 1).slack[1]) : site.tube;
+  relaxation_.set_reach(k, std::min(behind, reach(site.tube, site.slack[0])));
 }
 
 // How far vertices between two places are from the chord.
@@ -177,7 +178,7 @@ void TubeSpline::find_factors(std::int64_t k) {
   const double out = 3 / (after2 - before);
   Site& site = at(k);
   site.slope = {-in * right, in * right - out * left, out * left};
-  site.bend_of = {2 * in / both, -2 * (in + out) / both, 2 * out / both};
+  site.bend = {2 * in / both, -2 * (in + out) / both, 2 * out / both};
   site.value[0] = (after - here) * in / 3 * right;
   site.value[2] = (here - before) * out / 3 * left;
   site.value[1] = 1 - site.value[0] - site.value[2];
@@ -185,29 +186,25 @@ void TubeSpline::find_factors(std::int64_t k) {
 
 // What the steps of a free control need: its part in p'' at three knots and in the middles of four spans.
 void TubeSpline::find_steps(std::int64_t k) {
-  Site& site = at(k);
+  Relaxation::Factors factors;
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t knot = k - 1 + static_cast<std::int64_t>(i);
     const double weight = (at(knot - 1).width + at(knot).width) / 2;
-    const double factor = at(knot).bend_of[2 - i];
-    site.pull[i] = weight * factor;
-    sum += weight * factor * factor;
+    factors.off[i] = at(knot).value[2 - i];
+    factors.bend[i] = at(knot).bend[2 - i];
+    factors.pull[i] = weight * factors.bend[i];
+    sum += factors.pull[i] * factors.bend[i];
   }
-  for (double& pull : site.pull) pull /= sum;
+  for (double& pull : factors.pull) pull /= sum;
 
-  const auto part = [&](std::int64_t knot, double square) {
-    const std::int64_t i = k - knot + 1;
-    if (i < 0 || i > 2) return 0.0;
-    const Site& at_knot = at(knot);
-    const auto index = static_cast<std::size_t>(i);
-    return at_knot.value[index] / 2 - at_knot.bend_of[index] * square / 16;
-  };
+  const auto part = [&](std::size_t i, double square) { return factors.off[i] / 2 - factors.bend[i] * square / 16; };
   for (std::size_t i = 0; i < 4; ++i) {
-    const std::int64_t span = k - 2 + static_cast<std::int64_t>(i);
-    const double square = at(span).width * at(span).width;
-    site.mid[i] = part(span, square) + part(span + 1, square);
+    const double width = at(k - 2 + static_cast<std::int64_t>(i)).width;
+    if (i > 0) factors.middle[i] += part(i - 1, width * width);
+    if (i < 3) factors.middle[i] += part(i, width * width);
   }
+  relaxation_.set_factors(k, factors);
 }
 
 // The control that a polynomial has: its blossom, here of the path's Taylor polynomial at a knot.
@@ -237,154 +234,119 @@ Point TubeSpline::secant_control(std::int64_t k) const {
 
 void TubeSpline::begin_control(std::int64_t k) {
   if (k >= 0 && k < knots_) find_factors(k);
-  if (k <= 1) {
-    at(k).control = taylor_control(at(0).knot, k);
-  } else if (!is_free(k)) {
-    at(k).control = taylor_control(at(knots_ - 1).knot, k);
-  } else {
-    const Knot& knot = at(k).knot;
-    const Piece& around = piece(knot.piece);
-    const bool alone = knot.along >= at(k - 1).width && around.length - knot.along >= at(k).width;
-    at(k).control = alone ? taylor_control(knot, k) : secant_control(k);
-  }
+  relaxation_.set_control(k, first_control(k));
   if (k >= 1) measure_knot(k - 1);
   if (k >= 2) measure_middle(k - 2);
 }
 
+Point TubeSpline::first_control(std::int64_t k) const {
+  if (k <= 1) return taylor_control(at(0).knot, k);
+  if (!is_free(k)) return taylor_control(at(knots_ - 1).knot, k);
+  const Knot& knot = at(k).knot;
+  const bool alone = knot.along >= at(k - 1).width && piece(knot.piece).length - knot.along >= at(k).width;
+  return alone ? taylor_control(knot, k) : secant_control(k);
+}
+
 void TubeSpline::measure_knot(std::int64_t k) {
-  Site& site = at(k);
-  const Point& before = at(k - 1).control;
-  const Point& after = at(k + 1).control;
-  site.off = (before - site.place) * site.value[0] + (site.control - site.place) * site.value[1] +
-             (after - site.place) * site.value[2];
-  site.bend = (before - site.control) * site.bend_of[0] + (after - site.control) * site.bend_of[2];
+  const Site& site = at(k);
+  const Point before = relaxation_.control(k - 1);
+  const Point here = relaxation_.control(k);
+  const Point after = relaxation_.control(k + 1);
+  relaxation_.set_off(k, (before - site.place) * site.value[0] + (here - site.place) * site.value[1] +
+                             (after - site.place) * site.value[2]);
+  relaxation_.set_bend(k, (before - here) * site.bend[0] + (after - here) * site.bend[2]);
 }
 
 void TubeSpline::measure_middle(std::int64_t k) {
-  Site& site = at(k);
-  const Site& next = at(k + 1);
-  const double square = site.width * site.width;
-  site.mid_off = (site.off + next.off) * 0.5 - (site.bend + next.bend) * (square / 16) +
-                 ((site.place - site.mid_place) + (next.place - site.mid_place)) * 0.5;
-}
-
-// ---- sweeps --------------------------------------------------------------------------------------------------------
-
-template <std::size_t axes>
-void TubeSpline::move(std::int64_t k, const Point& step) {
-  const auto add = [&](Point& to, double factor) {
-    for (std::size_t i = 0; i < axes; ++i) to.values[i] += factor * step.values[i];
-  };
-  Site& site = at(k);
-  add(site.control, 1);
-  for (std::size_t i = 0; i < 3; ++i) {
-    Site& knot = at(k - 1 + static_cast<std::int64_t>(i));
-    add(knot.off, knot.value[2 - i]);
-    add(knot.bend, knot.bend_of[2 - i]);
-  }
-  for (std::size_t i = 0; i < 4; ++i) at(k - 2 + static_cast<std::int64_t>(i)).checked = false;
-  for (std::size_t i = 0; i < 4; ++i) add(at(k - 2 + static_cast<std::int64_t>(i)).mid_off, site.mid[i]);
-}
-
-template <std::size_t axes>
-void TubeSpline::relax(std::int64_t k) {
   const Site& site = at(k);
-  const Site& before = at(k - 1);
-  const Site& after = at(k + 1);
-  Point step;
-  double square = 0;
-  for (std::size_t i = 0; i < axes; ++i) {
-    step.values[i] = -(site.pull[0] * before.bend.values[i] + site.pull[1] * site.bend.values[i] +
-                       site.pull[2] * after.bend.values[i]);
-    square += step.values[i] * step.values[i];
-  }
-  if (square < no_step * no_step) return;
+  const Point offs = relaxation_.off(k) + relaxation_.off(k + 1);
+  const Point bends = relaxation_.bend(k) + relaxation_.bend(k + 1);
+  const Point chord = (site.place - site.mid_place) + (at(k + 1).place - site.mid_place);
+  relaxation_.set_middle_off(k, (offs + chord) * 0.5 - bends * (site.width * site.width / 16));
+}
 
-  // The longest share of the step that leaves no place farther off than it may be, or than it is.
-  double share = 1;
-  const auto shorten = [&](const Point& off, double factor, double reach) {
-    double now = 0;
-    double along = 0;
-    for (std::size_t i = 0; i < axes; ++i) {
-      now += off.values[i] * off.values[i];
-      along += off.values[i] * step.values[i];
-    }
-    const double a = factor * factor * square;
-    const double b = factor * along;
-    const double most = std::max(reach, now);
-    if (now + share * (2 * b + share * a) <= most) return;
-    share = std::max(0.0, (std::sqrt(std::max(b * b + a * (most - now), 0.0)) - b) / a);
-  };
-  shorten(before.off, before.value[2], before.reach);
-  shorten(site.off, site.value[1], site.reach);
-  shorten(after.off, after.value[0], after.reach);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Site& span = at(k - 2 + static_cast<std::int64_t>(i));
-    shorten(span.mid_off, site.mid[i], span.mid_reach);
+void TubeSpline::relax(std::int64_t k) {
+  if (wide_) {
+    relaxation_.relax<axis_count>(k);
+  } else {
+    relaxation_.relax<3>(k);
   }
-  if (share == 0) return;
-  if (share < 1) {
-    for (double& value : step.values) value *= share;
-  }
-  move<axes>(k, step);
 }
 
 // ---- checks --------------------------------------------------------------------------------------------------------
 
+Point TubeSpline::slope_at(std::int64_t k) const {
+  const Three& factors = at(k).slope;
+  return relaxation_.control(k - 1) * factors[0] + relaxation_.control(k) * factors[1] +
+         relaxation_.control(k + 1) * factors[2];
+}
+
+TubeSpline::SpanForm TubeSpline::form_of(std::int64_t k) const {
+  SpanForm form{.off = relaxation_.off(k), .slope = slope_at(k), .bend = relaxation_.bend(k), .change = {}};
+  form.change = (relaxation_.bend(k + 1) - form.bend) * (1 / at(k).width);
+  return form;
+}
+
+TubeSpline::Place TubeSpline::place_in(const Site& site, const SpanForm& form, const Piece& path, double u) {
+  const Mm along(std::max(0.0, site.knot.s + u - path.start));
+  const Curve& curve = path.segment.curve;
+  return {.along = u,
+          .off = (site.place - curve.at(along)) + form.off + (form.slope + form.bend * (u / 2)) * u +
+                 form.change * (u * u * u / 6),
+          .off_bend = form.bend + form.change * u - curve.second_derivative(along)};
+}
+
 // Between two places d apart the deviation e is at most the larger of both plus d²/8 of the largest |e''|. p'' is a
 // straight line of s; the path's d²P/ds² is nothing on a line, and on an arc of the curvature c it leaves its chord by
 // at most d²/8 c³. So |e''| is at most its larger end plus that.
+TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, const Piece& path) {
+  const double curvature = path.segment.curve.curvature();
+  const double square = (to.along - from.along) * (to.along - from.along) / 8;
+  const double off_bend = std::max(length_of(from.off_bend), length_of(to.off_bend));
+  const double between = square * (off_bend + square * curvature * curvature * curvature);
+  const double from_off = length_of(from.off);
+  const double to_off = length_of(to.off);
+  const Place& worse = from_off > to_off ? from : to;
+  return {.excess = std::max(from_off, to_off) + between - path.tube, .along = worse.along, .off = worse.off};
+}
+
+// A rough bound is often enough; else the span is gone through quarter by quarter, and from vertex to vertex.
 TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const Site& site = at(k);
-  const Site& next = at(k + 1);
   const double width = site.width;
-  const double largest =
-      std::sqrt(std::max({dot(site.off, site.off), dot(next.off, next.off), dot(site.mid_off, site.mid_off)}));
-  const double bend = std::sqrt(std::max(dot(site.bend, site.bend), dot(next.bend, next.bend)));
+  const double off =
+      std::max({length_of(relaxation_.off(k)), length_of(relaxation_.off(k + 1)), length_of(relaxation_.middle_off(k))});
+  const double bend = std::max(length_of(relaxation_.bend(k)), length_of(relaxation_.bend(k + 1)));
   const double slack = std::max(site.slack[0], site.slack[1]);
   Worst worst;
-  worst.excess = largest + slack + (bend + site.curvature) * width * width / 32 - site.tube;
+  worst.excess = off + slack + (bend + site.curvature) * width * width / 32 - site.tube;
   if (worst.excess <= 0) return worst;
-  worst.excess = -site.tube;
 
-  // Quarter by quarter, and at the vertices between.
-  const Point slope =
-      at(k - 1).control * site.slope[0] + site.control * site.slope[1] + at(k + 1).control * site.slope[2];
-  const auto place_of = [&](const Piece& path, double u) {
-    const Mm along(std::max(0.0, site.knot.s + u - path.start));
-    const double cube = u * u * u / (6 * width);
-    Place place;
-    place.off = (site.place - path.segment.curve.at(along)) + site.off + slope * u + site.bend * (u * u / 2) +
-                (next.bend - site.bend) * cube;
-    place.off_bend = site.bend + (next.bend - site.bend) * (u / width) - path.segment.curve.second_derivative(along);
-    return place;
-  };
+  worst.excess = -site.tube;
+  const SpanForm form = form_of(k);
+  const std::uint64_t last = at(k + 1).knot.piece;
   double from = 0;
   int quarter = 1;
-  for (std::uint64_t number = site.knot.piece; from < width && number <= next.knot.piece; ++number) {
+  for (std::uint64_t number = site.knot.piece; from < width && number <= last; ++number) {
     const Piece& path = piece(number);
-    const double curvature = path.segment.curve.curvature();
-    const double end = number < next.knot.piece ? std::min(path.end() - site.knot.s, width) : width;
-    Place before = place_of(path, from);
+    const double end = number < last ? std::min(path.end() - site.knot.s, width) : width;
+    Place before = place_in(site, form, path, from);
     while (from < end) {
       const double to = std::min(end, width * quarter / 4);
-      const Place after = place_of(path, to);
-      const double from_off = length_of(before.off);
-      const double to_off = length_of(after.off);
-      const double square = (to - from) * (to - from) / 8;
-      const double off_bend =
-          std::sqrt(std::max(dot(before.off_bend, before.off_bend), dot(after.off_bend, after.off_bend)));
-      const double between = square * (off_bend + square * curvature * curvature * curvature);
-      const double excess = std::max(from_off, to_off) + between - path.tube;
-      if (excess > worst.excess) {
-        worst = from_off > to_off ? Worst{excess, from, before.off} : Worst{excess, to, after.off};
-      }
+      const Place after = place_in(site, form, path, to);
+      const Worst here = worse_between(before, after, path);
+      if (here.excess > worst.excess) worst = here;
       if (to >= width * quarter / 4) ++quarter;
       from = to;
       before = after;
     }
   }
   return worst;
+}
+
+void TubeSpline::move(std::int64_t k, const Point& step) {
+  relaxation_.move(k, step);
+  for (std::int64_t span = k - 2; span <= k + 1; ++span) at(span).checked = false;
 }
 
 void TubeSpline::check(std::int64_t k) {
@@ -407,8 +369,8 @@ std::array<double, 4> TubeSpline::weights_at(std::int64_t k, double along) const
   const double square = along * along / 2 - cube;
   std::array<double, 4> weights{};
   for (std::size_t i = 0; i < 3; ++i) {
-    weights[i] += site.value[i] + site.slope[i] * along + site.bend_of[i] * square;
-    weights[i + 1] += next.bend_of[i] * cube;
+    weights[i] += site.value[i] + site.slope[i] * along + site.bend[i] * square;
+    weights[i + 1] += next.bend[i] * cube;
   }
   return weights;
 }
@@ -427,7 +389,7 @@ void TubeSpline::push_back(std::int64_t k, const Worst& worst) {
   const double amount = std::min(worst.excess + a_little_more * at(k).tube, off);
   for (std::size_t i = 0; i < 4; ++i) {
     const std::int64_t control = k - 1 + static_cast<std::int64_t>(i);
-    if (is_free(control)) move<axis_count>(control, worst.off * (-amount / off * weights[i] / squares));
+    if (is_free(control)) move(control, worst.off * (-amount / off * weights[i] / squares));
   }
 }
 

@@ -21,6 +21,7 @@
 #include <cstdint>
 
 #include "knot_placer.hpp"
+#include "relaxation.hpp"
 
 namespace passo {
 
@@ -48,29 +49,20 @@ class TubeSpline {
     End from;
     End to;
     bool in_tube = true;  // shown to be
+    bool goes_on = true;  // into a span that is in the tube, or beyond the stretch
   };
   [[nodiscard]] bool next(Span& span);
 
  private:
   using Three = std::array<double, 3>;  // factors of the controls before, at and after a knot
-  // A knot, the control of the same number, and the span from the knot to the next.
+  // A knot, and the span from it to the next.
   struct Site {
-    // What the sweeps use.
-    Point control;
-    Point off;         // p - P at the knot
-    Point bend;        // p'' at the knot
-    Point mid_off;     // p - P in the middle of the span
-    double reach = 0;  // squares of how far they may be off
-    double mid_reach = 0;
-    Three pull{};  // the step of the control is minus the sum of pull times bend
-    Three value{};
-    Three bend_of{};
-    std::array<double, 4> mid{};  // what a move of the control does in the middles of the spans k-2 to k+1
-
     Knot knot;
     Point place;      // P at the knot
     Point mid_place;  // P in the middle of the span
+    Three value{};
     Three slope{};
+    Three bend{};
     double width = 0;               // of the span
     double tube = 0;                // around the span
     double curvature = 0;           // of the path in the span, at most
@@ -91,6 +83,7 @@ class TubeSpline {
 
   // Controls as they begin.
   void begin_control(std::int64_t k);
+  Point first_control(std::int64_t k) const;
   Point taylor_control(const Knot& knot, std::int64_t k) const;
   Point secant_control(std::int64_t k) const;
   void find_factors(std::int64_t k);
@@ -100,23 +93,32 @@ class TubeSpline {
 
   // Sweeps.
   void advance();
-  template <std::size_t axes>
   void relax(std::int64_t k);
-  void relax(std::int64_t k) { wide_ ? relax<axis_count>(k) : relax<4>(k); }
-  template <std::size_t axes>
   void move(std::int64_t k, const Point& step);
 
   // Checks.
-  struct Worst {
-    double excess = 0;  // mm beyond the tube; at most 0: it is in the tube
-    double along = 0;   // s in the span
+  struct SpanForm {  // p - P at the first knot + slope u + bend u²/2 + change u³/6
     Point off;
+    Point slope;
+    Point bend;
+    Point change;
   };
   struct Place {
-    Point off;       // p - P
-    Point off_bend;  // p'' - P''
+    double along = 0;  // s in the span
+    Point off;         // p - P
+    Point off_bend;    // p'' - P''
   };
+  struct Worst {
+    double excess = 0;  // mm beyond the tube; at most 0: it is in the tube
+    double along = 0;
+    Point off;
+  };
+  Point slope_at(std::int64_t k) const;
+  SpanForm form_of(std::int64_t k) const;
+  static Place place_in(const Site& site, const SpanForm& form, const Piece& path, double u);
+  static Worst worse_between(const Place& from, const Place& to, const Piece& path);
   Worst worst_of(std::int64_t k) const;
+  bool is_in_tube(std::int64_t k) const;
   void check(std::int64_t k);
   void push_back(std::int64_t k, const Worst& worst);
   std::array<double, 4> weights_at(std::int64_t k, double along) const;
@@ -124,11 +126,12 @@ class TubeSpline {
 
   const RunReader& reader_;
   std::array<Site, window> sites_;
+  Relaxation relaxation_;
   std::int64_t knots_ = 0;
   std::int64_t controls_ = -1;  // the next to begin
   std::int64_t taken_ = 0;      // spans
   bool closed_ = false;
-  bool wide_ = false;  // more than the first four axes move
+  bool wide_ = false;  // more than X Y Z move
 };
 
 }  // namespace passo
