@@ -219,11 +219,25 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     std::size_t index;
   };
   std::vector<Pending> pending;  // steps whose following interval is not known yet
+  // Events without any motion only bridge a time that is too long for one interval: the interval goes on. At an action
+  // the machine rests, and it ends.
+  std::int64_t last_motion = 0;  // ticks
+  const auto end_interval = [&](std::int64_t tick) {
+    for (const Pending& p : pending) {
+      PlayedStep& step = result.steps[p.motor][p.index];
+      step.interval = std::max(step.interval, tick - last_motion);
+    }
+    pending.clear();
+    return tick - std::exchange(last_motion, tick);
+  };
   bool held_back = false;
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
   for (const BoardItem& item : items) {
     const auto* segment = std::get_if<BoardSegment>(&item);
-    if (segment == nullptr) continue;
+    if (segment == nullptr) {
+      end_interval(time >> 16);
+      continue;
+    }
     ++result.segments;
     // The master moves by a power of two and by more than any other motor. Two that move alike cannot be told apart
     // here.
@@ -246,11 +260,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       ++result.events;
       result.event_ticks.push_back(tick);
       result.shortest_interval = std::min(result.shortest_interval, tick - before);
-      for (const Pending& p : pending) {
-        PlayedStep& step = result.steps[p.motor][p.index];
-        step.interval = std::max(step.interval, tick - before);
-      }
-      pending.clear();
+      if (most == 0) continue;
+      const std::int64_t since_motion = end_interval(tick);
       for (unsigned m = 0; m < options.motor_count; ++m) {
         const std::int64_t increment = signed_increment(*segment, m);
         const std::int64_t whole = place[m] >> 16;
@@ -262,7 +273,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
                                    .direction = steps > 0 ? 1 : -1,
                                    .of_master = has_master && std::abs(increment) == most,
                                    .held_back = held_back || was_held_back,
-                                   .interval = tick - before});
+                                   .interval = since_motion});
       }
     }
   }
