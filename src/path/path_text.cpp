@@ -49,6 +49,7 @@ std::string name_of(const Action& action) {
     case Action::Kind::program_stop: return "program stop";
     case Action::Kind::optional_stop: return "optional stop";
     case Action::Kind::tool_change: return fmt::format("tool change {}", action.tool);
+    case Action::Kind::feed_hold: return "feed hold";
     case Action::Kind::program_end: break;
   }
   return "program end";

@@ -24,7 +24,9 @@ constexpr double braking_share_at_ends = 1.0 / 64;
 constexpr double growth = 2;
 constexpr double most_cells = 10'000;  // of a segment
 
-
+double squared(double value) {
+  return value * value;
+}
 
 double norm(const Point& vector) {
   double sum = 0;
@@ -66,7 +68,9 @@ void CellCutter::begin(const Segment& segment) {
   }
   const double wanted = std::min(braking * braking_share, length * turn_a_cell / std::max(turn, turn_a_cell));
   longest_ = length / std::ceil(length / std::max(wanted, length / most_cells));
-  shortest_ = curve.shape() == Curve::Shape::arc ? std::min(longest_, std::max(braking * braking_share_at_ends, longest_ / 64)) : longest_;
+  shortest_ = curve.shape() == Curve::Shape::arc
+                  ? std::min(longest_, std::max(braking * braking_share_at_ends, longest_ / 64))
+                  : longest_;
 }
 
 bool CellCutter::next(Piece& piece) {
@@ -83,16 +87,15 @@ bool CellCutter::next(Piece& piece) {
   }
   double to = at_ + size;
   if (length - to < size * 1e-6) to = length;
-  cut_at(at_, to, piece);
+  cut(*segment_, at_, to, piece);
   at_ = to;
   return true;
 }
 
 // Bounds of the derivatives between two places: of a cubic the third is constant; on an arc each derivative turns the
 // one before, so that its size is that of the slope in the plane times the turn a millimetre.
-CellCutter::Bend CellCutter::bend_between(const Point& slope_in, const Point& slope_out) const {
+CellCutter::Bend CellCutter::bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out) {
   Bend bend;
-  const Curve& curve = segment_->curve;
   if (curve.shape() == Curve::Shape::cubic) {
     for (std::size_t i = 0; i < axis_count; ++i) {
       bend.third.values[i] = 6 * std::abs(curve.cubic_data().third.values[i]);
@@ -112,17 +115,15 @@ CellCutter::Bend CellCutter::bend_between(const Point& slope_in, const Point& sl
 
 // Between the ends the demand f(s) = q' a + q'' v² has f'' = q'''' v² + 5 a q''', since (v²)' = 2a. It leaves the
 // larger of its end values by at most h²/8 times the largest |f''|: that much is taken off the limit.
-void CellCutter::cut_at(double from, double to, Piece& piece) const {
-  const Curve& curve = segment_->curve;
+void CellCutter::cut(const Segment& segment, double from, double to, Piece& piece) const {
+  const Curve& curve = segment.curve;
   const double h = to - from;
   const Point slope_in = curve.tangent(Mm(from));
-  piece.cell = {.start = from, .length = h};
+  piece.cell = {.start = from, .length = h, .feed_squared = squared(segment.speed.value())};
   piece.demand_count = 0;
 
   if (curve.shape() == Curve::Shape::line) {
-    const double top =
-        std::min({segment_->speed.value(), largest_multiple(slope_in, limits_.velocity), fastest});
-    piece.cell.top_squared = top * top;
+    piece.cell.top_squared = squared(std::min(largest_multiple(slope_in, limits_.velocity), fastest));
     piece.cell.acceleration = std::min(largest_multiple(slope_in, limits_.acceleration), strongest);
     piece.cell.straight = true;
     return;
@@ -131,7 +132,7 @@ void CellCutter::cut_at(double from, double to, Piece& piece) const {
   const Point slope_out = curve.tangent(Mm(to));
   const Point bend_in = curve.second_derivative(Mm(from));
   const Point bend_out = curve.second_derivative(Mm(to));
-  const Bend bend = bend_between(slope_in, slope_out);
+  const Bend bend = bend_between(curve, slope_in, slope_out);
   const double eighth = h * h / 8;
 
   Point steepest;
@@ -139,7 +140,7 @@ void CellCutter::cut_at(double from, double to, Piece& piece) const {
     steepest.values[i] =
         std::max(std::abs(slope_in.values[i]), std::abs(slope_out.values[i])) + eighth * bend.third.values[i];
   }
-  const double top = std::min({segment_->speed.value(), largest_multiple(steepest, limits_.velocity), fastest});
+  const double top = std::min(largest_multiple(steepest, limits_.velocity), fastest);
   piece.cell.top_squared = top * top;
   Point least_steep;
   for (std::size_t i = 0; i < axis_count; ++i) {

@@ -34,7 +34,8 @@ struct AxisDemand {
 struct Cell {
   double start = 0;         // s on the segment's curve
   double length = 0;        // mm, above 0
-  double top_squared = 0;   // by the feed and the axes' velocities, anywhere in the cell
+  double top_squared = 0;   // by the axes' velocities, anywhere in the cell
+  double feed_squared = 0;  // as programmed; infinite for a rapid
   double acceleration = 0;  // of a straight cell: along the path, either way; its speed may also rise and fall within
   bool straight = false;
 };
@@ -52,14 +53,15 @@ class CellCutter {
   // Begins with a segment; next() then gives its cells in order.
   void begin(const Segment& segment);
   bool next(Piece& piece);
+  // A cell of a segment that is not the one at hand: what is left of one that was given in part.
+  void cut(const Segment& segment, double from, double to, Piece& piece) const;
 
  private:
   struct Bend {  // of the whole curve: bounds of |q'''| and |q''''|
     Point third;
     Point fourth;
   };
-  void cut_at(double from, double to, Piece& piece) const;
-  Bend bend_between(const Point& slope_in, const Point& slope_out) const;
+  static Bend bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out);
 
   const MotionLimits& limits_;
   const Segment* segment_ = nullptr;

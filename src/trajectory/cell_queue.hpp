@@ -15,10 +15,11 @@ class CellQueue {
   struct Entry {
     Cell cell;
     std::size_t demand_count = 0;
+    bool begins_at_rest = false;
+    double top_squared = 0;    // of the cell, with the override of the feed
     double entry_cap = 0;      // squared: by the tops on both sides, 0 at a rest
     double entry_if_rest = 0;  // how fast it may be entered if the path came to rest behind the queue
     double entry_if_open = 0;  // the same if the path went straight on there for ever
-    bool ends_segment = false;
   };
 
   // `axes`: the most demands a cell makes.
@@ -40,6 +41,12 @@ class CellQueue {
     const std::size_t at = slot(size_++);
     for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[at * axes_ + k] = piece.demands[k];
     return entries_[at] = {.cell = piece.cell, .demand_count = piece.demand_count};
+  }
+  // The first cell, cut anew.
+  void replace_front(const CellCutter::Piece& piece) {
+    entries_[head_].cell = piece.cell;
+    entries_[head_].demand_count = piece.demand_count;
+    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[head_ * axes_ + k] = piece.demands[k];
   }
   void pop() {
     head_ = head_ + 1 == entries_.size() ? 0 : head_ + 1;

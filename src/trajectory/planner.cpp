@@ -1,7 +1,9 @@
 #include "passo/trajectory/planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,6 +17,13 @@ namespace {
 
 // Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
 constexpr double tangent_tolerance = 1e-6;
+
+// A rest of a cell that is shorter, in mm, is rounding.
+constexpr double smallest_rest = 1e-9;
+
+double squared(double value) {
+  return value * value;
+}
 
 bool has_corner(const Curve& before, const Curve& after) {
   const Point change = after.tangent(Mm(0)) - before.tangent(before.length());
@@ -38,15 +47,34 @@ class Planner::Implementation {
         cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {}
 
   bool next(MotionItem& item) {
+    if (holding_) {
+      brake(item);
+      return true;
+    }
     while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
     if (!cells_.empty()) {
       give_move(item);
       return true;
     }
     if (!action_) return false;
+    outputs_ = action_->outputs;
     item = *std::exchange(action_, std::nullopt);
     closed_ = false;
     return true;
+  }
+
+  void limit_moves_to(Seconds duration) { longest_move_ = duration; }
+
+  void set_feed_override(double factor) {
+    override_ = factor;
+    for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
+    decided_ = 0;
+  }
+
+  void hold() { holding_ = true; }
+  void resume() {
+    holding_ = false;
+    decided_ = 0;
   }
 
  private:
@@ -85,29 +113,37 @@ class Planner::Implementation {
   }
 
   void append(const CellCutter::Piece& piece) {
-    const double cap = at_rest_ || cells_.empty() ? 0 : std::min(cells_.back().cell.top_squared, piece.cell.top_squared);
-    at_rest_ = false;
-    cells_.push(piece).entry_cap = cap;
+    cells_.push(piece).begins_at_rest = std::exchange(at_rest_, false) || cells_.size() == 1;
+    set_caps(cells_.size() - 1);
+  }
+
+  void set_caps(std::size_t i) {
+    CellQueue::Entry& entry = cells_[i];
+    entry.top_squared = std::min(entry.cell.top_squared, entry.cell.feed_squared * override_ * override_);
+    entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
+    if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
 
   double entry_to(std::size_t i, double exit_most) const {
     const CellQueue::Entry& entry = cells_[i];
     const Cell& cell = entry.cell;
     if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
-    return largest_entry(cells_.demands(i), entry.entry_cap, std::min(exit_most, cell.top_squared));
+    return largest_entry(cells_.demands(i), entry.entry_cap, std::min(exit_most, entry.top_squared));
   }
+  // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
   double exit_from(std::size_t i, double entry, double exit_most) const {
-    const Cell& cell = cells_[i].cell;
-    const double most = std::min(exit_most, cell.top_squared);
-    if (cell.straight) return std::min(most, entry + 2 * cell.acceleration * cell.length);
-    return largest_exit(cells_.demands(i), entry, most);
+    const CellQueue::Entry& queued = cells_[i];
+    const double most = std::min(exit_most, queued.top_squared);
+    if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
+    const double change = 2 * queued.cell.acceleration * queued.cell.length;
+    return std::max(std::min(most, entry + change), entry - change);
   }
 
   // What is behind the queue lies between a stop at once and nothing that slows it. Both are carried back; from where
   // a cap makes them equal they stay equal, and whatever comes later changes nothing before.
   void plan_backwards() {
     double if_rest = 0;
-    double if_open = closed_ || cells_.empty() ? 0 : cells_.back().cell.top_squared;
+    double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
     for (std::size_t i = cells_.size(); i-- > 0;) {
       const bool equal = if_rest == if_open;
       if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);
@@ -121,8 +157,7 @@ class Planner::Implementation {
     for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
       const bool last = decided_ + 1 == cells_.size();
       const double if_rest = last ? 0 : cells_[decided_ + 1].entry_if_rest;
-      const double if_open =
-          last ? (closed_ ? 0 : cells_[decided_].cell.top_squared) : cells_[decided_ + 1].entry_if_open;
+      const double if_open = last ? (closed_ ? 0 : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
       const double exit = exit_from(decided_, entry, if_rest);
       if (if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
       entry = exit;
@@ -132,41 +167,101 @@ class Planner::Implementation {
     if (cells_.full()) decided_ = std::max(decided_, cells_.size() / 2);
   }
 
-  void give_move(MotionItem& item) {
+  PlannedMove& begin_move(MotionItem& item) const {
     auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) move = &item.emplace<PlannedMove>();
-    const Segment& segment = segments_.front();
-    move->segment = segment;
+    move->segment = segments_.front();
     move->phase_count = 0;
-    const double length = segment.curve.length().value();
-    bool ended = false;
-    while (decided_ > 0 && !ended && move->phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
-      ended = give_cell(*move, length);
-    }
-    if (ended) segments_.pop_front();
+    return *move;
   }
 
-  // Whether the cell ends its segment.
-  bool give_cell(PlannedMove& move, double segment_length) {
-    const Cell& cell = cells_[0].cell;
-    const double exit = exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0);
-    if (cell.straight) {
-      add_phases({.start = cell.start,
-                  .length = cell.length,
-                  .acceleration = cell.acceleration,
-                  .top_squared = cell.top_squared,
-                  .entry_squared = speed_squared_,
-                  .exit_squared = exit},
-                 move);
-    } else {
-      add_phase(cell.start, cell.length, speed_squared_, exit, move);
+  // How far into the first cell the path goes now, and the square of its speed there.
+  struct Ride {
+    double way = 0;
+    double exit = 0;
+  };
+
+  void give_move(MotionItem& item) {
+    PlannedMove& move = begin_move(item);
+    bool complete = false;
+    while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
+      const Cell& cell = cells_[0].cell;
+      const double exit = exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0);
+      if (cell.straight) {
+        add_phases({.start = cell.start,
+                    .length = cell.length,
+                    .acceleration = cell.acceleration,
+                    .top_squared = std::max({cells_[0].top_squared, speed_squared_, exit}),
+                    .entry_squared = speed_squared_,
+                    .exit_squared = exit},
+                   move);
+      } else {
+        add_phase(cell.start, cell.length, speed_squared_, exit, move);
+      }
+      complete = go({cell.length, exit}, move);
     }
-    const bool ended = cell.start + cell.length >= segment_length;
-    move.to = Mm(ended ? segment_length : cell.start + cell.length);
-    speed_squared_ = exit;
+  }
+
+  // In a hold: as slow as can be, and from rest on nothing but the hold itself.
+  void brake(MotionItem& item) {
+    if (speed_squared_ == 0) {
+      item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
+      return;
+    }
+    PlannedMove& move = begin_move(item);
+    bool complete = false;
+    while (speed_squared_ > 0 && !complete && move.phase_count < PlannedMove::most_phases) {
+      const Ride ride = shortest_ride();
+      add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
+      complete = go(ride, move);
+    }
+  }
+
+  // To rest within a straight cell; a curved one is short, and left at its end.
+  Ride shortest_ride() const {
+    const Cell& cell = cells_[0].cell;
+    if (!cell.straight) return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
+    const double distance = speed_squared_ / (2 * cell.acceleration);
+    if (distance < cell.length) return {distance, 0};
+    return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
+  }
+
+  // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
+  bool go(const Ride& ride, PlannedMove& move) {
+    const Segment& segment = segments_.front();
+    const double segment_end = segment.curve.length().value();
+    const double cell_end = cells_[0].cell.start + cells_[0].cell.length;
+    move.to = Mm(std::min(cells_[0].cell.start + ride.way, segment_end));
+    speed_squared_ = ride.exit;
+    const bool shortened = shorten(move);
+    decided_ -= std::min<std::size_t>(decided_, 1);
+    if (move.to.value() < std::min(cell_end, segment_end) - smallest_rest) {
+      cutter_.cut(segment, move.to.value(), cell_end, piece_at_hand_);
+      cells_.replace_front(piece_at_hand_);
+      decided_ = 0;
+      return true;
+    }
     cells_.pop();
-    --decided_;
-    return ended;
+    if (cell_end >= segment_end) segments_.pop_front();
+    return shortened || cell_end >= segment_end;
+  }
+
+  // To the longest time that a move may take.
+  bool shorten(PlannedMove& move) {
+    Seconds left = longest_move_;
+    for (std::size_t i = 0; i < move.phase_count; ++i) {
+      Phase& phase = move.phases[i];
+      if (phase.duration <= left) {
+        left -= phase.duration;
+        continue;
+      }
+      phase.duration = left;
+      move.phase_count = i + 1;
+      move.to = phase.position_at(left);
+      speed_squared_ = squared(phase.velocity_at(left).value());
+      return true;
+    }
+    return false;
   }
 
   static constexpr std::size_t first_window = 64;
@@ -185,6 +280,13 @@ class Planner::Implementation {
   std::optional<Action> action_;
   PathItem pulled_;
   CellCutter::Piece piece_;
+
+  // What may change in mid-run.
+  double override_ = 1;
+  bool holding_ = false;
+  Seconds longest_move_{std::numeric_limits<double>::infinity()};
+  OutputState outputs_;  // after the last action
+  CellCutter::Piece piece_at_hand_;
 };
 
 Planner::Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
@@ -193,6 +295,19 @@ Planner::~Planner() = default;
 
 bool Planner::next(MotionItem& item) {
   return implementation_->next(item);
+}
+
+void Planner::limit_moves_to(Seconds duration) {
+  implementation_->limit_moves_to(duration);
+}
+void Planner::set_feed_override(double factor) {
+  implementation_->set_feed_override(factor);
+}
+void Planner::hold() {
+  implementation_->hold();
+}
+void Planner::resume() {
+  implementation_->resume();
 }
 
 }  // namespace passo

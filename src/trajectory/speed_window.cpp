@@ -95,15 +95,35 @@ double largest_entry(std::span<const AxisDemand> demands, double entry_most, dou
   return region.largest_x();
 }
 
-double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
-  double most = exit_most;
+namespace {
+
+// What the demands leave of y for a given x.
+struct Exits {
+  double least = 0;
+  double most = 0;
+};
+Exits exits(std::span<const AxisDemand> demands, double entry, double exit_most) {
+  Exits left{.most = exit_most};
   for (const AxisDemand& demand : demands) {
     for (const auto& [p, q] : {std::pair(demand.entry_x, demand.entry_y), std::pair(demand.exit_x, demand.exit_y)}) {
-      if (q > 0) most = std::min(most, (demand.limit - p * entry) / q);
-      if (q < 0) most = std::min(most, (-demand.limit - p * entry) / q);
+      if (q == 0) continue;
+      const double toward = q > 0 ? 1 : -1;
+      left.most = std::min(left.most, (toward * demand.limit - p * entry) / q);
+      left.least = std::max(left.least, (-toward * demand.limit - p * entry) / q);
     }
   }
-  return std::max(most, 0.0);
+  return left;
+}
+
+}  // namespace
+
+double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
+  const Exits left = exits(demands, entry, exit_most);
+  return std::max(left.most, left.least);
+}
+
+double least_exit(std::span<const AxisDemand> demands, double entry) {
+  return exits(demands, entry, 0).least;
 }
 
 }  // namespace passo

@@ -20,7 +20,10 @@ namespace passo {
 // The largest x <= X with a y <= Y that meet all demands.
 double largest_entry(std::span<const AxisDemand> demands, double entry_most, double exit_most);
 
-// The largest y <= Y for this x; x is at most largest_entry().
+// The largest y <= Y for this x, which is at most largest_entry(); for a larger x, the smallest y there is.
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most);
+
+// The smallest y: braking as hard as may be.
+double least_exit(std::span<const AxisDemand> demands, double entry);
 
 }  // namespace passo

@@ -1,8 +1,7 @@
 #include "passo/path/path_smoother.hpp"
 
-#include <gmock/gmock.h>
-
 #include "smoothing_kit.hpp"
+#include <gmock/gmock.h>
 
 namespace passo {
 namespace {
@@ -53,7 +52,8 @@ class PathSmootherTest : public testing::Test {
 };
 
 TEST_F(PathSmootherTest, random_paths_stay_in_the_tube_without_a_gap_or_a_bend) {
-  Random random; long extra=0,all=0;
+  Random random;
+  long extra = 0, all = 0;
   for (int round = 0; round < 2000; ++round) {
     SCOPED_TRACE(round);
     RandomPath drawn(random);
@@ -61,7 +61,10 @@ TEST_F(PathSmootherTest, random_paths_stay_in_the_tube_without_a_gap_or_a_bend) 
     drawn.merge_share = 0;
     const std::vector<PathItem> path = drawn.draw(150);
     expect_good(path);
-    { extra += stops(segments_of(smooth(path))) - test::rests_of(path); all += test::rests_of(path);}
+    {
+      extra += stops(segments_of(smooth(path))) - test::rests_of(path);
+      all += test::rests_of(path);
+    }
     if (HasFailure()) break;
   }
   std::printf("extra %ld all %ld\n", extra, all);

@@ -64,7 +64,7 @@ class Job {
   PathBuilder path_builder_;  // operations -> segments
   Tap<PathItem> watched_path_;
   PathSmoother smoother_;  // corners -> curves within the tolerance
-  Planner planner_;  // segments -> phases
+  Planner planner_;        // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
   Tap<BoardItem> watched_board_;

@@ -31,7 +31,7 @@ struct OutputState {
 };
 
 struct Action {
-  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end };
+  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end, feed_hold };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after it

@@ -1,8 +1,10 @@
 // Planner: segments -> phases. The fastest motion along the path that keeps every axis within its limits; look-ahead as
 // far as braking needs, in bounded memory.
 //
-//   v²    top ________                 The path is cut into cells; in each, v² is a straight line over the way. Backwards
-//        /|           \______          from the last cell known: how fast may each be entered so that all speeds after it
+//   v²    top ________                 The path is cut into cells; in each, v² is a straight line over the way.
+//   Backwards
+//        /|           \______          from the last cell known: how fast may each be entered so that all speeds after
+//        it
 //       / |           |      \         can still be met (braking)? Forwards: how fast is it really, from rest on
 //      /  |           |       \        (accelerating)? Feed and velocities cap both. Where directions of segments
 //     0 --+--cell-----+--------+-- s   differ (corners), after an exact stop and at actions the path rests.
@@ -33,6 +35,18 @@ class Planner final : public Source<MotionItem> {
   ~Planner() override;
 
   [[nodiscard]] bool next(MotionItem& item) override;
+
+  // In mid-run. A move that was given stays as it is; what follows is planned anew from its end, on the path and within
+  // the limits. How late a change takes effect is so for the caller to say: by how much it pulls ahead, and by
+  // how long a move may be.
+
+  // From now on a move ends after this time at the latest.
+  void limit_moves_to(Seconds duration);
+  // Feeds are multiplied by `factor`, 0.01 to 2; rapids stay as they are.
+  void set_feed_override(double factor);
+  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
+  void hold();
+  void resume();
 
  private:
   class Implementation;
