@@ -164,7 +164,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       double at = std::min(s + along, path.length());
       double excess = apart(path.at(at), place) - tolerance_at(path, at);
       if (excess > 0) {
-        excess = excess_near(path, place, 20 * tolerance_at(path, at), at);
+        excess = excess_near(path, place, std::max(1.0, 20 * tolerance_at(path, at)), at);
         s = at - along;
       }
       if (excess <= faults.excess) continue;
