@@ -90,18 +90,18 @@ inline double tolerance_at(const ByLength& path, double s) {
   return least;
 }
 
-// How far `place` is outside of the tube around the path near s; s is moved to where it is least.
-inline double excess_near(const ByLength& path, const Point& place, double window, double& s) {
-  const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
-  double best = excess_at(s);
+// The least of a measure of places of the path near s; s is moved to where it is least.
+template <class Measure>
+double least_near(const ByLength& path, const Measure& measure, double window, double& s, int samples = 100) {
+  double best = measure(s);
   double best_s = s;
   for (double reach = window; reach > window * 1e-4; reach /= 50) {
     const double middle = best_s;
-    for (int i = -100; i <= 100; ++i) {
-      const double to = std::clamp(middle + reach * i / 100, 0.0, path.length());
-      const double excess = excess_at(to);
-      if (excess >= best) continue;
-      best = excess;
+    for (int i = -samples; i <= samples; ++i) {
+      const double to = std::clamp(middle + reach * i / samples, 0.0, path.length());
+      const double here = measure(to);
+      if (here >= best) continue;
+      best = here;
       best_s = to;
     }
   }
@@ -129,9 +129,10 @@ inline std::size_t rests_of(const std::vector<PathItem>& items) {
   return rests;
 }
 
-// Where both go by the same length the deviation is measured at equal s; where lines were merged, nearby.
+// Where both go by the same length the deviation is measured at equal s; where lines were merged, which makes them a
+// little shorter, nearby.
 inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vector<PathItem>& smoothed,
-                        int samples = 40) {
+                        bool merges = true, int samples = 40) {
   Faults faults;
   const ByLength path = by_length(programmed);
   double s = 0;
@@ -158,13 +159,16 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       }
     }
     before = segment;
+    const auto start_off = [&](double to) { return apart(path.at(to), curve.start()); };
+    if (merges) least_near(path, start_off, std::min(1.0, 4 * tolerance_at(path, s)), s);
     for (int i = 0; i <= samples; ++i) {
       const double along = length * i / samples;
       const Point place = curve.at(Mm(along));
+      const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
       double at = std::min(s + along, path.length());
-      double excess = apart(path.at(at), place) - tolerance_at(path, at);
+      double excess = excess_at(at);
       if (excess > 0) {
-        excess = excess_near(path, place, std::max(1.0, 20 * tolerance_at(path, at)), at);
+        excess = least_near(path, excess_at, 1.0, at, 4000);
         s = at - along;
       }
       if (excess <= faults.excess) continue;
