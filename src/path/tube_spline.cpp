@@ -314,8 +314,8 @@ TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, 
 TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const Site& site = at(k);
   const double width = site.width;
-  const double off =
-      std::max({length_of(relaxation_.off(k)), length_of(relaxation_.off(k + 1)), length_of(relaxation_.middle_off(k))});
+  const double off = std::max(
+      {length_of(relaxation_.off(k)), length_of(relaxation_.off(k + 1)), length_of(relaxation_.middle_off(k))});
   const double bend = std::max(length_of(relaxation_.bend(k)), length_of(relaxation_.bend(k + 1)));
   const double slack = std::max(site.slack[0], site.slack[1]);
   Worst worst;

@@ -1,8 +1,7 @@
 #include "passo/path/path_smoother.hpp"
 
-#include <gmock/gmock.h>
-
 #include "smoothing_kit.hpp"
+#include <gmock/gmock.h>
 
 namespace passo {
 namespace {

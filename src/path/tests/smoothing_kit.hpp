@@ -61,11 +61,11 @@ class ByLength {
 };
 
 struct Faults {
-  double excess = -1;         // of the deviation over the tolerance, at most
-  std::size_t gaps = 0;       // ends that are not the next start, bit for bit
-  double tangent_jump = 0;    // where the path does not stop
-  double bend_jump = 0;       // there, of d²P/ds², relative to 1/mm and to itself
-  std::string where;          // the deviation is largest
+  double excess = -1;       // of the deviation over the tolerance, at most
+  std::size_t gaps = 0;     // ends that are not the next start, bit for bit
+  double tangent_jump = 0;  // where the path does not stop
+  double bend_jump = 0;     // there, of d²P/ds², relative to 1/mm and to itself
+  std::string where;        // the deviation is largest
 };
 
 // How far the junction after a segment may be rounded; 0: it is a rest.
@@ -173,8 +173,8 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       }
       if (excess <= faults.excess) continue;
       faults.excess = excess;
-      faults.where = "at " + std::to_string(at) + " of\n" + to_text(*segment) + "beside\n" +
-                     to_text(path[path.index_at(at)]);
+      faults.where =
+          "at " + std::to_string(at) + " of\n" + to_text(*segment) + "beside\n" + to_text(path[path.index_at(at)]);
     }
     s += length;
   }
