@@ -29,8 +29,8 @@ class PathSmootherTest : public testing::Test {
   Segment& arc(double x, double y, double center_x, double center_y, double sweep) {
     return add(Curve::arc(position_, xyz(x, y), Axis::x, Axis::y, center_x, center_y, sweep));
   }
-  static void expect_good(const std::vector<PathItem>& path, bool merges = true) {
-    const Faults faults = test::faults_of(path, smooth(path), merges);
+  static void expect_good(const std::vector<PathItem>& path) {
+    const Faults faults = test::faults_of(path, smooth(path));
     EXPECT_LE(faults.excess, 1e-9) << faults.where;
     EXPECT_EQ(faults.gaps, 0U);
     EXPECT_LT(faults.tangent_jump, 1e-9);
@@ -301,7 +301,7 @@ TEST_F(PathSmootherTest, random_paths_stay_in_the_tube_without_a_gap_or_a_bend) 
     drawn.rotary = round % 3 == 0;
     drawn.merge_share = round % 2 == 0 ? 0.05 : 0;
     const std::vector<PathItem> path = drawn.draw(150);
-    expect_good(path, drawn.merge_share > 0);
+    expect_good(path);
     rests += test::rests_of(path);
     stopped += stops(segments_of(smooth(path)));
   }

@@ -90,25 +90,6 @@ inline double tolerance_at(const ByLength& path, double s) {
   return least;
 }
 
-// The least of a measure of places of the path near s; s is moved to where it is least.
-template <class Measure>
-double least_near(const ByLength& path, const Measure& measure, double window, double& s, int samples = 100) {
-  double best = measure(s);
-  double best_s = s;
-  for (double reach = window; reach > window * 1e-4; reach /= 50) {
-    const double middle = best_s;
-    for (int i = -samples; i <= samples; ++i) {
-      const double to = std::clamp(middle + reach * i / samples, 0.0, path.length());
-      const double here = measure(to);
-      if (here >= best) continue;
-      best = here;
-      best_s = to;
-    }
-  }
-  s = best_s;
-  return best;
-}
-
 // With an exact stop before each action.
 inline ByLength by_length(const std::vector<PathItem>& items) {
   std::vector<Segment> segments;
@@ -129,13 +110,47 @@ inline std::size_t rests_of(const std::vector<PathItem>& items) {
   return rests;
 }
 
-// Where both go by the same length the deviation is measured at equal s; where lines were merged, which makes them a
-// little shorter, nearby.
+// Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
+// where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
+// were cut). `shift` is how far it was when last looked for.
+struct LengthAlong {
+  double since_rest = 0;
+  double rest = 0;
+  double shift = 0;
+
+  double estimate() const { return rest + since_rest + shift; }
+
+  // The least of a measure of places of the path that may be meant.
+  template <class Measure>
+  double search(const Measure& measure, double end) {
+    constexpr double beyond = 0.5;
+    constexpr int samples = 20'000;
+    double low = -beyond;
+    double high = 0.0102 * since_rest + beyond;
+    double best = measure(std::clamp(estimate(), 0.0, end));
+    for (int pass = 0; pass < 3 && best > 0; ++pass) {
+      const double step = (high - low) / samples;
+      double best_shift = shift;
+      for (int i = 0; i <= samples; ++i) {
+        const double to = low + step * i;
+        const double here = measure(std::clamp(rest + since_rest + to, 0.0, end));
+        if (here >= best) continue;
+        best = here;
+        best_shift = to;
+      }
+      shift = best_shift;
+      low = shift - 2 * step;
+      high = shift + 2 * step;
+    }
+    return best;
+  }
+};
+
 inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vector<PathItem>& smoothed,
-                        bool merges = true, int samples = 40) {
+                        int samples = 40) {
   Faults faults;
   const ByLength path = by_length(programmed);
-  double s = 0;
+  LengthAlong s;
   const Segment* before = nullptr;
   for (const PathItem& item : smoothed) {
     const auto* const segment = std::get_if<Segment>(&item);
@@ -159,24 +174,21 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       }
     }
     before = segment;
-    const auto start_off = [&](double to) { return apart(path.at(to), curve.start()); };
-    if (merges) least_near(path, start_off, std::min(1.0, 4 * tolerance_at(path, s)), s);
     for (int i = 0; i <= samples; ++i) {
       const double along = length * i / samples;
       const Point place = curve.at(Mm(along));
       const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
-      double at = std::min(s + along, path.length());
-      double excess = excess_at(at);
-      if (excess > 0) {
-        excess = least_near(path, excess_at, 1.0, at, 4000);
-        s = at - along;
-      }
+      double excess = excess_at(std::min(s.estimate(), path.length()));
+      if (excess > 0) excess = s.search(excess_at, path.length());
+      s.since_rest += i < samples ? length / samples : 0;
       if (excess <= faults.excess) continue;
       faults.excess = excess;
-      faults.where =
-          "at " + std::to_string(at) + " of\n" + to_text(*segment) + "beside\n" + to_text(path[path.index_at(at)]);
+      faults.where = "at " + std::to_string(s.estimate()) + " of\n" + to_text(*segment) + "beside\n" +
+                     to_text(path[path.index_at(s.estimate())]);
     }
-    s += length;
+    if (segment->mode == PathMode::exact_stop) {
+      s = {.since_rest = 0, .rest = s.estimate(), .shift = 0};
+    }
   }
   return faults;
 }
