@@ -222,13 +222,16 @@ class Planner::Implementation {
     }
   }
 
-  // To rest within a straight cell; a curved one is short, and left at its end.
+  // To rest within the cell where that can be, or through it as slow as can be.
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
-    if (!cell.straight) return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
-    const double distance = speed_squared_ / (2 * cell.acceleration);
-    if (distance < cell.length) return {distance, 0};
-    return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
+    const double deceleration =
+        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cell.length, speed_squared_);
+    if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
+      return {speed_squared_ / (2 * deceleration), 0};
+    }
+    if (cell.straight) return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
+    return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
   }
 
   // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -133,6 +134,16 @@ double largest_exit(std::span<const AxisDemand> demands, double entry, double ex
 double least_exit(std::span<const AxisDemand> demands, double entry) {
   const Exits left = exits(demands, entry);
   return left.least <= left.most ? left.least : std::clamp(left.most, 0.0, entry);
+}
+
+double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry) {
+  double most = std::numeric_limits<double>::infinity();
+  for (const AxisDemand& demand : demands) {
+    const double slope = 2 * length * std::max(std::abs(demand.entry_y), std::abs(demand.exit_x));
+    const double bend = std::max(std::abs(demand.entry_x + demand.entry_y), std::abs(demand.exit_x + demand.exit_y));
+    if (slope > 0) most = std::min(most, (demand.limit - bend * entry) / slope);
+  }
+  return most;
 }
 
 }  // namespace passo
