@@ -25,6 +25,7 @@ test_packages=(
   libelf-dev                 # simavr reads programs with it
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
+  jq                         # the table of scripts/motion_table.sh
 )
 
 packages=("${build_packages[@]}")

@@ -56,16 +56,18 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       interpreter_(std::move(program), options, diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
       watched_path_(path_builder_),
-      planner_(watched_path_, limits_),
+      smoother_(watched_path_),
+      planner_(smoother_, limits_),
       watched_motion_(planner_),
       step_generator_(watched_motion_, step_options(machine)),
+      watched_board_(step_generator_),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
       link_(machine_, static_cast<std::uint8_t>(machine.axes.size())) {
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
 }
 
 bool Job::advance() {
-  if (link_.error() || !step_generator_.next(item_)) {
+  if (link_.error() || !watched_board_.next(item_)) {
     link_.drain();
     return false;
   }

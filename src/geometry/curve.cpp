@@ -1,16 +1,19 @@
 #include "passo/geometry/curve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 
 namespace passo {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr std::array first_linear = {Axis::x, Axis::y, Axis::z};
+constexpr std::array second_linear_axes = {Axis::u, Axis::v, Axis::w};
+constexpr std::array rotary_axes = {Axis::a, Axis::b, Axis::c};
 
-double length_over(const Point& vector, std::initializer_list<Axis> axes) {
+double length_over(const Point& vector, const auto& axes) {
   double sum = 0;
   for (const Axis axis : axes) sum += vector[axis] * vector[axis];
   return std::sqrt(sum);
@@ -18,11 +21,11 @@ double length_over(const Point& vector, std::initializer_list<Axis> axes) {
 
 // The first of the three groups of axes that moves at all counts.
 double counted_length(const Point& travel) {
-  const double linear = length_over(travel, {Axis::x, Axis::y, Axis::z});
+  const double linear = length_over(travel, first_linear);
   if (linear > 0) return linear;
-  const double second_linear = length_over(travel, {Axis::u, Axis::v, Axis::w});
+  const double second_linear = length_over(travel, second_linear_axes);
   if (second_linear > 0) return second_linear;
-  return length_over(travel, {Axis::a, Axis::b, Axis::c});
+  return length_over(travel, rotary_axes);
 }
 
 double low_angle(const Curve::ArcData& arc) {
@@ -106,7 +109,7 @@ Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, 
   Point travel = end - start;
   travel[first] = 0;
   travel[second] = 0;
-  const double along = length_over(travel, {Axis::x, Axis::y, Axis::z});
+  const double along = length_over(travel, first_linear);
   const double around = (arc.start_radius + arc.end_radius) / 2 * std::abs(sweep);
   const double outward = arc.end_radius - arc.start_radius;
   curve.length_ = std::sqrt(around * around + outward * outward + along * along);
@@ -116,9 +119,57 @@ Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, 
   return curve;
 }
 
+Curve Curve::cubic(const Point& start, const Point& start_tangent, const Point& end, const Point& end_tangent,
+                   Mm length) {
+  Curve curve;
+  curve.shape_ = Shape::cubic;
+  curve.start_ = start;
+  curve.end_ = end;
+  curve.slope_ = start_tangent;
+  curve.length_ = length.value();
+  const double h = curve.length_;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double mean = (end.values[i] - start.values[i]) / h;
+    const double first = start_tangent.values[i];
+    const double last = end_tangent.values[i];
+    curve.square_.values[i] = (3 * mean - 2 * first - last) / h;
+    curve.cube_.values[i] = (first + last - 2 * mean) / (h * h);
+  }
+  return curve;
+}
+
+// Not by arc(): a spiral's parameter is its length only on the whole, and a part keeps the parameter of the whole.
+Curve Curve::part(Mm from, Mm to) const {
+  Curve piece = *this;
+  piece.start_ = at(from);
+  piece.end_ = at(to);
+  piece.length_ = (to - from).value();
+  if (shape_ == Shape::arc) {
+    const double share = 1 / length_;
+    const double growth = (arc_.end_radius - arc_.start_radius) * share;
+    const double turn = arc_.sweep * share;
+    piece.arc_.start_radius = arc_.start_radius + growth * from.value();
+    piece.arc_.end_radius = arc_.start_radius + growth * to.value();
+    piece.arc_.start_angle = arc_.start_angle + turn * from.value();
+    piece.arc_.sweep = turn * piece.length_;
+  } else if (shape_ == Shape::cubic) {
+    piece.slope_ = tangent(from);
+    piece.square_ = second_derivative(from) * 0.5;
+  }
+  return piece;
+}
+
 Point Curve::at(Mm s) const {
   if (s.value() <= 0) return start_;
   if (s.value() >= length_) return end_;
+  if (shape_ == Shape::cubic) {
+    const double u = s.value();
+    Point point;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      point.values[i] = start_.values[i] + u * (slope_.values[i] + u * (square_.values[i] + u * cube_.values[i]));
+    }
+    return point;
+  }
   Point point = start_ + slope_ * s.value();
   if (shape_ == Shape::arc) {
     const double share = s.value() / length_;
@@ -132,6 +183,12 @@ Point Curve::at(Mm s) const {
 
 Point Curve::tangent(Mm s) const {
   Point tangent = slope_;
+  if (shape_ == Shape::cubic) {
+    const double u = std::clamp(s.value(), 0.0, length_);
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      tangent.values[i] += u * (2 * square_.values[i] + 3 * u * cube_.values[i]);
+    }
+  }
   if (shape_ == Shape::arc && length_ > 0) {
     const double share = std::clamp(s.value() / length_, 0.0, 1.0);
     const double radius = arc_.start_radius + share * (arc_.end_radius - arc_.start_radius);
@@ -144,7 +201,42 @@ Point Curve::tangent(Mm s) const {
   return tangent;
 }
 
+Point Curve::second_derivative(Mm s) const {
+  Point second;
+  if (shape_ == Shape::cubic) {
+    const double u = std::clamp(s.value(), 0.0, length_);
+    for (std::size_t i = 0; i < axis_count; ++i) second.values[i] = 2 * square_.values[i] + 6 * u * cube_.values[i];
+  } else if (shape_ == Shape::arc && length_ > 0) {
+    const double share = std::clamp(s.value() / length_, 0.0, 1.0);
+    const double radius = arc_.start_radius + share * (arc_.end_radius - arc_.start_radius);
+    const double angle = arc_.start_angle + share * arc_.sweep;
+    const double turning = arc_.sweep / length_;
+    const double inward = radius * turning * turning;
+    const double sideways = 2 * turning * (arc_.end_radius - arc_.start_radius) / length_;
+    second[arc_.first] = -inward * std::cos(angle) - sideways * std::sin(angle);
+    second[arc_.second] = -inward * std::sin(angle) + sideways * std::cos(angle);
+  }
+  return second;
+}
+
+// A cubic's slope is largest at an end or where its change is nothing.
+Point Curve::steepest_of_cubic() const {
+  Point steepest;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double slope = slope_.values[i];
+    const double square = square_.values[i];
+    const double cube = cube_.values[i];
+    const auto at = [&](double u) { return std::abs(slope + u * (2 * square + 3 * u * cube)); };
+    double most = std::max(std::abs(slope), at(length_));
+    const double vertex = cube != 0 ? -square / (3 * cube) : -1;
+    if (vertex > 0 && vertex < length_) most = std::max(most, at(vertex));
+    steepest.values[i] = most;
+  }
+  return steepest;
+}
+
 Point Curve::steepest() const {
+  if (shape_ == Shape::cubic) return steepest_of_cubic();
   Point steepest;
   for (std::size_t i = 0; i < axis_count; ++i) steepest.values[i] = std::abs(slope_.values[i]);
   if (shape_ == Shape::arc && length_ > 0) {
@@ -160,10 +252,32 @@ Point Curve::steepest() const {
 
 double Curve::curvature() const {
   if (shape_ == Shape::line || !(length_ > 0)) return 0;
+  if (shape_ == Shape::cubic) {
+    return std::max(length_over(second_derivative(Mm(0)), all_axes),
+                    length_over(second_derivative(length()), all_axes));
+  }
   // r'' = 0 and angle'' = 0, so that what is left is the pull to the centre and, in a spiral, the sideways part.
   const double turning = arc_.sweep / length_;
   const double outward = (arc_.end_radius - arc_.start_radius) / length_;
   return std::hypot(std::max(arc_.start_radius, arc_.end_radius) * turning * turning, 2 * outward * turning);
+}
+
+// Where the slope of an axis is nothing between the ends.
+void Curve::widen_by_turning_points(Box& box) const {
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double a = 3 * cube_.values[i];
+    const double b = square_.values[i];
+    const double c = slope_.values[i];
+    const double root = b * b - a * c;
+    if (root < 0) continue;
+    const double q = -(b + std::copysign(std::sqrt(root), b));  // both roots without cancellation: q / a and c / q
+    for (const double u : {a != 0 ? q / a : -1, q != 0 ? c / q : -1}) {
+      if (!(u > 0 && u < length_)) continue;
+      const double reached = at(Mm(u)).values[i];
+      box.low.values[i] = std::min(box.low.values[i], reached);
+      box.high.values[i] = std::max(box.high.values[i], reached);
+    }
+  }
 }
 
 Box Curve::extents() const {
@@ -172,6 +286,7 @@ Box Curve::extents() const {
     box.low.values[i] = std::min(start_.values[i], end_.values[i]);
     box.high.values[i] = std::max(start_.values[i], end_.values[i]);
   }
+  if (shape_ == Shape::cubic) widen_by_turning_points(box);
   if (shape_ == Shape::arc) {
     const auto widen = [&box](Axis axis, double center, double up, double down) {
       if (up > 0) box.high[axis] = std::max(box.high[axis], center + up);

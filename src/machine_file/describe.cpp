@@ -12,6 +12,7 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
       "{:g} {unit}/s ({:.6g} steps/s), {:g} {unit}/s2",
       letter_of(axis.axis), motor, axis.steps_per_unit, axis.step().value(), axis.travel_low, axis.travel_high,
       axis.velocity.value(), axis.highest_step_rate().value(), axis.acceleration.value(), fmt::arg("unit", unit));
+  if (axis.jerk > MmPerSecond3(0)) line += fmt::format(", {:g} {}/s3", axis.jerk.value(), unit);
   if (axis.inverted) line += ", inverted";
   return line + "\n";
 }

@@ -32,6 +32,7 @@ struct AxisKeys {
   NumberKey travel;
   NumberKey velocity;
   NumberKey acceleration;
+  NumberKey jerk;
 };
 constexpr AxisKeys linear_keys{
     .unit = "mm",
@@ -40,6 +41,7 @@ constexpr AxisKeys linear_keys{
     .travel = {"travel_mm", -1e5, 1e5, "[-150, 150]"},
     .velocity = {"max_velocity_mm_s", 1e-3, 1e5, "25"},
     .acceleration = {"max_acceleration_mm_s2", 1e-3, 1e6, "200"},
+    .jerk = {"max_jerk_mm_s3", 1e-3, 1e9, "5000"},
 };
 constexpr AxisKeys rotary_keys{
     .unit = "deg",
@@ -48,6 +50,7 @@ constexpr AxisKeys rotary_keys{
     .travel = {"travel_deg", -1e7, 1e7, "[-180, 180]"},
     .velocity = {"max_velocity_deg_s", 1e-3, 1e5, "60"},
     .acceleration = {"max_acceleration_deg_s2", 1e-3, 1e6, "300"},
+    .jerk = {"max_jerk_deg_s3", 1e-3, 1e9, "8000"},
 };
 
 // An interrupt that serves an event takes longer than this on any processor.
@@ -208,6 +211,7 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
   if (const auto acceleration = reader.number(keys.acceleration, Need::required)) {
     axis.acceleration = MmPerSecond2(*acceleration);
   }
+  if (const auto jerk = reader.number(keys.jerk, Need::optional)) axis.jerk = MmPerSecond3(*jerk);
   check_velocity(reader, keys, axis);
 }
 

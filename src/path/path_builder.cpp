@@ -23,6 +23,9 @@ constexpr Mm chord_tolerance{0.001};
 constexpr double spline_share = 0.1;
 constexpr Mm least_spline_tolerance{1e-5};
 
+// How far lines that become one may leave the path, where the program does not say: this share of the tolerance.
+constexpr double merge_share = 0.05;
+
 // After an error a move needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
 
@@ -57,8 +60,8 @@ template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
               operation::SetRotation, operation::SetToolOffset, operation::ReloadTools, operation::SelectPlane,
-              operation::SetMergeTolerance, operation::SetFeedOverride, operation::SetSpeedOverride,
-              operation::SelectTool, operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
+              operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+              operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
               operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::SetAdaptiveFeed,
               operation::SetFeedHold, operation::Comment, operation::Message, operation::Print, operation::Log,
               operation::Reset, operation::SetFeedReference>;
@@ -114,7 +117,8 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
       diagnostics_(diagnostics),
       spline_(std::make_unique<SplineChords>()),
       position_(options.start),
-      tolerance_(options.tolerance) {}
+      tolerance_(options.tolerance),
+      merge_(options.tolerance * merge_share) {}
 
 PathBuilder::~PathBuilder() = default;
 
@@ -179,6 +183,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
+          [&](const operation::SetMergeTolerance& merge) { return set_merge_tolerance(merge.tolerance), false; },
           [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
           [&](const operation::OrientSpindle&) { return lacks(Lack::orientation), false; },
           [&](const operation::AwaitSpindle&) { return false; },  // told with what it waits for
@@ -302,6 +307,7 @@ bool PathBuilder::take_chord(PathItem& item) {
     auto& segment = std::get<Segment>(item);
     segment.mode = PathMode::continuous;
     segment.tolerance = chord_tolerance;
+    segment.merge = Mm(0);
     return true;
   }
   return false;
@@ -340,6 +346,7 @@ bool PathBuilder::take_spline_chord(PathItem& item) {
       auto& segment = std::get<Segment>(item);
       segment.mode = PathMode::continuous;
       segment.tolerance = spline_tolerance_;
+      segment.merge = Mm(0);
     }
     return true;
   }
@@ -356,6 +363,7 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .rapid = rapid,
                  .mode = path_mode_,
                  .tolerance = tolerance_,
+                 .merge = merge_,
                  .work_zero = frame_.machine_from_work(Point()),
                  .source = operation_.source};
   return true;
@@ -408,6 +416,15 @@ void PathBuilder::set_path_mode(const operation::SetPathMode& mode) {
   } else {
     tolerance_ = mode.tolerance > Mm(0) ? mode.tolerance : options_.tolerance;
   }
+  gives_tolerance_ = mode.tolerance > Mm(0);
+  merge_ = tolerance_ * merge_share;
+}
+
+// The interpreter gives G64 P without Q as a merge tolerance of P, and G64 alone as 0. Of what is given at most half
+// the tolerance is used, so that something is left for the junctions.
+void PathBuilder::set_merge_tolerance(Mm given) {
+  const bool is_own = given < tolerance_ && gives_tolerance_;
+  merge_ = is_own ? std::min(given, tolerance_ / 2) : tolerance_ * merge_share;
 }
 
 OutputState PathBuilder::outputs() const {

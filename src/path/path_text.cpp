@@ -49,6 +49,7 @@ std::string name_of(const Action& action) {
     case Action::Kind::program_stop: return "program stop";
     case Action::Kind::optional_stop: return "optional stop";
     case Action::Kind::tool_change: return fmt::format("tool change {}", action.tool);
+    case Action::Kind::feed_hold: return "feed hold";
     case Action::Kind::program_end: break;
   }
   return "program end";
@@ -66,6 +67,7 @@ std::string to_text(const Segment& segment) {
         fmt::format(" arc {}{} centre {} {} sweep {}", letter_of(arc.first), letter_of(arc.second),
                     number(arc.first_center), number(arc.second_center), number(arc.sweep * 180 / std::numbers::pi));
   }
+  if (curve.shape() == Curve::Shape::cubic) text += " cubic";
   text += " length " + number(curve.length().value());
   if (std::isfinite(segment.speed.value())) text += " speed " + number(segment.speed.value());
   text += fmt::format(" {}", name_of(segment.mode));

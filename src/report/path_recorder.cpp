@@ -18,14 +18,29 @@ double diagonal(const Box& box) {
                     box.high[Axis::z] - box.low[Axis::z]);
 }
 
-// Chords that leave an arc by no more than `tolerance`, or by a two-thousandth of its radius: no eye sees it.
-double chords_of(const Curve& curve, double share, double tolerance) {
-  if (curve.shape() == Curve::Shape::line) return 1;
-  const Curve::ArcData& arc = curve.arc_data();
-  const double radius = std::max(arc.start_radius, arc.end_radius);
+// Chords that leave a circle of `radius` by no more than `tolerance`, or by a two-thousandth of the radius: no eye sees
+// it. `angle`: radians of the whole of it.
+double chords_of(double radius, double angle, double tolerance) {
   if (!(radius > 0)) return 1;
   const double sagitta = std::min(std::max(tolerance, radius / 2000), radius);
-  return std::abs(arc.sweep) * share / std::sqrt(8 * sagitta / radius);
+  return angle / std::sqrt(8 * sagitta / radius);
+}
+
+// Of a part `length` of the curve. A cubic is looked at as an arc of its sharpest bend.
+double chords_of(const Curve& curve, double length, double tolerance) {
+  switch (curve.shape()) {
+    case Curve::Shape::arc: {
+      const Curve::ArcData& arc = curve.arc_data();
+      const double angle = std::abs(arc.sweep) * length / curve.length().value();
+      return chords_of(std::max(arc.start_radius, arc.end_radius), angle, tolerance);
+    }
+    case Curve::Shape::cubic: {
+      const double bend = curve.curvature();
+      return bend > 0 ? chords_of(1 / bend, length * bend, tolerance) : 1;
+    }
+    case Curve::Shape::line: break;
+  }
+  return 1;
 }
 
 }  // namespace
@@ -67,20 +82,23 @@ void PathRecorder::record(const PlannedMove& move) {
   }
   if (moves_++ / stretch % keep_one_of_ != 0) return;
   const Vertex before = vertices_.empty() ? Vertex{} : vertices_.back();
-  add(move.segment.curve.start(), 0, Kind::jump);
+  add(move.segment.curve.at(move.from()), 0, Kind::jump);
   const Vertex& begin = vertices_.back();
   const bool continues = vertices_.size() > 1 && before.x == begin.x && before.y == begin.y && before.z == begin.z;
   if (continues) vertices_.pop_back();
-  for (const Phase& phase : move) record(move, phase);
+  for (const Phase& phase : move) {
+    // The next one begins exactly where this one ends.
+    record(move, phase, &phase + 1 == move.end() ? move.to : (&phase + 1)->start);
+  }
 }
 
-void PathRecorder::record(const PlannedMove& move, const Phase& phase) {
+void PathRecorder::record(const PlannedMove& move, const Phase& phase, Mm end) {
   const Curve& curve = move.segment.curve;
-  const double from = phase.position_at(Seconds(0)).value();
-  const double to = phase.position_at(phase.duration).value();
+  const double from = phase.start.value();
+  const double to = end.value();
   if (!(to > from)) return;
 
-  double pieces = chords_of(curve, (to - from) / curve.length().value(), tolerance_);
+  double pieces = chords_of(curve, to - from, tolerance_);
   if (!move.segment.rapid) {
     // Where the speed changes, but not finer than the path itself is kept.
     const double change = std::abs(phase.velocity_at(phase.duration).value() - phase.velocity.value());

@@ -36,16 +36,17 @@ class SummaryBuilder::Implementation {
 
   void watch(const PlannedMove& move, const Point& machine_minus_work) {
     const Segment& segment = move.segment;
+    (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
+    peaks_.watch(move);
+    if (move.from() > Mm(0)) return;  // a later part of a segment that is counted already
+
     ++sum_.moves;
     if (segment.rapid) ++sum_.rapids;
     if (segment.curve.shape() == Curve::Shape::arc) ++sum_.arcs;
-    (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
     (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += segment.curve.length();
-
     const Box box = segment.curve.extents();
     machine_.add(box.low, box.high);
     work_.add(box.low - machine_minus_work, box.high - machine_minus_work);
-    peaks_.watch(move);
   }
 
   void watch(const Action& action, const Point& /*machine_minus_work*/) {

@@ -31,6 +31,7 @@ std::string text_of(const Action& action) {
     case Action::Kind::optional_stop: return "optional stop\n";
     case Action::Kind::tool_change: return fmt::format("tool change {}\n", action.tool);
     case Action::Kind::program_end: return "program end\n";
+    case Action::Kind::feed_hold: return "feed hold\n";
     case Action::Kind::outputs: break;
   }
   const OutputState& outputs = action.outputs;

@@ -21,12 +21,6 @@ struct Stretch {
 
 class EventBuffer {
  public:
-  // Exact time in 1/65536 tick (half a tick added, as the board does) and the exact place of each motor.
-  struct Event {
-    std::int64_t time = 0;
-    std::array<double, max_motors> place{};
-  };
-
   std::size_t size() const { return last_ - first_; }
   bool empty() const { return first_ == last_; }
 
@@ -34,11 +28,12 @@ class EventBuffer {
   // `i` = 0 is the event before the first one of the buffer.
   const double* places(unsigned motor) const { return &place_[motor][first_]; }
 
-  void push(const Event& event, unsigned motors) {
+  // Exact time in 1/65536 tick (half a tick added, as the board does) and the exact place of each motor.
+  void push(std::int64_t time, const std::array<double, max_motors>& places, unsigned motors) {
     if (last_ == capacity) make_room();
-    time_[last_] = event.time;
+    time_[last_] = time;
     ++last_;
-    for (unsigned m = 0; m < motors; ++m) place_[m][last_] = event.place[m];
+    for (unsigned m = 0; m < motors; ++m) place_[m][last_] = places[m];
   }
   void drop(std::size_t events) { first_ += events; }
   // Starts again, with `before` as the event before the first.

@@ -32,7 +32,8 @@ EventStream::EventStream(const StepOptions& options)
 }
 
 std::int64_t EventStream::fixed_time(double seconds) const {
-  return (ticks_ << 16) + std::llround((fraction_ + seconds * tick_rate_) * whole_tick) + whole_tick / 2;
+  const double units = (fraction_ + seconds * tick_rate_) * whole_tick;  // not negative: the cast rounds to the nearest
+  return (ticks_ << 16) + static_cast<std::int64_t>(units + 0.5) + whole_tick / 2;
 }
 
 void EventStream::advance(double seconds) {
@@ -43,21 +44,27 @@ void EventStream::advance(double seconds) {
 }
 
 void EventStream::start_move(const PlannedMove& move) {
-  move_ = move;
-  path_ = MotorPath(move_.segment.curve, options_);
-  clock_ = PhaseClock(move_);
+  const Curve& curve = move.segment.curve;
+  path_.start(curve, move.to.value(), options_);
+  clock_.start(move);
   in_move_ = true;
-  spot_ = path_.at(0);
-  moment_ = clock_.at(0);
   here_ = end_;
-  for (unsigned m = 0; m < options_.motor_count; ++m) end_[m] = place_of(options_.motors[m], move_.segment.curve.end());
+  spot_ = path_.at(path_.end());
+  // The last part of a segment ends where the program says, to the last digit.
+  const bool whole = move.to >= curve.length();
+  for (unsigned m = 0; m < options_.motor_count; ++m) {
+    end_[m] = whole ? place_of(options_.motors[m], curve.end()) : path_.place(m, spot_);
+  }
+  spot_ = path_.at(move.from().value());
+  moment_ = clock_.at(spot_.s);
   in_stretch_ = in_stretch_ && master_leads(spot_) && rate_fits();
 }
 
-// The speed one step from here: close to rest it is that which counts, and it is the same on both sides of a stop.
-double EventStream::speed_nearby(double slope) const {
-  const double one_step = place_per_step / std::fabs(slope);
-  return std::sqrt(moment_.speed * moment_.speed + 2 * std::fabs(moment_.acceleration) * one_step);
+// The square of how many places a second a motor of this slope goes one step from here: close to rest it is that which
+// counts, and it is the same on both sides of a stop.
+double EventStream::rate_squared(double slope) const {
+  const double speed = slope * moment_.speed;
+  return speed * speed + 2 * std::fabs(moment_.acceleration) * slope * place_per_step;
 }
 
 // No motor is faster than the master, which still goes its way.
@@ -72,24 +79,27 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
 
 // Events come neither so slowly nor so fast that another division would be better.
 bool EventStream::rate_fits() const {
-  const double slope = std::fabs(path_.slope(stretch_.master, spot_));
-  const double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
-  if (rate > rate_before_coarser * slow_rate_ && stretch_.grid < coarsest_grid(stretch_.master)) return false;
-  return rate > rate_before_finer * slow_rate_ || stretch_.grid == finest_grid;
+  const auto squared = [](double x) { return x * x; };
+  const double rate = rate_squared(std::fabs(path_.slope(stretch_.master, spot_)));
+  const double slow = slow_rate_ * static_cast<double>(stretch_.grid);
+  if (stretch_.grid < whole_step && rate > squared(rate_before_coarser * slow)) {
+    return stretch_.grid >= coarsest_grid(stretch_.master);
+  }
+  return rate > squared(rate_before_finer * slow) || stretch_.grid == finest_grid;
 }
 
 // A step, but on an arc of few steps so little that its direction hardly changes from event to event.
 std::int64_t EventStream::coarsest_grid(unsigned motor) const {
   std::int64_t grid = whole_step;
-  const double most = path_.reach(motor) * turn_an_event;
+  const double most = path_.reach(motor, spot_) * turn_an_event;
   while (static_cast<double>(grid) > most && grid > finest_grid) grid /= 2;
   return grid;
 }
 
-// The next line of the grid beyond the last one, in the direction of the master.
-double EventStream::next_target() const {
+// The next line of the grid beyond `place`, in the direction of the master.
+double EventStream::next_target(double place) const {
   const auto grid = static_cast<double>(stretch_.grid);
-  const double along = stretch_.sign * master_place_ / grid;
+  const double along = stretch_.sign * place / grid;
   return stretch_.sign * (std::floor(along + 1e-6) + 1) * grid;
 }
 
@@ -113,14 +123,14 @@ EventStream::Fastest EventStream::fastest() const {
 EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   const auto [master, slope] = fastest();
   if (slope == 0) return Start::nothing_moves;
-  stretch_ = {.master = master, .sign = path_.slope(master, spot_) > 0 ? 1 : -1, .grid = coarsest_grid(master)};
-  double rate = slope * speed_nearby(slope) / static_cast<double>(stretch_.grid);
+  stretch_ = {.master = master, .sign = path_.rises(master, spot_) ? 1 : -1, .grid = coarsest_grid(master)};
+  double rate = std::sqrt(rate_squared(slope)) / static_cast<double>(stretch_.grid);
   for (; rate < slow_rate_ && stretch_.grid > finest_grid; rate *= 2) stretch_.grid /= 2;
-  master_place_ = path_.place(master, spot_);
-  if (path_.crossing(master, next_target(), spot_) == infinity) {
+  target_ = next_target(path_.place(master, spot_));
+  if (path_.crossing(master, target_, spot_) == infinity) {
     // It turns back before the next line: what comes first is on the way back.
     const double turn = path_.turning_point(master, spot_.s);
-    if (!(turn < path_.length())) return Start::nothing_moves;
+    if (!(turn < path_.end())) return Start::nothing_moves;
     go_to(turn);
     return Start::turned;
   }
@@ -143,16 +153,16 @@ bool EventStream::push_border(EventBuffer& events) {
   }
   if (!due) return false;
   events.restart(at_last_event_);
-  push({.time = fixed_time(moment_.time), .place = here_}, events);
+  push(fixed_time(moment_.time), events);
   return true;
 }
 
-void EventStream::push(EventBuffer::Event event, EventBuffer& events) {
+// All motors are `here_`.
+void EventStream::push(std::int64_t time, EventBuffer& events) {
   // Two events are never closer than the board can play them: where masters change, the new one may have to wait.
-  event.time = std::max(event.time, last_event_ + shortest_interval_);
-  last_event_ = event.time;
-  at_last_event_ = here_ = event.place;
-  events.push(event, options_.motor_count);
+  last_event_ = std::max(time, last_event_ + shortest_interval_);
+  for (unsigned m = 0; m < options_.motor_count; ++m) at_last_event_[m] = here_[m];
+  events.push(last_event_, here_, options_.motor_count);
 }
 
 void EventStream::go_to(double s) {
@@ -164,14 +174,13 @@ void EventStream::go_to(double s) {
 void EventStream::push_master(double target, const MotorPath::Spot& spot, EventBuffer& events) {
   moment_ = clock_.at(spot.s);
   spot_ = spot;
-  EventBuffer::Event event{.time = fixed_time(moment_.time)};
   for (unsigned m = 0; m < options_.motor_count; ++m) {
-    event.place[m] = m == stretch_.master ? target : path_.place(m, spot);
+    here_[m] = m == stretch_.master ? target : path_.place(m, spot);
   }
-  master_place_ = target;
-  push(event, events);
+  push(fixed_time(moment_.time), events);
   // Going down, the step is the crossing itself: from here on the place lies below the line.
   if (stretch_.sign < 0) at_last_event_[stretch_.master] = here_[stretch_.master] -= 0.5;
+  target_ = target + stretch_.sign * static_cast<double>(stretch_.grid);
   in_stretch_ = rate_fits();
 }
 
@@ -190,21 +199,20 @@ EventStream::Stop EventStream::fill(EventBuffer& events) {
       if (start == Start::nothing_moves) return finish_move();
       if (start == Start::turned) continue;
     }
-    const double target = next_target();
-    const double s = path_.crossing(stretch_.master, target, spot_);
+    const double s = path_.crossing(stretch_.master, target_, spot_);
     if (s == infinity) {  // turns back before: choose again
       in_stretch_ = false;
       continue;
     }
-    if (s > path_.length()) return finish_move();
-    // On an arc another motor may have become the faster one on the way.
+    if (s > path_.end()) return finish_move();
+    // On a curve another motor may have become the faster one on the way.
     const MotorPath::Spot spot = path_.at(s);
     const bool leads = path_.is_straight() || master_leads(spot);
     if (!leads && !events.empty()) {
       in_stretch_ = false;
       continue;
     }
-    push_master(target, spot, events);
+    push_master(target_, spot, events);
     in_stretch_ = in_stretch_ && leads;
   }
   return Stop::full;

@@ -1,89 +1,121 @@
 #include "motor_path.hpp"
 
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace passo {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
 // Radians: far enough behind a turning point to be on the other side of it for certain, and no place further.
 constexpr double behind_turn = 1e-7;
 
+bool goes_straight(const Curve::CubicData& cubic, Axis axis) {
+  return cubic.second[axis] == 0 && cubic.third[axis] == 0;
+}
+
 }  // namespace
 
-MotorPath::MotorPath(const Curve& curve, const StepOptions& options)
-    : straight_(curve.shape() == Curve::Shape::line), length_(curve.length().value()) {
-  const Curve::ArcData& arc = curve.arc_data();
-  if (!straight_) {
-    turn_ = arc.sweep / length_;
-    angle_ = arc.start_angle;
-    radius_ = arc.start_radius;
-    growth_ = (arc.end_radius - arc.start_radius) / length_;
-  }
+void MotorPath::start(const Curve& curve, double end, const StepOptions& options) {
+  curve_ = &curve;
+  end_ = end;
+  turn_ = 0;
+  const bool arc = curve.shape() == Curve::Shape::arc;
+  if (arc) start_arc(curve.arc_data(), curve.length().value());
   for (unsigned m = 0; m < options.motor_count; ++m) {
     const Motor& motor = options.motors[m];
-    Term& term = terms_[m];
-    const bool first = !straight_ && motor.axis == arc.first;
-    const bool second = !straight_ && motor.axis == arc.second;
-    term.turning = first || second;
-    term.on_cosine = first;
-    if (term.turning) {
-      term.scale = motor.steps_per_unit * place_per_step;
-      term.base = (first ? arc.first_center : arc.second_center) * term.scale + 0.5 * place_per_step;
-      // cos(a) = sin(a + pi/2): one formula for both axes.
-      term.angle = arc.start_angle + (first ? pi / 2 : 0);
+    if (arc && (motor.axis == curve.arc_data().first || motor.axis == curve.arc_data().second)) {
+      terms_[m] = round_term(motor, curve.arc_data());
+    } else if (curve.shape() == Curve::Shape::cubic && !goes_straight(curve.cubic_data(), motor.axis)) {
+      terms_[m].way = Way::cubic;
+      cubics_[m] = CubicPlace(curve, motor, end);
     } else {
-      term.base = place_of(motor, curve.start());
-      term.scale = length_ > 0 ? (place_of(motor, curve.end()) - term.base) / length_ : 0;
+      terms_[m] = straight_term(motor);
     }
   }
 }
 
-MotorPath::Spot MotorPath::at(double s) const {
-  if (straight_) return {.s = s};
+void MotorPath::start_arc(const Curve::ArcData& arc, double length) {
+  turn_ = arc.sweep / length;
+  angle_ = arc.start_angle;
+  radius_ = arc.start_radius;
+  growth_ = (arc.end_radius - arc.start_radius) / length;
+}
+
+MotorPath::Term MotorPath::straight_term(const Motor& motor) const {
+  const double base = place_of(motor, curve_->start());
+  const double length = curve_->length().value();
+  return {.base = base, .scale = length > 0 ? (place_of(motor, curve_->end()) - base) / length : 0};
+}
+
+MotorPath::Term MotorPath::round_term(const Motor& motor, const Curve::ArcData& arc) {
+  const bool first = motor.axis == arc.first;
+  const double scale = motor.steps_per_unit * place_per_step;
+  return {.way = Way::round,
+          .on_cosine = first,
+          .base = (first ? arc.first_center : arc.second_center) * scale + 0.5 * place_per_step,
+          .scale = scale,
+          // cos(a) = sin(a + pi/2): one formula for both axes.
+          .angle = arc.start_angle + (first ? pi / 2 : 0)};
+}
+
+double MotorPath::turning_point(unsigned motor, double from) const {
+  const Term& term = terms_[motor];
+  switch (term.way) {
+    case Way::round: return turning_point_round(term, from);
+    case Way::cubic: return cubics_[motor].turning_point(from);
+    case Way::straight: break;
+  }
+  return infinity;
+}
+
+double MotorPath::travel(unsigned motor, double distance, double from) const {
+  const Term& term = terms_[motor];
+  switch (term.way) {
+    case Way::round: return travel_round(motor, distance, from);
+    case Way::cubic: return cubics_[motor].travel(distance, from);
+    case Way::straight: break;
+  }
+  return term.scale == 0 ? infinity : distance / std::fabs(term.scale);
+}
+
+double MotorPath::reach(unsigned motor, const Spot& spot) const {
+  const Term& term = terms_[motor];
+  switch (term.way) {
+    case Way::round: return std::fabs(term.scale) * radius_;
+    case Way::cubic: return std::fabs(cubics_[motor].slope(spot.s)) / curve_->curvature();
+    case Way::straight: break;
+  }
+  return infinity;
+}
+
+MotorPath::Spot MotorPath::on_circle(double s) const {
   const double angle = angle_ + turn_ * s;
   return {.s = s, .cosine = std::cos(angle), .sine = std::sin(angle)};
 }
 
-double MotorPath::place(unsigned motor, const Spot& spot) const {
-  const Term& term = terms_[motor];
-  if (!term.turning) return term.base + term.scale * spot.s;
+double MotorPath::place_round(const Term& term, const Spot& spot) const {
   return term.base + term.scale * radius_at(spot.s) * (term.on_cosine ? spot.cosine : spot.sine);
 }
 
-double MotorPath::reach(unsigned motor) const {
-  const Term& term = terms_[motor];
-  return term.turning ? std::fabs(term.scale) * radius_ : infinity;
-}
-
-double MotorPath::slope(unsigned motor, const Spot& spot) const {
-  const Term& term = terms_[motor];
-  if (!term.turning) return term.scale;
+double MotorPath::slope_round(const Term& term, const Spot& spot) const {
   const double speed = radius_at(spot.s) * turn_;
   return term.scale *
          (term.on_cosine ? growth_ * spot.cosine - speed * spot.sine : growth_ * spot.sine + speed * spot.cosine);
 }
 
-double MotorPath::crossing(unsigned motor, double target, const Spot& spot) const {
+double MotorPath::crossing_round(unsigned motor, double target, const Spot& spot) const {
   const double from = spot.s;
   const Term& term = terms_[motor];
-  if (!term.turning) {
-    if (term.scale == 0) return infinity;
-    return std::fmax(from, (target - term.base) / term.scale);
-  }
   const double sine = (target - term.base) / (term.scale * radius_at(from));
   if (!(std::fabs(sine) <= 1)) return infinity;
   // The sine rises on one half of the turn and falls on the other: stay on the half where `from` is.
   const double here = angle_at(term, from);
-  const bool sine_rises = (slope(motor, spot) > 0) == (term.scale * turn_ > 0);
+  const bool sine_rises = (slope_round(term, spot) > 0) == (term.scale * turn_ > 0);
   const double principal = sine_rises ? std::asin(sine) : pi - std::asin(sine);
   const double turns = std::round((here - principal) / (2 * pi));
-  double s = (principal + turns * 2 * pi - term.angle) / turn_;
+  const double s = (principal + turns * 2 * pi - term.angle) / turn_;
   if (growth_ != 0) return crossing_on_spiral(motor, target, from, s);
-  return std::fmax(from, s);
+  return std::max(from, s);
 }
 
 // The closed form, which takes the radius for constant, is a guess; Newton's method makes it exact, and bisection where
@@ -105,9 +137,7 @@ double MotorPath::crossing_on_spiral(unsigned motor, double target, double from,
   return high;
 }
 
-double MotorPath::turning_point(unsigned motor, double from) const {
-  const Term& term = terms_[motor];
-  if (!term.turning) return infinity;
+double MotorPath::turning_point_round(const Term& term, double from) const {
   // The sine turns back at odd multiples of a right angle; on a spiral a little later, where the growth of the radius
   // is made up for.
   const double lag = std::atan(growth_ / (radius_at(from) * turn_));
@@ -116,9 +146,7 @@ double MotorPath::turning_point(unsigned motor, double from) const {
   return (next * pi + pi / 2 + lag - term.angle) / turn_ + behind_turn / std::fabs(turn_);
 }
 
-double MotorPath::travel(unsigned motor, double distance, double from) const {
-  const Term& term = terms_[motor];
-  if (!term.turning) return term.scale == 0 ? infinity : distance / std::fabs(term.scale);
+double MotorPath::travel_round(unsigned motor, double distance, double from) const {
   const Spot spot = at(from);
   const double here = place(motor, spot);
   const double step = slope(motor, spot) > 0 ? distance : -distance;

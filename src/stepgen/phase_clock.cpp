@@ -1,7 +1,5 @@
 #include "phase_clock.hpp"
 
-#include "passo/units/constant_jerk.hpp"
-
 namespace passo {
 namespace {
 
@@ -10,26 +8,27 @@ constexpr double rest_speed = 1e-6;  // mm/s
 
 }  // namespace
 
-Seconds time_at(const Phase& phase, Mm s) {
-  const ConstantJerk stretch{phase.velocity.value(), phase.acceleration.value(), phase.jerk.value()};
-  return Seconds(stretch.time_to((s - phase.start).value(), phase.duration.value()));
+void PhaseClock::start(const PlannedMove& move) {
+  move_ = &move;
+  begin_phase(0, 0);
 }
 
-double PhaseClock::end_of(std::size_t phase) const {
-  return phase + 1 < move_->phase_count ? move_->phases[phase + 1].start.value()
-                                        : move_->segment.curve.length().value();
+void PhaseClock::begin_phase(std::size_t index, double time) {
+  const Phase& phase = move_->phases[index];
+  const bool last = index + 1 == move_->phase_count;
+  phase_ = index;
+  motion_ = {phase.velocity.value(), phase.acceleration.value(), phase.jerk.value()};
+  phase_start_ = time;
+  start_ = phase.start.value();
+  end_ = last ? move_->to.value() : move_->phases[index + 1].start.value();
+  duration_ = phase.duration.value();
+  time_ = 0;
 }
 
-PhaseClock::Moment PhaseClock::at(double s) {
-  while (phase_ + 1 < move_->phase_count && s > end_of(phase_)) {
-    phase_start_ += move_->phases[phase_].duration.value();
-    ++phase_;
-  }
-  const Phase& phase = move_->phases[phase_];
-  const Seconds t = time_at(phase, Mm(s));
-  return {.time = phase_start_ + t.value(),
-          .speed = phase.velocity_at(t).value(),
-          .acceleration = phase.acceleration.value() + phase.jerk.value() * t.value()};
+double PhaseClock::duration() const {
+  double sum = phase_start_;
+  for (std::size_t i = phase_; i < move_->phase_count; ++i) sum += move_->phases[i].duration.value();
+  return sum;
 }
 
 bool PhaseClock::ends_at_rest() const {

@@ -109,28 +109,26 @@ SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place
   return {.sign = sign, .increment = std::min<std::int64_t>(missing, whole_step), .events = 1};
 }
 
-// The longest stretch of events that one increment can serve, when the straight guess fails.
+// The longest stretch of events that one increment can serve, when the straight guess fails. It should end where the
+// motor ought to be: an increment that is pushed to a bound leaves it ahead or behind, and the next segment pays for
+// that with a short one.
 SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned count) const {
   std::int64_t low = 0;
   std::int64_t high = whole_step;
-  unsigned events = 0;
+  Advance pushed{.increment = std::clamp<std::int64_t>(ideal_[1] - place, 0, whole_step), .events = 1};
+  Advance straight;
   for (unsigned k = 1; k <= count; ++k) {
     const std::int64_t due = ideal_[k] >> 16 << 16;                           // not late
     const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1;  // not more than one event early
-    const std::int64_t new_low = std::max(low, ceil_divide(due - place, k));
-    const std::int64_t new_high = std::min(high, floor_divide(early - place, k));
-    if (new_low > new_high) break;
-    low = new_low;
-    high = new_high;
-    events = k;
+    low = std::max(low, ceil_divide(due - place, k));
+    high = std::min(high, floor_divide(early - place, k));
+    if (low > high) break;
+    const std::int64_t increment = ceil_divide(ideal_[k] - place, k);
+    pushed = {.increment = std::clamp(increment, low, high), .events = k};
+    if (pushed.increment == increment) straight = pushed;
   }
-  if (events == 0) {
-    // Behind by more than a step, or ahead of it: one event does what it can.
-    const std::int64_t missing = ideal_[1] - place;
-    return {.increment = std::clamp<std::int64_t>(missing, 0, whole_step), .events = 1};
-  }
-  const std::int64_t straight = ceil_divide(ideal_[events] - place, events);
-  return {.increment = std::clamp(straight, low, high), .events = events};
+  // Far behind or ahead of it, there is none: what can be done is done.
+  return straight.events > 0 ? straight : pushed;
 }
 
 SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,

@@ -1,150 +1,306 @@
 #include "passo/trajectory/planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "cell.hpp"
+#include "cell_queue.hpp"
 #include "speed_profile.hpp"
-
-#include "passo/trajectory/segment_limits.hpp"
+#include "speed_window.hpp"
 
 namespace passo {
 namespace {
 
-// Speeds are kept squared: that is what grows and falls in proportion to the way.
-struct Queued {
-  Segment segment;
-  double length = 0;
-  double acceleration = 0;
-  double top_squared = 0;
-  double entry_cap = 0;      // squared: by the junction before it and the tops on both sides
-  double entry_if_rest = 0;  // how fast it may be entered if the path came to rest behind the queue
-  double entry_if_open = 0;  // the same if the path went straight on there for ever
+// Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
+constexpr double tangent_tolerance = 1e-6;
 
-  // How far apart the squares of the speeds at its two ends may be.
-  double reach() const { return 2 * acceleration * length; }
-};
+// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+constexpr double rounding = 1e-9;
+
+// A rest of a cell that is shorter, in mm, is rounding.
+constexpr double smallest_rest = 1e-9;
+
+double squared(double value) {
+  return value * value;
+}
+
+bool has_corner(const Curve& before, const Curve& after) {
+  const Point change = after.tangent(Mm(0)) - before.tangent(before.length());
+  return std::any_of(change.values.begin(), change.values.end(),
+                     [](double part) { return std::abs(part) > tangent_tolerance; });
+}
+
+std::size_t limited_axes(const MotionLimits& limits) {
+  return static_cast<std::size_t>(std::count_if(limits.acceleration.values.begin(), limits.acceleration.values.end(),
+                                                [](MmPerSecond2 limit) { return limit > MmPerSecond2(0); }));
+}
 
 }  // namespace
 
 class Planner::Implementation {
  public:
   Implementation(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
-      : path_(path), limits_(limits), most_queued_(std::max<std::size_t>(most_queued, 2)) {}
+      : path_(path),
+        limits_(limits),
+        cutter_(limits_),
+        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {}
 
   bool next(MotionItem& item) {
-    while (decided_ == 0 && !(queue_.empty() && closed_)) look_ahead();
-    if (!queue_.empty()) {
+    if (holding_) {
+      brake(item);
+      return true;
+    }
+    while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
+    if (!cells_.empty()) {
       give_move(item);
       return true;
     }
     if (!action_) return false;
+    outputs_ = action_->outputs;
     item = *std::exchange(action_, std::nullopt);
     closed_ = false;
     return true;
   }
 
+  void limit_moves_to(Seconds duration) { longest_move_ = duration; }
+
+  void set_feed_override(double factor) {
+    override_ = factor;
+    for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
+    decided_ = 0;
+  }
+
+  void hold() { holding_ = true; }
+  void resume() {
+    holding_ = false;
+    decided_ = 0;
+  }
+
  private:
-  // Each pass over the queue is paid for by as many new segments as it found undecided, which makes planning
-  // amortised linear.
+  // Each pass over the queue is paid for by as many new cells as it found undecided, which makes planning amortised
+  // linear.
   void look_ahead() {
-    const std::size_t wanted = std::clamp<std::size_t>(2 * queue_.size(), first_window, most_queued_);
-    while (!closed_ && queue_.size() < wanted) pull();
+    const std::size_t wanted = std::max<std::size_t>(2 * cells_.size(), first_window);
+    while (!closed_ && !cells_.full() && cells_.size() < wanted) pull();
     plan_backwards();
     decide_forwards();
   }
 
+  // One more cell, or the end of the stretch.
   void pull() {
+    if (cutting_ && cutter_.next(piece_)) {
+      append(piece_);
+      return;
+    }
+    cutting_ = false;
     if (!path_.next(pulled_)) {
       closed_ = true;
     } else if (const auto* action = std::get_if<Action>(&pulled_)) {
       action_ = *action;
       closed_ = true;
-    } else if (const auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
-      append(segment);
+    } else if (auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
+      begin(segment);
     }
   }
 
-  void append(const Segment& segment) {
-    const SegmentLimits own = segment_limits(segment, limits_);
-    const double top = own.speed.value() * own.speed.value();
-    double cap = 0;
-    bool straight = false;
-    if (!queue_.empty()) {
-      const Segment& before = queue_.back().segment;
-      const Junction junction = junction_between(before, segment, straight_, limits_);
-      cap = std::min({junction.speed.value() * junction.speed.value(), top, queue_.back().top_squared});
-      straight = junction.straight;
-    }
-    straight_ = straight ? straight_ + segment.curve.length() : segment.curve.length();
-    queue_.push_back({.segment = segment,
-                      .length = segment.curve.length().value(),
-                      .acceleration = own.acceleration.value(),
-                      .top_squared = top,
-                      .entry_cap = cap});
+  void begin(const Segment& segment) {
+    at_rest_ = segments_.empty() || segments_.back().mode == PathMode::exact_stop ||
+               has_corner(segments_.back().curve, segment.curve);
+    segments_.push_back(segment);
+    cutter_.begin(segments_.back());
+    cutting_ = true;
+  }
+
+  void append(const CellCutter::Piece& piece) {
+    const bool at_rest = std::exchange(at_rest_, false) || cells_.empty();
+    cells_.push(piece).begins_at_rest = at_rest;
+    set_caps(cells_.size() - 1);
+  }
+
+  void set_caps(std::size_t i) {
+    CellQueue::Entry& entry = cells_[i];
+    entry.top_squared = std::min(entry.cell.top_squared, entry.cell.feed_squared * override_ * override_);
+    entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
+    if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
+  }
+
+  double entry_to(std::size_t i, double exit_most) const {
+    const CellQueue::Entry& entry = cells_[i];
+    const Cell& cell = entry.cell;
+    if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
+    return largest_entry(cells_.demands(i), entry.entry_cap, std::min(exit_most, entry.top_squared));
+  }
+  // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
+  double exit_from(std::size_t i, double entry, double exit_most) const {
+    const CellQueue::Entry& queued = cells_[i];
+    const double most = std::min(exit_most, queued.top_squared);
+    if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
+    const double change = 2 * queued.cell.acceleration * queued.cell.length;
+    const bool too_fast = entry - change > most + rounding * entry;
+    return too_fast ? entry - change : std::min(most, entry + change);
   }
 
   // What is behind the queue lies between a stop at once and nothing that slows it. Both are carried back; from where
   // a cap makes them equal they stay equal, and whatever comes later changes nothing before.
   void plan_backwards() {
     double if_rest = 0;
-    double if_open = closed_ || queue_.empty() ? 0 : queue_.back().top_squared;
-    for (auto queued = queue_.rbegin(); queued != queue_.rend(); ++queued) {
-      if_rest = queued->entry_if_rest = std::min(queued->entry_cap, if_rest + queued->reach());
-      if_open = queued->entry_if_open = std::min(queued->entry_cap, if_open + queued->reach());
+    double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
+    for (std::size_t i = cells_.size(); i-- > 0;) {
+      const bool equal = if_rest == if_open;
+      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);
+      if_open = cells_[i].entry_if_open = equal ? if_rest : entry_to(i, if_open);
     }
   }
 
-  // A segment's exit is decided where both agree, or where accelerating from rest does not even reach the lower one.
+  // A cell's exit is decided where both agree, or where accelerating as it may does not even reach the lower one.
   void decide_forwards() {
     double entry = speed_squared_;
-    for (decided_ = 0; decided_ < queue_.size(); ++decided_) {
-      const double reached = entry + queue_[decided_].reach();
-      const bool last = decided_ + 1 == queue_.size();
-      const double if_rest = last ? 0 : queue_[decided_ + 1].entry_if_rest;
-      const double if_open = last ? (closed_ ? 0 : queue_[decided_].top_squared) : queue_[decided_ + 1].entry_if_open;
-      if (if_rest != if_open && reached > if_rest) break;
-      entry = std::min(reached, if_rest);
+    for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
+      const bool last = decided_ + 1 == cells_.size();
+      const double if_rest = last ? 0 : cells_[decided_ + 1].entry_if_rest;
+      const double if_open = last ? (closed_ ? 0 : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
+      const double exit = exit_from(decided_, entry, if_rest);
+      if (if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
+      entry = exit;
     }
     // A queue that is full and holds hardly more than the braking distance is played to its middle as if the path came
     // to rest at its end: slower, and safe, and still linear.
-    if (queue_.size() >= most_queued_) decided_ = std::max(decided_, queue_.size() / 2);
+    if (cells_.full()) decided_ = std::max(decided_, cells_.size() / 2);
   }
 
-  void give_move(MotionItem& item) {
-    const Queued& head = queue_.front();
-    const double exit_limit = queue_.size() > 1 ? queue_[1].entry_if_rest : 0;
-    const double exit = std::min(exit_limit, speed_squared_ + head.reach());
-
+  PlannedMove& begin_move(MotionItem& item) const {
     auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) move = &item.emplace<PlannedMove>();
-    move->segment = head.segment;
-    add_phases({.length = head.length,
-                .acceleration = head.acceleration,
-                .top_squared = head.top_squared,
-                .entry_squared = speed_squared_,
-                .exit_squared = exit},
-               *move);
-    speed_squared_ = exit;
-    queue_.pop_front();
-    --decided_;
+    move->segment = segments_.front();
+    move->phase_count = 0;
+    return *move;
+  }
+
+  // How far into the first cell the path goes now, and the square of its speed there.
+  struct Ride {
+    double way = 0;
+    double exit = 0;
+  };
+
+  void give_move(MotionItem& item) {
+    PlannedMove& move = begin_move(item);
+    bool complete = false;
+    while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
+      const Cell& cell = cells_[0].cell;
+      const double exit = exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0);
+      if (cell.straight) {
+        add_phases({.start = cell.start,
+                    .length = cell.length,
+                    .acceleration = cell.acceleration,
+                    .top_squared = std::max({cells_[0].top_squared, speed_squared_, exit}),
+                    .entry_squared = speed_squared_,
+                    .exit_squared = exit},
+                   move);
+      } else {
+        add_phase(cell.start, cell.length, speed_squared_, exit, move);
+      }
+      complete = go({cell.length, exit}, move);
+    }
+  }
+
+  // In a hold: as slow as can be, and from rest on nothing but the hold itself.
+  void brake(MotionItem& item) {
+    if (speed_squared_ == 0) {
+      item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
+      return;
+    }
+    PlannedMove& move = begin_move(item);
+    bool complete = false;
+    while (speed_squared_ > 0 && !complete && move.phase_count < PlannedMove::most_phases) {
+      const Ride ride = shortest_ride();
+      add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
+      complete = go(ride, move);
+    }
+  }
+
+  // To rest within the cell where that can be, or through it as slow as can be.
+  Ride shortest_ride() const {
+    const Cell& cell = cells_[0].cell;
+    const double deceleration =
+        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cell.length, speed_squared_);
+    if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
+      return {speed_squared_ / (2 * deceleration), 0};
+    }
+    if (cell.straight) return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
+    return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
+  }
+
+  // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
+  bool go(const Ride& ride, PlannedMove& move) {
+    const Segment& segment = segments_.front();
+    const double segment_end = segment.curve.length().value();
+    const double cell_end = cells_[0].cell.start + cells_[0].cell.length;
+    move.to = Mm(std::min(cells_[0].cell.start + ride.way, segment_end));
+    speed_squared_ = ride.exit;
+    const bool shortened = shorten(move);
+    decided_ -= std::min<std::size_t>(decided_, 1);
+    if (move.to.value() < std::min(cell_end, segment_end) - smallest_rest) {
+      cutter_.cut(segment, move.to.value(), cell_end, piece_at_hand_);
+      cells_.replace_front(piece_at_hand_);
+      decided_ = 0;
+      return true;
+    }
+    cells_.pop();
+    if (cell_end >= segment_end) segments_.pop_front();
+    return shortened || cell_end >= segment_end;
+  }
+
+  // To the longest time that a move may take.
+  bool shorten(PlannedMove& move) {
+    Seconds left = longest_move_;
+    for (std::size_t i = 0; i < move.phase_count; ++i) {
+      Phase& phase = move.phases[i];
+      if (phase.duration <= left * (1 + 1e-6)) {
+        left = std::max(left - phase.duration, Seconds(0));
+        continue;
+      }
+      if (left < longest_move_ * 1e-6) {  // between two phases
+        move.phase_count = i;
+        move.to = phase.start;
+        speed_squared_ = squared(phase.velocity.value());
+        return true;
+      }
+      phase.duration = left;
+      move.phase_count = i + 1;
+      move.to = phase.position_at(left);
+      speed_squared_ = squared(phase.velocity_at(left).value());
+      return true;
+    }
+    return false;
   }
 
   static constexpr std::size_t first_window = 64;
 
   Source<PathItem>& path_;
   const MotionLimits limits_;
-  const std::size_t most_queued_;
+  CellCutter cutter_;
 
-  std::deque<Queued> queue_;
-  std::size_t decided_ = 0;   // segments at its head whose exit speed nothing to come can change
-  Mm straight_{0};            // the way at its end that leads in one direction
+  std::deque<Segment> segments_;  // whose cells are in the queue, or are being cut
+  CellQueue cells_;
+  bool cutting_ = false;
+  bool at_rest_ = true;       // the next cell begins at rest
+  std::size_t decided_ = 0;   // cells at the head whose exit speed nothing to come can change
   double speed_squared_ = 0;  // at the head's start
   bool closed_ = false;       // an action or the program's end follows the queue: it ends at rest
   std::optional<Action> action_;
   PathItem pulled_;
+  CellCutter::Piece piece_;
+
+  // What may change in mid-run.
+  double override_ = 1;
+  bool holding_ = false;
+  Seconds longest_move_{std::numeric_limits<double>::infinity()};
+  OutputState outputs_;  // after the last action
+  CellCutter::Piece piece_at_hand_;
 };
 
 Planner::Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
@@ -153,6 +309,19 @@ Planner::~Planner() = default;
 
 bool Planner::next(MotionItem& item) {
   return implementation_->next(item);
+}
+
+void Planner::limit_moves_to(Seconds duration) {
+  implementation_->limit_moves_to(duration);
+}
+void Planner::set_feed_override(double factor) {
+  implementation_->set_feed_override(factor);
+}
+void Planner::hold() {
+  implementation_->hold();
+}
+void Planner::resume() {
+  implementation_->resume();
 }
 
 }  // namespace passo

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace passo {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A stretch of constant acceleration from one speed to another over `distance`. The time follows from way and speeds,
 // not from speed and acceleration: a difference of two nearly equal speeds has few good digits, their sum has all, and
@@ -25,7 +28,7 @@ void add_stretch(double start, double distance, double from, double to, double l
 }  // namespace
 
 void add_phases(const SpeedProfile& profile, PlannedMove& move) {
-  move.phase_count = 0;
+  const double begin = profile.start;
   const double length = profile.length;
   const double twice = 2 * profile.acceleration;
   const double crest = (profile.entry_squared + profile.exit_squared) / 2 + profile.acceleration * length;
@@ -42,9 +45,20 @@ void add_phases(const SpeedProfile& profile, PlannedMove& move) {
   const double entry = std::sqrt(profile.entry_squared);
   const double top = std::sqrt(peak);
   const double exit = std::sqrt(profile.exit_squared);
-  add_stretch(0, speeding, entry, top, profile.acceleration, move);
-  add_stretch(speeding, cruising, top, top, profile.acceleration, move);
-  add_stretch(length - braking, braking, top, exit, profile.acceleration, move);
+  add_stretch(begin, speeding, entry, top, profile.acceleration, move);
+  add_stretch(begin + speeding, cruising, top, top, profile.acceleration, move);
+  add_stretch(begin + length - braking, braking, top, exit, profile.acceleration, move);
+}
+void add_phase(double start, double length, double entry_squared, double exit_squared, PlannedMove& move) {
+  const double entry = std::sqrt(entry_squared);
+  if (entry_squared == exit_squared && move.phase_count > 0) {
+    Phase& before = move.phases[move.phase_count - 1];
+    if (before.acceleration == MmPerSecond2(0) && before.velocity == MmPerSecond(entry)) {
+      before.duration += Seconds(length / entry);
+      return;
+    }
+  }
+  add_stretch(start, length, entry, std::sqrt(exit_squared), infinity, move);
 }
 
 }  // namespace passo

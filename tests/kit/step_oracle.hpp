@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "kit/stage_test.hpp"
@@ -39,6 +40,15 @@ struct Playback {
   std::int64_t shortest_interval = INT64_MAX;  // ticks
 };
 
+// start + first s + second s² + third s³.
+struct Cubic {
+  long double first, second, third;
+};
+inline Cubic cubic_of(const Motor& motor, const Curve& curve) {
+  const Curve::CubicData data = curve.cubic_data();
+  return {data.first[motor.axis], data.second[motor.axis], data.third[motor.axis]};
+}
+
 // A motor's step count is the whole part of this.
 inline long double exact_place(const Motor& motor, const Curve& curve, long double s) {
   const long double scale = motor.steps_per_unit;
@@ -52,6 +62,10 @@ inline long double exact_place(const Motor& motor, const Curve& curve, long doub
     if (motor.axis == arc.second) return (arc.second_center + radius * std::sin(angle)) * scale + 0.5L;
   }
   const long double start = curve.start()[motor.axis];
+  if (curve.shape() == Curve::Shape::cubic && s < length) {  // its end is the end that was given
+    const auto [first, second, third] = cubic_of(motor, curve);
+    return (start + s * (first + s * (second + s * third))) * scale + 0.5L;
+  }
   return (start + (curve.end()[motor.axis] - start) * s / length) * scale + 0.5L;
 }
 
@@ -82,31 +96,61 @@ inline long double exact_time(const PlannedMove& move, long double s) {
   return time;
 }
 
-// Places of s between which the motor does not turn back.
-inline std::vector<long double> monotone_pieces(const Motor& motor, const Curve& curve) {
+// Where an axis of an arc's plane turns back.
+inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& curve) {
+  std::vector<long double> turns;
   const long double length = curve.length().value();
-  std::vector<long double> ends = {0};
-  const Curve::ArcData& arc = curve.arc_data();
-  if (curve.shape() == Curve::Shape::arc && (motor.axis == arc.first || motor.axis == arc.second)) {
-    const int samples = 64 + static_cast<int>(std::fabs(arc.sweep) * 64);
-    const auto place = [&](long double s) { return exact_place(motor, curve, s); };
-    for (int i = 1; i < samples; ++i) {
-      const long double step = length / samples;
-      const long double at = step * i;
-      const bool was_rising = place(at) > place(at - step);
-      if ((place(at + step) > place(at)) == was_rising) continue;
-      // The slope changes its sign in here: ternary search.
-      long double low = at - step;
-      long double high = at + step;
-      for (int k = 0; k < 120; ++k) {
-        const long double a = low + (high - low) / 3;
-        const long double b = high - (high - low) / 3;
-        ((place(a) < place(b)) == was_rising ? low : high) = (place(a) < place(b)) == was_rising ? a : b;
-      }
-      ends.push_back((low + high) / 2);
+  const int samples = 64 + static_cast<int>(std::fabs(curve.arc_data().sweep) * 64);
+  const auto place = [&](long double s) { return exact_place(motor, curve, s); };
+  for (int i = 1; i < samples; ++i) {
+    const long double step = length / samples;
+    const long double at = step * i;
+    const bool was_rising = place(at) > place(at - step);
+    if ((place(at + step) > place(at)) == was_rising) continue;
+    // The slope changes its sign in here: ternary search.
+    long double low = at - step;
+    long double high = at + step;
+    for (int k = 0; k < 120; ++k) {
+      const long double a = low + (high - low) / 3;
+      const long double b = high - (high - low) / 3;
+      ((place(a) < place(b)) == was_rising ? low : high) = (place(a) < place(b)) == was_rising ? a : b;
     }
+    turns.push_back((low + high) / 2);
   }
-  ends.push_back(length);
+  return turns;
+}
+
+// Where the slope of a cubic changes its sign: on either side of where the slope itself turns, by bisection.
+inline std::vector<long double> turns_on_cubic(const Motor& motor, const Curve& curve) {
+  const auto [first, second, third] = cubic_of(motor, curve);
+  const auto slope = [&, a = first, b = second, c = third](long double s) { return a + s * (2 * b + s * 3 * c); };
+  const long double length = curve.length().value();
+  const long double vertex = third != 0 ? std::clamp(-second / (3 * third), 0.0L, length) : length;
+  std::vector<long double> turns;
+  for (const auto& [low, high] : {std::pair{0.0L, vertex}, std::pair{vertex, length}}) {
+    const bool falls = slope(low) > 0;
+    if ((slope(high) > 0) == falls || low == high) continue;
+    turns.push_back(bisect([&](long double s) { return (slope(s) > 0) == falls; }, low, high));
+  }
+  return turns;
+}
+
+// Places of s between which the motor does not turn back, over the part of its curve that a move covers.
+inline std::vector<long double> monotone_pieces(const Motor& motor, const PlannedMove& move) {
+  const Curve& curve = move.segment.curve;
+  const Curve::ArcData& arc = curve.arc_data();
+  std::vector<long double> turns;
+  if (curve.shape() == Curve::Shape::cubic) turns = turns_on_cubic(motor, curve);
+  if (curve.shape() == Curve::Shape::arc && (motor.axis == arc.first || motor.axis == arc.second)) {
+    turns = turns_on_arc(motor, curve);
+  }
+  const long double from = move.phases[0].start.value();
+  const long double to = move.to.value();
+  std::vector<long double> ends = {from};
+  for (const long double turn : turns) {
+    if (turn > from && turn < to) ends.push_back(turn);
+  }
+  ends.push_back(to);
   return ends;
 }
 
@@ -128,8 +172,8 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
     }
     const auto& move = std::get<PlannedMove>(item);
     const Curve& curve = move.segment.curve;
-    const std::vector<long double> pieces = monotone_pieces(motor, curve);
-    if (!count) count = whole_place(exact_place(motor, curve, 0));
+    const std::vector<long double> pieces = monotone_pieces(motor, move);
+    if (!count) count = whole_place(exact_place(motor, curve, pieces.front()));
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const bool rises = exact_place(motor, curve, pieces[i + 1]) > exact_place(motor, curve, pieces[i]);
       const std::int64_t last = whole_place(exact_place(motor, curve, pieces[i + 1]));
@@ -175,11 +219,25 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     std::size_t index;
   };
   std::vector<Pending> pending;  // steps whose following interval is not known yet
+  // Events without any motion only bridge a time that is too long for one interval: the interval goes on. At an action
+  // the machine rests, and it ends.
+  std::int64_t last_motion = 0;  // ticks
+  const auto end_interval = [&](std::int64_t tick) {
+    for (const Pending& p : pending) {
+      PlayedStep& step = result.steps[p.motor][p.index];
+      step.interval = std::max(step.interval, tick - last_motion);
+    }
+    pending.clear();
+    return tick - std::exchange(last_motion, tick);
+  };
   bool held_back = false;
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
   for (const BoardItem& item : items) {
     const auto* segment = std::get_if<BoardSegment>(&item);
-    if (segment == nullptr) continue;
+    if (segment == nullptr) {
+      end_interval(time >> 16);
+      continue;
+    }
     ++result.segments;
     // The master moves by a power of two and by more than any other motor. Two that move alike cannot be told apart
     // here.
@@ -202,11 +260,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       ++result.events;
       result.event_ticks.push_back(tick);
       result.shortest_interval = std::min(result.shortest_interval, tick - before);
-      for (const Pending& p : pending) {
-        PlayedStep& step = result.steps[p.motor][p.index];
-        step.interval = std::max(step.interval, tick - before);
-      }
-      pending.clear();
+      if (most == 0) continue;
+      const std::int64_t since_motion = end_interval(tick);
       for (unsigned m = 0; m < options.motor_count; ++m) {
         const std::int64_t increment = signed_increment(*segment, m);
         const std::int64_t whole = place[m] >> 16;
@@ -218,7 +273,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
                                    .direction = steps > 0 ? 1 : -1,
                                    .of_master = has_master && std::abs(increment) == most,
                                    .held_back = held_back || was_held_back,
-                                   .interval = tick - before});
+                                   .interval = since_motion});
       }
     }
   }

@@ -1,17 +1,48 @@
-// passo check: interpret the program and build its path, and say what is wrong. Nothing runs.
+// passo check: interpret the program and build its path, and say what is wrong. Nothing runs; with --motion the path is
+// planned and stepped all the same, and the motion measured.
 #include <cstdio>
 
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "program_input.hpp"
+#include "progress_display.hpp"
 
 #include "passo/controller/job.hpp"
+#include "passo/proof/motion_proof.hpp"
+#include "passo/proof/proof_text.hpp"
 
 namespace passo {
 namespace {
 
 nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
   return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
+}
+
+ProofOptions proof_options(const MachineDescription& machine) {
+  ProofOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.push_back({.axis = axis.axis,
+                            .step = axis.step(),
+                            .velocity = axis.velocity,
+                            .acceleration = axis.acceleration,
+                            .jerk = axis.jerk});
+  }
+  options.tick_rate = machine.board.clock;
+  return options;
+}
+
+// Plays the whole program, watched; `nominal` is for the progress line.
+MotionProof prove(Job& job, const MachineDescription& machine, const std::string& program, Seconds nominal) {
+  constexpr unsigned segments_between_looks = 1024;
+  MotionProver prover(proof_options(machine));
+  job.path().watch([&](const PathItem& item) { prover.watch(item); });
+  job.motion().watch([&](const MotionItem& item) { prover.watch(item); });
+  job.board().watch([&](const BoardItem& item) { prover.watch(item); });
+  ProgressDisplay progress(program);
+  for (unsigned played = 0; job.advance(); ++played) {
+    if (played % segments_between_looks == 0) progress.update(job.nominal_time() / nominal);
+  }
+  return prover.finish();
 }
 
 }  // namespace
@@ -26,7 +57,14 @@ int check(const CheckArguments& arguments) {
   if (!program || !options) return exit_bad_program;
 
   Diagnostics findings;
-  const ProgramCheck result = check_program(std::move(*program), *machine, *options, findings);
+  const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
+  if (result.good && arguments.motion) {
+    show(findings);
+    Job job(std::move(*program), *machine, *options, findings);
+    const MotionProof proof = prove(job, *machine, arguments.program.program, result.nominal_time);
+    std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
+    return proof.good() ? exit_done : exit_failed;
+  }
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     std::puts(findings_as_json(findings).dump(2, ' ', false, replace).c_str());

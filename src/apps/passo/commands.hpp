@@ -51,6 +51,7 @@ int run(const RunArguments& arguments);
 struct CheckArguments {
   ProgramArguments program;
   std::string machine;
+  bool motion = false;  // plan it too, and measure the motion
   bool json = false;
 };
 int check(const CheckArguments& arguments);

@@ -21,6 +21,7 @@ constexpr const char* examples = R"(Examples:
   passo run part.ngc -m router.toml --trace part.vcd          every step of every motor, for GTKWave
   passo run part.ngc -m router.toml --json | jq .time_s       for scripts
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
+  passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
@@ -97,7 +98,13 @@ int parse_and_run(int argc, char** argv) {
   add_program(check_command, check_arguments.program);
   add_machine(check_command, check_arguments.machine);
   add_files(check_command, check_arguments.program, false);
+  check_command.add_flag("--motion", check_arguments.motion,
+                         "plan it too, and prove that the motion keeps every limit; how fast it could be at best");
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
+  check_command.footer(
+      "Examples:\n  passo check part.ngc -m router.toml             what is wrong with it\n"
+      "  passo check part.ngc -m router.toml --motion    peaks, deviation, time and the least time there can be;\n"
+      "                                                  exit code 1 if a limit is broken");
 
   CanonArguments canon_arguments;
   CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");

@@ -263,5 +263,90 @@ TEST_F(RandomArcs, a_length_is_the_sum_of_its_chords) {
   }
 }
 
+// The polynomial by hand: at(s), and what its derivatives say, against differences in long double.
+class RandomCubics : public testing::Test {
+ protected:
+  Curve draw() {
+    const auto any = [&] { return value_(random_); };
+    const Point start = point_of(any(), any(), any());
+    const Point end = point_of(any(), any(), any());
+    const Point in = point_of(any(), any(), any());
+    const Point out = point_of(any(), any(), any());
+    return Curve::cubic(start, in, end, out, Mm(0.1 + std::abs(any())));
+  }
+  std::mt19937_64 random_{test::seed()};
+  std::uniform_real_distribution<double> value_{-5, 5};
+};
+
+TEST_F(RandomCubics, meet_their_ends_and_the_slopes_there) {
+  for (int n = 0; n < 1000; ++n) {
+    const Curve curve = draw();
+    const double length = curve.length().value();
+    EXPECT_EQ(curve.at(Mm(0)), curve.start());
+    EXPECT_EQ(curve.at(curve.length()), curve.end());
+    const double almost = length * (1 - 1e-9);
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      ASSERT_NEAR(curve.at(Mm(almost))[axis], curve.end()[axis], 1e-7);
+      const double h = length * 1e-5;
+      const double slope = (curve.at(Mm(length / 2 + h))[axis] - curve.at(Mm(length / 2 - h))[axis]) / (2 * h);
+      ASSERT_NEAR(curve.tangent(Mm(length / 2))[axis], slope, 1e-4);
+      const double bend = (curve.tangent(Mm(length / 2 + h))[axis] - curve.tangent(Mm(length / 2 - h))[axis]) / (2 * h);
+      ASSERT_NEAR(curve.second_derivative(Mm(length / 2))[axis], bend, 1e-4 * (1 + std::abs(bend)));
+    }
+  }
+}
+
+TEST_F(RandomCubics, extents_and_steepest_hold_and_are_touched) {
+  for (int n = 0; n < 300; ++n) {
+    const Curve curve = draw();
+    const Box box = curve.extents();
+    const Point steepest = curve.steepest();
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      double low = 1e9, high = -1e9, steep = 0;
+      for (int i = 0; i <= 2000; ++i) {
+        const Mm s = curve.length() * (i / 2000.0);
+        low = std::min(low, curve.at(s)[axis]);
+        high = std::max(high, curve.at(s)[axis]);
+        steep = std::max(steep, std::abs(curve.tangent(s)[axis]));
+      }
+      const double slack = 1e-4 * (1 + high - low);
+      ASSERT_GE(low, box.low[axis] - 1e-9);
+      ASSERT_LE(high, box.high[axis] + 1e-9);
+      ASSERT_NEAR(low, box.low[axis], slack);
+      ASSERT_NEAR(high, box.high[axis], slack);
+      ASSERT_GE(steepest[axis], steep - 1e-9);
+      ASSERT_NEAR(steepest[axis], steep, 1e-3 * (1 + steep));
+    }
+  }
+}
+
+void expect_same(const Point& a, const Point& b, double tolerance) {
+  for (const Axis axis : all_axes) ASSERT_NEAR(a[axis], b[axis], tolerance) << letter_of(axis);
+}
+
+void expect_part_of(const Curve& whole, double from, double to) {
+  const Mm start = whole.length() * from;
+  const Curve part = whole.part(start, whole.length() * to);
+  EXPECT_EQ(part.start(), whole.at(start));
+  EXPECT_EQ(part.end(), whole.at(whole.length() * to));
+  for (const double share : {0.0, 0.3, 0.9, 1.0}) {
+    const Mm s = part.length() * share;
+    expect_same(part.at(s), whole.at(start + s), 1e-10);
+    expect_same(part.tangent(s), whole.tangent(start + s), 1e-10);
+    expect_same(part.second_derivative(s), whole.second_derivative(start + s), 1e-8);
+  }
+}
+
+TEST_F(RandomCubics, have_parts_that_are_the_same_curve) {
+  for (int n = 0; n < 100; ++n) expect_part_of(draw(), 0.2, 0.7);
+}
+
+TEST(Arc, parts_of_a_spiral_and_a_line_are_the_same_curve) {
+  const Curve spiral = Curve::arc(point_of(5, 0, 1), point_of(0, 9, 4), Axis::x, Axis::y, 0, 0, 7.8539816339744831);
+  expect_part_of(spiral, 0, 0.4);
+  expect_part_of(spiral, 0.35, 1);
+  expect_part_of(Curve::line(point_of(1, 2, 3), point_of(-4, 0, 9)), 0.1, 0.6);
+}
+
 }  // namespace
 }  // namespace passo

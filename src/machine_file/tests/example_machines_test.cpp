@@ -40,8 +40,20 @@ TEST(ExampleMachines, the_router_needs_640_microsteps_a_millimetre_at_100_mm_a_s
   EXPECT_EQ(machine.board.highest_event_rate, Hertz(100e3));
 }
 
+TEST(ExampleMachines, the_bench_has_the_limits_that_its_table_tells) {
+  const MachineDescription machine = example("bench.toml");
+  ASSERT_EQ(machine.axes.size(), 3U);
+  for (const AxisDescription& axis : machine.axes) {
+    EXPECT_EQ(axis.steps_per_unit, 400);
+    EXPECT_EQ(axis.velocity, MmPerSecond(axis.axis == Axis::z ? 50 : 100));
+    EXPECT_EQ(axis.acceleration, MmPerSecond2(500));
+    EXPECT_EQ(axis.jerk, MmPerSecond3(0));
+  }
+  EXPECT_EQ(machine.path_tolerance, Mm(0.01));
+}
+
 TEST(ExampleMachines, have_machine_zero_within_their_travel_so_that_programs_run_without_a_work_offset) {
-  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml"}) {
+  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml", "bench.toml"}) {
     const MachineDescription machine = example(name);
     EXPECT_EQ(machine.axes.size(), 3U);
     for (const AxisDescription& axis : machine.axes) {
@@ -54,7 +66,7 @@ TEST(ExampleMachines, have_machine_zero_within_their_travel_so_that_programs_run
 }
 
 TEST(ExampleMachines, brake_from_full_velocity_within_a_tenth_of_their_travel) {
-  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml"}) {
+  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml", "bench.toml"}) {
     for (const AxisDescription& axis : example(name).axes) {
       const double braking = std::pow(axis.velocity.value(), 2) / (2 * axis.acceleration.value());
       EXPECT_LT(braking, (axis.travel_high - axis.travel_low) / 10) << name << " " << letter_of(axis.axis);

@@ -42,6 +42,24 @@ TEST(MachineReader, reads_every_key_into_its_unit) {
   EXPECT_TRUE(a.inverted);
 }
 
+TEST(MachineReader, a_jerk_limit_may_be_given_and_is_none_otherwise) {
+  EXPECT_EQ(parsed(sound_machine).axes[0].jerk, MmPerSecond3(0));
+  const MachineDescription machine =
+      parsed(replaced(replaced(sound_machine, "[axis.X]\n", "[axis.X]\nmax_jerk_mm_s3 = 5000\n"), "[axis.A]\n",
+                      "[axis.A]\nmax_jerk_deg_s3 = 8000\n"));
+  ASSERT_EQ(machine.axes.size(), 2U);
+  EXPECT_EQ(machine.axes[0].jerk, MmPerSecond3(5000));
+  EXPECT_EQ(machine.axes[1].jerk, MmPerSecond3(8000));
+  EXPECT_THAT(describe(machine), testing::HasSubstr("200 mm/s2, 5000 mm/s3\n"));
+  EXPECT_THAT(describe(machine), testing::HasSubstr("300 deg/s2, 8000 deg/s3, inverted\n"));
+
+  Diagnostics diagnostics;
+  EXPECT_FALSE(parse_machine(replaced(sound_machine, "[axis.X]\n", "[axis.X]\nmax_jerk_mm_s3 = 0\n"), "machine.toml",
+                             diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1U);
+  EXPECT_EQ(diagnostics.all()[0].code, "machine.out-of-range");
+}
+
 TEST(MachineReader, takes_defaults_for_what_may_be_left_out) {
   const MachineDescription machine = parsed(
       "name = 'Plain'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 50e3\n"

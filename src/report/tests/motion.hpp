@@ -19,6 +19,7 @@ inline Point at(double x, double y, double z = 0) {
 inline PlannedMove play(const Curve& curve, double speed, double acceleration, bool rapid = false) {
   PlannedMove move;
   move.segment.curve = curve;
+  move.to = move.segment.curve.length();
   move.segment.speed = MmPerSecond(speed);
   move.segment.rapid = rapid;
   const double length = curve.length().value();
@@ -36,6 +37,7 @@ inline PlannedMove play(const Curve& curve, double speed, double acceleration, b
 inline PlannedMove cruise(const Point& from, const Point& to, double speed, bool rapid = false) {
   PlannedMove move;
   move.segment.curve = Curve::line(from, to);
+  move.to = move.segment.curve.length();
   move.segment.speed = MmPerSecond(speed);
   move.segment.rapid = rapid;
   move.add({Seconds(move.segment.curve.length().value() / speed), Mm(0), MmPerSecond(speed), MmPerSecond2(0),

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <random>
 
+#include "kit/smooth_motion.hpp"
 #include "motion.hpp"
 
 namespace passo {
@@ -56,6 +57,43 @@ TEST(PathRecorder, flattens_an_arc_so_finely_that_no_eye_sees_it) {
     const Point middle = (place_of(path, i - 1) + place_of(path, i)) * 0.5;
     EXPECT_NEAR(distance(middle, Point()), 8, 8.0 / 1900);
   }
+}
+
+TEST(PathRecorder, flattens_cubics_in_parts_into_one_polyline_that_follows_them) {
+  const std::vector<Curve> curves =
+      test::spline_through({at(0, 0), at(10, 3), at(12, -5), at(12.1, -5.2), at(30, 0), at(31, 8)});
+  double length = 0;
+  for (const Curve& curve : curves) length += curve.length().value();
+  test::PhaseChain chain;
+  chain.change_speed(1, 1, 0.4);
+  chain.change_speed(0, 1, 0.4);
+  PathRecorder path;
+  for (const MotionItem& item : test::moves_along(curves, chain.over(length, 20), 1.7)) path.watch(item, Point());
+
+  EXPECT_EQ(std::ranges::count(path.vertices(), Kind::jump, &PathRecorder::Vertex::kind), 1);
+  EXPECT_LT(distance(place_of(path, path.vertices().size() - 1), at(31, 8)), 1e-5);
+  double farthest = 0;
+  std::size_t near = 1;  // the polyline and the curves are walked side by side
+  for (const Curve& curve : curves) {
+    for (int i = 0; i <= 1000; ++i) {
+      const Point point = curve.at(curve.length() * (i / 1000.0));
+      double best = 1e9;
+      for (std::size_t k = near; k < std::min(near + 4, path.vertices().size()); ++k) {
+        const Point from = place_of(path, k - 1);
+        const Point chord = place_of(path, k) - from;
+        const Point way = point - from;
+        const double along = way[Axis::x] * chord[Axis::x] + way[Axis::y] * chord[Axis::y];
+        const double share = std::clamp(along / (distance(chord, Point()) * distance(chord, Point())), 0.0, 1.0);
+        const double off = distance(way, chord * share);
+        if (off >= best) continue;
+        best = off;
+        near = k;
+      }
+      farthest = std::max(farthest, best);
+    }
+  }
+  EXPECT_LT(farthest, 0.01);
+  EXPECT_LT(path.vertices().size(), 1000U);
 }
 
 TEST(PathRecorder, begins_anew_where_the_path_jumps) {

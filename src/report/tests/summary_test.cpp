@@ -5,6 +5,8 @@
 
 #include "kit/golden.hpp"
 #include "kit/seed.hpp"
+#include "kit/smooth_motion.hpp"
+#include "kit/stage_test.hpp"
 #include "motion.hpp"
 #include <nlohmann/json.hpp>
 
@@ -120,6 +122,7 @@ TEST(SummaryBuilder, peaks_of_a_line_are_shared_out_by_its_direction) {
 TEST(SummaryBuilder, finds_the_top_of_a_speed_that_turns_inside_a_phase) {
   PlannedMove move;
   move.segment.curve = Curve::line(at(0, 0), at(100, 0));
+  move.to = move.segment.curve.length();
   // 10 + 20 t − 20 t²/2 is highest at t = 1.
   move.add({Seconds(2), Mm(0), MmPerSecond(10), MmPerSecond2(20), MmPerSecond3(-20)});
   SummaryBuilder builder({Axis::x});
@@ -181,6 +184,41 @@ TEST(SummaryBuilder, peaks_on_arcs_helices_and_spirals_are_those_of_the_motion) 
       EXPECT_NEAR(axis.peak_acceleration.value(), expected.acceleration[axis.axis],
                   2e-3 * expected.acceleration[axis.axis] + 1e-2)
           << i;
+    }
+  }
+}
+
+TEST(SummaryBuilder, peaks_on_cubics_with_jerk_are_those_of_the_motion) {
+  test::Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  const auto uniform = [&](double low, double high) { return random.between(low, high); };
+  const auto anywhere = [&] { return at(uniform(-9, 9), uniform(-9, 9), uniform(-9, 9)); };
+  for (int i = 0; i < 60; ++i) {
+    const std::vector<Curve> curves = test::spline_through({anywhere(), anywhere(), anywhere(), anywhere()});
+    double length = 0;
+    for (const Curve& curve : curves) length += curve.length().value();
+    test::PhaseChain chain;
+    chain.change_speed(1, 1, uniform(0.1, 0.5));
+    chain.change_speed(uniform(0.1, 0.9), 1, uniform(0.1, 0.5));
+    chain.change_speed(0, 1, uniform(0.1, 0.5));
+
+    SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
+    Point speed;
+    Point acceleration;
+    for (const MotionItem& item : test::moves_along(curves, chain.over(length, uniform(5, 60)), length / 7)) {
+      builder.watch(item, Point());
+      const SampledPeaks move = sample(std::get<PlannedMove>(item));
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        speed[axis] = std::max(speed[axis], move.speed[axis]);
+        acceleration[axis] = std::max(acceleration[axis], move.acceleration[axis]);
+      }
+    }
+    const RunSummary summary = builder.summary();
+    EXPECT_EQ(summary.moves, 3U);  // parts of one segment are one move
+    EXPECT_NEAR(summary.cutting_distance.value(), length, 1e-9);
+    for (const AxisSummary& axis : summary.axes) {
+      EXPECT_NEAR(axis.peak_speed.value(), speed[axis.axis], 2e-3 * speed[axis.axis] + 1e-3) << i;
+      EXPECT_NEAR(axis.peak_acceleration.value(), acceleration[axis.axis], 3e-3 * acceleration[axis.axis] + 1e-2) << i;
     }
   }
 }

@@ -33,6 +33,7 @@ StepOptions machine(std::initializer_list<double> steps_per_mm, double event_rat
 PlannedMove planned(const Curve& curve, double from, double peak, double to, double acceleration) {
   PlannedMove move;
   move.segment.curve = curve;
+  move.to = move.segment.curve.length();
   const double length = curve.length().value();
   // v² differences over 2a are lengths.
   const double highest = std::sqrt((from * from + to * to) / 2 + acceleration * length);

@@ -16,6 +16,7 @@
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -46,6 +47,7 @@ class Job {
   // Who wants to watch, before the first advance().
   Tap<PathItem>& path() { return watched_path_; }
   Tap<MotionItem>& motion() { return watched_motion_; }
+  Tap<BoardItem>& board() { return watched_board_; }
   VirtualMachine& machine() { return machine_; }
   const InProcessLink& link() const { return link_; }
   const Frame& frame() const { return path_builder_.frame(); }
@@ -63,11 +65,13 @@ class Job {
   Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
   Tap<PathItem> watched_path_;
-  Planner planner_;  // segments -> phases
+  PathSmoother smoother_;  // corners -> curves within the tolerance
+  Planner planner_;        // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
-  VirtualMachine machine_;        // what is at the other end of the wire
-  InProcessLink link_;            // board segments -> wire
+  Tap<BoardItem> watched_board_;
+  VirtualMachine machine_;  // what is at the other end of the wire
+  InProcessLink link_;      // board segments -> wire
 
   BoardItem item_;
   Seconds nominal_time_{0};

@@ -29,6 +29,7 @@ struct AxisDescription {
   double travel_high = 0;
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};
+  MmPerSecond3 jerk{0};   // 0: no limit
   bool inverted = false;  // the motor turns the other way
 
   // The way of one step, and the steps a second at full velocity.

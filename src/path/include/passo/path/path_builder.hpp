@@ -71,6 +71,7 @@ class PathBuilder final : public Source<PathItem> {
   MmPerSecond feed_with_spindle(double mm_per_revolution);
   void set_spindle_speed(double revolutions_per_minute);
   void set_path_mode(const operation::SetPathMode& mode);
+  void set_merge_tolerance(Mm given);
   enum class Lack : std::uint8_t { orientation, outputs, inputs, user_codes };
   void lacks(Lack what);
   void refuse_surface_speed(const operation::SetSpindleMode& mode);
@@ -110,6 +111,8 @@ class PathBuilder final : public Source<PathItem> {
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
   Mm tolerance_{0};
+  bool gives_tolerance_ = false;  // the program, with G64 P
+  Mm merge_{0};
 
   OutputState commanded_;  // with the spindle's speed also while it stands
   OutputState handed_on_;

@@ -16,6 +16,7 @@ struct Segment {
   bool rapid = false;
   PathMode mode = PathMode::continuous;  // at the junction to the next segment
   Mm tolerance{0};                       // how far the junction to the next segment may leave the path
+  Mm merge{0};                           // how far lines may leave the path to be one line; a part of the tolerance
   Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
   OperationSource source{};
 };
@@ -30,7 +31,7 @@ struct OutputState {
 };
 
 struct Action {
-  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end };
+  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end, feed_hold };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after it

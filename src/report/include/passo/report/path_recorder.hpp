@@ -1,9 +1,9 @@
 // PathRecorder: watches the motion and keeps what a picture of it needs, in bounded memory.
 //
 // The path becomes one polyline in machine coordinates, each piece with its speed: lines are cut where their speed
-// changes, arcs are flattened. When the polyline is full, pieces that run nearly straight are joined, with a tolerance
-// that doubles until there is room again; where even a coarse polyline is too long (a path of kilometres
-// over the same place) evenly spread stretches of it are left out. Extents stay exact.
+// changes, arcs and cubics are flattened. When the polyline is full, pieces that run nearly straight are joined, with a
+// tolerance that doubles until there is room again; where even a coarse polyline is too long (a path of kilometres over
+// the same place) evenly spread stretches of it are left out. Extents stay exact.
 //
 // Memory: most_vertices of 20 bytes (2 MB) for a job of any length. About 0.3 µs a line.
 #pragma once
@@ -47,7 +47,7 @@ class PathRecorder {
  private:
   void watch_move(const PlannedMove& move, const Point& origin);
   void record(const PlannedMove& move);
-  void record(const PlannedMove& move, const Phase& phase);
+  void record(const PlannedMove& move, const Phase& phase, Mm end);
   void add(const Point& point, double speed, Kind kind);
   void make_room();
   void thin();

@@ -1,7 +1,9 @@
-// Phase: a stretch of constant jerk along the path. PlannedMove: a segment and the phases that play it.
+// Phase: a stretch of constant jerk along the path. PlannedMove: a segment, or a part of one, and the phases that play
+// it.
 //
 // s(t) = s0 + v0 t + a0 t²/2 + j t³/6 for 0 <= t <= duration, with s along the segment's curve. The phases of a move
-// follow each other without gap: the first begins at s = 0, the last ends at the curve's length.
+// follow each other without gap. A segment that takes more phases than a move holds comes as several moves: each begins
+// where the one before ended, the first at s = 0, and the last ends at the curve's length.
 #pragma once
 
 #include <array>
@@ -32,7 +34,7 @@ struct Phase {
 };
 
 struct PlannedMove {
-  static constexpr std::size_t most_phases = 8;
+  static constexpr std::size_t most_phases = 16;
 
   Segment segment;
   std::array<Phase, most_phases> phases;
@@ -44,6 +46,9 @@ struct PlannedMove {
   }
   const Phase* begin() const { return phases.data(); }
   const Phase* end() const { return phases.data() + phase_count; }
+  // The part of the curve that it covers: from the start of its first phase
+  Mm from() const { return phase_count > 0 ? phases[0].start : Mm(0); }
+  Mm to{0};  // to here
   Seconds duration() const {
     Seconds sum{0};
     for (const Phase& phase : *this) sum += phase.duration;

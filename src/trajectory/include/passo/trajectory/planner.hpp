@@ -1,39 +1,52 @@
-// Planner: segments -> phases. Look-ahead as far as braking needs, in bounded memory.
+// Planner: segments -> phases. The fastest motion along the path that keeps every axis within its limits; look-ahead as
+// far as braking needs, in bounded memory.
 //
-//   v²    top ________                 The speed squared is a straight line over the way where the acceleration is
-//        /|           \______          constant. Backwards from the last segment known: how fast may each be entered
-//       / |           |      \         so that all speeds after it can still be met (braking)? Forwards: how fast is
-//      /  |           |       \        it really, from rest on (accelerating)? Junctions cap both.
-//     0 --+--junction-+--------+-- s
+//   v²    top ________                 The path is cut into cells; in each, v² is a straight line over the way.
+//   Backwards
+//        /|           \______          from the last cell known: how fast may each be entered so that all speeds after
+//        it
+//       / |           |      \         can still be met (braking)? Forwards: how fast is it really, from rest on
+//      /  |           |       \        (accelerating)? Feed and velocities cap both. Where directions of segments
+//     0 --+--cell-----+--------+-- s   differ (corners), after an exact stop and at actions the path rests.
 //
-// Invariant: what is given ends at a speed from which the segments queued behind it can brake to rest, and is the
-// same, bit for bit, as if the whole program had been planned at once, except after a queue of `most_queued_segments`
-// did not reach the braking distance. Time: amortised constant a segment. See docs/decisions/0010 to 0012.
+// On a curve an axis needs part of its acceleration for turning and has the rest for speeding up and braking: what is
+// possible at the two ends of a cell is a small linear program each way (speed_window.hpp).
+//
+// Invariant: what is given ends at a speed from which the cells queued behind it can brake to rest, and is the
+// same, bit for bit, as if the whole program had been planned at once, except after a queue of `most_queued_cells`
+// did not reach the braking distance. Time: amortised constant a cell. See docs/decisions/0010 and 0014.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 
 #include "passo/base/source.hpp"
-#include "passo/geometry/axes.hpp"
+#include "passo/trajectory/motion_limits.hpp"
 #include "passo/trajectory/phase.hpp"
 
 namespace passo {
 
-struct MotionLimits {
-  PerAxis<MmPerSecond> velocity;
-  PerAxis<MmPerSecond2> acceleration;
-};
-
 class Planner final : public Source<MotionItem> {
  public:
-  // About 400 bytes each: 23 MiB when full.
-  static constexpr std::size_t most_queued_segments = 60'000;
+  // About 120 bytes each, 40 for each axis, and 500 for each segment: 23 MiB when full of short segments of three axes.
+  static constexpr std::size_t most_queued_cells = 30'000;
 
-  Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued = most_queued_segments);
+  Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued = most_queued_cells);
   ~Planner() override;
 
   [[nodiscard]] bool next(MotionItem& item) override;
+
+  // In mid-run. A move that was given stays as it is; what follows is planned anew from its end, on the path and within
+  // the limits. How late a change takes effect is so for the caller to say: by how much it pulls ahead, and by
+  // how long a move may be.
+
+  // From now on a move ends after this time at the latest.
+  void limit_moves_to(Seconds duration);
+  // Feeds are multiplied by `factor`, 0.01 to 2; rapids stay as they are.
+  void set_feed_override(double factor);
+  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
+  void hold();
+  void resume();
 
  private:
   class Implementation;

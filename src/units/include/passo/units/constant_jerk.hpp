@@ -15,32 +15,51 @@ struct ConstantJerk {
   double acceleration = 0;  // there
   double jerk = 0;
 
-  constexpr double way_after(double t) const { return t * (speed + t * (acceleration / 2 + t * jerk / 6)); }
+  constexpr double way_after(double t) const { return t * (speed + t * (acceleration / 2 + t * (jerk * sixth))); }
   constexpr double speed_after(double t) const { return speed + t * (acceleration + t * jerk / 2); }
   constexpr double acceleration_after(double t) const { return acceleration + t * jerk; }
 
   // The time at which it has come `way`, in 0…duration.
-  double time_to(double way, double duration) const {
+  double time_to(double way, double duration) const { return time_to(way, duration, soon(way), rounding * way); }
+  // The same, with a guess of that time from what is known of a time just before. Where there is jerk, the way at the
+  // time that is found differs from `way` by no more than `precision`.
+  double time_to(double way, double duration, double guess, double precision) const {
     if (way <= 0) return 0;
-    if (jerk != 0) return time_with_jerk(way, duration);
+    if (jerk != 0) return time_with_jerk(way, duration, guess, precision);
+    if (acceleration == 0) return std::min(way / speed, duration);
     // v t + a t²/2 = s, in the form that loses no digits when a is small or the speed falls to zero.
     const double square = speed * speed + 2 * acceleration * way;
     return std::min(2 * way / (speed + std::sqrt(std::max(square, 0.0))), duration);
   }
+  // The first terms of the time as a series of the way: near where the speed hardly changes, and a guess anywhere.
+  double soon(double way) const {
+    const double slowness = 1 / speed;
+    const double time = way * slowness;
+    return time - time * time * (acceleration * slowness / 2);
+  }
+
+  static constexpr double rounding = 1e-16;  // of the way: no double can be told from its neighbour
 
  private:
-  double time_with_jerk(double way, double duration) const {
+  static constexpr double sixth = 1.0 / 6;  // a product is found sooner than a quotient
+
+  double time_with_jerk(double way, double duration, double guess, double precision) const {
     double low = 0;
     double high = duration;
-    double t = high / 2;
+    double t = guess > low && guess < high ? guess : high / 2;
     for (int i = 0; i < 64; ++i) {
       const double excess = way_after(t) - way;
       (excess > 0 ? high : low) = t;
-      const double slope = speed_after(t);
-      double next = slope > 0 ? t - excess / slope : low;
-      if (!(next > low && next < high)) next = (low + high) / 2;
-      if (next == t) break;
-      t = next;
+      const double step = -excess / speed_after(t);
+      const double next = t + step;
+      if (next >= low && next <= high) {
+        // A step of Newton's method leaves exactly this of a cubic.
+        const double left = step * step * (acceleration_after(t) / 2 + step * (jerk * sixth));
+        if (std::abs(left) <= precision || next == t) return next;
+        t = next;
+      } else {
+        t = (low + high) / 2;
+      }
     }
     return t;
   }

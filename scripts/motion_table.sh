@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# scripts/motion_table.sh [DIR…]: measures the motion of programs on examples/machines/bench.toml, and prints a table.
+#
+# Without a DIR: the programs of examples/, whose table goes into docs/motion.md too, between its marks, and, where they
+# are at hand, those of ../shared/peers/motion-mm, which are printed only. Needs build/release/passo, and jq.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [[ ${1-} == -* ]]; then
+  sed -n '2,5s/^# \{0,1\}//p' scripts/motion_table.sh
+  exit 2
+fi
+passo=build/release/passo
+for needed in "$passo" jq; do
+  command -v "$needed" >/dev/null || { echo "motion_table.sh: there is no $needed" >&2; exit 1; }
+done
+
+# $1 a folder. A motion beyond its limits (exit code 1) is a row like any other.
+table() {
+  echo "| program | time, s | time / bound | velocity × | acceleration × | in the steps × | velocity jump, mm/s | deviation × | good |"
+  echo "|---|---:|---:|---:|---:|---:|---:|---:|---|"
+  local program json
+  for program in "$1"/*.ngc "$1"/*.nc; do
+    [[ -e $program ]] || continue
+    json=$("$passo" check "$program" -m examples/machines/bench.toml --motion --json 2>/dev/null) || (($? == 1))
+    jq -r --arg name "$(basename "$program")" '
+      def shown($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
+      def worst(f): [.axes[] | f // 0] | max;
+      [$name, (.time_s | shown(3)), (.time_over_bound | shown(4)),
+       (worst(.velocity.multiple) | shown(4)), (worst(.acceleration.multiple) | shown(4)),
+       (worst(.step_acceleration.multiple) | shown(2)), (worst(.velocity_jump.value) | shown(6)),
+       (.deviation.multiple | if . == null then "none" else shown(4) end), (if .good then "yes" else "no" end)]
+      | "| " + join(" | ") + " |"' <<<"$json"
+  done
+}
+
+if (($# > 0)); then
+  for directory in "$@"; do table "$directory"; done
+  exit
+fi
+
+document=docs/motion.md
+new=$(mktemp -d)
+trap 'rm -rf "$new"' EXIT
+table examples >"$new/examples"
+awk -v directory="$new" '
+  /^<!-- end of .* -->$/ { skipping = 0 }
+  !skipping { print }
+  /^<!-- examples -->$/ {
+    skipping = 1
+    while ((getline line < (directory "/" $2)) > 0) print line
+  }' "$document" >"$new/document"
+cat "$new/document" >"$document"
+cat "$new/examples"
+if [[ -d ../shared/peers/motion-mm ]]; then
+  echo
+  table ../shared/peers/motion-mm
+fi

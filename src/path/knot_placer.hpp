@@ -1,0 +1,92 @@
+// KnotPlacer: where along the path the smoothed path is tied to it.
+//
+//       node            exact piece             node
+//   --+--+--O--+--+-----------------------+--+---O---+--+--
+//     knots at the node and at half its width, its width and one and a half
+//
+// A junction, or several close to each other, is a node; its width w is how far around it the path is rounded: a
+// corner within the tolerance e needs w = 4 e / |change of the tangent|, a change of curvature
+// w = sqrt(10 e / |change|), and an arc is followed well by knots that are not more than 0.4 radii apart. Where knots
+// of two nodes would meet they share the room. What is left between, if it is long against the knots' distance, stays
+// the path as programmed: an exact piece. The knots between two of those make one smoothed stretch.
+//
+// Looks two nodes ahead. A node takes in at most `most_clustered` junctions.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "run_reader.hpp"
+
+namespace passo {
+
+struct Knot {
+  double s = 0;  // in the run
+  std::uint64_t piece = 0;
+  double along = 0;  // s in the piece
+};
+
+struct ExactPiece {
+  std::uint64_t piece = 0;
+  double from = 0;  // s in the piece
+  double to = 0;
+};
+
+class KnotPlacer {
+ public:
+  static constexpr int most_clustered = 64;
+
+  explicit KnotPlacer(RunReader& reader) : reader_(reader) {}
+
+  // A mark of the run in its order.
+  enum class Mark { knot, end_of_stretch, exact_piece };
+  // Begins a run; the one before has been read to its end.
+  void begin();
+  // False at the end of the run.
+  [[nodiscard]] bool next(Mark& mark);
+  const Knot& knot() const { return knot_; }
+  const ExactPiece& exact_piece() const { return exact_; }
+
+ private:
+  struct Node {
+    double s = 0;
+    double width = 0;  // 0: nothing is rounded here
+    std::uint64_t before = 0;
+    std::uint64_t after = 0;  // the pieces around it
+  };
+  const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
+  // The junctions after the pieces `first` to `last`.
+  struct Cluster {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    double turn = 0;  // how far the tangents between are from the first, at most
+    double tube = 0;
+  };
+  bool find_node(Node& node);
+  bool extend(Cluster& cluster);
+  double width_of(const Cluster& cluster) const;
+  static bool goes_on(const Piece& before, const Piece& after);
+  static double room_of(const Node& node, const Node& before, const Node& after);
+  void fill_gap();
+  void add_knot(double s);
+
+  RunReader& reader_;
+  std::uint64_t junction_ = 0;  // after this piece; the next to belong to a node
+  bool all_found_ = false;
+  std::array<Node, 4> nodes_;  // the gap is between the second and the third
+  std::size_t known_ = 0;
+
+  bool in_stretch_ = false;
+  std::uint64_t knot_piece_ = 0;
+  struct Step {
+    Mark mark;
+    Knot knot;
+  };
+  std::vector<Step> steps_;  // of one gap
+  std::size_t at_ = 0;
+  ExactPiece gap_exact_;
+  Knot knot_;
+  ExactPiece exact_;
+};
+
+}  // namespace passo

@@ -1,0 +1,55 @@
+// LineMerger: consecutive lines that are straight within the merge tolerance become one line.
+//
+// A line may take in the next one as long as all vertices between lie within `Segment::merge` of the chord from its
+// start to the new end. Instead of the vertices it keeps a ball: every chord whose direction (a unit vector) lies in it
+// passes each vertex so far closely enough. A vertex at the distance r allows directions within merge/r of its own, and
+// the ball is the largest one in the intersection of the old ball and that. So each vertex costs the same, and as long
+// as it may be, a line that was programmed in pieces is one line again, its length and time those of the whole.
+//
+// Only lines that are alike merge: speed, kind, tolerance, axes that count the length. None turns back.
+#pragma once
+
+#include "passo/base/source.hpp"
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+class LineMerger {
+ public:
+  // Bounds how long an item can make its caller wait.
+  static constexpr int most_merged = 10'000;
+
+  explicit LineMerger(Source<PathItem>& path) : path_(path) {}
+
+  // As Source::next. `deviation`: how far the path as programmed may lie from the segment given.
+  [[nodiscard]] bool next(PathItem& item, double& deviation);
+
+ private:
+  // The directions that a merged line may take.
+  struct Cone {
+    Point center;  // not quite a unit vector
+    double radius = 0;
+    double tolerance = 0;  // mm
+    void begin(const Point& direction, double length, double within);
+    bool has(const Point& direction) const;
+    void narrow(const Point& direction, double length);
+  };
+
+  bool pull();
+  bool takes_in(const Segment& line) const;
+  double merge_tolerance() const;
+
+  Source<PathItem>& path_;
+  PathItem ahead_;  // read and not yet given
+  bool has_ahead_ = false;
+  bool at_end_ = false;
+
+  Segment line_;  // being merged
+  // Of the junction before it.
+  PathMode mode_before_ = PathMode::exact_stop;
+  double tolerance_before_ = 0;
+  Cone cone_;
+  Cone exact_;  // as if nothing but rounding were allowed
+};
+
+}  // namespace passo

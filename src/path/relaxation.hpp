@@ -1,0 +1,83 @@
+// Relaxation: the sweeps' arithmetic. Moves a control of the spline to where the bending is least, as far as the tube
+// allows.
+//
+// A control k acts on the spline at three knots, k-1 to k+1, and in the middles of four spans, k-2 to k+1, by known
+// factors. What is there, deviations from the path and second derivatives, is kept up to date by each move. Values of
+// one axis lie side by side, so that four places are computed at once. This is the hot path of the smoother: about
+// 30 ns a step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "four_lanes.hpp"
+
+#include "passo/geometry/axes.hpp"
+
+namespace passo {
+
+class Relaxation {
+ public:
+  using Four = std::array<double, 4>;
+  // What a move of a control by 1 does, at the knots k-1 to k+1 (the fourth is 0) and in the middles of the spans
+  // k-2 to k+1; and the step to least bending: minus the sum of `pull` times p'' at the knots.
+  struct Factors {
+    Four off{};
+    Four bend{};
+    Four middle{};
+    Four pull{};
+  };
+
+  // Forgets everything; the next number is -1.
+  void begin();
+  // Room for the numbers up to `k`; what is before `oldest` may be forgotten.
+  void make_room(std::int64_t k, std::int64_t oldest);
+
+  Point control(std::int64_t k) const { return gather(&AxisLanes::control, k); }
+  Point off(std::int64_t k) const { return gather(&AxisLanes::off, k); }
+  Point bend(std::int64_t k) const { return gather(&AxisLanes::bend, k); }
+  Point middle_off(std::int64_t k) const { return gather(&AxisLanes::middle, k); }
+  void set_control(std::int64_t k, const Point& value) { scatter(&AxisLanes::control, k, value); }
+  void set_off(std::int64_t k, const Point& value) { scatter(&AxisLanes::off, k, value); }
+  void set_bend(std::int64_t k, const Point& value) { scatter(&AxisLanes::bend, k, value); }
+  void set_middle_off(std::int64_t k, const Point& value) { scatter(&AxisLanes::middle, k, value); }
+  // How far a knot, and the middle of the span behind it, may be off.
+  void set_reach(std::int64_t k, double reach) { reach_[slot(k)] = reach * reach; }
+  void set_middle_reach(std::int64_t k, double reach) { middle_reach_[slot(k)] = reach * reach; }
+  void set_factors(std::int64_t k, const Factors& factors) { factors_[slot(k)] = factors; }
+
+  // A step of control k. `axes`: of the first so many axes; the others must be at rest.
+  template <std::size_t axes>
+  void relax(std::int64_t k);
+  void move(std::int64_t k, const Point& step);
+
+ private:
+  // Not a power of two: the lanes would meet in the same lines of the processor's cache.
+  static constexpr std::size_t capacity = 555;
+  using Lanes = std::array<double, capacity>;
+  struct AxisLanes {
+    Lanes control{};
+    Lanes off{};
+    Lanes bend{};
+    Lanes middle{};  // off, in the middles
+  };
+
+  std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - base_); }
+  Point gather(Lanes AxisLanes::*lanes, std::int64_t k) const;
+  void scatter(Lanes AxisLanes::*lanes, std::int64_t k, const Point& value);
+  template <std::size_t axes>
+  void move(std::size_t at, const std::array<double, axes>& step);
+  template <std::size_t axes>
+  double allowed_share(std::size_t at, const std::array<double, axes>& step, double square) const;
+
+  static double shorten(double share, double square, const Four& factors, FourLanes off, FourLanes along,
+                        FourLanes reach);
+
+  std::int64_t base_ = -1;  // the number in slot 0
+  std::array<AxisLanes, axis_count> axes_{};
+  Lanes reach_{};  // squares
+  Lanes middle_reach_{};
+  std::array<Factors, capacity> factors_{};
+};
+
+}  // namespace passo

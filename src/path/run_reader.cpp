@@ -1,0 +1,91 @@
+#include "run_reader.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "euclid.hpp"
+
+namespace passo {
+namespace {
+
+// The cosine of a turn that goes back: sharper than 179 degrees.
+constexpr double turning_back = -0.9998;
+
+// In exact path mode: turns up to this (radians) are smoothed, within this tolerance (mm).
+constexpr double exact_turn = 0.01;
+constexpr double exact_tolerance = 0.001;
+
+Point unit(const Point& vector) {
+  return vector * (1 / length_of(vector));
+}
+
+}  // namespace
+
+bool RunReader::pull() {
+  if (!has_ahead_ && !at_end_) {
+    has_ahead_ = merger_.next(ahead_, ahead_deviation_);
+    at_end_ = !has_ahead_;
+  }
+  return has_ahead_;
+}
+
+RunReader::Next RunReader::peek() {
+  if (!pull()) return Next::end;
+  return std::holds_alternative<Action>(ahead_) ? Next::action : Next::run;
+}
+
+Action RunReader::take_action() {
+  has_ahead_ = false;
+  return std::get<Action>(ahead_);
+}
+
+std::uint64_t RunReader::begin() {
+  junction_tolerance_ = 0;
+  read_piece();
+  return pieces_.end() - 1;
+}
+
+bool RunReader::has(std::uint64_t number) {
+  while (number >= pieces_.end()) {
+    if (pieces_.back().rest_after) return false;
+    read_piece();
+  }
+  return true;
+}
+
+void RunReader::read_piece() {
+  const bool begins = junction_tolerance_ == 0;
+  const double start = begins ? 0 : pieces_.back().end();
+  Piece& piece = pieces_.append();
+  std::swap(piece.segment, std::get<Segment>(ahead_));
+  const double deviation = ahead_deviation_;
+  has_ahead_ = false;
+
+  const Curve& curve = piece.segment.curve;
+  piece.start = start;
+  piece.length = curve.length().value();
+  piece.first_tangent = curve.tangent(Mm(0));
+  piece.first_bend = curve.second_derivative(Mm(0));
+  const bool straight = curve.shape() == Curve::Shape::line;
+  piece.last_tangent = straight ? piece.first_tangent : curve.tangent(curve.length());
+  piece.last_bend = straight ? piece.first_bend : curve.second_derivative(curve.length());
+
+  constexpr double unlimited = std::numeric_limits<double>::max();
+  double tube = begins ? unlimited : junction_tolerance_;
+  const auto* const after = pull() ? std::get_if<Segment>(&ahead_) : nullptr;
+  junction_tolerance_ = after != nullptr ? tolerance_between(piece, *after) : 0;
+  piece.rest_after = junction_tolerance_ == 0;
+  if (!piece.rest_after) tube = std::min(tube, junction_tolerance_);
+  piece.tube = tube - deviation;
+}
+
+double RunReader::tolerance_between(const Piece& before, const Segment& after) const {
+  if (before.segment.mode == PathMode::exact_stop) return 0;
+  const Point in = unit(before.last_tangent);
+  const Point out = unit(after.curve.tangent(Mm(0)));
+  if (dot(in, out) < turning_back) return 0;
+  if (before.segment.mode != PathMode::exact_path) return before.segment.tolerance.value();
+  return distance(in, out) <= exact_turn ? exact_tolerance : 0;
+}
+
+}  // namespace passo

@@ -1,0 +1,65 @@
+// RunReader: the path in pieces, cut into runs. A run is passed without stopping: from rest to rest.
+//
+// At rest are the ends of the program, every action, exact stops, and corners that no tolerance may round: where the
+// path turns back, where the tolerance is 0, and in exact path mode where it turns by more than a hundredth of a radian
+// (smaller turns are rounding of programs, and are smoothed within a thousandth of a millimetre).
+#pragma once
+
+#include <optional>
+
+#include "line_merger.hpp"
+#include "window.hpp"
+
+namespace passo {
+
+// A programmed segment, or several merged ones.
+struct Piece {
+  Segment segment;
+  double start = 0;  // s from the start of the run
+  double length = 0;
+  double tube = 0;  // how far the smoothed path may leave it: the tolerance, less what merging used
+  bool rest_after = false;
+  // dP/ds and d²P/ds² at its ends.
+  Point first_tangent;
+  Point last_tangent;
+  Point first_bend;
+  Point last_bend;
+
+  double end() const { return start + length; }
+  bool is_line() const { return segment.curve.shape() == Curve::Shape::line; }
+};
+
+class RunReader {
+ public:
+  explicit RunReader(Source<PathItem>& path) : merger_(path) {}
+
+  // What comes next: a run, an action, or nothing more.
+  enum class Next { run, action, end };
+  Next peek();
+  Action take_action();
+
+  // Begins a run: its first piece is pieces()[begin()].
+  std::uint64_t begin();
+  // Whether the run has a piece of this number; reads up to it.
+  bool has(std::uint64_t number);
+
+  const Window<Piece>& pieces() const { return pieces_; }
+  // Pieces before this one are not asked for again.
+  void drop_before(std::uint64_t number) { pieces_.drop_before(number); }
+
+ private:
+  bool pull();
+  void read_piece();
+  // How far the junction between may be rounded; 0: not at all, it is a rest.
+  double tolerance_between(const Piece& before, const Segment& after) const;
+
+  LineMerger merger_;
+  PathItem ahead_;
+  double ahead_deviation_ = 0;
+  bool has_ahead_ = false;
+  bool at_end_ = false;
+  Window<Piece> pieces_;
+  double junction_tolerance_ = 0;  // of the junction before the next piece; 0: it begins a run
+};
+
+}  // namespace passo

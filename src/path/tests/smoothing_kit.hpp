@@ -1,0 +1,318 @@
+// Random paths for the smoother's tests, and an oracle of how far a smoothed path leaves the programmed one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "kit/stage_test.hpp"
+
+#include "passo/path/path_smoother.hpp"
+#include "passo/path/path_text.hpp"
+
+namespace passo::test {
+
+inline std::vector<PathItem> smooth(const std::vector<PathItem>& path) {
+  ListSource<PathItem> source(path);
+  PathSmoother smoother(source);
+  return drain(smoother);
+}
+
+inline std::vector<Segment> segments_of(const std::vector<PathItem>& items) {
+  std::vector<Segment> segments;
+  for (const PathItem& item : items) {
+    if (const auto* segment = std::get_if<Segment>(&item)) segments.push_back(*segment);
+  }
+  return segments;
+}
+
+inline double euclid(const Point& a) {
+  double sum = 0;
+  for (const double value : a.values) sum += value * value;
+  return std::sqrt(sum);
+}
+inline double apart(const Point& a, const Point& b) {
+  return euclid(a - b);
+}
+
+// A path by its length. Corners of it are found by bisection in a table, nothing is shared with the smoother.
+class ByLength {
+ public:
+  explicit ByLength(std::vector<Segment> segments) : segments_(std::move(segments)) {
+    for (const Segment& segment : segments_) ends_.push_back(length() + segment.curve.length().value());
+  }
+  double length() const { return ends_.empty() ? 0 : ends_.back(); }
+  std::size_t index_at(double s) const {
+    const auto found = std::upper_bound(ends_.begin(), ends_.end(), s);
+    return std::min(static_cast<std::size_t>(found - ends_.begin()), segments_.size() - 1);
+  }
+  Point at(double s) const {
+    const std::size_t i = index_at(s);
+    return segments_[i].curve.at(Mm(s - (i > 0 ? ends_[i - 1] : 0)));
+  }
+  std::size_t size() const { return segments_.size(); }
+  const Segment& operator[](std::size_t i) const { return segments_[i]; }
+
+ private:
+  std::vector<Segment> segments_;
+  std::vector<double> ends_;
+};
+
+struct Faults {
+  double excess = -1;       // of the deviation over the tolerance, at most
+  std::size_t gaps = 0;     // ends that are not the next start, bit for bit
+  double tangent_jump = 0;  // where the path does not stop
+  double bend_jump = 0;     // there, of d²P/ds², relative to 1/mm and to itself
+  std::string where;        // the deviation is largest
+};
+
+// How far the junction after a segment may be rounded; 0: it is a rest.
+inline double junction_tolerance(const ByLength& path, std::size_t k) {
+  if (k + 1 == path.size() || path[k].mode == PathMode::exact_stop) return 0;
+  const Point in = path[k].curve.tangent(path[k].curve.length());
+  const Point out = path[k + 1].curve.tangent(Mm(0));
+  const double turn = apart(in * (1 / euclid(in)), out * (1 / euclid(out)));
+  if (turn > 1.9999) return 0;
+  if (path[k].mode == PathMode::exact_path) return turn > 0.01 ? 0 : 0.001;
+  return path[k].tolerance.value();
+}
+
+// The least tolerance that holds at s: of the junctions at both ends of the segment there that are no rests.
+inline double tolerance_at(const ByLength& path, double s) {
+  double least = 1e9;
+  const std::size_t i = path.index_at(s);
+  for (std::size_t k = i > 0 ? i - 1 : i; k <= i; ++k) {
+    const double tolerance = junction_tolerance(path, k);
+    if (tolerance > 0) least = std::min(least, tolerance);
+  }
+  return least;
+}
+
+// With an exact stop before each action.
+inline ByLength by_length(const std::vector<PathItem>& items) {
+  std::vector<Segment> segments;
+  for (const PathItem& item : items) {
+    if (const auto* segment = std::get_if<Segment>(&item)) {
+      segments.push_back(*segment);
+    } else if (!segments.empty()) {
+      segments.back().mode = PathMode::exact_stop;
+    }
+  }
+  return ByLength(std::move(segments));
+}
+
+inline std::size_t rests_of(const std::vector<PathItem>& items) {
+  const ByLength path = by_length(items);
+  std::size_t rests = 0;
+  for (std::size_t k = 0; k < path.size(); ++k) rests += junction_tolerance(path, k) > 0 ? 0 : 1;
+  return rests;
+}
+
+// Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
+// where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
+// were cut). `shift` is how far it was when last looked for.
+struct LengthAlong {
+  double since_rest = 0;
+  double rest = 0;
+  double shift = 0;
+
+  double estimate() const { return rest + since_rest + shift; }
+
+  // The least of a measure of places of the path that may be meant.
+  template <class Measure>
+  double search(const Measure& measure, double end) {
+    constexpr double beyond = 0.5;
+    constexpr int samples = 20'000;
+    double low = -beyond;
+    double high = 0.0102 * since_rest + beyond;
+    double best = measure(std::clamp(estimate(), 0.0, end));
+    for (int pass = 0; pass < 3 && best > 0; ++pass) {
+      const double step = (high - low) / samples;
+      double best_shift = shift;
+      for (int i = 0; i <= samples; ++i) {
+        const double to = low + step * i;
+        const double here = measure(std::clamp(rest + since_rest + to, 0.0, end));
+        if (here >= best) continue;
+        best = here;
+        best_shift = to;
+      }
+      shift = best_shift;
+      low = shift - 2 * step;
+      high = shift + 2 * step;
+    }
+    return best;
+  }
+};
+
+inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vector<PathItem>& smoothed,
+                        int samples = 40) {
+  Faults faults;
+  const ByLength path = by_length(programmed);
+  LengthAlong s;
+  const Segment* before = nullptr;
+  for (const PathItem& item : smoothed) {
+    const auto* const segment = std::get_if<Segment>(&item);
+    if (segment == nullptr) {
+      before = nullptr;
+      continue;
+    }
+    const Curve& curve = segment->curve;
+    const double length = curve.length().value();
+    if (before != nullptr) {
+      const Curve& last = before->curve;
+      faults.gaps += last.end() == curve.start() ? 0 : 1;
+      if (before->mode != PathMode::exact_stop) {
+        faults.tangent_jump = std::max(faults.tangent_jump, apart(last.tangent(last.length()), curve.tangent(Mm(0))));
+        const Point bend = last.second_derivative(last.length());
+        // Rounded coordinates round d²P/ds² of a short curve.
+        const double shortest = std::min(length, last.length().value());
+        const double rounding = 1e-14 * (1 + euclid(curve.start())) / (shortest * shortest);
+        const double jump = apart(bend, curve.second_derivative(Mm(0)));
+        faults.bend_jump = std::max(faults.bend_jump, (jump - rounding) / (1 + euclid(bend)));
+      }
+    }
+    before = segment;
+    for (int i = 0; i <= samples; ++i) {
+      const double along = length * i / samples;
+      const Point place = curve.at(Mm(along));
+      const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
+      double excess = excess_at(std::min(s.estimate(), path.length()));
+      if (excess > 0) excess = s.search(excess_at, path.length());
+      s.since_rest += i < samples ? length / samples : 0;
+      if (excess <= faults.excess) continue;
+      faults.excess = excess;
+      faults.where = "at " + std::to_string(s.estimate()) + " of\n" + to_text(*segment) + "beside\n" +
+                     to_text(path[path.index_at(s.estimate())]);
+    }
+    if (segment->mode == PathMode::exact_stop) {
+      s = {.since_rest = 0, .rest = s.estimate(), .shift = 0};
+    }
+  }
+  return faults;
+}
+
+// Corners and smooth runs, dust and long moves, arcs that begin along the path and others, actions.
+class RandomPath {
+ public:
+  explicit RandomPath(Random& random) : random_(random) {}
+
+  double merge_share = 0.05;
+  bool rotary = true;
+
+  std::vector<PathItem> draw(std::size_t count) {
+    while (items_.size() < count) {
+      if (random_.chance(0.1)) tolerance_ = std::exp(random_.between(-8, -1));
+      const double kind = random_.between(0, 1);
+      if (kind < 0.02) {
+        items_.emplace_back(Action{.kind = Action::Kind::dwell, .source = {.line = line()}});
+      } else if (kind < 0.08) {
+        straight_run();
+      } else if (kind < 0.2) {
+        smooth_run();
+      } else if (kind < 0.3) {
+        zigzag();
+      } else if (kind < 0.5) {
+        arc();
+      } else {
+        corner();
+      }
+    }
+    return items_;
+  }
+
+ private:
+  std::uint32_t line() const { return static_cast<std::uint32_t>(items_.size() + 1); }
+  double any_size() { return std::exp(random_.between(-9, 4)); }
+
+  void add(const Curve& curve) {
+    if (!curve.has_length()) return;
+    const double kind = random_.between(0, 1);
+    const bool rapid = random_.chance(0.1);
+    const PathMode mode = kind < 0.01   ? PathMode::exact_stop
+                          : kind < 0.03 ? PathMode::exact_path
+                                        : PathMode::continuous;
+    const double tolerance = mode == PathMode::continuous ? tolerance_ : 0;
+    items_.emplace_back(Segment{.curve = curve,
+                                .speed = MmPerSecond(rapid ? std::numeric_limits<double>::infinity() : feed_),
+                                .rapid = rapid,
+                                .mode = mode,
+                                .tolerance = Mm(tolerance),
+                                .merge = Mm(merge_share * tolerance),
+                                .source = {.line = line()}});
+    position_ = curve.end();
+    direction_ = curve.tangent(curve.length());
+    if (random_.chance(0.1)) feed_ = std::exp(random_.between(-1, 6));
+  }
+  void line_to(const Point& end) { add(Curve::line(position_, end)); }
+
+  void corner() {
+    Point end = position_;
+    const double size = any_size();
+    const double group = rotary ? random_.between(0, 1) : 0;
+    for (const Axis axis : all_axes) {
+      const bool moves = group < 0.7 ? axis <= Axis::z : group < 0.8 ? is_rotary(axis) : random_.chance(0.5);
+      if (moves && random_.chance(0.7)) end[axis] += size * random_.between(-1, 1);
+    }
+    line_to(end);
+  }
+
+  void straight_run() {
+    const Point step = xyz(random_.between(-1, 1), random_.between(-1, 1), random_.between(-0.1, 0.1)) * any_size();
+    const int pieces = static_cast<int>(random_.between(2, 100));
+    for (int i = 0; i < pieces; ++i) line_to(position_ + step);
+  }
+
+  void smooth_run() {
+    double angle = random_.between(0, 6.28);
+    const double size = std::exp(random_.between(-7, 0));
+    const double bend = random_.between(-0.1, 0.1);
+    const double noise = std::exp(random_.between(-8, -1));
+    const int pieces = static_cast<int>(random_.between(2, 200));
+    for (int i = 0; i < pieces; ++i) {
+      angle += bend + noise * random_.between(-1, 1);
+      line_to(position_ + xyz(size * std::cos(angle), size * std::sin(angle), noise * size * random_.between(-1, 1)));
+    }
+  }
+
+  void zigzag() {
+    const double size = any_size();
+    const double height = size * std::exp(random_.between(-6, 2));
+    const int pieces = static_cast<int>(random_.between(2, 30));
+    for (int i = 0; i < pieces; ++i) line_to(position_ + xyz(size, i % 2 == 0 ? height : -height));
+  }
+
+  // Half of them begin in the direction in which the path arrives, but for what programs round.
+  void arc() {
+    static constexpr std::array<std::array<Axis, 3>, 3> planes = {
+        {{Axis::x, Axis::y, Axis::z}, {Axis::z, Axis::x, Axis::y}, {Axis::y, Axis::z, Axis::x}}};
+    const auto& [first, second, through] = planes[static_cast<std::size_t>(random_.between(0, 2.999))];
+    const double radius = std::exp(random_.between(-3, 4));
+    const double sense = random_.chance(0.5) ? 1 : -1;
+    const double sweep = sense * (random_.chance(0.1) ? 6.283185307179586 : std::exp(random_.between(-6, 2.5)));
+    double start = random_.between(-3, 3);
+    if (random_.chance(0.5)) {
+      start = std::atan2(direction_[second], direction_[first]) - sense * 1.5707963267948966;
+      if (random_.chance(0.5)) start += 1e-4 * random_.between(-1, 1);
+    }
+    const double growth = random_.chance(0.3) ? 1e-3 * random_.between(-1, 1) : 0;
+    const double first_center = position_[first] - radius * std::cos(start);
+    const double second_center = position_[second] - radius * std::sin(start);
+    Point end = position_;
+    end[first] = first_center + radius * (1 + growth) * std::cos(start + sweep);
+    end[second] = second_center + radius * (1 + growth) * std::sin(start + sweep);
+    if (random_.chance(0.3)) end[through] += any_size() * random_.between(-1, 1);
+    if (rotary && random_.chance(0.2)) end[Axis::a] += any_size() * random_.between(-1, 1);
+    add(Curve::arc(position_, end, first, second, first_center, second_center, sweep));
+  }
+
+  Random& random_;
+  std::vector<PathItem> items_;
+  Point position_;
+  Point direction_ = xyz(1, 0);
+  double feed_ = 30;
+  double tolerance_ = 0.01;
+};
+
+}  // namespace passo::test

@@ -1,0 +1,396 @@
+#include "tube_spline.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "euclid.hpp"
+
+namespace passo {
+namespace {
+
+// Between the places that the sweeps watch the deviation may be a little more than there.
+constexpr double share_of_tube = 0.99;
+// What is left of the tube, at least, where vertices between those places stick out.
+constexpr double least_share = 0.1;
+
+// Behind how many controls a stage works on the one before it; a control feels three on each side.
+constexpr std::int64_t reach_of_control = 3;
+constexpr std::int64_t lag = reach_of_control + 1;
+
+bool moves_more_than_xyz(const Curve& curve) {
+  const Point steepest = curve.steepest();
+  return std::any_of(steepest.values.begin() + 3, steepest.values.end(), [](double slope) { return slope != 0; });
+}
+
+}  // namespace
+
+double TubeSpline::knot_at(std::int64_t k) const {
+  if (k < 0) return 2 * knot_at(k + 1) - knot_at(k + 2);
+  if (k >= knots_) return 2 * knot_at(k - 1) - knot_at(k - 2);
+  return at(k).knot.s;
+}
+
+void TubeSpline::add(const Knot& knot) {
+  if (closed_ || knots_ == 0) {
+    knots_ = 0;
+    controls_ = -1;
+    taken_ = 0;
+    closed_ = false;
+    wide_ = false;
+    relaxation_.begin();
+  }
+  relaxation_.make_room(knots_ + 2, taken_ - 1);
+  Site& site = at(knots_);
+  site.knot = knot;
+  site.place = piece(knot.piece).segment.curve.at(Mm(knot.along));
+  site.checked = false;
+  ++knots_;
+  if (knots_ > 1) survey(at(knots_ - 2), site);
+  if (knots_ > 2) advance();
+}
+
+void TubeSpline::close() {
+  assert(knots_ >= 4);
+  closed_ = true;
+  at(knots_ - 1).width = 0;
+  while (controls_ <= knots_) advance();
+  // Nothing more comes: each sweep and each check goes on to the end.
+  const std::int64_t begun = controls_ - 1 - reach_of_control;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 2); k <= knots_ - 3; ++k) relax(k);
+  }
+  const std::int64_t swept = begun - lag * sweeps - 1;
+  for (int round = 0; round < checks; ++round) {
+    for (std::int64_t k = std::max<std::int64_t>(swept - lag * round + 1, 0); k <= knots_ - 2; ++k) check(k);
+  }
+}
+
+// One control more begins, and every sweep goes on by one.
+void TubeSpline::advance() {
+  if (controls_ == -1) {
+    begin_control(-1);
+    controls_ = 0;
+  }
+  begin_control(controls_);
+  const std::int64_t ready = controls_ - reach_of_control;
+  ++controls_;
+  if (is_free(ready)) find_steps(ready);
+  std::int64_t k = ready;
+  for (int sweep = 0; sweep < sweeps && k >= 2; ++sweep, k -= lag) {
+    if (is_free(k)) relax(k);
+  }
+  k = ready - lag * sweeps - 1;
+  for (int round = 0; round < checks && k >= 0; ++round, k -= lag) check(k);
+}
+
+bool TubeSpline::next(Span& span) {
+  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps - 1 - lag * (checks - 1);
+  const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag - 1;
+  if (taken_ > final) return false;
+  span.from = end_at(taken_);
+  span.to = end_at(taken_ + 1);
+  span.in_tube = is_in_tube(taken_);
+  span.goes_on = (closed_ && taken_ == knots_ - 2) || is_in_tube(taken_ + 1);
+  ++taken_;
+  return true;
+}
+
+bool TubeSpline::is_in_tube(std::int64_t k) const {
+  return at(k).checked || worst_of(k).excess <= 0;
+}
+
+// The ends of a stretch are the path's own, to the bit.
+TubeSpline::End TubeSpline::end_at(std::int64_t k) const {
+  const Site& site = at(k);
+  End end{.knot = site.knot, .place = site.place, .tangent = {}, .deviation = 0};
+  if (k == 0 || (closed_ && k == knots_ - 1)) {
+    end.tangent = piece(site.knot.piece).segment.curve.tangent(Mm(site.knot.along));
+    return end;
+  }
+  const Point off = relaxation_.off(k);
+  end.place = site.place + off;
+  end.tangent = slope_at(k);
+  end.deviation = length_of(off);
+  return end;
+}
+
+// ---- the path -----------------------------------------------------------------------------------------------------
+
+Point TubeSpline::path_at(std::uint64_t& number, double s) const {
+  while (s > piece(number).end() && !piece(number).rest_after) ++number;
+  const Piece& found = piece(number);
+  return found.segment.curve.at(Mm(s - found.start));
+}
+
+void TubeSpline::survey(Site& site, const Site& next) {
+  const double from = site.knot.s;
+  const double to = next.knot.s;
+  const double mid = (from + to) / 2;
+  std::uint64_t number = site.knot.piece;
+  site.width = to - from;
+  site.mid_place = path_at(number, mid);
+  site.tube = piece(site.knot.piece).tube;
+  site.curvature = 0;
+  for (std::uint64_t i = site.knot.piece; i <= next.knot.piece; ++i) {
+    if (i > site.knot.piece && piece(i).start >= to) break;
+    site.tube = std::min(site.tube, piece(i).tube);
+    site.curvature = std::max(site.curvature, piece(i).segment.curve.curvature());
+    wide_ = wide_ || moves_more_than_xyz(piece(i).segment.curve);
+  }
+  site.slack[0] = slack_between(from, site.place, mid, site.mid_place, site.knot.piece, number);
+  site.slack[1] = slack_between(mid, site.mid_place, to, next.place, number, next.knot.piece);
+
+  const auto reach = [](double tube, double slack) {
+    return std::max(share_of_tube * tube - slack, least_share * tube);
+  };
+  const std::int64_t k = knots_ - 2;
+  relaxation_.set_middle_reach(k, reach(site.tube, std::max(site.slack[0], site.slack[1])));
+  const double behind = k > 0 ? reach(at(k - 1).tube, at(k - 1).slack[1]) : site.tube;
+  relaxation_.set_reach(k, std::min(behind, reach(site.tube, site.slack[0])));
+}
+
+// How far vertices between two places are from the chord.
+double TubeSpline::slack_between(double from, const Point& from_place, double to, const Point& to_place,
+                                 std::uint64_t first, std::uint64_t last) const {
+  double slack = 0;
+  for (std::uint64_t i = first; i < last; ++i) {
+    const double vertex = piece(i).end();
+    if (vertex <= from || vertex >= to) continue;
+    const Point chord = from_place + (to_place - from_place) * ((vertex - from) / (to - from));
+    slack = std::max(slack, distance(chord, piece(i).segment.curve.end()));
+  }
+  return slack;
+}
+
+// ---- controls ------------------------------------------------------------------------------------------------------
+
+void TubeSpline::find_factors(std::int64_t k) {
+  const double before2 = knot_at(k - 2);
+  const double before = knot_at(k - 1);
+  const double here = knot_at(k);
+  const double after = knot_at(k + 1);
+  const double after2 = knot_at(k + 2);
+  const double both = after - before;
+  const double left = (here - before) / both;
+  const double right = (after - here) / both;
+  const double in = 3 / (after - before2);
+  const double out = 3 / (after2 - before);
+  Site& site = at(k);
+  site.slope = {-in * right, in * right - out * left, out * left};
+  site.bend = {2 * in / both, -2 * (in + out) / both, 2 * out / both};
+  site.value[0] = (after - here) * in / 3 * right;
+  site.value[2] = (here - before) * out / 3 * left;
+  site.value[1] = 1 - site.value[0] - site.value[2];
+}
+
+// What the steps of a free control need: its part in p'' at three knots and in the middles of four spans.
+void TubeSpline::find_steps(std::int64_t k) {
+  Relaxation::Factors factors;
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t knot = k - 1 + static_cast<std::int64_t>(i);
+    const double weight = (at(knot - 1).width + at(knot).width) / 2;
+    factors.off[i] = at(knot).value[2 - i];
+    factors.bend[i] = at(knot).bend[2 - i];
+    factors.pull[i] = weight * factors.bend[i];
+    sum += factors.pull[i] * factors.bend[i];
+  }
+  for (double& pull : factors.pull) pull /= sum;
+
+  const auto part = [&](std::size_t i, double square) { return factors.off[i] / 2 - factors.bend[i] * square / 16; };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double width = at(k - 2 + static_cast<std::int64_t>(i)).width;
+    if (i > 0) factors.middle[i] += part(i - 1, width * width);
+    if (i < 3) factors.middle[i] += part(i, width * width);
+  }
+  relaxation_.set_factors(k, factors);
+}
+
+// The control that a polynomial has: its blossom, here of the path's Taylor polynomial at a knot.
+Point TubeSpline::taylor_control(const Knot& knot, std::int64_t k) const {
+  const double a = knot_at(k - 1) - knot.s;
+  const double b = knot_at(k) - knot.s;
+  const double c = knot_at(k + 1) - knot.s;
+  const Curve& curve = piece(knot.piece).segment.curve;
+  const Mm along(knot.along);
+  return curve.at(along) + curve.tangent(along) * ((a + b + c) / 3) +
+         curve.second_derivative(along) * ((a * b + b * c + c * a) / 6);
+}
+
+// Where pieces meet nearby: of the parabola through three knots.
+Point TubeSpline::secant_control(std::int64_t k) const {
+  const Site& before = at(k - 1);
+  const Site& here = at(k);
+  const Site& after = at(k + 1);
+  const double left = before.width;
+  const double right = here.width;
+  const Point slopes = (here.place - before.place) * (1 / left) + (after.place - here.place) * (1 / right);
+  const auto bend = [&](const Site& site) {
+    return piece(site.knot.piece).segment.curve.second_derivative(Mm(site.knot.along));
+  };
+  return here.place + slopes * ((right - left) / 6) + (bend(before) + bend(after)) * (-left * right / 12);
+}
+
+void TubeSpline::begin_control(std::int64_t k) {
+  if (k >= 0 && k < knots_) find_factors(k);
+  relaxation_.set_control(k, first_control(k));
+  if (k >= 1) measure_knot(k - 1);
+  if (k >= 2) measure_middle(k - 2);
+}
+
+Point TubeSpline::first_control(std::int64_t k) const {
+  if (k <= 1) return taylor_control(at(0).knot, k);
+  if (!is_free(k)) return taylor_control(at(knots_ - 1).knot, k);
+  const Knot& knot = at(k).knot;
+  const bool alone = knot.along >= at(k - 1).width && piece(knot.piece).length - knot.along >= at(k).width;
+  return alone ? taylor_control(knot, k) : secant_control(k);
+}
+
+void TubeSpline::measure_knot(std::int64_t k) {
+  const Site& site = at(k);
+  const Point before = relaxation_.control(k - 1);
+  const Point here = relaxation_.control(k);
+  const Point after = relaxation_.control(k + 1);
+  relaxation_.set_off(k, (before - site.place) * site.value[0] + (here - site.place) * site.value[1] +
+                             (after - site.place) * site.value[2]);
+  relaxation_.set_bend(k, (before - here) * site.bend[0] + (after - here) * site.bend[2]);
+}
+
+void TubeSpline::measure_middle(std::int64_t k) {
+  const Site& site = at(k);
+  const Point offs = relaxation_.off(k) + relaxation_.off(k + 1);
+  const Point bends = relaxation_.bend(k) + relaxation_.bend(k + 1);
+  const Point chord = (site.place - site.mid_place) + (at(k + 1).place - site.mid_place);
+  relaxation_.set_middle_off(k, (offs + chord) * 0.5 - bends * (site.width * site.width / 16));
+}
+
+void TubeSpline::relax(std::int64_t k) {
+  if (wide_) {
+    relaxation_.relax<axis_count>(k);
+  } else {
+    relaxation_.relax<3>(k);
+  }
+}
+
+// ---- checks --------------------------------------------------------------------------------------------------------
+
+Point TubeSpline::slope_at(std::int64_t k) const {
+  const Three& factors = at(k).slope;
+  return relaxation_.control(k - 1) * factors[0] + relaxation_.control(k) * factors[1] +
+         relaxation_.control(k + 1) * factors[2];
+}
+
+TubeSpline::SpanForm TubeSpline::form_of(std::int64_t k) const {
+  SpanForm form{.off = relaxation_.off(k), .slope = slope_at(k), .bend = relaxation_.bend(k), .change = {}};
+  form.change = (relaxation_.bend(k + 1) - form.bend) * (1 / at(k).width);
+  return form;
+}
+
+TubeSpline::Place TubeSpline::place_in(const Site& site, const SpanForm& form, const Piece& path, double u) {
+  const Mm along(std::max(0.0, site.knot.s + u - path.start));
+  const Curve& curve = path.segment.curve;
+  return {.along = u,
+          .off = (site.place - curve.at(along)) + form.off + (form.slope + form.bend * (u / 2)) * u +
+                 form.change * (u * u * u / 6),
+          .off_bend = form.bend + form.change * u - curve.second_derivative(along)};
+}
+
+// Between two places d apart the deviation e is at most the larger of both plus d²/8 of the largest |e''|. p'' is a
+// straight line of s; the path's d²P/ds² is nothing on a line, and on an arc of the curvature c it leaves its chord by
+// at most d²/8 c³. So |e''| is at most its larger end plus that.
+TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, const Piece& path) {
+  const double curvature = path.segment.curve.curvature();
+  const double square = (to.along - from.along) * (to.along - from.along) / 8;
+  const double off_bend = std::max(length_of(from.off_bend), length_of(to.off_bend));
+  const double between = square * (off_bend + square * curvature * curvature * curvature);
+  const double from_off = length_of(from.off);
+  const double to_off = length_of(to.off);
+  const Place& worse = from_off > to_off ? from : to;
+  return {.excess = std::max(from_off, to_off) + between - path.tube, .along = worse.along, .off = worse.off};
+}
+
+// A rough bound is often enough; else the span is gone through quarter by quarter, and from vertex to vertex.
+TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
+  const Site& site = at(k);
+  const double width = site.width;
+  const double off = std::max(
+      {length_of(relaxation_.off(k)), length_of(relaxation_.off(k + 1)), length_of(relaxation_.middle_off(k))});
+  const double bend = std::max(length_of(relaxation_.bend(k)), length_of(relaxation_.bend(k + 1)));
+  const double slack = std::max(site.slack[0], site.slack[1]);
+  Worst worst;
+  worst.excess = off + slack + (bend + site.curvature) * width * width / 32 - site.tube;
+  if (worst.excess <= 0) return worst;
+
+  worst.excess = -site.tube;
+  const SpanForm form = form_of(k);
+  const std::uint64_t last = at(k + 1).knot.piece;
+  double from = 0;
+  int quarter = 1;
+  for (std::uint64_t number = site.knot.piece; from < width && number <= last; ++number) {
+    const Piece& path = piece(number);
+    const double end = number < last ? std::min(path.end() - site.knot.s, width) : width;
+    Place before = place_in(site, form, path, from);
+    while (from < end) {
+      const double to = std::min(end, width * quarter / 4);
+      const Place after = place_in(site, form, path, to);
+      const Worst here = worse_between(before, after, path);
+      if (here.excess > worst.excess) worst = here;
+      if (to >= width * quarter / 4) ++quarter;
+      from = to;
+      before = after;
+    }
+  }
+  return worst;
+}
+
+void TubeSpline::move(std::int64_t k, const Point& step) {
+  relaxation_.move(k, step);
+  for (std::int64_t span = k - 2; span <= k + 1; ++span) at(span).checked = false;
+}
+
+void TubeSpline::check(std::int64_t k) {
+  constexpr int tries = 4;
+  for (int i = 0; i < tries && !at(k).checked; ++i) {
+    const Worst worst = worst_of(k);
+    if (worst.excess <= 0) {
+      at(k).checked = true;
+    } else {
+      push_back(k, worst);
+    }
+  }
+}
+
+// What each of the four controls of a span does at a place in it.
+std::array<double, 4> TubeSpline::weights_at(std::int64_t k, double along) const {
+  const Site& site = at(k);
+  const Site& next = at(k + 1);
+  const double cube = along * along * along / (6 * site.width);
+  const double square = along * along / 2 - cube;
+  std::array<double, 4> weights{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    weights[i] += site.value[i] + site.slope[i] * along + site.bend[i] * square;
+    weights[i + 1] += next.bend[i] * cube;
+  }
+  return weights;
+}
+
+// Moves the controls the least way that takes the excess off.
+void TubeSpline::push_back(std::int64_t k, const Worst& worst) {
+  constexpr double a_little_more = 1e-3;  // of the tube
+  const double off = length_of(worst.off);
+  if (!(off > 0)) return;
+  const std::array<double, 4> weights = weights_at(k, worst.along);
+  double squares = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (is_free(k - 1 + static_cast<std::int64_t>(i))) squares += weights[i] * weights[i];
+  }
+  if (!(squares > 0)) return;
+  const double amount = std::min(worst.excess + a_little_more * at(k).tube, off);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::int64_t control = k - 1 + static_cast<std::int64_t>(i);
+    if (is_free(control)) move(control, worst.off * (-amount / off * weights[i] / squares));
+  }
+}
+
+}  // namespace passo

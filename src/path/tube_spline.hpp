@@ -1,0 +1,137 @@
+// TubeSpline: the smoothed stretch, a cubic B-spline in s that bends as little as the tube around the path allows.
+//
+// Knots t[0] to t[n-1] on the path; beyond the ends the distances are mirrored. Controls C[-1] to C[n]: at each knot
+//
+//     p   = value[0] C[k-1] + value[1] C[k] + value[2] C[k+1],   and alike p' (slope) and p'' (bend).
+//
+// The first and the last three controls are those of the path's own Taylor polynomial (blossoms), so that position,
+// tangent and second derivative go on into the exact pieces beside. The others are moved, one after the other in
+// `sweeps` sweeps, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel), but only
+// so far that the deviation from the path stays within the tube at the knots and in the middles between them.
+//
+// Each sweep works four controls behind the one before: nearer ones would feel it. So the result is that of sweeps over
+// the whole stretch, and what is kept is a window of `window` knots, however long the stretch is. The deviations are
+// kept up to date, not computed anew: moving a control by d changes them at seven places by known multiples of d.
+//
+// Behind the sweeps each span is checked without gaps (TubeCheck), and put right where it should leave the tube.
+// Time: 0.7 us a knot.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "knot_placer.hpp"
+#include "relaxation.hpp"
+
+namespace passo {
+
+class TubeSpline {
+ public:
+  static constexpr int sweeps = 12;
+  static constexpr int checks = 3;
+  static constexpr std::int64_t window = 128;  // knots; a power of two
+
+  explicit TubeSpline(const RunReader& reader) : reader_(reader) {}
+
+  // The knots of a stretch, at least four, and its end. After the end, and before more knots, every span is to be
+  // taken.
+  void add(const Knot& knot);
+  void close();
+
+  // A span between two knots, as it will be.
+  struct End {
+    Knot knot;
+    Point place;
+    Point tangent;
+    double deviation = 0;  // mm
+  };
+  struct Span {
+    End from;
+    End to;
+    bool in_tube = true;  // shown to be
+    bool goes_on = true;  // into a span that is in the tube, or beyond the stretch
+  };
+  [[nodiscard]] bool next(Span& span);
+
+ private:
+  using Three = std::array<double, 3>;  // factors of the controls before, at and after a knot
+  // A knot, and the span from it to the next.
+  struct Site {
+    Knot knot;
+    Point place;      // P at the knot
+    Point mid_place;  // P in the middle of the span
+    Three value{};
+    Three slope{};
+    Three bend{};
+    double width = 0;               // of the span
+    double tube = 0;                // around the span
+    double curvature = 0;           // of the path in the span, at most
+    std::array<double, 2> slack{};  // how far vertices in each half of the span stick out
+    bool checked = false;
+  };
+  Site& at(std::int64_t k) { return sites_[static_cast<std::size_t>(k + 1) & (window - 1)]; }
+  const Site& at(std::int64_t k) const { return sites_[static_cast<std::size_t>(k + 1) & (window - 1)]; }
+  bool is_free(std::int64_t k) const { return k >= 2 && !(closed_ && k > knots_ - 3); }
+  double knot_at(std::int64_t k) const;
+
+  // The path in a span.
+  const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
+  Point path_at(std::uint64_t& number, double s) const;
+  void survey(Site& site, const Site& next);
+  double slack_between(double from, const Point& from_place, double to, const Point& to_place, std::uint64_t first,
+                       std::uint64_t last) const;
+
+  // Controls as they begin.
+  void begin_control(std::int64_t k);
+  Point first_control(std::int64_t k) const;
+  Point taylor_control(const Knot& knot, std::int64_t k) const;
+  Point secant_control(std::int64_t k) const;
+  void find_factors(std::int64_t k);
+  void find_steps(std::int64_t k);
+  void measure_knot(std::int64_t k);
+  void measure_middle(std::int64_t k);
+
+  // Sweeps.
+  void advance();
+  void relax(std::int64_t k);
+  void move(std::int64_t k, const Point& step);
+
+  // Checks.
+  struct SpanForm {  // p - P at the first knot + slope u + bend u²/2 + change u³/6
+    Point off;
+    Point slope;
+    Point bend;
+    Point change;
+  };
+  struct Place {
+    double along = 0;  // s in the span
+    Point off;         // p - P
+    Point off_bend;    // p'' - P''
+  };
+  struct Worst {
+    double excess = 0;  // mm beyond the tube; at most 0: it is in the tube
+    double along = 0;
+    Point off;
+  };
+  Point slope_at(std::int64_t k) const;
+  SpanForm form_of(std::int64_t k) const;
+  static Place place_in(const Site& site, const SpanForm& form, const Piece& path, double u);
+  static Worst worse_between(const Place& from, const Place& to, const Piece& path);
+  Worst worst_of(std::int64_t k) const;
+  bool is_in_tube(std::int64_t k) const;
+  void check(std::int64_t k);
+  void push_back(std::int64_t k, const Worst& worst);
+  std::array<double, 4> weights_at(std::int64_t k, double along) const;
+  End end_at(std::int64_t k) const;
+
+  const RunReader& reader_;
+  std::array<Site, window> sites_;
+  Relaxation relaxation_;
+  std::int64_t knots_ = 0;
+  std::int64_t controls_ = -1;  // the next to begin
+  std::int64_t taken_ = 0;      // spans
+  bool closed_ = false;
+  bool wide_ = false;  // more than X Y Z move
+};
+
+}  // namespace passo

@@ -1,0 +1,147 @@
+#include "exact_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo::proof {
+namespace {
+
+using Complex = std::complex<double>;
+
+double dot(const Point& a, const Point& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < axis_count; ++i) sum += a.values[i] * b.values[i];
+  return sum;
+}
+
+// An arc's radius, angle and their rates at s.
+struct Polar {
+  double r, g, w;
+  Complex direction;  // e^(iφ)
+};
+Polar polar_at(const Curve& curve, double s) {
+  const Curve::ArcData& arc = curve.arc_data();
+  const double length = curve.length().value();
+  const double g = (arc.end_radius - arc.start_radius) / length;
+  const double w = arc.sweep / length;
+  return {.r = arc.start_radius + g * s, .g = g, .w = w, .direction = std::polar(1.0, arc.start_angle + w * s)};
+}
+
+}  // namespace
+
+double distance(const Point& a, const Point& b) {
+  const Point between = b - a;
+  return std::sqrt(dot(between, between));
+}
+
+bool ExactCurve::in_plane(Axis axis) const {
+  const Curve::ArcData& arc = curve_.arc_data();
+  return curve_.shape() == Curve::Shape::arc && (axis == arc.first || axis == arc.second);
+}
+
+Point ExactCurve::place(double s) const {
+  Point point;
+  const double share = s / length();
+  for (const Axis axis : all_axes) {
+    if (curve_.shape() == Curve::Shape::cubic) {
+      const Curve::CubicData data = curve_.cubic_data();
+      point[axis] =
+          curve_.start()[axis] + data.first[axis] * s + data.second[axis] * s * s + data.third[axis] * s * s * s;
+    } else {
+      point[axis] = curve_.start()[axis] * (1 - share) + curve_.end()[axis] * share;
+    }
+  }
+  if (curve_.shape() == Curve::Shape::arc) {
+    const Curve::ArcData& arc = curve_.arc_data();
+    const Polar polar = polar_at(curve_, s);
+    point[arc.first] = arc.first_center + polar.r * polar.direction.real();
+    point[arc.second] = arc.second_center + polar.r * polar.direction.imag();
+  }
+  return point;
+}
+
+Derivatives ExactCurve::at(Axis axis, double s) const {
+  if (curve_.shape() == Curve::Shape::cubic) {
+    const Curve::CubicData data = curve_.cubic_data();
+    return {.first = data.first[axis] + 2 * data.second[axis] * s + 3 * data.third[axis] * s * s,
+            .second = 2 * data.second[axis] + 6 * data.third[axis] * s,
+            .third = 6 * data.third[axis]};
+  }
+  if (!in_plane(axis)) return {.first = (curve_.end()[axis] - curve_.start()[axis]) / length()};
+  const auto [r, g, w, direction] = polar_at(curve_, s);
+  const Complex first = Complex(g, r * w) * direction;
+  const Complex second = Complex(-r * w * w, 2 * g * w) * direction;
+  const Complex third = -Complex(3 * g * w * w, r * w * w * w) * direction;
+  if (axis == curve_.arc_data().first) return {first.real(), second.real(), third.real()};
+  return {first.imag(), second.imag(), third.imag()};
+}
+
+double ExactCurve::turning_of_all() const {
+  if (curve_.shape() == Curve::Shape::arc) return std::abs(curve_.arc_data().sweep);
+  if (curve_.shape() == Curve::Shape::line) return 0;
+  // |P''| / |P'| by Simpson's rule of eight parts.
+  constexpr int parts = 8;
+  double sum = 0;
+  for (int i = 0; i <= parts; ++i) {
+    double first = 0;
+    double second = 0;
+    for (const Axis axis : all_axes) {
+      const Derivatives d = at(axis, length() * i / parts);
+      first += d.first * d.first;
+      second += d.second * d.second;
+    }
+    const double weight = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
+    sum += weight * std::sqrt(second / std::max(first, 1e-12));
+  }
+  return sum * length() / (3 * parts);
+}
+
+ExactCurve::Nearest ExactCurve::nearest(const Point& point, double from, double to) const {
+  if (!is_line()) return nearest_of_bent(point, from, to);
+  const Point way = curve_.end() - curve_.start();
+  const double share = dot(point - curve_.start(), way) / dot(way, way);
+  const double s = std::clamp(share * length(), from, to);
+  return {.s = s, .distance = distance(point, place(s))};
+}
+
+// The best of a row of points, and a golden section about it.
+ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from, double to) const {
+  constexpr double piece = 0.2;  // radians
+  const double turns = turning_ * (to - from) / length();
+  const int parts = 4 + static_cast<int>(std::min(turns / piece, 1e4));
+  const double step = (to - from) / parts;
+  int best = 0;
+  double least = INFINITY;
+  for (int i = 0; i <= parts; ++i) {
+    const double here = distance(point, place(from + step * i));
+    if (here < least) {
+      least = here;
+      best = i;
+    }
+  }
+  constexpr double golden = 0.6180339887498949;
+  double low = from + step * std::max(best - 1, 0);
+  double high = from + step * std::min(best + 1, parts);
+  double a = high - golden * (high - low);
+  double b = low + golden * (high - low);
+  double at_a = distance(point, place(a));
+  double at_b = distance(point, place(b));
+  for (int i = 0; i < 44; ++i) {
+    if (at_a < at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      at_a = distance(point, place(a = high - golden * (high - low)));
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      at_b = distance(point, place(b = low + golden * (high - low)));
+    }
+  }
+  const double s = (low + high) / 2;
+  const double here = distance(point, place(s));
+  return here <= least ? Nearest{s, here} : Nearest{from + step * best, least};
+}
+
+}  // namespace passo::proof

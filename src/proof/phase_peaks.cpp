@@ -1,0 +1,152 @@
+#include "phase_peaks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo::proof {
+namespace {
+
+constexpr double turn_between_looks = 0.05;  // radians
+constexpr double fewest_looks = 12;
+constexpr double most_looks = 4096;
+
+}  // namespace
+
+PhasePeaks::Way PhasePeaks::way_at(const Phase& phase, double t) {
+  const double v = phase.velocity.value();
+  const double a = phase.acceleration.value();
+  const double j = phase.jerk.value();
+  return {.s = phase.start.value() + v * t + a * t * t / 2 + j * t * t * t / 6,
+          .v = v + a * t + j * t * t / 2,
+          .a = a + j * t,
+          .j = j};
+}
+
+PhasePeaks::Motion PhasePeaks::motion_of(const Derivatives& q, const Way& way) {
+  return {.velocity = q.first * way.v,
+          .acceleration = q.second * way.v * way.v + q.first * way.a,
+          .jerk = q.third * way.v * way.v * way.v + 3 * q.second * way.v * way.a + q.first * way.j};
+}
+
+void PhasePeaks::raise(Finding& finding, double value, double t) const {
+  if (!(std::abs(value) > finding.value)) return;
+  finding.value = std::abs(value);
+  finding.time = now_ + Seconds(t);
+  finding.line = line_;
+}
+
+void PhasePeaks::see(std::size_t i, const Motion& motion, double t) {
+  AxisProof& axis = proof_.axes[i];
+  raise(axis.velocity, motion.velocity, t);
+  raise(axis.acceleration, motion.acceleration, t);
+  raise(axis.jerk, motion.jerk, t);
+}
+
+void PhasePeaks::watch(const PlannedMove& move) {
+  if (!move.segment.curve.has_length() || move.phase_count == 0) return;
+  ++proof_.moves;
+  line_ = move.segment.source.line;
+  const ExactCurve curve(move.segment.curve);
+  for (const Phase& phase : move) {
+    ++proof_.phases;
+    join(curve, phase);
+    look_at(curve, phase);
+    see_feed(move.segment, phase);
+    const Way end = way_at(phase, phase.duration.value());
+    for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = motion_of(curve.at(proof_.axes[i].axis, end.s), end);
+    place_ = curve.place(end.s);
+    now_ += phase.duration;
+  }
+  check_gap(distance(*place_, curve.place(move.to.value())));
+}
+
+// What the phase before left and what this one begins with.
+void PhasePeaks::join(const ExactCurve& curve, const Phase& phase) {
+  const Way start = way_at(phase, 0);
+  if (place_) check_gap(distance(*place_, curve.place(start.s)));
+  for (std::size_t i = 0; i < before_.size(); ++i) meet(i, motion_of(curve.at(proof_.axes[i].axis, start.s), start));
+}
+
+void PhasePeaks::meet(std::size_t i, const Motion& motion) {
+  raise(proof_.axes[i].velocity_jump, motion.velocity - before_[i].velocity, 0);
+  raise(proof_.axes[i].acceleration_jump, motion.acceleration - before_[i].acceleration, 0);
+}
+
+void PhasePeaks::check_gap(double gap) {
+  raise(proof_.gap, gap, 0);
+}
+
+void PhasePeaks::rest(Seconds dwell) {
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    meet(i, {});
+    before_[i] = {};
+  }
+  now_ += dwell;
+}
+
+void PhasePeaks::see_feed(const Segment& segment, const Phase& phase) {
+  const double speed = segment.speed.value();
+  if (!std::isfinite(speed)) return;
+  const double duration = phase.duration.value();
+  const double turn = phase.jerk.value() != 0 ? -phase.acceleration.value() / phase.jerk.value() : 0;
+  for (const double t : {0.0, std::clamp(turn, 0.0, duration), duration}) {
+    const double v = way_at(phase, t).v;
+    if (!(v * proof_.feed.limit > proof_.feed.value * speed) && proof_.feed.limit > 0) continue;
+    proof_.feed = {.value = v, .limit = speed, .time = now_ + Seconds(t), .line = line_};
+  }
+}
+
+void PhasePeaks::look_at(const ExactCurve& curve, const Phase& phase) {
+  const double duration = phase.duration.value();
+  const double turn = phase.jerk.value() != 0 ? -phase.acceleration.value() / phase.jerk.value() : 0;
+  for (std::size_t i = 0; i < proof_.axes.size(); ++i) {
+    for (const double t : {0.0, std::clamp(turn, 0.0, duration), duration}) {
+      const Way way = way_at(phase, t);
+      see(i, motion_of(curve.at(proof_.axes[i].axis, way.s), way), t);
+    }
+    if (!curve.is_line()) look_at_curved(curve, phase, i);
+  }
+}
+
+void PhasePeaks::look_at_curved(const ExactCurve& curve, const Phase& phase, std::size_t i) {
+  const double duration = phase.duration.value();
+  const auto motion_at = [&](double t) {
+    const Way way = way_at(phase, t);
+    return motion_of(curve.at(proof_.axes[i].axis, way.s), way);
+  };
+  const double share = (way_at(phase, duration).s - phase.start.value()) / curve.length();
+  const int looks =
+      static_cast<int>(std::clamp(curve.turning() * share / turn_between_looks, fewest_looks, most_looks));
+  constexpr double Motion::*kinds[] = {&Motion::velocity, &Motion::acceleration, &Motion::jerk};
+  Finding AxisProof::*const findings[] = {&AxisProof::velocity, &AxisProof::acceleration, &AxisProof::jerk};
+  std::array<double, 3> best{};
+  std::array<double, 3> where{};
+  for (int k = 0; k <= looks; ++k) {
+    const double t = duration * k / looks;
+    const Motion motion = motion_at(t);
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+      const double here = std::abs(motion.*kinds[kind]);
+      if (!(here > best[kind])) continue;
+      best[kind] = here;
+      where[kind] = t;
+    }
+  }
+  constexpr double worth_a_look = 0.9;
+  constexpr double golden = 0.6180339887498949;
+  for (std::size_t kind = 0; kind < 3; ++kind) {
+    Finding& finding = proof_.axes[i].*findings[kind];
+    if (best[kind] < worth_a_look * finding.value) continue;
+    const auto value = [&](double t) { return std::abs(motion_at(t).*kinds[kind]); };
+    double low = std::max(where[kind] - duration / looks, 0.0);
+    double high = std::min(where[kind] + duration / looks, duration);
+    for (int pass = 0; pass < 30; ++pass) {
+      const double a = high - golden * (high - low);
+      const double b = low + golden * (high - low);
+      (value(a) > value(b) ? high : low) = value(a) > value(b) ? b : a;
+    }
+    raise(finding, best[kind], where[kind]);
+    raise(finding, value((low + high) / 2), (low + high) / 2);
+  }
+}
+
+}  // namespace passo::proof

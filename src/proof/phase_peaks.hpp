@@ -1,0 +1,57 @@
+// PhasePeaks: how fast, how hard and how abruptly each axis moves, from the phases.
+//
+//   q̇ = q' ṡ      q̈ = q'' ṡ² + q' s̈      q⃛ = q''' ṡ³ + 3 q'' ṡ s̈ + q' s⃛
+//
+// On a line the largest of each is at an end of the phase, or where the speed turns. On a curve it is looked for at
+// many points, and between the neighbours of the best by golden section.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "exact_curve.hpp"
+
+#include "passo/proof/motion_proof.hpp"
+
+namespace passo::proof {
+
+class PhasePeaks {
+ public:
+  // Writes what it finds into `proof`, which has its axes and limits already.
+  explicit PhasePeaks(MotionProof& proof) : proof_(proof), before_(proof.axes.size()) {}
+
+  void watch(const PlannedMove& move);
+  // An action, or the end: the machine rests there.
+  void rest(Seconds dwell);
+
+  Seconds now() const { return now_; }
+
+ private:
+  struct Motion {
+    double velocity = 0;
+    double acceleration = 0;
+    double jerk = 0;
+  };
+  struct Way {  // s and its derivatives by time
+    double s, v, a, j;
+  };
+
+  static Way way_at(const Phase& phase, double t);
+  static Motion motion_of(const Derivatives& q, const Way& way);
+  void look_at(const ExactCurve& curve, const Phase& phase);
+  void look_at_curved(const ExactCurve& curve, const Phase& phase, std::size_t i);
+  void see(std::size_t i, const Motion& motion, double t);
+  void see_feed(const Segment& segment, const Phase& phase);
+  void join(const ExactCurve& curve, const Phase& phase);
+  void meet(std::size_t i, const Motion& motion);
+  void check_gap(double gap);
+  void raise(Finding& finding, double value, double t) const;
+
+  MotionProof& proof_;
+  Seconds now_{0};  // at the start of the phase in hand
+  std::uint32_t line_ = 0;
+  std::vector<Motion> before_;  // by axis, at the end of the phase before
+  std::optional<Point> place_;  // there
+};
+
+}  // namespace passo::proof

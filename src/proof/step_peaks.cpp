@@ -1,0 +1,81 @@
+#include "step_peaks.hpp"
+
+#include <cmath>
+
+namespace passo::proof {
+namespace {
+
+constexpr double window = 0.010;  // seconds
+constexpr std::int64_t half_step = 32768;
+
+std::int64_t signed_increment(const BoardSegment& segment, std::size_t m) {
+  const bool flip = (segment.flips >> m & 1U) != 0;
+  const bool down = (segment.directions >> m & 1U) != 0;
+  const std::int64_t sent = segment.increments[m];
+  if (flip) return down ? sent - 65536 : 65536;
+  return down ? 0 : sent;
+}
+
+}  // namespace
+
+StepPeaks::StepPeaks(const ProofOptions& options, MotionProof& proof)
+    : proof_(proof),
+      place_(options.axes.size(), half_step),
+      tick_rate_(options.tick_rate.value()),
+      between_samples_(std::llround(window / samples_in_window * options.tick_rate.value() * 65536)),
+      counts_(options.axes.size()) {
+  for (std::size_t m = 0; m < options.axes.size(); ++m) {
+    step_.push_back(options.axes[m].step.value());
+    proof_.axes[m].step_velocity_noise = 2 * step_[m] / window;
+    proof_.axes[m].step_acceleration_noise = 4 * step_[m] / (window * window);
+  }
+}
+
+void StepPeaks::watch(const BoardSegment& segment) {
+  std::array<std::int64_t, max_motors> increments{};
+  for (std::size_t m = 0; m < place_.size(); ++m) increments[m] = signed_increment(segment, m);
+  std::int64_t interval = segment.interval;
+  for (unsigned k = 0; k < segment.events; ++k) {
+    time_ += interval;
+    interval += segment.change;
+    while (next_sample_ <= time_) sample();
+    for (std::size_t m = 0; m < place_.size(); ++m) place_[m] += increments[m];
+  }
+}
+
+// After the last step comes rest.
+void StepPeaks::finish() {
+  for (std::size_t i = 0; i < kept; ++i) sample();
+}
+
+void StepPeaks::sample() {
+  for (std::size_t m = 0; m < place_.size(); ++m) {
+    // Before the first sample there was rest.
+    if (sampled_ == 0) counts_[m].fill(place_[m] >> 16);
+    counts_[m][sampled_ % kept] = place_[m] >> 16;
+    difference(m);
+  }
+  ++sampled_;
+  next_sample_ += between_samples_;
+}
+
+std::int64_t StepPeaks::before(std::size_t m, std::size_t samples) const {
+  return counts_[m][(sampled_ + kept - samples) % kept];
+}
+
+void StepPeaks::difference(std::size_t m) {
+  const std::int64_t here = before(m, 0);
+  const std::int64_t middle = before(m, samples_in_window);
+  const std::int64_t first = before(m, 2 * samples_in_window);
+  const auto raise = [&](Finding& finding, double value, double age) {
+    if (!(value > finding.value)) return;
+    finding.value = value;
+    finding.time = Seconds(static_cast<double>(next_sample_) / 65536 / tick_rate_ - age);
+  };
+  AxisProof& axis = proof_.axes[m];
+  raise(axis.step_velocity, static_cast<double>(std::abs(here - middle)) * step_[m] / window, window / 2);
+  raise(axis.step_acceleration, static_cast<double>(std::abs(here - 2 * middle + first)) * step_[m] / (window * window),
+        window);
+}
+
+}  // namespace passo::proof

@@ -1,0 +1,47 @@
+// StepPeaks: velocity and acceleration of each axis from nothing but the steps that the board makes.
+//
+// Board segments are replayed from the definition in wire/board_segment.hpp, and the step counts read every
+// millisecond. Over a window of T = 10 ms the first difference of the place bounds the velocity, the second the
+// acceleration:
+//
+//   (q(t) − q(t−T)) / T       (q(t) − 2 q(t−T) + q(t−2T)) / T²
+//
+// Neither can be beyond the limit but for rounding: a count is within a step of the true place (half a step of
+// rounding, and as much again for steps that wait for the event clock). That adds up to 2 steps/T and 4 steps/T².
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "passo/proof/motion_proof.hpp"
+
+namespace passo::proof {
+
+class StepPeaks {
+ public:
+  StepPeaks(const ProofOptions& options, MotionProof& proof);
+
+  void watch(const BoardSegment& segment);
+  void finish();
+
+ private:
+  static constexpr std::size_t samples_in_window = 10;
+  static constexpr std::size_t kept = 2 * samples_in_window + 1;
+
+  void sample();
+  void difference(std::size_t m);
+  std::int64_t before(std::size_t m, std::size_t samples) const;
+
+  MotionProof& proof_;
+  std::vector<double> step_;         // mm; 0: not looked at
+  std::vector<std::int64_t> place_;  // 1/65536 step, by motor
+  std::int64_t time_ = 32768;        // 1/65536 tick
+  double tick_rate_;
+  std::int64_t between_samples_;  // 1/65536 tick
+  std::int64_t next_sample_ = 0;
+  std::vector<std::array<std::int64_t, kept>> counts_;  // of whole steps, a ring
+  std::size_t sampled_ = 0;
+};
+
+}  // namespace passo::proof

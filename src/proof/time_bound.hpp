@@ -1,0 +1,81 @@
+// TimeBound: the shortest time in which the planned path could be played within velocity, acceleration and feed.
+//
+// With x = ṡ² and u = s̈ = dx/ds / 2 every limit |q' u + q'' x| ≤ A is a strip of the plane (x, u). The path is cut into
+// small cells, x runs straight in each, and the limits are asked at its middle. From the end of a stretch backwards:
+// the largest x at each node from which the rest can still be played (by bisection: is there an x at the next node
+// that keeps every limit?). Then forwards from rest, always as fast as allowed. A line is a single cell, exact: speed
+// up, go on, brake. Pfeiffer and Johanni 1987; Pham and Pham 2018 (reachability).
+//
+// Rest is where the program demands it: at actions, exact stops, the ends, and where the direction jumps by more than
+// rounding. Memory: a window of cells. What is behind the window is taken for as fast as its first cell allows, so
+// that the bound stays a bound, and the window is many braking distances long.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "exact_curve.hpp"
+
+#include "passo/proof/motion_proof.hpp"
+
+namespace passo::proof {
+
+class TimeBound {
+ public:
+  explicit TimeBound(const ProofOptions& options) : axes_(options.axes) {}
+
+  void watch(const PlannedMove& move);
+  void rest(Seconds dwell);
+
+  Seconds time() const { return Seconds(time_); }
+
+ private:
+  using Row = std::array<double, max_motors>;  // a number an axis
+  struct Cell {
+    double length = 0;
+    double entry_cap = 0;    // of x: what velocity, feed and curvature allow where it begins and the cell before ends
+    double entry_scale = 1;  // x where it begins, divided by x where the cell before ends
+    double exit_cap = 0;
+    bool line = false;
+    Row first{};  // q' and q'' at its middle
+    Row second{};
+    double controllable = 0;  // the largest x where it begins from which the path can be played
+  };
+  struct Joint {  // the end of the curve before
+    Row direction{};
+    double steepness = 0;  // |q'|
+    double cap = 0;
+    bool stop = false;
+  };
+  struct Range {
+    double low, high;
+  };
+
+  void add_curve(const Segment& segment);
+  void add_cell(const ExactCurve& curve, double from, double to, double feed);
+  void settle(std::size_t cells);
+  void end_stretch();
+  void plan_backwards(double last);
+
+  Joint joint_at(const ExactCurve& curve, double s) const;
+  double cap_at(const ExactCurve& curve, double s, double feed) const;
+  double curvature_cap(const Row& first, const Row& second, double most) const;
+  double kink_cap(const Joint& before, const Joint& after) const;
+  // The next x that the cell's limits allow after x.
+  Range next_of(const Cell& cell, double x) const;
+  double entry_for(const Cell& cell, double exit) const;
+  double exit_for(const Cell& cell, double entry, double most) const;
+  double line_reach(const Cell& cell) const;
+  static double time_of_line(const Cell& cell, double entry, double exit, double reach);
+
+  std::vector<ProvenAxis> axes_;
+  std::vector<Cell> cells_;
+  std::optional<Joint> joint_;
+  double x_ = 0;  // where the first cell begins
+  double time_ = 0;
+  bool inside_curve_ = false;  // a part of it has come, its end has not
+  Mm reached_{0};              // how much of it
+};
+
+}  // namespace passo::proof

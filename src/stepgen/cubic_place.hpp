@@ -1,0 +1,53 @@
+// CubicPlace: where one motor stands on a cubic, a polynomial of s, and the inverse.
+//
+// Between the roots of its derivative the polynomial goes one way. There it is what constant jerk does, with s for the
+// time, and is inverted as such (units/constant_jerk.hpp): Newton's method from where the last event leads to, inside
+// the bracket that the turning points give. One or two rounds find a crossing to 0.01 place; about 30 ns.
+#pragma once
+
+#include <limits>
+
+#include "place.hpp"
+
+#include "passo/geometry/curve.hpp"
+#include "passo/units/constant_jerk.hpp"
+
+namespace passo {
+
+class CubicPlace {
+ public:
+  CubicPlace() = default;
+  // For 0 <= s <= `end`.
+  CubicPlace(const Curve& curve, const Motor& motor, double end);
+
+  double at(double s) const { return base_ + s * (first_ + s * (second_ + s * third_)); }
+  double slope(double s) const { return first_ + s * (2 * second_ + s * 3 * third_); }
+  // Whether it goes up just behind `s`, on a turning point too.
+  bool rises(double s) const { return at(next_end(s)) > at(s); }
+
+  // As MotorPath has them.
+  double crossing(double target, double from) const;
+  double turning_point(double from) const { return next_turn(from) + behind_turn_; }
+  double travel(double distance, double from) const;
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  double next_turn(double from) const {
+    return first_turn_ > from ? first_turn_ : second_turn_ > from ? second_turn_ : infinity;
+  }
+  double next_end(double from) const { return std::min(next_turn(from), end_); }
+
+  // place = base + first s + second s² + third s³.
+  double base_ = 0;
+  double first_ = 0;
+  double second_ = 0;
+  double third_ = 0;
+  double end_ = 0;
+  // Where the slope is nothing, between 0 and the end; else infinity.
+  double first_turn_ = infinity;
+  double second_turn_ = infinity;
+  double behind_turn_ = 0;  // far enough behind one to be on the other side of it for certain, and no place further
+};
+
+}  // namespace passo

@@ -1,0 +1,73 @@
+// Cell: a short stretch of a segment along which the acceleration along the path is constant. Private to trajectory/.
+//
+// With q(s) the place of an axis on the path, s the way and v the speed along it, the axis accelerates by
+//
+//     q' a + q'' v²          a = dv/dt
+//
+// and must stay within its limit. Where a is constant, v² is a straight line over s: from x at the cell's entry to
+// y at its exit, a = (y - x) / 2h. What an axis demands at either end is then linear in x and y, and in between it
+// bends by no more than what is taken off the limit beforehand (see cell.cpp): what holds at the ends holds all along.
+//
+// Source: the linear constraints of time-optimal path following (Bobrow, Dubowsky, Gibson 1985) in the form of
+// H. Pham, Q.-C. Pham, "A new approach to time-optimal path parameterization based on reachability analysis" (2018).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "passo/path/segment.hpp"
+#include "passo/trajectory/motion_limits.hpp"
+
+namespace passo {
+
+// What one axis demands of the squares of the speeds at the cell's ends:
+// |entry_x x + entry_y y| <= limit and |exit_x x + exit_y y| <= limit.
+struct AxisDemand {
+  double entry_x = 0;
+  double entry_y = 0;
+  double exit_x = 0;
+  double exit_y = 0;
+  double limit = 0;
+};
+
+struct Cell {
+  double start = 0;         // s on the segment's curve
+  double length = 0;        // mm, above 0
+  double top_squared = 0;   // by the axes' velocities, anywhere in the cell
+  double feed_squared = 0;  // as programmed; infinite for a rapid
+  double acceleration = 0;  // of a straight cell: along the path, either way; its speed may also rise and fall within
+  bool straight = false;
+};
+
+// Cuts segments into cells. The straight ones are whole segments and make no demands but their acceleration.
+class CellCutter {
+ public:
+  explicit CellCutter(const MotionLimits& limits) : limits_(limits) {}
+
+  struct Piece {
+    Cell cell;
+    std::array<AxisDemand, axis_count> demands;
+    std::size_t demand_count = 0;
+  };
+  // Begins with a segment; next() then gives its cells in order.
+  void begin(const Segment& segment);
+  bool next(Piece& piece);
+  // A cell of a segment that is not the one at hand: what is left of one that was given in part.
+  void cut(const Segment& segment, double from, double to, Piece& piece) const;
+
+ private:
+  struct Bend {  // of the whole curve: bounds of |q'''| and |q''''|
+    Point third;
+    Point fourth;
+  };
+  static Bend bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out);
+
+  const MotionLimits& limits_;
+  const Segment* segment_ = nullptr;
+  double at_ = 0;        // s up to which it is cut
+  double longest_ = 0;   // cells in the middle
+  double shortest_ = 0;  // and at the ends, from where they grow
+};
+
+}  // namespace passo

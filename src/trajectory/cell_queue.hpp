@@ -1,0 +1,69 @@
+// CellQueue: the cells that the planner has in hand, with their demands, in a ring of fixed size. Private to
+// trajectory/.
+#pragma once
+
+#include <cassert>
+#include <span>
+#include <vector>
+
+#include "cell.hpp"
+
+namespace passo {
+
+class CellQueue {
+ public:
+  struct Entry {
+    Cell cell;
+    std::size_t demand_count = 0;
+    bool begins_at_rest = false;
+    double top_squared = 0;    // of the cell, with the override of the feed
+    double entry_cap = 0;      // squared: by the tops on both sides, 0 at a rest
+    double entry_if_rest = 0;  // how fast it may be entered if the path came to rest behind the queue
+    double entry_if_open = 0;  // the same if the path went straight on there for ever
+  };
+
+  // `axes`: the most demands a cell makes.
+  CellQueue(std::size_t capacity, std::size_t axes) : axes_(axes), entries_(capacity), demands_(capacity * axes) {}
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  bool full() const { return size_ == entries_.size(); }
+  Entry& operator[](std::size_t i) { return entries_[slot(i)]; }
+  const Entry& operator[](std::size_t i) const { return entries_[slot(i)]; }
+  Entry& back() { return (*this)[size_ - 1]; }
+  std::span<const AxisDemand> demands(std::size_t i) const {
+    const std::size_t at = slot(i);
+    return {demands_.data() + at * axes_, entries_[at].demand_count};
+  }
+
+  Entry& push(const CellCutter::Piece& piece) {
+    assert(!full() && piece.demand_count <= axes_);
+    const std::size_t at = slot(size_++);
+    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[at * axes_ + k] = piece.demands[k];
+    return entries_[at] = {.cell = piece.cell, .demand_count = piece.demand_count};
+  }
+  // The first cell, cut anew.
+  void replace_front(const CellCutter::Piece& piece) {
+    entries_[head_].cell = piece.cell;
+    entries_[head_].demand_count = piece.demand_count;
+    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[head_ * axes_ + k] = piece.demands[k];
+  }
+  void pop() {
+    head_ = head_ + 1 == entries_.size() ? 0 : head_ + 1;
+    --size_;
+  }
+
+ private:
+  std::size_t slot(std::size_t i) const {
+    const std::size_t at = head_ + i;
+    return at < entries_.size() ? at : at - entries_.size();
+  }
+
+  std::size_t axes_;
+  std::vector<Entry> entries_;
+  std::vector<AxisDemand> demands_;
+  std::size_t head_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace passo
