@@ -120,7 +120,7 @@ void CellCutter::cut(const Segment& segment, double from, double to, Piece& piec
   const Curve& curve = segment.curve;
   const double h = to - from;
   const Point slope_in = curve.tangent(Mm(from));
-  piece.cell = {.start = from, .length = h, .feed_squared = squared(segment.speed.value())};
+  piece.cell = {.start = from, .end = to, .length = h, .feed_squared = squared(segment.speed.value())};
   piece.demand_count = 0;
 
   if (curve.shape() == Curve::Shape::line) {

@@ -33,7 +33,8 @@ struct AxisDemand {
 
 struct Cell {
   double start = 0;         // s on the segment's curve
-  double length = 0;        // mm, above 0
+  double end = 0;           // of the last cell exactly the curve's length
+  double length = 0;        // end - start, above 0
   double top_squared = 0;   // by the axes' velocities, anywhere in the cell
   double feed_squared = 0;  // as programmed; infinite for a rapid
   double acceleration = 0;  // of a straight cell: along the path, either way; its speed may also rise and fall within

@@ -238,20 +238,23 @@ class Planner::Implementation {
   bool go(const Ride& ride, PlannedMove& move) {
     const Segment& segment = segments_.front();
     const double segment_end = segment.curve.length().value();
-    const double cell_end = cells_[0].cell.start + cells_[0].cell.length;
-    move.to = Mm(std::min(cells_[0].cell.start + ride.way, segment_end));
+    const Cell& cell = cells_[0].cell;
+    const double cell_end = cell.end;
+    move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell_end);
     speed_squared_ = ride.exit;
     const bool shortened = shorten(move);
     decided_ -= std::min<std::size_t>(decided_, 1);
-    if (move.to.value() < std::min(cell_end, segment_end) - smallest_rest) {
+    if (move.to.value() < cell_end - smallest_rest) {
       cutter_.cut(segment, move.to.value(), cell_end, piece_at_hand_);
       cells_.replace_front(piece_at_hand_);
       decided_ = 0;
       return true;
     }
+    move.to = Mm(cell_end);
     cells_.pop();
-    if (cell_end >= segment_end) segments_.pop_front();
-    return shortened || cell_end >= segment_end;
+    const bool ended = cell_end >= segment_end;
+    if (ended) segments_.pop_front();
+    return shortened || ended;
   }
 
   // To the longest time that a move may take.

@@ -40,7 +40,7 @@ std::vector<T> drain(Source<T>& source) {
 
 class Random {
  public:
-  Random() : seed_(test::seed()), engine_(seed_) {}
+  explicit Random(std::uint64_t more = 0) : seed_(test::seed() + more), engine_(seed_) {}
   std::uint64_t seed() const { return seed_; }
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   bool chance(double share) { return between(0, 1) < share; }
