@@ -2,8 +2,6 @@
 // through joints of segments. Private to trajectory/.
 #pragma once
 
-#include <cstdio>
-#include <cstdlib>
 #include <deque>
 #include <optional>
 
@@ -18,9 +16,7 @@ class JerkPlanner final : public Source<MotionItem> {
  public:
   JerkPlanner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued);
 
-  ~JerkPlanner() override { if (getenv("STAT")) fprintf(stderr, "repairs %zu unrepaired %zu conflicts %zu plans %zu cells %zu\n", profile_.repairs, profile_.unrepaired, profile_.conflicts, profile_.plans, profile_.plan_cells); }
   [[nodiscard]] bool next(MotionItem& item) override;
-  const JerkProfile& profile() const { return profile_; }
 
  private:
   bool fetch();

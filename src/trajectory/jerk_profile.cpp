@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 namespace passo {
@@ -11,16 +9,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-#ifndef KJ
-#define KJ 0.9
-#define KA 0.98
-#define KC 0.8
-#endif
 // Parts of the limits that are planned with; the rest is for what straight pieces do not see.
-constexpr double planned_jerk = KJ;
-constexpr double planned_acceleration = KA;
+constexpr double planned_jerk = 0.95;
+constexpr double planned_acceleration = 0.98;
 constexpr double planned_velocity = 0.9999;
-constexpr double constant_speed_jerk = KC;  // of the jerk, for the bends of the path alone
+constexpr double constant_speed_jerk = 0.9;  // of the jerk, for the bends of the path alone
 // A change of the path's second derivative where segments join is passed so slowly that no axis's acceleration jumps
 // by more than this part of its limit.
 constexpr double unseen_jump = 2e-4;
@@ -28,6 +21,8 @@ constexpr int most_repairs = 40;
 constexpr double least_share = 0.2;
 constexpr std::size_t most_undecided = 600;  // cells in which a calm place is looked for
 constexpr double looked_at = 0.99;  // curves are looked at in three places of a cell
+// Of the acceleration: a change that is none.
+constexpr double unseen_change = 1e-6;
 constexpr double accepted = 1;  // of a limit
 
 }  // namespace
@@ -191,7 +186,7 @@ std::size_t JerkProfile::go_backwards(bool closed) {
     const bool free = step(i, true, march);
     if (free && decided == 0) decided = i;
     if (i == first && frozen_ > 0) {
-      if (march.x < x_[i] * (1 - 1e-9)) return infinity_index;
+      if (march.x < x_[i] * (1 - 1e-9)) return cannot_brake;
       continue;
     }
     x_[i] = std::min(march.x, forwards_[i]);
@@ -212,7 +207,7 @@ double JerkProfile::drop_at(std::size_t node) const {
 void JerkProfile::cut_corners() {
   const std::size_t n = cells_.size();
   const std::size_t first = frozen_ > 0 ? 1 : 0;
-  for (std::size_t i = first + 1; i < n; ++i) bend_[i] = x_[i] > 0 ? drop_at(i) : 0;
+  for (std::size_t i = first + 1; i < n; ++i) drops_[i] = x_[i] > 0 ? drop_at(i) : 0;
   std::vector<double>& y = forwards_;  // not needed any more
   std::size_t begin = first;
   hull_.clear();
@@ -224,7 +219,7 @@ void JerkProfile::cut_corners() {
     double steep = 0;
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (i > begin) steep += 2 * bend_[i];
+      if (i > begin) steep += 2 * drops_[i];
       sum += steep * cells_[i].length;
       y[i + 1] = x_[i + 1] + sum;
     }
@@ -263,7 +258,7 @@ std::size_t JerkProfile::plan(bool closed) {
   if (frozen_ == 0) cap_[0] = 0;
   forwards_.resize(n + 1);
   x_.resize(n + 1, 0.0);
-  bend_.resize(n + 1);
+  drops_.resize(n + 1);
   place_.resize(n + 1);
   place_[0] = 0;
   for (std::size_t i = 0; i < n; ++i) place_[i + 1] = place_[i] + cells_[i].length;
@@ -275,24 +270,15 @@ std::size_t JerkProfile::plan(bool closed) {
       cap_[0] = std::max(cap_[0], kept_[0]);
       cap_[1] = std::max(cap_[1], kept_[1]);
     }
-    ++plans; plan_cells += n;
     go_forwards();
     const std::size_t free = go_backwards(closed);
-    if (free == infinity_index) {
-      ++conflicts;
-      if (getenv("VERB")) fprintf(stderr, "conflict round %d n %zu planned %zu: x1 %.6g\n", round, n, planned_, kept_[1]);
-      break;
-    }
+    if (free == cannot_brake) break;
     if (round == 0) decided = free;
     cut_corners();
     good = !lower_where_exceeded(round);
-    if (!good) ++repairs;
   }
   fell_back_ = !good && frozen_ > 0;
-  if (!good) {
-    ++unrepaired;
-    if (frozen_ > 0) return go_on_as_planned();
-  }
+  if (fell_back_) return go_on_as_planned();
   planned_ = n;
   if (closed) return n;
   // The last chord whose both ends are decided, and preferably where nothing was repaired: what is given there will
@@ -410,14 +396,15 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
 // Around every place beyond its limits: less jerk is planned with, then less speed; wider and more the longer it takes.
 bool JerkProfile::lower_where_exceeded(int round) {
   const std::size_t n = cells_.size();
-  bool any = false;
+  exceeded_.clear();
   const auto reach = static_cast<std::size_t>(round / 5);
   const double most = round < 8 ? 0.8 : round < 16 ? 0.6 : 0.3;
   const double least = round < 4 ? 0.98 : round < 8 ? 0.95 : 0.9;
   for (std::size_t i = 0; i < n; ++i) {
+    if (round > 0 && is_as_checked(i)) continue;
     const Excess worst = excess(i);
     if (worst.force <= accepted && worst.jolt <= accepted) continue;
-    any = true;
+    exceeded_.push_back(i);
     const double slower = std::clamp(1 / std::max(worst.force, std::cbrt(worst.jolt * worst.jolt)), most, least);
     const double gentler = std::clamp(1 / worst.jolt, most, least);
     const std::size_t from = i > reach ? i - reach : 0;
@@ -427,24 +414,62 @@ bool JerkProfile::lower_where_exceeded(int round) {
       if (worst.force > accepted || round % 4 == 3) cap_[k] = std::min(cap_[k], x_[k] * slower);
     }
   }
-  return any;
+  checked_.assign(x_.begin(), x_.end());
+  for (const std::size_t i : exceeded_) checked_[i] = -1;
+  return !exceeded_.empty();
+}
+
+// A cell's phases follow from four nodes.
+bool JerkProfile::is_as_checked(std::size_t i) const {
+  const std::size_t from = i > 0 ? i - 1 : 0;
+  const std::size_t to = std::min(i + 2, cells_.size());
+  for (std::size_t k = from; k <= to; ++k) {
+    if (x_[k] != checked_[k]) return false;
+  }
+  return true;
 }
 
 void JerkProfile::add_phases(std::size_t i, PlannedMove& move) const {
   const Pair pair = pair_of(i);
   const State from = state(i);
   const JerkCell& cell = cells_[i];
-  const double half = cell.start + pair.half * (from.speed + pair.half * (from.acceleration / 2 + pair.half * pair.first / 6));
+  const double change = std::max(std::abs(pair.first), std::abs(pair.second)) * pair.half;
+  if (change <= unseen_change * cell.acceleration) {
+    add_steady(cell, from, state(i + 1).speed, move);
+    return;
+  }
+  const double way = pair.half * (from.speed + pair.half * (from.acceleration / 2 + pair.half * pair.first / 6));
   move.add({.duration = Seconds(pair.half),
             .start = Mm(cell.start),
             .velocity = MmPerSecond(from.speed),
             .acceleration = MmPerSecond2(from.acceleration),
             .jerk = MmPerSecond3(pair.first)});
   move.add({.duration = Seconds(pair.half),
-            .start = Mm(half),
+            .start = Mm(cell.start + way),
             .velocity = MmPerSecond(pair.middle.speed),
             .acceleration = MmPerSecond2(pair.middle.acceleration),
             .jerk = MmPerSecond3(pair.second)});
+}
+
+// Without jerk; what goes on as the phase before did makes that longer.
+void JerkProfile::add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const {
+  Phase phase{.duration = Seconds(0),
+              .start = Mm(cell.start),
+              .velocity = MmPerSecond(from.speed),
+              .acceleration = MmPerSecond2(0),
+              .jerk = MmPerSecond3(0)};
+  if (move.phase_count > 0) {
+    const Phase& before = move.phases[move.phase_count - 1];
+    if (before.jerk == MmPerSecond3(0) &&
+        std::abs(before.acceleration.value() - from.acceleration) <= 4 * unseen_change * cell.acceleration) {
+      phase = before;
+      --move.phase_count;
+    }
+  }
+  const double way = cell.start + cell.length - phase.start.value();
+  phase.duration = Seconds(2 * way / (phase.velocity.value() + exit));
+  phase.acceleration = MmPerSecond2((exit - phase.velocity.value()) / phase.duration.value());
+  move.add(phase);
 }
 
 void JerkProfile::drop(std::size_t count) {

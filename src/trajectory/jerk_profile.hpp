@@ -39,7 +39,7 @@ class JerkProfile {
   // Plans all cells to rest at the end. Returns how many at the front are decided: all where the window is `closed`
   // (the path does rest there).
   std::size_t plan(bool closed);
-  // The two phases of a decided cell.
+  // The phases of a decided cell, two at most.
   void add_phases(std::size_t i, PlannedMove& move) const;
   // Forgets cells at the front that have been given.
   void drop(std::size_t count);
@@ -49,13 +49,6 @@ class JerkProfile {
 
   // Whether the last plan() could not do better than go on with the plan before.
   bool fell_back() const { return fell_back_; }
-
-  // For measurements.
-  std::size_t repairs = 0;
-  std::size_t plans = 0;
-  std::size_t plan_cells = 0;
-  std::size_t unrepaired = 0;
-  std::size_t conflicts = 0;
 
  private:
   struct Range {
@@ -92,6 +85,7 @@ class JerkProfile {
   double drop_at(std::size_t node) const;
   State state(std::size_t node) const;
   Pair pair_of(std::size_t i) const;
+  void add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const;
   struct Excess {  // multiples of the limits
     double force = 0;  // of speed and acceleration
     double jolt = 0;
@@ -99,6 +93,7 @@ class JerkProfile {
   Excess excess(std::size_t i) const;
   bool lower_where_exceeded(int round);
   std::size_t go_on_as_planned();
+  bool is_as_checked(std::size_t i) const;
   bool is_calm(std::size_t node) const;
 
   std::vector<LimitedAxis> axes_;
@@ -111,9 +106,11 @@ class JerkProfile {
   std::vector<double> share_;
   std::vector<double> forwards_;
   std::vector<double> x_;
-  std::vector<double> bend_;
+  std::vector<double> checked_;  // x_ when the limits were last checked
+  std::vector<std::size_t> exceeded_;
+  std::vector<double> drops_;
   std::vector<double> place_;
-  static constexpr std::size_t infinity_index = static_cast<std::size_t>(-1);
+  static constexpr std::size_t cannot_brake = static_cast<std::size_t>(-1);
   std::vector<std::size_t> hull_;
   std::size_t frozen_ = 0;  // cells at the front whose x are fixed
   State start_;             // of the front, given
