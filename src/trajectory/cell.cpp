@@ -24,8 +24,6 @@ constexpr double braking_share_at_ends = 1.0 / 64;
 constexpr double growth = 2;
 constexpr double most_cells = 10'000;  // of a segment
 
-
-
 double norm(const Point& vector) {
   double sum = 0;
   for (const double value : vector.values) sum += value * value;
@@ -66,7 +64,9 @@ void CellCutter::begin(const Segment& segment) {
   }
   const double wanted = std::min(braking * braking_share, length * turn_a_cell / std::max(turn, turn_a_cell));
   longest_ = length / std::ceil(length / std::max(wanted, length / most_cells));
-  shortest_ = curve.shape() == Curve::Shape::arc ? std::min(longest_, std::max(braking * braking_share_at_ends, longest_ / 64)) : longest_;
+  shortest_ = curve.shape() == Curve::Shape::arc
+                  ? std::min(longest_, std::max(braking * braking_share_at_ends, longest_ / 64))
+                  : longest_;
 }
 
 bool CellCutter::next(Piece& piece) {
@@ -120,8 +120,7 @@ void CellCutter::cut_at(double from, double to, Piece& piece) const {
   piece.demand_count = 0;
 
   if (curve.shape() == Curve::Shape::line) {
-    const double top =
-        std::min({segment_->speed.value(), largest_multiple(slope_in, limits_.velocity), fastest});
+    const double top = std::min({segment_->speed.value(), largest_multiple(slope_in, limits_.velocity), fastest});
     piece.cell.top_squared = top * top;
     piece.cell.acceleration = std::min(largest_multiple(slope_in, limits_.acceleration), strongest);
     piece.cell.straight = true;

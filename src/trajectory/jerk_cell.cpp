@@ -12,11 +12,11 @@ constexpr double fastest = 1e6;
 constexpr double strongest = 1e9;
 constexpr double sharpest = 1e13;
 
-constexpr double cells_a_ramp = 8;       // while the acceleration goes from 0 to its limit
-constexpr double cells_a_braking = 64;   // at least this fine against the time that braking takes
-constexpr double turn_a_cell = 0.1;      // radians
-constexpr double most_cells = 20'000;    // of a segment
-constexpr double fewest_from_rest = 8;   // of a segment that begins or ends at rest
+constexpr double cells_a_ramp = 8;      // while the acceleration goes from 0 to its limit
+constexpr double cells_a_braking = 64;  // at least this fine against the time that braking takes
+constexpr double turn_a_cell = 0.1;     // radians
+constexpr double most_cells = 20'000;   // of a segment
+constexpr double fewest_from_rest = 8;  // of a segment that begins or ends at rest
 
 double norm(const Point& vector) {
   double sum = 0;
@@ -94,7 +94,9 @@ void JerkCutter::begin(const Segment& segment, double entry_squared, double exit
   shortest_ = length_ / most_cells;
   if (entry_ == 0 || exit_ == 0) {
     longest_ = std::min(longest_, length_ / fewest_from_rest);
-    shortest_ = std::max(shortest_, 8.0 / 6 * jerk_ * tick_ * tick_ * tick_);
+    // The way of two ticks from rest.
+    const double way = std::min(8.0 / 6 * jerk_ * tick_, 2 * acceleration_) * tick_ * tick_;
+    shortest_ = std::max(shortest_, way);
   }
   shortest_ = std::min(shortest_, longest_);
   here_ = derivatives(curve, 0);
@@ -103,8 +105,7 @@ void JerkCutter::begin(const Segment& segment, double entry_squared, double exit
 double JerkCutter::speed_estimate(double s) const {
   const auto from = [this](double squared, double way) {
     const double by_acceleration = std::sqrt(squared + 2 * acceleration_ * way);
-    if (squared > 0) return by_acceleration;
-    return std::min(by_acceleration, std::cbrt(jerk_ * way * way * 4.5));
+    return std::min(by_acceleration, std::sqrt(squared) + std::cbrt(jerk_ * way * way * 4.5));
   };
   return std::min({top_, from(entry_, s), from(exit_, std::max(length_ - s, 0.0))});
 }
@@ -139,14 +140,25 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
                  .third_in = here_.third.values[i],
                  .third_out = there.third.values[i]};
     const double third = std::max(std::abs(shapes[k].third_in), std::abs(shapes[k].third_out));
-    const double steepest = std::max(std::abs(shapes[k].slope_in), std::abs(shapes[k].slope_out)) +
-                            cell.length * cell.length / 8 * third;
+    const double steepest =
+        std::max(std::abs(shapes[k].slope_in), std::abs(shapes[k].slope_out)) + cell.length * cell.length / 8 * third;
     if (steepest > 0) top = std::min(top, axes_[k].velocity / steepest);
   }
   cell.top_squared = top * top;
   here_ = there;
   at_ = to;
   return true;
+}
+
+double JerkCutter::joint_cap(const Segment& before, const Segment& after) const {
+  const Point in = before.curve.second_derivative(before.curve.length());
+  const Point out = after.curve.second_derivative(Mm(0));
+  double cap = entry_cap(after);
+  for (const LimitedAxis& axis : axes_) {
+    const double jump = std::abs(out.values[axis.index] - in.values[axis.index]);
+    if (jump > 0) cap = std::min(cap, unseen_jump * axis.acceleration / jump);
+  }
+  return cap;
 }
 
 double JerkCutter::entry_cap(const Segment& segment) const {

@@ -34,6 +34,10 @@ struct AxisShape {
   double third_out = 0;
 };
 
+// A change of the path's second derivative where segments join is passed so slowly that no axis's acceleration jumps
+// by more than this part of its limit.
+inline constexpr double unseen_jump = 2e-4;
+
 struct JerkCell {
   double start = 0;         // s on the segment's curve
   double length = 0;        // mm, above 0
@@ -53,10 +57,11 @@ class JerkCutter {
   // Next cell; `shapes` takes one for each axis.
   bool next(JerkCell& cell, AxisShape* shapes);
 
-  // What a segment allows at its start for the cut of the one before; squared.
-  double entry_cap(const Segment& segment) const;
+  // The square of the speed at which a joint may be passed, for the cut.
+  double joint_cap(const Segment& before, const Segment& after) const;
 
  private:
+  double entry_cap(const Segment& segment) const;
   struct Derivatives {
     Point first;
     Point second;

@@ -38,7 +38,8 @@ bool JerkPlanner::next(MotionItem& item) {
 void JerkPlanner::look_ahead() {
   profile_.drop(given_);
   given_ = decided_ = 0;
-  const std::size_t wanted = std::max<std::size_t>(profile_.fell_back() ? profile_.size() : 2 * profile_.size(), first_window);
+  const std::size_t wanted =
+      std::max<std::size_t>(profile_.fell_back() ? profile_.size() : 2 * profile_.size(), first_window);
   while (!closed_ && profile_.size() < wanted && profile_.size() < most_queued_) pull();
   if (profile_.size() == 0) return;
   decided_ = profile_.plan(closed_);
@@ -89,9 +90,9 @@ void JerkPlanner::pull() {
   double exit = 0;
   if (segments_.size() > cut_ + 1 && segment.mode != PathMode::exact_stop) {
     const Segment& after = segments_[cut_ + 1];
-    if (!has_corner(segment.curve, after.curve)) exit = cutter_.entry_cap(after);
+    if (!has_corner(segment.curve, after.curve)) exit = cutter_.joint_cap(segment, after);
   }
-  estimate_ = begins_at_rest_ ? 0 : std::min(estimate_, cutter_.entry_cap(segment));
+  estimate_ = begins_at_rest_ ? 0 : std::min(estimate_, cutter_.joint_cap(segments_[cut_ - 1], segment));
   cutter_.begin(segment, estimate_, exit);
   cutting_ = true;
 }

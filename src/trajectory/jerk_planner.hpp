@@ -33,9 +33,9 @@ class JerkPlanner final : public Source<MotionItem> {
   std::deque<Segment> segments_;  // whose cells are in the profile, or are being cut, and then the one that follows
   std::size_t cut_ = 0;           // of them
   bool cutting_ = false;
-  bool begins_at_rest_ = true;    // the next cell
-  double estimate_ = 0;           // squared: how fast the next cell may be entered
-  bool path_ended_ = false;       // no more segments before the action or the end
+  bool begins_at_rest_ = true;  // the next cell
+  double estimate_ = 0;         // squared: how fast the next cell may be entered
+  bool path_ended_ = false;     // no more segments before the action or the end
   bool closed_ = false;
   std::size_t decided_ = 0;  // cells at the front that nothing to come can change
   std::size_t given_ = 0;    // of them

@@ -14,15 +14,16 @@ constexpr double planned_jerk = 0.95;
 constexpr double planned_acceleration = 0.98;
 constexpr double planned_velocity = 0.9999;
 constexpr double constant_speed_jerk = 0.9;  // of the jerk, for the bends of the path alone
-// A change of the path's second derivative where segments join is passed so slowly that no axis's acceleration jumps
-// by more than this part of its limit.
-constexpr double unseen_jump = 2e-4;
-constexpr int most_repairs = 40;
+constexpr double most_growth = 3;            // of x within a cell where more cannot be played
+constexpr double most_above_cap = 4;
+constexpr int most_repairs = 80;
+constexpr int rounds_a_refinement = 10;
 constexpr double least_share = 0.2;
 constexpr std::size_t most_undecided = 600;  // cells in which a calm place is looked for
-constexpr double looked_at = 0.99;  // curves are looked at in three places of a cell
+constexpr double looked_at = 0.99;           // curves are looked at in three places of a cell
 // Of the acceleration: a change that is none.
 constexpr double unseen_change = 1e-6;
+constexpr double weak = 100;    // mm/s², for axes without a limit
 constexpr double accepted = 1;  // of a limit
 
 }  // namespace
@@ -38,7 +39,7 @@ void JerkProfile::push(const JerkCell& cell, const AxisShape* shapes, bool at_re
       double bend = std::abs(shapes[k].bend_in);
       double third = std::abs(shapes[k].third_in);
       if (joined) {
-        const double jump = std::abs(bend - std::abs(before[k].bend_out));
+        const double jump = std::abs(shapes[k].bend_in - before[k].bend_out);
         if (jump * cap > unseen_jump * axes_[k].acceleration) cap = unseen_jump * axes_[k].acceleration / jump;
         bend = std::max(bend, std::abs(before[k].bend_out));
         third = std::max(third, std::abs(before[k].third_out));
@@ -133,10 +134,10 @@ bool JerkProfile::step(std::size_t i, bool backwards, March& march) const {
     slope = std::min(0.75 * range.high * time, 0.75 * most);
   } else {
     const double v = std::sqrt(march.x);
+    const double a = backwards ? -march.slope : march.slope;
+    const double high = jerk_range(near, v, a).high;
     const auto rise = [&](double guess) {
       time = 2 * h / (v + std::sqrt(std::max(march.x + 2 * h * guess, 0.0)));
-      const double a = backwards ? -std::max(march.slope, 0.0) : std::max(march.slope, 0.0);
-      const double high = jerk_range(near, v, a).high;
       return march.slope + high * (march.half + time / 2);
     };
     slope = rise(std::max(march.slope, 0.0));
@@ -249,7 +250,7 @@ void JerkProfile::cut_corners() {
   }
 }
 
-std::size_t JerkProfile::plan(bool closed) {
+void JerkProfile::prepare() {
   const std::size_t n = cells_.size();
   cap_.assign(entry_cap_.begin(), entry_cap_.end());
   cap_.push_back(0);
@@ -262,9 +263,55 @@ std::size_t JerkProfile::plan(bool closed) {
   place_.resize(n + 1);
   place_[0] = 0;
   for (std::size_t i = 0; i < n; ++i) place_[i + 1] = place_[i] + cells_[i].length;
+}
+
+// In two halves.
+void JerkProfile::split(std::size_t i) {
+  const auto at = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
+  JerkCell second = cells_[i];
+  const double half = second.length / 2;
+  second.start += half;
+  second.length -= half;
+  cells_[i].length = half;
+  cells_[i].ends_segment = false;
+  const std::vector<AxisShape> whole(shapes(i), shapes(i) + axes_.size());
+  cells_.insert(at(cells_, i + 1), second);
+  shapes_.insert(at(shapes_, (i + 1) * axes_.size()), whole.begin(), whole.end());
+  double cap = second.top_squared * planned_velocity * planned_velocity;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    AxisShape& first = shapes(i)[k];
+    AxisShape& last = shapes(i + 1)[k];
+    first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
+    first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
+    first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
+    if (std::abs(last.bend_in) * cap > planned_acceleration * axes_[k].acceleration) {
+      cap = planned_acceleration * axes_[k].acceleration / std::abs(last.bend_in);
+    }
+    const double third = std::abs(last.third_in);
+    if (third > 0) cap = std::min(cap, std::pow(constant_speed_jerk * axes_[k].jerk / third, 2.0 / 3));
+  }
+  entry_cap_.insert(at(entry_cap_, i + 1), cap);
+  entry_share_.insert(at(entry_share_, i + 1), planned_jerk);
+}
+
+// From rest there is no plan to fall back on: finer cells make one.
+void JerkProfile::refine() {
+  for (std::size_t k = exceeded_.size(); k-- > 0;) {
+    const std::size_t i = exceeded_[k];
+    const bool apart = k + 1 == exceeded_.size() || exceeded_[k + 1] > i + 1;
+    if (apart && i + 1 < cells_.size()) split(i + 1);
+    split(i);
+    if (i > 0 && (k == 0 || exceeded_[k - 1] + 2 < i)) split(i - 1);
+  }
+  prepare();
+}
+
+std::size_t JerkProfile::plan(bool closed) {
+  prepare();
   kept_.assign(x_.begin(), x_.end());
   std::size_t decided = 0;
   bool good = false;
+  bool new_cells = true;  // cut since `decided` was counted
   for (int round = 0; round < most_repairs && !good; ++round) {
     if (frozen_ > 0) {
       cap_[0] = std::max(cap_[0], kept_[0]);
@@ -273,12 +320,18 @@ std::size_t JerkProfile::plan(bool closed) {
     go_forwards();
     const std::size_t free = go_backwards(closed);
     if (free == cannot_brake) break;
-    if (round == 0) decided = free;
+    if (new_cells) decided = free;
+    new_cells = false;
     cut_corners();
     good = !lower_where_exceeded(round);
+    if (!good && frozen_ == 0 && round % rounds_a_refinement == rounds_a_refinement - 1) {
+      refine();
+      new_cells = true;
+    }
   }
   fell_back_ = !good && frozen_ > 0;
   if (fell_back_) return go_on_as_planned();
+  const std::size_t n = cells_.size();
   planned_ = n;
   if (closed) return n;
   // The last chord whose both ends are decided, and preferably where nothing was repaired: what is given there will
@@ -351,6 +404,11 @@ JerkProfile::Pair JerkProfile::pair_of(std::size_t i) const {
   return pair;
 }
 
+double JerkProfile::highest(const State& from, double jerk, double time) {
+  const bool turns = from.acceleration > 0 && from.acceleration + jerk * time < 0;
+  return turns ? from.speed - from.acceleration * from.acceleration / (2 * jerk) : from.speed;
+}
+
 // The largest multiples of the limits.
 JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const Pair pair = pair_of(i);
@@ -358,19 +416,21 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const State from = state(i);
   const State to = state(i + 1);
   const JerkCell& cell = cells_[i];
+  // Straight pieces are rounded above the low place between them: where a jump is to stay unseen, too much.
+  if (from.speed * from.speed > most_above_cap * cap_[i]) return {2, 0};
+  const double top =
+      std::max({to.speed, highest(from, pair.first, pair.half), highest(pair.middle, pair.second, pair.half)});
   Excess worst;
   if (cell.straight) {
     const double jerk = std::max(std::abs(pair.first), std::abs(pair.second)) / cell.jerk;
-    const double acceleration = std::max({std::abs(from.acceleration), std::abs(to.acceleration),
-                                          std::abs(pair.middle.acceleration)}) /
-                                cell.acceleration;
-    const double top = std::sqrt(cell.top_squared);
-    return {std::max(acceleration, std::max({from.speed, to.speed, pair.middle.speed}) / top), jerk};
+    const double acceleration =
+        std::max({std::abs(from.acceleration), std::abs(to.acceleration), std::abs(pair.middle.acceleration)}) /
+        cell.acceleration;
+    return {std::max(acceleration, top / std::sqrt(cell.top_squared)), jerk};
   }
   const AxisShape* shape = shapes(i);
   const double share =
       pair.half * (from.speed + pair.half * (from.acceleration / 2 + pair.half * pair.first / 6)) / cell.length;
-  const double top = std::max({from.speed, to.speed, pair.middle.speed});
   worst.force = top * top / cell.top_squared;
   for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
     const double third = shape->third_in + share * (shape->third_out - shape->third_in);
@@ -380,8 +440,8 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
     const auto see = [&](double first, double second, double third_here, const State& at, double jerk) {
       const double v = at.speed;
       const double force = std::abs(first * at.acceleration + second * v * v) / (axes_[k].acceleration * looked_at);
-      const double jolt =
-          std::abs(first * jerk + 3 * second * v * at.acceleration + third_here * v * v * v) / (axes_[k].jerk * looked_at);
+      const double jolt = std::abs(first * jerk + 3 * second * v * at.acceleration + third_here * v * v * v) /
+                          (axes_[k].jerk * looked_at);
       worst.force = std::max(worst.force, force);
       worst.jolt = std::max(worst.jolt, jolt);
     };
@@ -401,10 +461,11 @@ bool JerkProfile::lower_where_exceeded(int round) {
   const double most = round < 8 ? 0.8 : round < 16 ? 0.6 : 0.3;
   const double least = round < 4 ? 0.98 : round < 8 ? 0.95 : 0.9;
   for (std::size_t i = 0; i < n; ++i) {
-    if (round > 0 && is_as_checked(i)) continue;
+    if (round > 0 && checked_.size() == x_.size() && is_as_checked(i)) continue;
     const Excess worst = excess(i);
     if (worst.force <= accepted && worst.jolt <= accepted) continue;
     exceeded_.push_back(i);
+    if (!(pair_of(i).half > 0)) flatten(i);
     const double slower = std::clamp(1 / std::max(worst.force, std::cbrt(worst.jolt * worst.jolt)), most, least);
     const double gentler = std::clamp(1 / worst.jolt, most, least);
     const std::size_t from = i > reach ? i - reach : 0;
@@ -417,6 +478,13 @@ bool JerkProfile::lower_where_exceeded(int round) {
   checked_.assign(x_.begin(), x_.end());
   for (const std::size_t i : exceeded_) checked_[i] = -1;
   return !exceeded_.empty();
+}
+
+// Too much change within one cell, at whatever speed.
+void JerkProfile::flatten(std::size_t i) {
+  const double most = most_growth * std::min(x_[i], x_[i + 1]);
+  cap_[i] = std::min(cap_[i], most);
+  cap_[i + 1] = std::min(cap_[i + 1], most);
 }
 
 // A cell's phases follow from four nodes.
@@ -434,7 +502,7 @@ void JerkProfile::add_phases(std::size_t i, PlannedMove& move) const {
   const State from = state(i);
   const JerkCell& cell = cells_[i];
   const double change = std::max(std::abs(pair.first), std::abs(pair.second)) * pair.half;
-  if (change <= unseen_change * cell.acceleration) {
+  if (change <= unseen_change * std::min(cell.acceleration, weak) && from.speed > 0 && x_[i + 1] > 0) {
     add_steady(cell, from, state(i + 1).speed, move);
     return;
   }
@@ -460,8 +528,8 @@ void JerkProfile::add_steady(const JerkCell& cell, const State& from, double exi
               .jerk = MmPerSecond3(0)};
   if (move.phase_count > 0) {
     const Phase& before = move.phases[move.phase_count - 1];
-    if (before.jerk == MmPerSecond3(0) &&
-        std::abs(before.acceleration.value() - from.acceleration) <= 4 * unseen_change * cell.acceleration) {
+    if (before.jerk == MmPerSecond3(0) && std::abs(before.acceleration.value() - from.acceleration) <=
+                                              4 * unseen_change * std::min(cell.acceleration, weak)) {
       phase = before;
       --move.phase_count;
     }

@@ -1,9 +1,9 @@
 // JerkProfile: how fast each cell of a window of the path is entered, so that no axis exceeds its jerk either. Private
 // to trajectory/.
 //
-// Over the way s the square x = v² of the speed is a chain of straight pieces, one a cell; the slope of a piece is twice
-// the acceleration, and where two meet the acceleration changes by jerk times the time from the middle of one to the
-// middle of the other.
+// Over the way s the square x = v² of the speed is a chain of straight pieces, one a cell; the slope of a piece is
+// twice the acceleration, and where two meet the acceleration changes by jerk times the time from the middle of one to
+// the middle of the other.
 //
 //   x  cap ____  /chord\ ____    forwards:  from every place, the acceleration rises no faster than the jerk lets it;
 //        \ /F  \/       \B  /    backwards: the same for braking. The smaller of the two has convex corners nowhere
@@ -86,13 +86,18 @@ class JerkProfile {
   State state(std::size_t node) const;
   Pair pair_of(std::size_t i) const;
   void add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const;
-  struct Excess {  // multiples of the limits
+  struct Excess {      // multiples of the limits
     double force = 0;  // of speed and acceleration
     double jolt = 0;
   };
   Excess excess(std::size_t i) const;
+  static double highest(const State& from, double jerk, double time);  // speed of a phase, but for its end
   bool lower_where_exceeded(int round);
   std::size_t go_on_as_planned();
+  void prepare();
+  void split(std::size_t i);
+  void refine();
+  void flatten(std::size_t i);
   bool is_as_checked(std::size_t i) const;
   bool is_calm(std::size_t node) const;
 
@@ -112,8 +117,8 @@ class JerkProfile {
   std::vector<double> place_;
   static constexpr std::size_t cannot_brake = static_cast<std::size_t>(-1);
   std::vector<std::size_t> hull_;
-  std::size_t frozen_ = 0;  // cells at the front whose x are fixed
-  State start_;             // of the front, given
+  std::size_t frozen_ = 0;   // cells at the front whose x are fixed
+  State start_;              // of the front, given
   std::size_t planned_ = 0;  // cells for which x_ is a plan to rest
   std::vector<double> kept_;
   bool fell_back_ = false;

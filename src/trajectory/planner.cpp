@@ -94,7 +94,8 @@ class Planner::Implementation {
   }
 
   void append(const CellCutter::Piece& piece) {
-    const double cap = at_rest_ || cells_.empty() ? 0 : std::min(cells_.back().cell.top_squared, piece.cell.top_squared);
+    const double cap =
+        at_rest_ || cells_.empty() ? 0 : std::min(cells_.back().cell.top_squared, piece.cell.top_squared);
     at_rest_ = false;
     cells_.push(piece).entry_cap = cap;
   }

@@ -11,7 +11,7 @@ struct SpeedProfile {
   double start = 0;         // s
   double length = 0;        // mm
   double acceleration = 0;  // mm/s²
-  double top_squared = 0;   // (mm/s)², as the next two; these are at most top, and their difference at most 2·a·length
+  double top_squared = 0;  // (mm/s)², as the next two; these are at most top, and their difference at most 2·a·length
   double entry_squared = 0;
   double exit_squared = 0;
 };

@@ -1,8 +1,10 @@
 // Planner: segments -> phases. The fastest motion along the path that keeps every axis within its limits; look-ahead as
 // far as braking needs, in bounded memory.
 //
-//   v²    top ________                 The path is cut into cells; in each, v² is a straight line over the way. Backwards
-//        /|           \______          from the last cell known: how fast may each be entered so that all speeds after it
+//   v²    top ________                 The path is cut into cells; in each, v² is a straight line over the way.
+//   Backwards
+//        /|           \______          from the last cell known: how fast may each be entered so that all speeds after
+//        it
 //       / |           |      \         can still be met (braking)? Forwards: how fast is it really, from rest on
 //      /  |           |       \        (accelerating)? Feed and velocities cap both. Where directions of segments
 //     0 --+--cell-----+--------+-- s   differ (corners), after an exact stop and at actions the path rests.
