@@ -19,6 +19,7 @@ MotionLimits motion_limits(const MachineDescription& machine) {
   for (const AxisDescription& axis : machine.axes) {
     limits.velocity[axis.axis] = axis.velocity;
     limits.acceleration[axis.axis] = axis.acceleration;
+    limits.jerk[axis.axis] = axis.jerk;
   }
   return limits;
 }

@@ -9,6 +9,7 @@
 
 #include "cell.hpp"
 #include "cell_queue.hpp"
+#include "jerk_planner.hpp"
 #include "speed_profile.hpp"
 #include "speed_window.hpp"
 
@@ -28,18 +29,23 @@ double squared(double value) {
   return value * value;
 }
 
-bool has_corner(const Curve& before, const Curve& after) {
-  const Point change = after.tangent(Mm(0)) - before.tangent(before.length());
-  return std::any_of(change.values.begin(), change.values.end(),
-                     [](double part) { return std::abs(part) > tangent_tolerance; });
-}
-
 std::size_t limited_axes(const MotionLimits& limits) {
   return static_cast<std::size_t>(std::count_if(limits.acceleration.values.begin(), limits.acceleration.values.end(),
                                                 [](MmPerSecond2 limit) { return limit > MmPerSecond2(0); }));
 }
 
+bool has_jerk_limit(const MotionLimits& limits) {
+  return std::any_of(limits.jerk.values.begin(), limits.jerk.values.end(),
+                     [](MmPerSecond3 limit) { return limit > MmPerSecond3(0); });
+}
+
 }  // namespace
+
+bool has_corner(const Curve& before, const Curve& after) {
+  const Point change = after.tangent(Mm(0)) - before.tangent(before.length());
+  return std::any_of(change.values.begin(), change.values.end(),
+                     [](double part) { return std::abs(part) > tangent_tolerance; });
+}
 
 class Planner::Implementation {
  public:
@@ -47,9 +53,12 @@ class Planner::Implementation {
       : path_(path),
         limits_(limits),
         cutter_(limits_),
-        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {}
+        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {
+    if (has_jerk_limit(limits)) jerk_limited_.emplace(path, limits, most_queued);
+  }
 
   bool next(MotionItem& item) {
+    if (jerk_limited_) return jerk_limited_->next(item);
     if (holding_) {
       brake(item);
       return true;
@@ -304,6 +313,8 @@ class Planner::Implementation {
   Seconds longest_move_{std::numeric_limits<double>::infinity()};
   OutputState outputs_;  // after the last action
   CellCutter::Piece piece_at_hand_;
+
+  std::optional<JerkPlanner> jerk_limited_;  // takes over where an axis has a limit of jerk
 };
 
 Planner::Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)

@@ -9,6 +9,7 @@ namespace passo {
 struct MotionLimits {
   PerAxis<MmPerSecond> velocity;
   PerAxis<MmPerSecond2> acceleration;
+  PerAxis<MmPerSecond3> jerk;
 };
 
 }  // namespace passo

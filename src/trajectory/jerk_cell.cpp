@@ -1,0 +1,176 @@
+#include "jerk_cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double fastest = 1e6;
+constexpr double strongest = 1e9;
+constexpr double sharpest = 1e13;
+
+constexpr double cells_a_ramp = 8;      // while the acceleration goes from 0 to its limit
+constexpr double cells_a_braking = 64;  // at least this fine against the time that braking takes
+constexpr double turn_a_cell = 0.1;     // radians
+constexpr double most_cells = 20'000;   // of a segment
+constexpr double fewest_from_rest = 8;  // of a segment that begins or ends at rest
+
+double norm(const Point& vector) {
+  double sum = 0;
+  for (const double value : vector.values) sum += value * value;
+  return std::sqrt(sum);
+}
+
+double limit_or_infinity(double limit) {
+  return limit > 0 ? limit : infinity;
+}
+
+}  // namespace
+
+std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits) {
+  std::vector<LimitedAxis> axes;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const LimitedAxis axis{.index = i,
+                           .velocity = limit_or_infinity(limits.velocity.values[i].value()),
+                           .acceleration = limit_or_infinity(limits.acceleration.values[i].value()),
+                           .jerk = limit_or_infinity(limits.jerk.values[i].value())};
+    if (std::isfinite(axis.velocity) || std::isfinite(axis.acceleration) || std::isfinite(axis.jerk)) {
+      axes.push_back(axis);
+    }
+  }
+  return axes;
+}
+
+JerkCutter::Derivatives JerkCutter::derivatives(const Curve& curve, double s) {
+  Derivatives all{.first = curve.tangent(Mm(s)), .second = curve.second_derivative(Mm(s)), .third = {}};
+  if (curve.shape() == Curve::Shape::cubic) {
+    all.third = curve.cubic_data().third * 6;
+  } else if (curve.shape() == Curve::Shape::arc) {
+    // P = r (cos t, sin t) with r and t linear in s: P''' = -3 r' t'² (cos t, sin t) - r t'³ (-sin t, cos t).
+    const Curve::ArcData& arc = curve.arc_data();
+    const double length = curve.length().value();
+    const double turn = arc.sweep / length;
+    const double growth = (arc.end_radius - arc.start_radius) / length;
+    const double radius = arc.start_radius + growth * s;
+    const double angle = arc.start_angle + turn * s;
+    const double out = -3 * growth * turn * turn;
+    const double along = -radius * turn * turn * turn;
+    all.third[arc.first] = out * std::cos(angle) - along * std::sin(angle);
+    all.third[arc.second] = out * std::sin(angle) + along * std::cos(angle);
+  }
+  return all;
+}
+
+void JerkCutter::begin(const Segment& segment, double entry_squared, double exit_squared) {
+  segment_ = &segment;
+  at_ = 0;
+  const Curve& curve = segment.curve;
+  length_ = curve.length().value();
+  const Point steepest = curve.steepest();
+  top_ = std::min(segment.speed.value(), fastest);
+  acceleration_ = strongest;
+  jerk_ = sharpest;
+  for (const LimitedAxis& axis : axes_) {
+    const double part = std::abs(steepest.values[axis.index]);
+    if (!(part > 0)) continue;
+    top_ = std::min(top_, axis.velocity / part);
+    acceleration_ = std::min(acceleration_, axis.acceleration / part);
+    jerk_ = std::min(jerk_, axis.jerk / part);
+  }
+  entry_ = std::min(entry_squared, top_ * top_);
+  exit_ = std::min(exit_squared, top_ * top_);
+  tick_ = std::max(acceleration_ / jerk_ / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
+  longest_ = length_;
+  double turn = 0;
+  if (curve.shape() == Curve::Shape::arc) {
+    turn = std::abs(curve.arc_data().sweep);
+  } else if (curve.shape() == Curve::Shape::cubic) {
+    turn = length_ * std::max(norm(curve.second_derivative(Mm(0))), norm(curve.second_derivative(curve.length())));
+  }
+  if (turn > turn_a_cell) longest_ = length_ * turn_a_cell / turn;
+  shortest_ = length_ / most_cells;
+  if (entry_ == 0 || exit_ == 0) {
+    longest_ = std::min(longest_, length_ / fewest_from_rest);
+    // The way of two ticks from rest.
+    const double way = std::min(8.0 / 6 * jerk_ * tick_, 2 * acceleration_) * tick_ * tick_;
+    shortest_ = std::max(shortest_, way);
+  }
+  shortest_ = std::min(shortest_, longest_);
+  here_ = derivatives(curve, 0);
+}
+
+double JerkCutter::speed_estimate(double s) const {
+  const auto from = [this](double squared, double way) {
+    const double by_acceleration = std::sqrt(squared + 2 * acceleration_ * way);
+    return std::min(by_acceleration, std::sqrt(squared) + std::cbrt(jerk_ * way * way * 4.5));
+  };
+  return std::min({top_, from(entry_, s), from(exit_, std::max(length_ - s, 0.0))});
+}
+
+bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
+  if (!(at_ < length_)) return false;
+  const double left = length_ - at_;
+  double size = std::clamp(tick_ * speed_estimate(at_), shortest_, longest_);
+  size = std::clamp(tick_ * speed_estimate(at_ + std::min(size, left) / 2), shortest_, longest_);
+  if (left < 1.5 * size) {
+    size = left;
+  } else if (left < 2.5 * size) {
+    size = left / 2;
+  }
+  const double to = left - size < 1e-6 * size ? length_ : at_ + size;
+  const Derivatives there = derivatives(segment_->curve, to);
+  const bool straight = segment_->curve.shape() == Curve::Shape::line;
+  cell = {.start = at_,
+          .length = to - at_,
+          .top_squared = 0,
+          .acceleration = acceleration_,
+          .jerk = jerk_,
+          .straight = straight,
+          .ends_segment = to == length_};
+  double top = std::min(segment_->speed.value(), fastest);
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const std::size_t i = axes_[k].index;
+    shapes[k] = {.slope_in = here_.first.values[i],
+                 .slope_out = there.first.values[i],
+                 .bend_in = here_.second.values[i],
+                 .bend_out = there.second.values[i],
+                 .third_in = here_.third.values[i],
+                 .third_out = there.third.values[i]};
+    const double third = std::max(std::abs(shapes[k].third_in), std::abs(shapes[k].third_out));
+    const double steepest =
+        std::max(std::abs(shapes[k].slope_in), std::abs(shapes[k].slope_out)) + cell.length * cell.length / 8 * third;
+    if (steepest > 0) top = std::min(top, axes_[k].velocity / steepest);
+  }
+  cell.top_squared = top * top;
+  here_ = there;
+  at_ = to;
+  return true;
+}
+
+double JerkCutter::joint_cap(const Segment& before, const Segment& after) const {
+  const Point in = before.curve.second_derivative(before.curve.length());
+  const Point out = after.curve.second_derivative(Mm(0));
+  double cap = entry_cap(after);
+  for (const LimitedAxis& axis : axes_) {
+    const double jump = std::abs(out.values[axis.index] - in.values[axis.index]);
+    if (jump > 0) cap = std::min(cap, unseen_jump * axis.acceleration / jump);
+  }
+  return cap;
+}
+
+double JerkCutter::entry_cap(const Segment& segment) const {
+  const Derivatives all = derivatives(segment.curve, 0);
+  double cap = segment.speed.value() * segment.speed.value();
+  for (const LimitedAxis& axis : axes_) {
+    const double bend = std::abs(all.second.values[axis.index]);
+    const double third = std::abs(all.third.values[axis.index]);
+    if (bend > 0) cap = std::min(cap, axis.acceleration / bend);
+    if (third > 0) cap = std::min(cap, std::pow(axis.jerk / third, 2.0 / 3));
+  }
+  return cap;
+}
+
+}  // namespace passo

@@ -1,0 +1,88 @@
+// JerkCell: a short stretch of a segment for the jerk-limited profile, and the shape of each axis over it. Private to
+// trajectory/.
+//
+// With q(s) the place of an axis and v, a, j speed, acceleration and jerk along the path, the axis moves with
+//
+//     velocity q' v      acceleration q' a + q'' v²      jerk q' j + 3 q'' v a + q''' v³
+//
+// Cells are so short that about eight of them are passed while the acceleration rises from nothing to its limit.
+#pragma once
+
+#include <vector>
+
+#include "passo/path/segment.hpp"
+#include "passo/trajectory/motion_limits.hpp"
+
+namespace passo {
+
+// An axis that has any limit; what has none is infinity.
+struct LimitedAxis {
+  std::size_t index = 0;
+  double velocity = 0;
+  double acceleration = 0;
+  double jerk = 0;
+};
+std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits);
+
+// The derivatives of an axis's place by s where a cell begins and where it ends.
+struct AxisShape {
+  double slope_in = 0;
+  double slope_out = 0;
+  double bend_in = 0;
+  double bend_out = 0;
+  double third_in = 0;
+  double third_out = 0;
+};
+
+// A change of the path's second derivative where segments join is passed so slowly that no axis's acceleration jumps
+// by more than this part of its limit.
+inline constexpr double unseen_jump = 2e-4;
+
+struct JerkCell {
+  double start = 0;         // s on the segment's curve
+  double length = 0;        // mm, above 0
+  double top_squared = 0;   // by the feed and the axes' velocities
+  double acceleration = 0;  // of a straight cell: what the axes allow along the path
+  double jerk = 0;
+  bool straight = false;
+  bool ends_segment = false;
+};
+
+class JerkCutter {
+ public:
+  explicit JerkCutter(const std::vector<LimitedAxis>& axes) : axes_(axes) {}
+
+  // The squares of the speeds at which the segment may be entered and left at most: cells are shorter where it is slow.
+  void begin(const Segment& segment, double entry_squared, double exit_squared);
+  // Next cell; `shapes` takes one for each axis.
+  bool next(JerkCell& cell, AxisShape* shapes);
+
+  // The square of the speed at which a joint may be passed, for the cut.
+  double joint_cap(const Segment& before, const Segment& after) const;
+
+ private:
+  double entry_cap(const Segment& segment) const;
+  struct Derivatives {
+    Point first;
+    Point second;
+    Point third;
+  };
+  static Derivatives derivatives(const Curve& curve, double s);
+  double speed_estimate(double s) const;
+
+  const std::vector<LimitedAxis>& axes_;
+  const Segment* segment_ = nullptr;
+  double at_ = 0;
+  double length_ = 0;
+  double top_ = 0;
+  double acceleration_ = 0;
+  double jerk_ = 0;
+  double entry_ = 0;
+  double exit_ = 0;
+  double shortest_ = 0;
+  double longest_ = 0;
+  double tick_ = 0;  // about the time a cell takes
+  Derivatives here_;
+};
+
+}  // namespace passo

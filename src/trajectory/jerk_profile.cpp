@@ -1,0 +1,381 @@
+#include "jerk_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Parts of the limits that are planned with; the rest is for what straight pieces do not see.
+constexpr double planned_jerk = 0.95;
+constexpr double planned_acceleration = 0.98;
+constexpr double planned_velocity = 0.9999;
+constexpr double constant_speed_jerk = 0.9;  // of the jerk, for the bends of the path alone
+constexpr int most_repairs = 80;
+constexpr int rounds_a_refinement = 10;
+constexpr std::size_t most_undecided = 600;  // cells in which a calm place is looked for
+// Of the acceleration: a change that is none.
+
+}  // namespace
+
+void JerkProfile::push(const JerkCell& cell, const AxisShape* shapes, bool at_rest) {
+  double cap = at_rest ? 0 : cell.top_squared;
+  const bool joined = !cells_.empty();
+  const AxisShape* before = joined ? this->shapes(cells_.size() - 1) : nullptr;
+  if (joined) cap = std::min(cap, cells_.back().top_squared);
+  if (cap > 0) cap *= planned_velocity * planned_velocity;
+  if (cap > 0 && !(cell.straight && joined && cells_.back().straight)) {
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+      double bend = std::abs(shapes[k].bend_in);
+      double third = std::abs(shapes[k].third_in);
+      if (joined) {
+        const double jump = std::abs(shapes[k].bend_in - before[k].bend_out);
+        if (jump * cap > unseen_jump * axes_[k].acceleration) cap = unseen_jump * axes_[k].acceleration / jump;
+        bend = std::max(bend, std::abs(before[k].bend_out));
+        third = std::max(third, std::abs(before[k].third_out));
+      }
+      if (bend * cap > planned_acceleration * axes_[k].acceleration) {
+        cap = planned_acceleration * axes_[k].acceleration / bend;
+      }
+      if (third > 0 && third * cap * std::sqrt(cap) > constant_speed_jerk * axes_[k].jerk) {
+        cap = std::pow(constant_speed_jerk * axes_[k].jerk / third, 2.0 / 3);
+      }
+    }
+  }
+  cells_.push_back(cell);
+  shapes_.insert(shapes_.end(), shapes, shapes + axes_.size());
+  entry_cap_.push_back(cap);
+  entry_share_.push_back(planned_jerk);
+}
+
+double JerkProfile::duration(std::size_t i) const {
+  const double sum = std::sqrt(x_[i]) + std::sqrt(x_[i + 1]);
+  return sum > 0 ? 2 * cells_[i].length / sum : 0;
+}
+
+// What the axes leave for the jerk along the path: |q' j + 3 q'' v a + q''' v³| <= J.
+void JerkProfile::widen(Range& range, std::size_t cell, bool at_end, double v, double a) const {
+  const JerkCell& own = cells_[cell];
+  const double share = share_[at_end ? cell + 1 : cell];
+  if (own.straight) {
+    range.high = std::min(range.high, own.jerk * share);
+    range.low = std::max(range.low, -own.jerk * share);
+    return;
+  }
+  const AxisShape* shape = shapes(cell);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double first = at_end ? shape->slope_out : shape->slope_in;
+    const double second = at_end ? shape->bend_out : shape->bend_in;
+    const double third = at_end ? shape->third_out : shape->third_in;
+    const double limit = axes_[k].jerk * share;
+    if (first == 0 || limit == infinity) continue;
+    const double taken = (3 * second * a + third * v * v) * v;
+    const double sign = first > 0 ? 1 : -1;
+    range.high = std::min(range.high, (limit - sign * taken) / std::abs(first));
+    range.low = std::max(range.low, (-limit - sign * taken) / std::abs(first));
+  }
+}
+
+JerkProfile::Range JerkProfile::jerk_range(std::size_t node, double v, double a) const {
+  Range range{-1e13, 1e13};
+  if (node > 0) widen(range, node - 1, true, v, a);
+  if (node < cells_.size()) widen(range, node, false, v, a);
+  return range;
+}
+
+// The largest slope (forwards) or, negative, the steepest fall (backwards) of a cell for which every axis has the
+// acceleration; `near` is x where the step begins.
+double JerkProfile::most_acceleration(std::size_t i, bool backwards, double near) const {
+  const JerkCell& cell = cells_[i];
+  if (cell.straight) return cell.acceleration * planned_acceleration;
+  double most = infinity;
+  const double h2 = 2 * cell.length;
+  const AxisShape* shape = shapes(i);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double limit = axes_[k].acceleration * planned_acceleration;
+    if (limit == infinity) continue;
+    const double near_slope = backwards ? -shape->slope_out : shape->slope_in;
+    const double near_bend = backwards ? shape->bend_out : shape->bend_in;
+    const double far_slope = backwards ? -shape->slope_in : shape->slope_out;
+    const double far_bend = backwards ? shape->bend_in : shape->bend_out;
+    const auto meet = [&](double factor, double taken) {
+      if (factor > 0) most = std::min(most, (limit - taken) / factor);
+      if (factor < 0) most = std::min(most, (-limit - taken) / factor);
+    };
+    meet(near_slope, near_bend * near);
+    meet(far_slope + h2 * far_bend, far_bend * near);
+  }
+  return most;
+}
+
+// Across cell i, the acceleration rising as it may. Whether the profile is as high as its cap there, and no slope of
+// it counts behind.
+bool JerkProfile::step(std::size_t i, bool backwards, March& march) const {
+  const std::size_t near = backwards ? i + 1 : i;
+  const std::size_t far = backwards ? i : i + 1;
+  const double h = cells_[i].length;
+  const double most = most_acceleration(i, backwards, march.x);
+  double slope = 0;
+  double time = 0;
+  if (march.x == 0) {
+    Range range{-1e13, 1e13};
+    widen(range, i, backwards, 0, 0);
+    time = std::cbrt(6 * h / range.high);
+    slope = std::min(0.75 * range.high * time, 0.75 * most);
+  } else {
+    const double v = std::sqrt(march.x);
+    const double a = backwards ? -march.slope : march.slope;
+    const double high = jerk_range(near, v, a).high;
+    const auto rise = [&](double guess) {
+      time = 2 * h / (v + std::sqrt(std::max(march.x + 2 * h * guess, 0.0)));
+      return march.slope + high * (march.half + time / 2);
+    };
+    slope = rise(std::max(march.slope, 0.0));
+    slope = rise(std::clamp(slope, 0.0, most));
+    slope = std::min(slope, most);
+  }
+  slope = std::max(slope, 0.0);
+  double x = march.x + 2 * h * slope;
+  bool free = false;
+  if (x >= cap_[far]) {
+    x = cap_[far];
+    slope = (x - march.x) / (2 * h);
+    free = slope <= 0;
+  }
+  time = 2 * h / (std::sqrt(march.x) + std::sqrt(x));
+  if (free || x == 0) {
+    march = {.x = x, .slope = 0, .half = 0};
+  } else {
+    march = {.x = x, .slope = slope, .half = (march.x == 0 ? slope / 3 / (slope / time * 4 / 3) * 2 : time / 2)};
+    if (march.half != march.half) march.half = 0;
+  }
+  return free || x == 0;
+}
+
+void JerkProfile::go_forwards() {
+  March march{.x = cap_[0]};
+  std::size_t i = 0;
+  forwards_[0] = cap_[0];
+  if (frozen_ > 0) {
+    i = 1;
+    forwards_[1] = x_[1];
+    march = {.x = x_[1], .slope = slope(0), .half = duration(0) / 2};
+  }
+  for (; i < cells_.size(); ++i) {
+    step(i, false, march);
+    forwards_[i + 1] = march.x;
+  }
+}
+
+// Lowers x_ to what braking allows; the last node from which on nothing to come matters.
+std::size_t JerkProfile::go_backwards(bool closed) {
+  std::size_t decided = closed ? cells_.size() : 0;
+  March march{.x = cap_[cells_.size()]};
+  x_[cells_.size()] = std::min(march.x, forwards_[cells_.size()]);
+  const std::size_t first = frozen_ > 0 ? 1 : 0;
+  for (std::size_t i = cells_.size(); i-- > first;) {
+    const bool free = step(i, true, march);
+    if (free && decided == 0) decided = i;
+    if (i == first && frozen_ > 0) {
+      if (march.x < x_[i] * (1 - 1e-9)) return cannot_brake;
+      continue;
+    }
+    x_[i] = std::min(march.x, forwards_[i]);
+  }
+  return decided;
+}
+
+// By how much the slope may drop at a node.
+double JerkProfile::drop_at(std::size_t node) const {
+  const double v = std::sqrt(x_[node]);
+  const double time = (duration(node - 1) + duration(node)) / 2;
+  const double before = slope(node - 1);
+  const double after = slope(node);
+  const double low = std::max(jerk_range(node, v, before).low, jerk_range(node, v, after).low);
+  return std::max(-low, 0.0) * time;
+}
+
+void JerkProfile::cut_corners() {
+  const std::size_t n = cells_.size();
+  const std::size_t first = frozen_ > 0 ? 1 : 0;
+  for (std::size_t i = first + 1; i < n; ++i) drops_[i] = x_[i] > 0 ? drop_at(i) : 0;
+  std::vector<double>& y = forwards_;  // not needed any more
+  std::size_t begin = first;
+  hull_.clear();
+  while (begin < n) {
+    std::size_t end = begin + 1;
+    while (end < n && x_[end] > 0) ++end;
+    // Between rests: y = x + G, G's slope growing by the drops.
+    y[begin] = x_[begin];
+    double steep = 0;
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i > begin) steep += 2 * drops_[i];
+      sum += steep * cells_[i].length;
+      y[i + 1] = x_[i + 1] + sum;
+    }
+    const std::size_t base = hull_.size();
+    const auto place = [&](std::size_t i) { return place_[i]; };
+    for (std::size_t i = begin; i <= end; ++i) {
+      while (hull_.size() >= base + 2) {
+        const std::size_t k = hull_.back();
+        const std::size_t j = hull_[hull_.size() - 2];
+        if ((y[i] - y[k]) * (place(k) - place(j)) > (y[k] - y[j]) * (place(i) - place(k))) break;
+        hull_.pop_back();
+      }
+      hull_.push_back(i);
+    }
+    for (std::size_t k = base; k + 1 < hull_.size(); ++k) {
+      const std::size_t from = hull_[k];
+      const std::size_t to = hull_[k + 1];
+      if (to == from + 1) continue;
+      const double steepness = (y[to] - y[from]) / (place(to) - place(from));
+      for (std::size_t i = from + 1; i < to; ++i) {
+        const double lowered = y[from] + steepness * (place(i) - place(from)) - (y[i] - x_[i]);
+        x_[i] = std::min(x_[i], std::max(lowered, 0.0));
+      }
+    }
+    begin = end;
+    if (begin < n) hull_.pop_back();  // the rest begins the next
+  }
+}
+
+void JerkProfile::prepare() {
+  const std::size_t n = cells_.size();
+  cap_.assign(entry_cap_.begin(), entry_cap_.end());
+  cap_.push_back(0);
+  share_.assign(entry_share_.begin(), entry_share_.end());
+  share_.push_back(planned_jerk);
+  if (frozen_ == 0) cap_[0] = 0;
+  forwards_.resize(n + 1);
+  x_.resize(n + 1, 0.0);
+  drops_.resize(n + 1);
+  place_.resize(n + 1);
+  place_[0] = 0;
+  for (std::size_t i = 0; i < n; ++i) place_[i + 1] = place_[i] + cells_[i].length;
+}
+
+// In two halves.
+void JerkProfile::split(std::size_t i) {
+  const auto at = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
+  JerkCell second = cells_[i];
+  const double half = second.length / 2;
+  second.start += half;
+  second.length -= half;
+  cells_[i].length = half;
+  cells_[i].ends_segment = false;
+  const std::vector<AxisShape> whole(shapes(i), shapes(i) + axes_.size());
+  cells_.insert(at(cells_, i + 1), second);
+  shapes_.insert(at(shapes_, (i + 1) * axes_.size()), whole.begin(), whole.end());
+  double cap = second.top_squared * planned_velocity * planned_velocity;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    AxisShape& first = shapes(i)[k];
+    AxisShape& last = shapes(i + 1)[k];
+    first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
+    first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
+    first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
+    if (std::abs(last.bend_in) * cap > planned_acceleration * axes_[k].acceleration) {
+      cap = planned_acceleration * axes_[k].acceleration / std::abs(last.bend_in);
+    }
+    const double third = std::abs(last.third_in);
+    if (third > 0) cap = std::min(cap, std::pow(constant_speed_jerk * axes_[k].jerk / third, 2.0 / 3));
+  }
+  entry_cap_.insert(at(entry_cap_, i + 1), cap);
+  entry_share_.insert(at(entry_share_, i + 1), planned_jerk);
+}
+
+// From rest there is no plan to fall back on: finer cells make one.
+void JerkProfile::refine() {
+  for (std::size_t k = exceeded_.size(); k-- > 0;) {
+    const std::size_t i = exceeded_[k];
+    const bool apart = k + 1 == exceeded_.size() || exceeded_[k + 1] > i + 1;
+    if (apart && i + 1 < cells_.size()) split(i + 1);
+    split(i);
+    if (i > 0 && (k == 0 || exceeded_[k - 1] + 2 < i)) split(i - 1);
+  }
+  prepare();
+}
+
+std::size_t JerkProfile::plan(bool closed) {
+  prepare();
+  kept_.assign(x_.begin(), x_.end());
+  std::size_t decided = 0;
+  bool good = false;
+  bool new_cells = true;  // cut since `decided` was counted
+  for (int round = 0; round < most_repairs && !good; ++round) {
+    if (frozen_ > 0) {
+      cap_[0] = std::max(cap_[0], kept_[0]);
+      cap_[1] = std::max(cap_[1], kept_[1]);
+    }
+    go_forwards();
+    const std::size_t free = go_backwards(closed);
+    if (free == cannot_brake) break;
+    if (new_cells) decided = free;
+    new_cells = false;
+    cut_corners();
+    good = !lower_where_exceeded(round);
+    if (!good && frozen_ == 0 && round % rounds_a_refinement == rounds_a_refinement - 1) {
+      refine();
+      new_cells = true;
+    }
+  }
+  fell_back_ = !good && frozen_ > 0;
+  if (fell_back_) return go_on_as_planned();
+  const std::size_t n = cells_.size();
+  planned_ = n;
+  if (closed) return n;
+  // The last chord whose both ends are decided, and preferably where nothing was repaired: what is given there will
+  // not be regretted.
+  std::size_t last = 0;
+  std::size_t calm = 0;
+  for (std::size_t k = 0; k + 1 < hull_.size() && hull_[k + 1] <= decided; ++k) {
+    last = hull_[k];
+    if (is_calm(last)) calm = last;
+  }
+  if (calm >= 2) {
+    last = calm;
+  } else if (n < most_undecided) {
+    return 0;
+  }
+  for (std::size_t i = 0; i < last; ++i) {
+    entry_cap_[i] = cap_[i];
+    entry_share_[i] = share_[i];
+  }
+  return last >= 2 ? last - 1 : 0;
+}
+
+bool JerkProfile::is_calm(std::size_t node) const {
+  const std::size_t from = node > 3 ? node - 3 : 0;
+  const std::size_t to = std::min(node + 8, cells_.size());
+  for (std::size_t i = from; i < to; ++i) {
+    if (share_[i] != entry_share_[i] || cap_[i] < entry_cap_[i]) return false;
+  }
+  return true;
+}
+
+// There is a plan from before, to rest at the end of what was known then: a part of it is played.
+std::size_t JerkProfile::go_on_as_planned() {
+  x_.assign(kept_.begin(), kept_.end());
+  std::fill(x_.begin() + static_cast<std::ptrdiff_t>(planned_), x_.end(), 0.0);
+  return std::max<std::size_t>(planned_ / 4, 1);
+}
+
+void JerkProfile::drop(std::size_t count) {
+  if (count == 0) return;
+  const bool all = count == cells_.size();
+  if (!all) start_ = state(count);
+  const auto n = static_cast<std::ptrdiff_t>(count);
+  cells_.erase(cells_.begin(), cells_.begin() + n);
+  shapes_.erase(shapes_.begin(), shapes_.begin() + n * static_cast<std::ptrdiff_t>(axes_.size()));
+  entry_cap_.erase(entry_cap_.begin(), entry_cap_.begin() + n);
+  entry_share_.erase(entry_share_.begin(), entry_share_.begin() + n);
+  x_.erase(x_.begin(), x_.begin() + n);
+  planned_ -= std::min(planned_, count);
+  frozen_ = all || x_[0] <= 0 ? 0 : 1;
+  if (all) x_.clear();
+}
+
+}  // namespace passo

@@ -1,0 +1,127 @@
+// JerkProfile: how fast each cell of a window of the path is entered, so that no axis exceeds its jerk either. Private
+// to trajectory/.
+//
+// Over the way s the square x = v² of the speed is a chain of straight pieces, one a cell; the slope of a piece is
+// twice the acceleration, and where two meet the acceleration changes by jerk times the time from the middle of one to
+// the middle of the other.
+//
+//   x  cap ____  /chord\ ____    forwards:  from every place, the acceleration rises no faster than the jerk lets it;
+//        \ /F  \/       \B  /    backwards: the same for braking. The smaller of the two has convex corners nowhere
+//         v               \v      sharper than the jerk allows: at the lowest places it passes without acceleration.
+//   ----------------------- s    Concave corners are cut: with the most that a slope may drop at each node added up,
+//                                the profile below them is a convex hull, found in linear time (chords).
+//
+// What remains is checked against every axis on the very phases that are given, and where a limit is exceeded the
+// speed is lowered and the window planned again.
+//
+// The window ends at rest or is planned as if it did. A place where braking does not limit the speed, from which the
+// profile goes on unchanged whatever comes, decides all before it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "jerk_cell.hpp"
+
+#include "passo/trajectory/phase.hpp"
+
+namespace passo {
+
+class JerkProfile {
+ public:
+  explicit JerkProfile(const std::vector<LimitedAxis>& axes) : axes_(axes) {}
+
+  std::size_t size() const { return cells_.size(); }
+  const JerkCell& cell(std::size_t i) const { return cells_[i]; }
+
+  // One more cell; `at_rest`: it begins at rest.
+  void push(const JerkCell& cell, const AxisShape* shapes, bool at_rest);
+  // Plans all cells to rest at the end. Returns how many at the front are decided: all where the window is `closed`
+  // (the path does rest there).
+  std::size_t plan(bool closed);
+  // The phases of a decided cell, two at most.
+  void add_phases(std::size_t i, PlannedMove& move) const;
+  // Forgets cells at the front that have been given.
+  void drop(std::size_t count);
+
+  // How many at the front have a plan to rest at their end.
+  std::size_t planned() const { return planned_; }
+
+  // Whether the last plan() could not do better than go on with the plan before.
+  bool fell_back() const { return fell_back_; }
+
+ private:
+  struct Range {
+    double low, high;
+  };
+  struct State {  // at a node
+    double speed = 0;
+    double acceleration = 0;
+  };
+  struct Pair {  // of phases of a cell, each of half the time
+    double half = 0;
+    double first = 0;  // jerk
+    double second = 0;
+    State middle;
+  };
+
+  AxisShape* shapes(std::size_t i) { return &shapes_[i * axes_.size()]; }
+  const AxisShape* shapes(std::size_t i) const { return &shapes_[i * axes_.size()]; }
+  double slope(std::size_t i) const { return (x_[i + 1] - x_[i]) / (2 * cells_[i].length); }
+  double duration(std::size_t i) const;
+
+  void widen(Range& range, std::size_t cell, bool at_end, double v, double a) const;
+  Range jerk_range(std::size_t node, double v, double a) const;
+  double most_acceleration(std::size_t i, bool backwards, double near) const;
+  struct March {
+    double x = 0;
+    double slope = 0;  // of the cell before
+    double half = 0;   // half its time
+  };
+  bool step(std::size_t i, bool backwards, March& march) const;
+  void go_forwards();
+  std::size_t go_backwards(bool closed);
+  void cut_corners();
+  double drop_at(std::size_t node) const;
+  State state(std::size_t node) const;
+  Pair pair_of(std::size_t i) const;
+  void add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const;
+  struct Excess {      // multiples of the limits
+    double force = 0;  // of speed and acceleration
+    double jolt = 0;
+  };
+  Excess excess(std::size_t i) const;
+  static double highest(const State& from, double jerk, double time);  // speed of a phase, but for its end
+  bool lower_where_exceeded(int round);
+  std::size_t go_on_as_planned();
+  void prepare();
+  void split(std::size_t i);
+  void refine();
+  void flatten(std::size_t i);
+  bool is_as_checked(std::size_t i) const;
+  bool is_calm(std::size_t node) const;
+
+  std::vector<LimitedAxis> axes_;
+  std::vector<JerkCell> cells_;
+  std::vector<AxisShape> shapes_;
+  std::vector<double> entry_cap_;    // of each cell
+  std::vector<double> entry_share_;  // of the jerk, planned with where it begins
+  // Of the nodes: one more than cells.
+  std::vector<double> cap_;
+  std::vector<double> share_;
+  std::vector<double> forwards_;
+  std::vector<double> x_;
+  std::vector<double> checked_;  // x_ when the limits were last checked
+  std::vector<std::size_t> exceeded_;
+  std::vector<double> drops_;
+  std::vector<double> place_;
+  static constexpr std::size_t cannot_brake = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> hull_;
+  std::size_t frozen_ = 0;   // cells at the front whose x are fixed
+  State start_;              // of the front, given
+  std::size_t planned_ = 0;  // cells for which x_ is a plan to rest
+  std::vector<double> kept_;
+  bool fell_back_ = false;
+};
+
+}  // namespace passo
