@@ -18,6 +18,9 @@ namespace {
 // Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
 constexpr double tangent_tolerance = 1e-6;
 
+// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+constexpr double rounding = 1e-9;
+
 // A rest of a cell that is shorter, in mm, is rounding.
 constexpr double smallest_rest = 1e-9;
 
@@ -113,7 +116,8 @@ class Planner::Implementation {
   }
 
   void append(const CellCutter::Piece& piece) {
-    cells_.push(piece).begins_at_rest = std::exchange(at_rest_, false) || cells_.size() == 1;
+    const bool at_rest = std::exchange(at_rest_, false) || cells_.empty();
+    cells_.push(piece).begins_at_rest = at_rest;
     set_caps(cells_.size() - 1);
   }
 
@@ -136,7 +140,8 @@ class Planner::Implementation {
     const double most = std::min(exit_most, queued.top_squared);
     if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
     const double change = 2 * queued.cell.acceleration * queued.cell.length;
-    return std::max(std::min(most, entry + change), entry - change);
+    const bool too_fast = entry - change > most + rounding * entry;
+    return too_fast ? entry - change : std::min(most, entry + change);
   }
 
   // What is behind the queue lies between a stop at once and nothing that slows it. Both are carried back; from where
@@ -251,9 +256,15 @@ class Planner::Implementation {
     Seconds left = longest_move_;
     for (std::size_t i = 0; i < move.phase_count; ++i) {
       Phase& phase = move.phases[i];
-      if (phase.duration <= left) {
-        left -= phase.duration;
+      if (phase.duration <= left * (1 + 1e-6)) {
+        left = std::max(left - phase.duration, Seconds(0));
         continue;
+      }
+      if (left < longest_move_ * 1e-6) {  // between two phases
+        move.phase_count = i;
+        move.to = phase.start;
+        speed_squared_ = squared(phase.velocity.value());
+        return true;
       }
       phase.duration = left;
       move.phase_count = i + 1;

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 
 namespace passo {
 namespace {
+
+// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+constexpr double rounding = 1e-9;
 
 struct Corner {
   double x = 0;
@@ -100,10 +105,10 @@ namespace {
 // What the demands leave of y for a given x.
 struct Exits {
   double least = 0;
-  double most = 0;
+  double most = std::numeric_limits<double>::infinity();
 };
-Exits exits(std::span<const AxisDemand> demands, double entry, double exit_most) {
-  Exits left{.most = exit_most};
+Exits exits(std::span<const AxisDemand> demands, double entry) {
+  Exits left;
   for (const AxisDemand& demand : demands) {
     for (const auto& [p, q] : {std::pair(demand.entry_x, demand.entry_y), std::pair(demand.exit_x, demand.exit_y)}) {
       if (q == 0) continue;
@@ -118,12 +123,16 @@ Exits exits(std::span<const AxisDemand> demands, double entry, double exit_most)
 }  // namespace
 
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
-  const Exits left = exits(demands, entry, exit_most);
-  return std::max(left.most, left.least);
+  const Exits left = exits(demands, entry);
+  const double most = std::max(0.0, std::min(left.most, exit_most));
+  // On the edge of what is possible rounding may leave nothing at all; then what is slower is right.
+  const bool too_fast = left.least > most + rounding * entry && left.least <= left.most;
+  return too_fast ? left.least : most;
 }
 
 double least_exit(std::span<const AxisDemand> demands, double entry) {
-  return exits(demands, entry, 0).least;
+  const Exits left = exits(demands, entry);
+  return left.least <= left.most ? left.least : std::clamp(left.most, 0.0, entry);
 }
 
 }  // namespace passo
