@@ -9,6 +9,7 @@
 #include "passo/controller/job.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
+#include "passo/trajectory/motion_text.hpp"
 
 namespace passo {
 namespace {
@@ -79,6 +80,8 @@ class Watch {
         return;
       }
       prover_.watch(item);
+      if (action == nullptr) { EXPECT_GT(std::get<PlannedMove>(item).phase_count, 0U); }
+      if (getenv("DUMP")) { printf("%s", to_text(item).c_str()); puts(""); }
       speed_ = action != nullptr ? 0 : end_speed(std::get<PlannedMove>(item));
     });
   }
