@@ -27,6 +27,9 @@ constexpr double smallest_part = 0.02;
 // A rest of a cell that is shorter, in mm, is rounding.
 constexpr double smallest_rest = 1e-9;
 
+// In mm: a hold leaves no less of a cell, so that what is left can be halved.
+constexpr double smallest_cell = 1e-6;
+
 double squared(double value) {
   return value * value;
 }
@@ -81,6 +84,7 @@ class Planner::Implementation {
   void resume() {
     holding_ = false;
     decided_ = 0;
+    if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
   }
 
  private:
@@ -228,14 +232,19 @@ class Planner::Implementation {
 
   double planned_exit() const { return exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0); }
 
-  // To rest within a straight cell; a curved one is short, and left at its end. Never faster than without the hold: where
-  // the path rests anyway, rounding leaves no speed.
+  // To rest within the cell where that can be, or through it as slow as can be. Never faster than without the hold:
+  // where the path rests anyway, rounding leaves no speed.
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
-    if (!cell.straight) return {cell.length, std::min(planned_exit(), least_exit(cells_.demands(0), speed_squared_))};
-    const double distance = speed_squared_ / (2 * cell.acceleration);
-    if (distance < cell.length) return {distance, 0};
-    return {cell.length, std::clamp(speed_squared_ - 2 * cell.acceleration * cell.length, 0.0, planned_exit())};
+    const double deceleration =
+        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cell.length, speed_squared_);
+    if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
+      const double way = speed_squared_ / (2 * deceleration);
+      return {way + smallest_cell < cell.length ? way : cell.length, 0};
+    }
+    const double least = cell.straight ? std::max(0.0, speed_squared_ - 2 * cell.acceleration * cell.length)
+                                       : least_exit(cells_.demands(0), speed_squared_);
+    return {cell.length, std::min(least, planned_exit())};
   }
 
   // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
@@ -262,6 +271,25 @@ class Planner::Implementation {
       segments_.pop_front();
     }
     return shortened || last;
+  }
+
+  // A curved cell either speeds up or brakes: from a rest in the last one of a stretch it takes two to the next rest.
+  void halve_front() {
+    const double start = cells_[0].cell.start;
+    const double end = start + cells_[0].cell.length;
+    const double middle = start + cells_[0].cell.length / 2;
+    const double exit = planned_exit();
+    const double halfway = (speed_squared_ + exit) / 2;
+    cutter_.cut(segments_.front(), middle, end, piece_at_hand_);
+    allow(halfway, exit, piece_at_hand_);
+    cells_.replace_front(piece_at_hand_);
+    cutter_.cut(segments_.front(), start, middle, piece_at_hand_);
+    allow(speed_squared_, halfway, piece_at_hand_);
+    cells_.push_front(piece_at_hand_);
+    cells_[1].begins_at_rest = false;
+    cells_[1].entry_if_rest = halfway;
+    set_caps(0);
+    set_caps(1);
   }
 
   // In the middle of a cell an axis may demand more than is asked for at the ends of one, which leaves room for what is

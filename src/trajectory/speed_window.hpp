@@ -26,4 +26,8 @@ double largest_exit(std::span<const AxisDemand> demands, double entry, double ex
 // The smallest y: braking as hard as may be.
 double least_exit(std::span<const AxisDemand> demands, double entry);
 
+// A deceleration from this x to rest that all demands allow wherever in the cell of this length the rest is; 0 or less:
+// none is sure to be allowed.
+double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry);
+
 }  // namespace passo
