@@ -1,6 +1,7 @@
 // Hold, resume, override and stop at random instants: on the path, within the limits, and with nothing lost.
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace passo {
 namespace {
 
-using State = Drive::State;
+using State = MotionDrive::State;
 
 MachineDescription example_machine(const std::string& name) {
   Diagnostics diagnostics;
@@ -94,7 +95,7 @@ class Watch {
 };
 
 // One random act in mid-run, or none.
-void meddle(Drive& drive, test::Random& random, Ending& ending) {
+void meddle(MotionDrive& drive, test::Random& random, Ending& ending) {
   switch (drive.state()) {
     case State::running:
       if (random.chance(0.03)) {
@@ -160,18 +161,137 @@ void expect_nothing_lost(const std::string& program, const std::string& machine_
   std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides);
 }
 
+constexpr std::array<const char*, 4> machines = {"bench", "router", "pantograph", "forty-eight"};
+
 TEST(MidRun, holds_and_overrides_lose_nothing_on_lines) {
-  for (const char* machine : {"bench", "router", "pantograph", "forty-eight"}) expect_nothing_lost(lines(), machine, 4);
+  for (const char* machine : machines) expect_nothing_lost(lines(), machine, 2);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_on_arcs) {
-  for (const char* machine : {"bench", "router", "pantograph", "forty-eight"}) expect_nothing_lost(arcs(), machine, 4);
+  for (const char* machine : machines) expect_nothing_lost(arcs(), machine, 1);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_on_dense_paths) {
-  for (const char* machine : {"bench", "router", "pantograph", "forty-eight"}) expect_nothing_lost(dense(), machine, 4);
+  for (const char* machine : machines) expect_nothing_lost(dense(), machine, 1);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_in_cycles) {
-  for (const char* machine : {"bench", "router", "pantograph", "forty-eight"})
-    expect_nothing_lost(cycles(), machine, 4);
+  for (const char* machine : machines) expect_nothing_lost(cycles(), machine, 2);
+}
+
+// The steps of all motors, as the virtual machine made them.
+class Steps final : public MachineObserver {
+ public:
+  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
+    times.push_back(time.count);
+    motors.push_back(stepped | directions << 8);
+  }
+  std::vector<std::int64_t> times;
+  std::vector<int> motors;
+};
+
+struct Reaction {
+  double committed = 0;  // at the hold, as the drive says
+  double seen = -1;      // from the hold to the first step that is later than without it; -1: none was
+};
+
+// Runs once as it is and once with a hold at `at`, and compares the steps.
+Reaction reaction_to_hold(const std::string& program, const MachineDescription& machine, double at) {
+  Reaction reaction;
+  std::array<Steps, 2> steps;
+  double asked = 0;
+  for (const bool held : {false, true}) {
+    Diagnostics diagnostics;
+    Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+    job.machine().add_observer(steps[held ? 1 : 0]);
+    MotionDrive& drive = job.drive();
+    drive.go_live({});
+    while (job.advance() && drive.state() != State::held) {
+      if (!held || asked > 0 || drive.now().value() < at) continue;
+      drive.hold();
+      asked = drive.now().value();
+      reaction.committed = drive.committed().value();
+    }
+  }
+  // The board segments are others from the hold on, so that a step may fall a tick beside where it was.
+  constexpr std::int64_t rounding = 4;
+  for (std::size_t i = 0; i < std::min(steps[0].times.size(), steps[1].times.size()); ++i) {
+    if (std::abs(steps[1].times[i] - steps[0].times[i]) <= rounding) continue;
+    reaction.seen = static_cast<double>(steps[1].times[i]) / machine.board.clock.value() - asked;
+    break;
+  }
+  return reaction;
+}
+
+TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
+  test::Random random;
+  const LiveOptions live;
+  for (const char* name : machines) {
+    const MachineDescription machine = example_machine(name);
+    double most_committed = 0;
+    double most_seen = 0;
+    double most_beyond = 0;
+    // Where the speed is even: the machine slows for the hold and for nothing else.
+    for (const char* program : {"G21 G90 G1 X100 F1200\nM2\n", "G21 G90 G2 I40 F900\nM2\n"}) {
+      for (int i = 0; i < 3; ++i) {
+        const Reaction reaction = reaction_to_hold(program, machine, random.between(1, 4));
+        EXPECT_LE(reaction.committed, live.horizon.value() + 3 * live.longest_move.value());
+        EXPECT_GT(reaction.seen, 0) << name;
+        EXPECT_LE(reaction.seen, reaction.committed + 0.010) << name;
+        most_committed = std::max(most_committed, reaction.committed);
+        most_seen = std::max(most_seen, reaction.seen);
+        if (reaction.seen > 0) most_beyond = std::max(most_beyond, reaction.seen - reaction.committed);
+      }
+    }
+    std::printf(
+        "%-12s committed at most %.1f ms, slower after at most %.1f ms, at most %.1f ms beyond what was committed\n",
+        name, most_committed * 1e3, most_seen * 1e3, most_beyond * 1e3);
+  }
+}
+
+TEST(MidRun, a_stop_ends_at_rest_on_the_path_with_the_outputs_off_and_the_place_known) {
+  test::Random random;
+  const MachineDescription machine = example_machine("router");
+  for (const std::string& program : {lines(), arcs(), dense(), cycles()}) {
+    for (int i = 0; i < 5; ++i) {
+      Diagnostics diagnostics;
+      Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+      MotionDrive& drive = job.drive();
+      drive.go_live({});
+      Point place;
+      double speed = 0;
+      job.motion().watch([&](const MotionItem& item) {
+        const auto* move = std::get_if<PlannedMove>(&item);
+        if (move == nullptr) return;
+        place = move->segment.curve.at(move->to);
+        speed = move->phases[move->phase_count - 1].velocity_at(move->phases[move->phase_count - 1].duration).value();
+      });
+      const double at = random.between(0.05, 2);
+      while (job.advance()) {
+        if (drive.now().value() >= at) drive.stop();
+      }
+      EXPECT_EQ(drive.state(), State::ended);
+      EXPECT_NEAR(speed, 0, 1e-6);
+      const MachineCounts counts = job.machine().counts();
+      EXPECT_EQ(counts.outputs.switches, 0);
+      for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+        const AxisDescription& axis = machine.axes[m];
+        const double steps = place[axis.axis] * (axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
+        EXPECT_NEAR(static_cast<double>(counts.motors[m].position), steps, 0.5 + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(MidRun, a_drive_at_rest_is_held_at_once_and_goes_on) {
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", lines()), example_machine("router"), InterpreterOptions(), diagnostics);
+  MotionDrive& drive = job.drive();
+  drive.hold();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(job.advance());
+  EXPECT_EQ(drive.state(), State::held);
+  EXPECT_EQ(drive.now().value(), 0);
+  drive.resume();
+  while (job.advance()) {
+  }
+  EXPECT_EQ(drive.state(), State::ended);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "passo/base/source.hpp"
-#include "passo/controller/drive.hpp"
+#include "passo/controller/motion_drive.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -42,7 +42,7 @@ class Job {
   [[nodiscard]] bool advance() { return drive_.advance(); }
 
   // To hold, resume, change and stop it in mid-run.
-  Drive& drive() { return drive_; }
+  MotionDrive& drive() { return drive_; }
 
   // Who wants to watch, before the first advance().
   Tap<PathItem>& path() { return watched_path_; }
@@ -66,7 +66,7 @@ class Job {
   Tap<PathItem> watched_path_;
   PathSmoother smoother_;   // corners -> curves within the tolerance
   VirtualMachine machine_;  // what is at the other end of the wire
-  Drive drive_;             // segments -> phases -> board segments -> wire
+  MotionDrive drive_;       // segments -> phases -> board segments -> wire
 
   Seconds nominal_time_{0};
 };

@@ -1,4 +1,4 @@
-// Drive: a path becomes steps on a board, and may be held, resumed, changed in speed or stopped at any instant.
+// MotionDrive: a path becomes steps on a board, and may be held, resumed, changed in speed or stopped at any instant.
 //
 // The lower half of the street: planner, step generator, link. What the planner has given is committed: it is played as
 // it is. What comes after is planned anew from there, on the path and within the limits, so that a change takes effect
@@ -26,7 +26,7 @@ struct LiveOptions {
   Seconds longest_move{0.005};  // the planner's moves end after this time
 };
 
-class Drive {
+class MotionDrive {
  public:
   enum class State : std::uint8_t {
     running,
@@ -36,7 +36,7 @@ class Drive {
   };
 
   // `path` and `machine` outlive the drive, and no other drive uses the machine meanwhile.
-  Drive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, VirtualMachine& machine);
+  MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, VirtualMachine& machine);
 
   // Before the first advance().
   void go_live(const LiveOptions& options);

@@ -1,4 +1,4 @@
-#include "passo/controller/drive.hpp"
+#include "passo/controller/motion_drive.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -24,7 +24,8 @@ BoardOutputs board_outputs(const OutputState& state) {
 
 }  // namespace
 
-Drive::Drive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, VirtualMachine& machine)
+MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
+                         VirtualMachine& machine)
     : tick_rate_(steps.clock.tick_rate),
       machine_(machine),
       planner_(path, limits),
@@ -36,13 +37,13 @@ Drive::Drive(Source<PathItem>& path, const MotionLimits& limits, const StepOptio
   watched_motion_.watch([this](const MotionItem& item) { planned_ += time_of(item); });
 }
 
-void Drive::go_live(const LiveOptions& options) {
+void MotionDrive::go_live(const LiveOptions& options) {
   horizon_ = options.horizon;
   planner_.limit_moves_to(options.longest_move);
   step_generator_.limit_waiting_to(options.longest_move);
 }
 
-bool Drive::advance() {
+bool MotionDrive::advance() {
   if (state_ == State::ended) return false;
   if (state_ == State::held) return true;
   if (committed() >= horizon_ && link_.busy()) {
@@ -55,7 +56,7 @@ bool Drive::advance() {
   return state_ != State::ended && (!link_.error() || end());
 }
 
-void Drive::send(const BoardItem& item) {
+void MotionDrive::send(const BoardItem& item) {
   if (const auto* segment = std::get_if<BoardSegment>(&item)) return link_.send(*segment);
   const auto& action = std::get<Action>(item);
   if (action.kind != Action::Kind::feed_hold) return link_.send(board_outputs(action.outputs));
@@ -63,7 +64,7 @@ void Drive::send(const BoardItem& item) {
   if (state_ == State::holding) rest_in_hold();
 }
 
-void Drive::rest_in_hold() {
+void MotionDrive::rest_in_hold() {
   if (stopping_) {
     link_.send(BoardOutputs{});
     end();
@@ -73,32 +74,32 @@ void Drive::rest_in_hold() {
   state_ = State::held;
 }
 
-bool Drive::end() {
+bool MotionDrive::end() {
   link_.drain();
   state_ = State::ended;
   return false;
 }
 
-void Drive::hold() {
+void MotionDrive::hold() {
   if (state_ != State::running) return;
   planner_.hold();
   state_ = State::holding;
 }
 
-void Drive::resume() {
+void MotionDrive::resume() {
   if (stopping_ || (state_ != State::holding && state_ != State::held)) return;
   planner_.resume();
   state_ = State::running;
 }
 
-void Drive::stop() {
+void MotionDrive::stop() {
   if (state_ == State::ended) return;
   stopping_ = true;
   if (state_ == State::held) return rest_in_hold();
   hold();
 }
 
-void Drive::wait(Seconds time) {
+void MotionDrive::wait(Seconds time) {
   assert(state_ == State::held);
   const Ticks ticks{std::llround(tick_rate_ * time)};
   machine_.wait(ticks);
