@@ -20,16 +20,6 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
-BoardOutputs board_outputs(const OutputState& state) {
-  unsigned switches = 0;
-  if (state.spindle != SpindleDirection::off) switches |= OutputSwitch::spindle_on;
-  if (state.spindle == SpindleDirection::counterclockwise) switches |= OutputSwitch::spindle_reverse;
-  if (state.mist) switches |= OutputSwitch::mist_on;
-  if (state.flood) switches |= OutputSwitch::flood_on;
-  const double rpm = std::clamp(std::round(state.revolutions_per_minute), 0.0, 65535.0);
-  return {.switches = static_cast<std::uint8_t>(switches), .spindle_rpm = static_cast<std::uint16_t>(rpm)};
-}
-
 }  // namespace
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
@@ -57,26 +47,9 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       path_builder_(interpreter_, path_options_, diagnostics),
       watched_path_(path_builder_),
       smoother_(watched_path_),
-      planner_(smoother_, limits_),
-      watched_motion_(planner_),
-      step_generator_(watched_motion_, step_options(machine)),
-      watched_board_(step_generator_),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
-      link_(machine_, static_cast<std::uint8_t>(machine.axes.size())) {
+      drive_(smoother_, limits_, step_options(machine), machine_) {
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
-}
-
-bool Job::advance() {
-  if (link_.error() || !watched_board_.next(item_)) {
-    link_.drain();
-    return false;
-  }
-  if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
-    link_.send(*segment);
-  } else {
-    link_.send(board_outputs(std::get<Action>(item_).outputs));
-  }
-  return true;
 }
 
 }  // namespace passo

@@ -37,7 +37,13 @@ void InProcessLink::send(const BoardOutputs& outputs) {
 }
 
 void InProcessLink::drain() {
-  while (!error_ && under_way() > 0 && listen()) {
+  while (!error_ && busy() && listen()) {
+  }
+}
+
+void InProcessLink::wait() {
+  const std::uint8_t before = last_executed_;
+  while (!error_ && busy() && last_executed_ == before && listen()) {
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 namespace passo {
@@ -24,6 +25,11 @@ bool VirtualMachine::run() {
     if (board_.owes_report()) board_.report();
   }
   return !hardware_.to_host.empty();
+}
+
+void VirtualMachine::wait(Ticks time) {
+  assert(board_.idle() && time.count >= 0);
+  hardware_.now += time.count;
 }
 
 std::span<const std::uint8_t> VirtualMachine::replies() {

@@ -117,6 +117,18 @@ class Text {
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
   }
 
+  void holds(const RunSummary& summary) {
+    heading("Holds", "s");
+    for (const HoldSummary& hold : summary.holds) {
+      out_ += fmt::format("  at {:.3f}: slower after {:.1f} ms, at rest at {:.3f} in", hold.asked.value(),
+                          hold.reaction.value() * 1e3, hold.rest.value());
+      for (std::size_t i = 0; i < hold.place.size(); ++i) {
+        out_ += fmt::format(" {}{}", letter_of(summary.axes[i].axis), place(hold.place[i]));
+      }
+      out_ += hold.resumed ? fmt::format("; went on at {:.3f}\n", hold.resumed->value()) : "; ended there\n";
+    }
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -158,6 +170,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   text.extents(summary);
   text.axes(summary);
   if (summary.board) text.board(*summary.board);
+  if (!summary.holds.empty()) text.holds(summary);
   return text.take();
 }
 

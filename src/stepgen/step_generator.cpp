@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "board_model.hpp"
@@ -15,6 +16,7 @@ class StepGenerator::Implementation {
   Implementation(Source<MotionItem>& motion, const StepOptions& options)
       : motion_(motion),
         motors_(options.motor_count),
+        tick_rate_(options.clock.tick_rate),
         stream_(options),
         board_(options.motor_count),
         fitter_(options.motor_count, stream_.shortest_interval()) {
@@ -22,6 +24,8 @@ class StepGenerator::Implementation {
       board_.set_steps(m, std::llround(options.start[options.motors[m].axis] * options.motors[m].steps_per_unit));
     }
   }
+
+  void limit_waiting_to(Seconds time) { longest_wait_ = std::llround(tick_rate_ * time * whole_tick); }
 
   bool next(BoardItem& item) {
     for (;;) {
@@ -43,11 +47,16 @@ class StepGenerator::Implementation {
  private:
   // Turns waiting events into one segment. False when none is left, or when too few are left to be sure.
   bool fit(BoardItem& item) {
-    if (events_.empty() || (more_ && events_.size() < SegmentFitter::longest + 1)) return false;
+    if (events_.empty() || (more_ && !enough())) return false;
     const unsigned used = fitter_.fit(events_, stream_.stretch(), board_, last_);
     if (used == 0) return wait_until(events_.time(0), item);
     events_.drop(used);
     return send(last_, item);
+  }
+
+  // Events for the longest segment and one behind it, or all that may be waited for.
+  bool enough() const {
+    return events_.size() > SegmentFitter::longest || stream_.now() - board_.time() >= longest_wait_;
   }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
@@ -111,7 +120,10 @@ class StepGenerator::Implementation {
         more_ = false;
         play_ = true;
         break;
-      case EventStream::Stop::move_end: break;
+      case EventStream::Stop::move_end:
+        more_ = true;
+        play_ = enough();
+        break;
       case EventStream::Stop::rest:
         stream_.end_stretch();
         more_ = false;
@@ -140,12 +152,14 @@ class StepGenerator::Implementation {
 
   Source<MotionItem>& motion_;
   std::uint8_t motors_;
+  Hertz tick_rate_;
   EventStream stream_;
   EventBuffer events_;
   BoardModel board_;
   SegmentFitter fitter_;
   MotionItem motion_item_;
   BoardSegment last_;
+  std::int64_t longest_wait_ = INT64_MAX;  // 1/65536 tick
 
   bool play_ = false;  // events wait to be played
   bool more_ = false;  // and more of the same stretch may follow
@@ -160,6 +174,10 @@ StepGenerator::~StepGenerator() = default;
 
 bool StepGenerator::next(BoardItem& item) {
   return implementation_->next(item);
+}
+
+void StepGenerator::limit_waiting_to(Seconds time) {
+  implementation_->limit_waiting_to(time);
 }
 
 }  // namespace passo

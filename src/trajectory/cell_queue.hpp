@@ -23,11 +23,13 @@ class CellQueue {
   };
 
   // `axes`: the most demands a cell makes.
-  CellQueue(std::size_t capacity, std::size_t axes) : axes_(axes), entries_(capacity), demands_(capacity * axes) {}
+  CellQueue(std::size_t capacity, std::size_t axes)
+      : axes_(axes), entries_(capacity + 1), demands_((capacity + 1) * axes) {}
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  bool full() const { return size_ == entries_.size(); }
+  // One place is left for push_front().
+  bool full() const { return size_ + 1 >= entries_.size(); }
   Entry& operator[](std::size_t i) { return entries_[slot(i)]; }
   const Entry& operator[](std::size_t i) const { return entries_[slot(i)]; }
   Entry& back() { return (*this)[size_ - 1]; }
@@ -41,6 +43,13 @@ class CellQueue {
     const std::size_t at = slot(size_++);
     for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[at * axes_ + k] = piece.demands[k];
     return entries_[at] = {.cell = piece.cell, .demand_count = piece.demand_count};
+  }
+  // Once between two calls of pop().
+  void push_front(const CellCutter::Piece& piece) {
+    head_ = (head_ == 0 ? entries_.size() : head_) - 1;
+    ++size_;
+    entries_[head_] = {};
+    replace_front(piece);
   }
   // The first cell, cut anew.
   void replace_front(const CellCutter::Piece& piece) {

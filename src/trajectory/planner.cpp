@@ -22,8 +22,14 @@ constexpr double tangent_tolerance = 1e-6;
 // Of squares of speeds, relative: less is what arithmetic makes of equal ones.
 constexpr double rounding = 1e-9;
 
+// Of the longest time of a move: phases are not cut into shorter ones, but the move gets longer or shorter by it.
+constexpr double smallest_part = 0.02;
+
 // A rest of a cell that is shorter, in mm, is rounding.
 constexpr double smallest_rest = 1e-9;
+
+// In mm: a hold leaves no less of a cell, so that what is left can be halved.
+constexpr double smallest_cell = 1e-6;
 
 double squared(double value) {
   return value * value;
@@ -87,6 +93,7 @@ class Planner::Implementation {
   void resume() {
     holding_ = false;
     decided_ = 0;
+    if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
   }
 
  private:
@@ -145,6 +152,7 @@ class Planner::Implementation {
   }
   // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
   double exit_from(std::size_t i, double entry, double exit_most) const {
+    if (exit_most == 0) return 0;  // whatever came before left room for it
     const CellQueue::Entry& queued = cells_[i];
     const double most = std::min(exit_most, queued.top_squared);
     if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
@@ -200,7 +208,7 @@ class Planner::Implementation {
     bool complete = false;
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
       const Cell& cell = cells_[0].cell;
-      const double exit = exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0);
+      const double exit = planned_exit();
       if (cell.straight) {
         add_phases({.start = cell.start,
                     .length = cell.length,
@@ -231,16 +239,21 @@ class Planner::Implementation {
     }
   }
 
-  // To rest within the cell where that can be, or through it as slow as can be.
+  double planned_exit() const { return exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0); }
+
+  // To rest within the cell where that can be, or through it as slow as can be. Never faster than without the hold:
+  // where the path rests anyway, rounding leaves no speed.
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
     const double deceleration =
         cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cell.length, speed_squared_);
     if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
-      return {speed_squared_ / (2 * deceleration), 0};
+      const double way = speed_squared_ / (2 * deceleration);
+      return {way + smallest_cell < cell.length ? way : cell.length, 0};
     }
-    if (cell.straight) return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
-    return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
+    const double least = cell.straight ? std::max(0.0, speed_squared_ - 2 * cell.acceleration * cell.length)
+                                       : least_exit(cells_.demands(0), speed_squared_);
+    return {cell.length, std::min(least, planned_exit())};
   }
 
   // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
@@ -255,6 +268,7 @@ class Planner::Implementation {
     decided_ -= std::min<std::size_t>(decided_, 1);
     if (move.to.value() < cell_end - smallest_rest) {
       cutter_.cut(segment, move.to.value(), cell_end, piece_at_hand_);
+      allow(speed_squared_, ride.exit, piece_at_hand_);
       cells_.replace_front(piece_at_hand_);
       decided_ = 0;
       return true;
@@ -266,16 +280,46 @@ class Planner::Implementation {
     return shortened || ended;
   }
 
+  // A curved cell either speeds up or brakes: from a rest in the last one of a stretch it takes two to the next rest.
+  void halve_front() {
+    const double start = cells_[0].cell.start;
+    const double end = cells_[0].cell.end;
+    const double middle = start + cells_[0].cell.length / 2;
+    const double exit = planned_exit();
+    const double halfway = (speed_squared_ + exit) / 2;
+    cutter_.cut(segments_.front(), middle, end, piece_at_hand_);
+    allow(halfway, exit, piece_at_hand_);
+    cells_.replace_front(piece_at_hand_);
+    cutter_.cut(segments_.front(), start, middle, piece_at_hand_);
+    allow(speed_squared_, halfway, piece_at_hand_);
+    cells_.push_front(piece_at_hand_);
+    cells_[1].begins_at_rest = false;
+    cells_[1].entry_if_rest = halfway;
+    set_caps(0);
+    set_caps(1);
+  }
+
+  // In the middle of a cell an axis may demand more than is asked for at the ends of one, which leaves room for what is
+  // between. What was to be done from here on may be done still.
+  static void allow(double entry, double exit, CellCutter::Piece& piece) {
+    for (std::size_t k = 0; k < piece.demand_count; ++k) {
+      AxisDemand& demand = piece.demands[k];
+      demand.limit = std::max({demand.limit, std::abs(demand.entry_x * entry + demand.entry_y * exit),
+                               std::abs(demand.exit_x * entry + demand.exit_y * exit)});
+    }
+  }
+
   // To the longest time that a move may take.
   bool shorten(PlannedMove& move) {
     Seconds left = longest_move_;
     for (std::size_t i = 0; i < move.phase_count; ++i) {
       Phase& phase = move.phases[i];
-      if (phase.duration <= left * (1 + 1e-6)) {
+      if (phase.duration <= left + longest_move_ * smallest_part) {
         left = std::max(left - phase.duration, Seconds(0));
         continue;
       }
-      if (left < longest_move_ * 1e-6) {  // between two phases
+      if (i + 1 == move.phase_count && (move.to - phase.position_at(left)).value() < smallest_rest) return false;
+      if (left < longest_move_ * smallest_part) {  // between two phases
         move.phase_count = i;
         move.to = phase.start;
         speed_squared_ = squared(phase.velocity.value());

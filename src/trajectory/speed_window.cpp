@@ -125,15 +125,15 @@ Exits exits(std::span<const AxisDemand> demands, double entry) {
 
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
   const Exits left = exits(demands, entry);
-  const double most = std::max(0.0, std::min(left.most, exit_most));
   // On the edge of what is possible rounding may leave nothing at all; then what is slower is right.
-  const bool too_fast = left.least > most + rounding * entry && left.least <= left.most;
-  return too_fast ? left.least : most;
+  const double least = std::min(left.least, left.most);
+  const double most = std::min(left.most, exit_most);
+  return std::max(0.0, least > most + rounding * entry ? least : most);
 }
 
 double least_exit(std::span<const AxisDemand> demands, double entry) {
   const Exits left = exits(demands, entry);
-  return left.least <= left.most ? left.least : std::clamp(left.most, 0.0, entry);
+  return std::max(0.0, std::min(left.least, left.most));
 }
 
 double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry) {

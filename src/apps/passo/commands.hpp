@@ -39,11 +39,13 @@ struct ProgramArguments {
 struct RunArguments {
   ProgramArguments program;
   std::string machine;
-  std::vector<std::string> pictures;  // .svg or .png
-  std::vector<std::string> traces;    // .vcd or .csv
-  std::string report;                 // .json or text
-  std::uint64_t passes = 1;           // of a main program that ends with M99
-  bool json = false;                  // the summary on standard output as JSON
+  std::vector<std::string> pictures;   // .svg or .png
+  std::vector<std::string> traces;     // .vcd or .csv
+  std::string report;                  // .json or text
+  std::uint64_t passes = 1;            // of a main program that ends with M99
+  std::vector<std::string> holds;      // SECONDS or SECONDS:SECONDS
+  std::vector<std::string> overrides;  // PERCENT@SECONDS
+  bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

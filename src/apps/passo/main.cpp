@@ -88,10 +88,13 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("--passes", run_arguments.passes, "how often a program that ends with M99 runs")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
+  run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(
-      "Example:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png");
+      "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
+      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 2.5:1 --override 50@5");
 
   CheckArguments check_arguments;
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");

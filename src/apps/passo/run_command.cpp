@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "mid_run_changes.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "run_outputs.hpp"
@@ -52,16 +53,18 @@ std::vector<Axis> axes_of(const MachineDescription& machine) {
 }
 
 RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& arguments, const MachineDescription& machine,
-                RunOutputs& outputs) {
+                RunOutputs& outputs, MidRunChanges& changes) {
   SummaryBuilder builder(axes_of(machine));
   job.motion().watch([&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
   });
   outputs.watch(job);
+  changes.begin(job.drive());
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
+      if (changes.any()) changes.act(job.drive(), job.machine(), machine);
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }
   }
@@ -69,6 +72,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   summary.program = arguments.program.program;
   summary.machine = machine.name;
   add_board(summary, job, machine);
+  summary.holds = changes.holds();
   return summary;
 }
 
@@ -96,6 +100,8 @@ bool names_are_good(const RunArguments& arguments) {
 
 int run(const RunArguments& arguments) {
   if (!names_are_good(arguments)) return exit_bad_program;
+  std::optional<MidRunChanges> changes = MidRunChanges::read(arguments.holds, arguments.overrides);
+  if (!changes) return exit_bad_program;
   Diagnostics diagnostics;
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
@@ -119,7 +125,7 @@ int run(const RunArguments& arguments) {
 
   Diagnostics late;
   Job job(std::move(*program), *machine, *options, late);
-  const RunSummary summary = play(job, check, arguments, *machine, *outputs);
+  const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes);
   if (const auto error = job.link().error()) return fail("the board: " + std::string(message_of(*error)));
   if (late.any_error()) {
     show(late);

@@ -8,17 +8,15 @@
 #include <string>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/motion_drive.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
-#include "passo/link/in_process_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
-#include "passo/stepgen/step_generator.hpp"
-#include "passo/trajectory/planner.hpp"
 
 namespace passo {
 
@@ -42,14 +40,17 @@ class Job {
 
   // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
   // has an error.
-  [[nodiscard]] bool advance();
+  [[nodiscard]] bool advance() { return drive_.advance(); }
+
+  // To hold, resume, change and stop it in mid-run.
+  MotionDrive& drive() { return drive_; }
 
   // Who wants to watch, before the first advance().
   Tap<PathItem>& path() { return watched_path_; }
-  Tap<MotionItem>& motion() { return watched_motion_; }
-  Tap<BoardItem>& board() { return watched_board_; }
+  Tap<MotionItem>& motion() { return drive_.motion(); }
+  Tap<BoardItem>& board() { return drive_.board(); }
   VirtualMachine& machine() { return machine_; }
-  const InProcessLink& link() const { return link_; }
+  const InProcessLink& link() const { return drive_.link(); }
   const Frame& frame() const { return path_builder_.frame(); }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
   const ToolTable& tools() const { return interpreter_.tools(); }
@@ -65,15 +66,10 @@ class Job {
   Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
   Tap<PathItem> watched_path_;
-  PathSmoother smoother_;  // corners -> curves within the tolerance
-  Planner planner_;        // segments -> phases
-  Tap<MotionItem> watched_motion_;
-  StepGenerator step_generator_;  // phases -> board segments
-  Tap<BoardItem> watched_board_;
+  PathSmoother smoother_;   // corners -> curves within the tolerance
   VirtualMachine machine_;  // what is at the other end of the wire
-  InProcessLink link_;      // board segments -> wire
+  MotionDrive drive_;       // segments -> phases -> board segments -> wire
 
-  BoardItem item_;
   Seconds nominal_time_{0};
 };
 

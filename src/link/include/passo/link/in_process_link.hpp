@@ -1,8 +1,8 @@
 // InProcessLink: a link to a board in this very process. The bytes are those that a serial line would carry.
 //
-// The board plays only when the host has to wait for it: with no credit left, and in drain(). So its queue is always as
-// full as it can be, and a run gives the same bytes every time. Nothing is lost on the way; an error that the board
-// reports is therefore a bug on one of the two sides, and final.
+// The board plays only when the host has to wait for it: with no credit left, in wait() and in drain(). So its queue is
+// as full as the host wants it, and a run gives the same bytes every time. Nothing is lost on the way; an error that
+// the board reports is therefore a bug on one of the two sides, and final.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,8 @@ class InProcessLink final : public Link {
   void send(const BoardSegment& segment) override;
   void send(const BoardOutputs& outputs) override;
   void drain() override;
+  bool busy() const override { return under_way() > 0; }
+  void wait() override;
   std::optional<LinkError> error() const override { return error_; }
 
   std::uint64_t frames_sent() const override { return frames_sent_; }

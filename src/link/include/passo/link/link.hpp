@@ -33,6 +33,10 @@ class Link {
   virtual void send(const BoardOutputs& outputs) = 0;
   // Waits until the board has executed all that was sent.
   virtual void drain() = 0;
+  // Whether something that was sent is, as far as we know, not done.
+  virtual bool busy() const = 0;
+  // While it is busy: waits until the board has done one more of them.
+  virtual void wait() = 0;
   virtual std::optional<LinkError> error() const = 0;
 
   virtual std::uint64_t frames_sent() const = 0;

@@ -33,6 +33,9 @@ class VirtualMachine final : public BoardPort {
   [[nodiscard]] bool run() override;
   std::span<const std::uint8_t> replies() override;
 
+  // Lets time pass at rest; only while the board has nothing to play.
+  void wait(Ticks time);
+
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
 

@@ -41,6 +41,15 @@ struct BoardSummary {
   std::uint64_t bytes = 0;
 };
 
+// A hold in mid-run. Times of the board.
+struct HoldSummary {
+  Seconds asked{0};
+  Seconds reaction{0};                  // from then on until the machine got slower: what was committed
+  Seconds rest{0};                      // when it stood
+  std::vector<double> place = {};       // of each axis, machine coordinates, from the steps that were counted
+  std::optional<Seconds> resumed = {};  // none: the run ended there
+};
+
 struct RunSummary {
   std::string program;
   std::string machine;
@@ -58,6 +67,7 @@ struct RunSummary {
 
   std::vector<AxisSummary> axes;
   std::optional<BoardSummary> board;  // none: nothing was sent to a board
+  std::vector<HoldSummary> holds;
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };

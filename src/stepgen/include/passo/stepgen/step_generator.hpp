@@ -41,6 +41,10 @@ class StepGenerator final : public Source<BoardItem> {
 
   [[nodiscard]] bool next(BoardItem& item) override;
 
+  // From now on events wait no longer than this for later ones that would make a longer board segment: what motion is
+  // pulled ahead of the segment given is at most this and a move. Segments get shorter, no step less exact.
+  void limit_waiting_to(Seconds time);
+
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;

@@ -1,0 +1,102 @@
+#include "mid_run_changes.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+namespace passo {
+namespace {
+
+constexpr double least_percent = 1;
+constexpr double most_percent = 200;
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool good = error == std::errc() && end == text.data() + text.size() && value >= 0;
+  return good ? std::optional(value) : std::nullopt;
+}
+
+std::optional<std::pair<double, double>> pair_of(std::string_view text, char between) {
+  const std::size_t at = text.find(between);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::optional<double> first = number(text.substr(0, at));
+  const std::optional<double> second = number(text.substr(at + 1));
+  if (!first || !second) return std::nullopt;
+  return std::pair(*first, *second);
+}
+
+std::nullopt_t refuse(const std::string& text, const char* expected) {
+  std::fprintf(stderr, "passo: error: '%s': expected %s\n", text.c_str(), expected);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>& holds,
+                                                 const std::vector<std::string>& overrides) {
+  MidRunChanges changes;
+  for (const std::string& text : holds) {
+    if (const auto at = number(text)) {
+      changes.changes_.push_back({.at = Seconds(*at)});
+    } else if (const auto both = pair_of(text, ':')) {
+      changes.changes_.push_back({.at = Seconds(both->first), .pause = Seconds(both->second)});
+    } else {
+      return refuse(text, "--hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
+    }
+  }
+  for (const std::string& text : overrides) {
+    const auto both = pair_of(text, '@');
+    if (!both || both->first < least_percent || both->first > most_percent) {
+      return refuse(text, "--override PERCENT@SECONDS, with 1 to 200 percent");
+    }
+    changes.changes_.push_back({.at = Seconds(both->second), .factor = both->first / 100});
+  }
+  std::stable_sort(changes.changes_.begin(), changes.changes_.end(),
+                   [](const Change& a, const Change& b) { return a.at < b.at; });
+  return changes;
+}
+
+void MidRunChanges::begin(MotionDrive& drive) const {
+  if (any()) drive.go_live({});
+}
+
+void MidRunChanges::act(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description) {
+  if (drive.state() == MotionDrive::State::held) rest(drive, machine, description);
+  for (; next_ < changes_.size() && changes_[next_].at <= drive.now(); ++next_) {
+    const Change& change = changes_[next_];
+    if (change.factor > 0) {
+      drive.set_feed_override(change.factor);
+      continue;
+    }
+    // One after the other.
+    if (drive.state() != MotionDrive::State::running) return;
+    drive.hold();
+    pause_ = change.pause;
+    holds_.push_back({.asked = drive.now(), .reaction = drive.committed()});
+  }
+}
+
+void MidRunChanges::rest(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description) {
+  HoldSummary& hold = holds_.back();
+  hold.rest = drive.now();
+  const MachineCounts counts = machine.counts();
+  for (std::size_t m = 0; m < description.axes.size(); ++m) {
+    const AxisDescription& axis = description.axes[m];
+    const auto steps = static_cast<double>(counts.motors[m].position);
+    hold.place.push_back((axis.inverted ? -steps : steps) / axis.steps_per_unit);
+  }
+  if (!pause_) return drive.stop();
+  drive.wait(*pause_);
+  hold.resumed = drive.now();
+  drive.resume();
+}
+
+std::vector<HoldSummary> MidRunChanges::holds() const {
+  std::vector<HoldSummary> rested = holds_;
+  std::erase_if(rested, [](const HoldSummary& hold) { return hold.place.empty(); });
+  return rested;
+}
+
+}  // namespace passo

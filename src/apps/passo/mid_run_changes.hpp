@@ -1,0 +1,45 @@
+// MidRunChanges: what `passo run` does to a job while it runs: holds and feed overrides at given times.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "passo/controller/motion_drive.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/report/summary.hpp"
+
+namespace passo {
+
+class MidRunChanges {
+ public:
+  // `holds`: "2.5" ends the run at rest from 2.5 s on; "2.5:1" goes on after a second of rest. `overrides`: "50@2.5" is
+  // half the feed from 2.5 s on. Times are those of the virtual machine. Nothing where one says something else, which
+  // is told on standard error.
+  static std::optional<MidRunChanges> read(const std::vector<std::string>& holds,
+                                           const std::vector<std::string>& overrides);
+
+  bool any() const { return !changes_.empty(); }
+  // Before the first step.
+  void begin(MotionDrive& drive) const;
+  // Between any two steps of the drive.
+  void act(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description);
+
+  // Those that came before the end of the program.
+  std::vector<HoldSummary> holds() const;
+
+ private:
+  struct Change {
+    Seconds at{0};
+    double factor = 0;                  // of the feed; 0: a hold
+    std::optional<Seconds> pause = {};  // of a hold, until it goes on
+  };
+  void rest(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description);
+
+  std::vector<Change> changes_;  // by time
+  std::size_t next_ = 0;
+  std::optional<Seconds> pause_;
+  std::vector<HoldSummary> holds_;
+};
+
+}  // namespace passo

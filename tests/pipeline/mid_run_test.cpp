@@ -1,0 +1,298 @@
+// Hold, resume, override and stop at random instants: on the path, within the limits, and with nothing lost.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kit/stage_test.hpp"
+
+#include "passo/controller/job.hpp"
+#include "passo/proof/motion_proof.hpp"
+#include "passo/proof/proof_text.hpp"
+
+namespace passo {
+namespace {
+
+using State = MotionDrive::State;
+
+MachineDescription example_machine(const std::string& name) {
+  Diagnostics diagnostics;
+  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/" + name + ".toml", diagnostics);
+  EXPECT_TRUE(machine) << render(diagnostics, false);
+  return machine.value_or(MachineDescription());
+}
+
+ProofOptions proof_options(const MachineDescription& machine) {
+  ProofOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.push_back(
+        {.axis = axis.axis, .step = axis.step(), .velocity = axis.velocity, .acceleration = axis.acceleration});
+  }
+  options.tick_rate = machine.board.clock;
+  return options;
+}
+
+// What a program is made of.
+std::string lines() {
+  return "G21 G90 G1 F4000\nX20\nY15\nX3 Y20 Z-2\nX0 Y0 Z0\nG61.1 X8 Y8\nX12\nG64 X-5 Y3\nG0 X0 Y0\nM2\n";
+}
+std::string arcs() {
+  return "G21 G90 F5000\nG2 X20 Y0 I10 J0\nG3 X40 I10\nG2 X40 Y20 I0 J10\nG1 X30\nG3 X30 Y10 J-5 Z-3\nG2 X30.5 Y10 "
+         "I.25\n"
+         "G1 X10 Y10\nG3 I-3 Z0\nM2\n";
+}
+// Chords of a few hundredths to a few tenths of a millimetre, as CAM writes them.
+std::string dense() {
+  std::string text = "G21 G90 G64 P.02 F6000\n";
+  double angle = 0;
+  for (double at = 0; at < 40; angle += 0.04) {
+    at += 0.05 + 0.04 * std::sin(3 * angle);
+    text += "G1 X" + std::to_string(at) + " Y" + std::to_string(6 * std::sin(angle)) + " Z" +
+            std::to_string(-std::fabs(std::sin(angle / 3))) + "\n";
+  }
+  return text + "M2\n";
+}
+std::string cycles() {
+  return "G21 G90 S8000 M3 M8\nG98 G81 X5 Y5 Z-4 R2 F900\nX10\nX15 Y8\nG83 X20 Z-6 R1 Q2\nG82 X25 P.05 Z-1 R1\nG80 M5 "
+         "M9\n"
+         "G0 X0 Y0 Z5\nG4 P.1\nG1 Y10 F2000\nM2\n";
+}
+
+struct Ending {
+  std::vector<MotorCounts> motors;
+  MotionProof proof;
+  int holds = 0;
+  int rests = 0;
+  int overrides = 0;
+};
+
+// Watches a job, filters what the proof does not know, and looks at each hold.
+class Watch {
+ public:
+  Watch(Job& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
+    job.path().watch([this](const PathItem& item) { prover_.watch(item); });
+    job.board().watch([this](const BoardItem& item) { prover_.watch(item); });
+    job.motion().watch([this](const MotionItem& item) {
+      const auto* action = std::get_if<Action>(&item);
+      if (action != nullptr && action->kind == Action::Kind::feed_hold) {
+        EXPECT_LT(speed_, 1e-6) << "held in motion";
+        return;
+      }
+      prover_.watch(item);
+      speed_ = action != nullptr ? 0 : end_speed(std::get<PlannedMove>(item));
+    });
+  }
+  MotionProof finish() { return prover_.finish(); }
+
+ private:
+  static double end_speed(const PlannedMove& move) {
+    const Phase& last = move.phases[move.phase_count - 1];
+    return last.velocity_at(last.duration).value();
+  }
+  MotionProver prover_;
+  double speed_ = 0;
+};
+
+// One random act in mid-run, or none.
+void meddle(MotionDrive& drive, test::Random& random, Ending& ending) {
+  switch (drive.state()) {
+    case State::running:
+      if (random.chance(0.03)) {
+        drive.hold();
+        ++ending.holds;
+      }
+      break;
+    case State::holding:
+      if (random.chance(0.02)) drive.resume();
+      break;
+    case State::held:
+      ++ending.rests;
+      EXPECT_NEAR(drive.committed().value(), 0, 0.02);
+      if (random.chance(0.5)) drive.wait(Seconds(random.between(0, 1)));
+      drive.resume();
+      break;
+    case State::ended: break;
+  }
+  if (random.chance(0.03)) {
+    drive.set_feed_override(random.chance(0.3) ? 1 : random.between(0.05, 1));
+    ++ending.overrides;
+  }
+}
+
+Ending run(const std::string& program, const MachineDescription& machine, test::Random* random,
+           const LiveOptions& live = {}) {
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+  Watch watch(job, machine);
+  job.drive().go_live(live);
+  Ending ending;
+  while (job.advance()) {
+    if (random != nullptr) meddle(job.drive(), *random, ending);
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  EXPECT_FALSE(job.link().error());
+  const MachineCounts counts = job.machine().counts();
+  ending.motors.assign(counts.motors.begin(), counts.motors.begin() + counts.motor_count);
+  ending.proof = watch.finish();
+  return ending;
+}
+
+void expect_nothing_lost(const std::string& program, const std::string& machine_name, int runs) {
+  SCOPED_TRACE(machine_name);
+  test::Random random;
+  const MachineDescription machine = example_machine(machine_name);
+  const Ending undisturbed = run(program, machine, nullptr);
+  EXPECT_TRUE(undisturbed.proof.good()) << to_text(undisturbed.proof);
+  int holds = 0;
+  int rests = 0;
+  int overrides = 0;
+  for (int i = 0; i < runs && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE("run " + std::to_string(i));
+    const Ending ending = run(program, machine, &random);
+    EXPECT_TRUE(ending.proof.good()) << to_text(ending.proof);
+    for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+      EXPECT_EQ(ending.motors[m].position, undisturbed.motors[m].position) << "motor " << m;
+    }
+    holds += ending.holds;
+    rests += ending.rests;
+    overrides += ending.overrides;
+  }
+  std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides);
+}
+
+constexpr std::array<const char*, 4> machines = {"bench", "router", "pantograph", "forty-eight"};
+
+TEST(MidRun, holds_and_overrides_lose_nothing_on_lines) {
+  for (const char* machine : machines) expect_nothing_lost(lines(), machine, 2);
+}
+TEST(MidRun, holds_and_overrides_lose_nothing_on_arcs) {
+  for (const char* machine : machines) expect_nothing_lost(arcs(), machine, 1);
+}
+TEST(MidRun, holds_and_overrides_lose_nothing_on_dense_paths) {
+  for (const char* machine : machines) expect_nothing_lost(dense(), machine, 1);
+}
+TEST(MidRun, holds_and_overrides_lose_nothing_in_cycles) {
+  for (const char* machine : machines) expect_nothing_lost(cycles(), machine, 2);
+}
+
+// The steps of all motors, as the virtual machine made them.
+class Steps final : public MachineObserver {
+ public:
+  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
+    times.push_back(time.count);
+    motors.push_back(stepped | directions << 8);
+  }
+  std::vector<std::int64_t> times;
+  std::vector<int> motors;
+};
+
+struct Reaction {
+  double committed = 0;  // at the hold, as the drive says
+  double seen = -1;      // from the hold to the first step that is later than without it; -1: none was
+};
+
+// Runs once as it is and once with a hold at `at`, and compares the steps.
+Reaction reaction_to_hold(const std::string& program, const MachineDescription& machine, double at) {
+  Reaction reaction;
+  std::array<Steps, 2> steps;
+  double asked = 0;
+  for (const bool held : {false, true}) {
+    Diagnostics diagnostics;
+    Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+    job.machine().add_observer(steps[held ? 1 : 0]);
+    MotionDrive& drive = job.drive();
+    drive.go_live({});
+    while (job.advance() && drive.state() != State::held) {
+      if (!held || asked > 0 || drive.now().value() < at) continue;
+      drive.hold();
+      asked = drive.now().value();
+      reaction.committed = drive.committed().value();
+    }
+  }
+  // The board segments are others from the hold on, so that a step may fall a tick beside where it was.
+  constexpr std::int64_t rounding = 4;
+  for (std::size_t i = 0; i < std::min(steps[0].times.size(), steps[1].times.size()); ++i) {
+    if (std::abs(steps[1].times[i] - steps[0].times[i]) <= rounding) continue;
+    reaction.seen = static_cast<double>(steps[1].times[i]) / machine.board.clock.value() - asked;
+    break;
+  }
+  return reaction;
+}
+
+TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
+  test::Random random;
+  const LiveOptions live;
+  for (const char* name : machines) {
+    const MachineDescription machine = example_machine(name);
+    double most_committed = 0;
+    double most_seen = 0;
+    double most_beyond = 0;
+    // Where the speed is even: the machine slows for the hold and for nothing else.
+    for (const char* program : {"G21 G90 G1 X100 F1200\nM2\n", "G21 G90 G2 I40 F900\nM2\n"}) {
+      for (int i = 0; i < 3; ++i) {
+        const Reaction reaction = reaction_to_hold(program, machine, random.between(1, 4));
+        EXPECT_LE(reaction.committed, live.horizon.value() + 3 * live.longest_move.value());
+        EXPECT_GT(reaction.seen, 0) << name;
+        EXPECT_LE(reaction.seen, reaction.committed + 0.010) << name;
+        most_committed = std::max(most_committed, reaction.committed);
+        most_seen = std::max(most_seen, reaction.seen);
+        if (reaction.seen > 0) most_beyond = std::max(most_beyond, reaction.seen - reaction.committed);
+      }
+    }
+    std::printf(
+        "%-12s committed at most %.1f ms, slower after at most %.1f ms, at most %.1f ms beyond what was committed\n",
+        name, most_committed * 1e3, most_seen * 1e3, most_beyond * 1e3);
+  }
+}
+
+TEST(MidRun, a_stop_ends_at_rest_on_the_path_with_the_outputs_off_and_the_place_known) {
+  test::Random random;
+  const MachineDescription machine = example_machine("router");
+  for (const std::string& program : {lines(), arcs(), dense(), cycles()}) {
+    for (int i = 0; i < 5; ++i) {
+      Diagnostics diagnostics;
+      Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+      MotionDrive& drive = job.drive();
+      drive.go_live({});
+      Point place;
+      double speed = 0;
+      job.motion().watch([&](const MotionItem& item) {
+        const auto* move = std::get_if<PlannedMove>(&item);
+        if (move == nullptr) return;
+        place = move->segment.curve.at(move->to);
+        speed = move->phases[move->phase_count - 1].velocity_at(move->phases[move->phase_count - 1].duration).value();
+      });
+      const double at = random.between(0.05, 2);
+      while (job.advance()) {
+        if (drive.now().value() >= at) drive.stop();
+      }
+      EXPECT_EQ(drive.state(), State::ended);
+      EXPECT_NEAR(speed, 0, 1e-6);
+      const MachineCounts counts = job.machine().counts();
+      EXPECT_EQ(counts.outputs.switches, 0);
+      for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+        const AxisDescription& axis = machine.axes[m];
+        const double steps = place[axis.axis] * (axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
+        EXPECT_NEAR(static_cast<double>(counts.motors[m].position), steps, 0.5 + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(MidRun, a_drive_at_rest_is_held_at_once_and_goes_on) {
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", lines()), example_machine("router"), InterpreterOptions(), diagnostics);
+  MotionDrive& drive = job.drive();
+  drive.hold();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(job.advance());
+  EXPECT_EQ(drive.state(), State::held);
+  EXPECT_EQ(drive.now().value(), 0);
+  drive.resume();
+  while (job.advance()) {
+  }
+  EXPECT_EQ(drive.state(), State::ended);
+}
+
+}  // namespace
+}  // namespace passo
