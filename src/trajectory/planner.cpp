@@ -36,6 +36,11 @@ std::size_t limited_axes(const MotionLimits& limits) {
                                                 [](MmPerSecond2 limit) { return limit > MmPerSecond2(0); }));
 }
 
+std::size_t falling_axes(const MotionLimits& limits) {
+  return static_cast<std::size_t>(std::count_if(limits.falling.values.begin(), limits.falling.values.end(),
+                                                [](const AccelerationCurve& curve) { return !curve.empty(); }));
+}
+
 }  // namespace
 
 class Planner::Implementation {
@@ -44,7 +49,7 @@ class Planner::Implementation {
       : path_(path),
         limits_(limits),
         cutter_(limits_),
-        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {}
+        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits), falling_axes(limits)) {}
 
   bool next(MotionItem& item) {
     if (holding_) {
@@ -124,16 +129,21 @@ class Planner::Implementation {
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
 
-  double entry_to(std::size_t i, double exit_most) const {
+  double entry_to(std::size_t i, double exit_most) {
     const CellQueue::Entry& entry = cells_[i];
     const Cell& cell = entry.cell;
     if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
-    return largest_entry(cells_.demands(i), entry.entry_cap, std::min(exit_most, entry.top_squared));
+    const double most = std::min(exit_most, entry.top_squared);
+    if (entry.falling_count == 0) return largest_entry(cells_.demands(i), entry.entry_cap, most);
+    return largest_entry(cells_.demands(i), cells_.falling(i), entry.entry_cap, most);
   }
   // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
   double exit_from(std::size_t i, double entry, double exit_most) const {
     const CellQueue::Entry& queued = cells_[i];
     const double most = std::min(exit_most, queued.top_squared);
+    if (queued.falling_count > 0) {
+      return largest_exit(cells_.demands(i), cells_.falling(i), entry, most, queued.top_squared);
+    }
     if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
     const double change = 2 * queued.cell.acceleration * queued.cell.length;
     return std::max(std::min(most, entry + change), entry - change);
@@ -146,8 +156,10 @@ class Planner::Implementation {
     double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
     for (std::size_t i = cells_.size(); i-- > 0;) {
       const bool equal = if_rest == if_open;
-      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);
-      if_open = cells_[i].entry_if_open = equal ? if_rest : entry_to(i, if_open);
+      if (!equal) if_open = entry_to(i, if_open);
+      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after the other: its choice of lines is kept
+      if (equal) if_open = if_rest;
+      cells_[i].entry_if_open = if_open;
     }
   }
 
@@ -220,6 +232,9 @@ class Planner::Implementation {
   // To rest within a straight cell; a curved one is short, and left at its end.
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
+    if (cells_[0].falling_count > 0) {
+      return {cell.length, least_exit(cells_.demands(0), cells_.falling(0), speed_squared_)};
+    }
     if (!cell.straight) return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
     const double distance = speed_squared_ / (2 * cell.acceleration);
     if (distance < cell.length) return {distance, 0};

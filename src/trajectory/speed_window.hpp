@@ -26,4 +26,16 @@ double largest_exit(std::span<const AxisDemand> demands, double entry, double ex
 // The smallest y: braking as hard as may be.
 double least_exit(std::span<const AxisDemand> demands, double entry);
 
+// The same with limits that fall with the speed, by iteration: with the line of each curve that is the highest at the
+// speed found before, a linear program as above. Each line keeps to its curve, so each solution is possible.
+//
+// Backwards, the lines of the best solution are kept in the demands: with them the forward pass always finds a way.
+double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDemand> falling, double entry_most,
+                     double exit_most);
+
+// `top`: of the cell. As far as the limits decide the answer does not depend on `exit_most`.
+double largest_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry,
+                    double exit_most, double top);
+double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry);
+
 }  // namespace passo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passo/geometry/axes.hpp"
+#include "passo/trajectory/acceleration_curve.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -9,6 +10,8 @@ namespace passo {
 struct MotionLimits {
   PerAxis<MmPerSecond> velocity;
   PerAxis<MmPerSecond2> acceleration;
+  // Beside the constant, what a motor has left at the axis's speed. Empty: the constant alone.
+  PerAxis<AccelerationCurve> falling;
 };
 
 }  // namespace passo
