@@ -118,7 +118,8 @@ class Planner::Implementation {
   }
 
   void append(const CellCutter::Piece& piece) {
-    cells_.push(piece).begins_at_rest = std::exchange(at_rest_, false) || cells_.size() == 1;
+    const bool begins_at_rest = std::exchange(at_rest_, false) || cells_.empty();
+    cells_.push(piece).begins_at_rest = begins_at_rest;
     set_caps(cells_.size() - 1);
   }
 
