@@ -4,7 +4,6 @@
 //
 // Prints figures; decides nothing.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,8 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-#include <sys/wait.h>
+#include "cost.hpp"
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
@@ -25,15 +23,6 @@ namespace fs = std::filesystem;
 
 const fs::path source_dir = PASSO_SOURCE_DIR;
 const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
-
-double cpu_seconds(int who) {
-  rusage usage{};
-  getrusage(who, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 void measure(const std::string& path, const MachineDescription& machine) {
   Diagnostics diagnostics;
@@ -59,30 +48,6 @@ void measure(const std::string& path, const MachineDescription& machine) {
               machine_time, static_cast<long long>(steps), seconds, static_cast<double>(steps) / seconds / 1e6,
               static_cast<double>(counts.events) / static_cast<double>(job.link().frames_sent()),
               static_cast<double>(job.link().bytes_sent()) / machine_time / 1e3);
-}
-
-// Runs a command and tells its wall time and its peak memory.
-struct Cost {
-  double seconds = 0;
-  double mebibytes = 0;
-};
-Cost cost_of(const std::vector<std::string>& command) {
-  const auto start = std::chrono::steady_clock::now();
-  std::fflush(stdout);
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> arguments;
-    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));  // NOLINT
-    arguments.push_back(nullptr);
-    std::freopen("/dev/null", "w", stdout);
-    execv(arguments[0], arguments.data());
-    std::_Exit(127);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return {.seconds = elapsed.count(), .mebibytes = static_cast<double>(usage.ru_maxrss) / 1024};
 }
 
 void measure_memory() {

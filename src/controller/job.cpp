@@ -44,6 +44,7 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
     check.nominal_time += nominal_time_of(item, limits);
     if (std::holds_alternative<Segment>(item)) ++check.moves;
   }
+  check.tools_change = interpreter.tools() != options.tools;
   check.good = !diagnostics.any_error();
   return check;
 }

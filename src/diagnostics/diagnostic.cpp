@@ -10,6 +10,8 @@ namespace {
 // A source line may be a megabyte long: what is shown is a window around the place.
 constexpr std::size_t window_before = 60;
 constexpr std::size_t window_after = 40;
+// At each end of a long stack of calls.
+constexpr std::size_t calls_shown = 4;
 
 struct Window {
   std::string text;       // without control characters
@@ -44,6 +46,17 @@ Window window_around(std::string_view line, std::size_t offset, std::size_t leng
   return window;
 }
 
+void append_calls(const std::vector<CallPlace>& calls, std::string& out) {
+  for (std::size_t i = 0; i < calls.size(); ++i) {
+    const std::size_t left_out = calls.size() > 2 * calls_shown ? calls.size() - 2 * calls_shown : 0;
+    if (left_out > 1 && i == calls_shown) {
+      out += fmt::format("      = ... {} more calls ...\n", left_out);
+      i += left_out;
+    }
+    out += fmt::format("      = in {}, called at {}:{}\n", calls[i].sub, calls[i].file, calls[i].line);
+  }
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -69,7 +82,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.place.line > 0 && std::ranges::any_of(all_, is_same)) return;
   if (diagnostic.severity == Severity::error && ++errors_ > limit_) return;
   if (diagnostic.severity == Severity::warning && all_.size() >= 4 * limit_) return;
-  if (diagnostic.rule.empty() && rule_of_ != nullptr) diagnostic.rule = rule_of_(diagnostic.code);
+  if (diagnostic.rule.empty() && rule_of_ != nullptr) diagnostic.rule = rule_of_(diagnostic);
   all_.push_back(std::move(diagnostic));
 }
 
@@ -97,6 +110,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   }
   if (!diagnostic.expected.empty()) out += fmt::format("      = expected: {}\n", diagnostic.expected);
   if (!diagnostic.rule.empty()) out += fmt::format("      = rule: {}\n", diagnostic.rule);
+  append_calls(diagnostic.calls, out);
   return out;
 }
 

@@ -13,7 +13,7 @@ constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr std::uint64_t largest_exact_integer = std::uint64_t{1} << 53;
-constexpr int most_digits_of_mantissa = 18;  // fits std::uint64_t whatever the digits are
+constexpr std::size_t most_digits_of_mantissa = 18;  // fits std::uint64_t whatever the digits are
 
 // What the fast path cannot round correctly: std::from_chars on a copy without blanks.
 NumberReading read_long_number(const char* first, const char* last, bool negative) {
@@ -51,21 +51,14 @@ NumberReading read_number(const char* at, const char* end) {
   const char* const first = at;
   const char* last = at;
   std::uint64_t mantissa = 0;
-  int taken = 0;  // digits in the mantissa, without leading zeros
-  std::size_t scale = 0;
+  std::size_t digits = 0;
+  std::size_t decimals = 0;
   bool point = false;
-  bool any = false;
-  bool all_taken = true;
   for (; at != end; ++at) {
     if (is_digit(*at)) {
-      any = true;
-      if (taken < most_digits_of_mantissa) {
-        mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
-        taken += mantissa != 0 ? 1 : 0;
-        scale += point ? 1 : 0;
-      } else {
-        all_taken = false;
-      }
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');  // worth nothing behind most_digits_of_mantissa
+      ++digits;
+      decimals += point ? 1 : 0;
     } else if (*at == '.' && !point) {
       point = true;
     } else if (is_blank(*at)) {
@@ -75,10 +68,10 @@ NumberReading read_number(const char* at, const char* end) {
     }
     last = at + 1;
   }
-  if (!any) return {0, last, NumberStatus::no_digits};
+  if (digits == 0) return {0, last, NumberStatus::no_digits};
   // Both operands are exact doubles, so that the one division rounds once: correctly.
-  if (all_taken && mantissa <= largest_exact_integer && scale < powers_of_ten.size()) {
-    const double value = static_cast<double>(mantissa) / powers_of_ten[scale];
+  if (digits <= most_digits_of_mantissa && mantissa <= largest_exact_integer && decimals < powers_of_ten.size()) {
+    const double value = static_cast<double>(mantissa) / powers_of_ten[decimals];
     return {negative ? -value : value, last, NumberStatus::good};
   }
   return read_long_number(first, last, negative);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -147,12 +148,14 @@ struct ProgramReader::State {
   std::size_t cursor = 0;
   std::size_t line_feed = 0;  // the first LF at or after `cursor`, or `filled`; older than `cursor`: not known
   std::uint32_t line = 1;
-  bool at_file_end = false;  // nothing comes after `filled`
+  std::optional<ReaderPosition> sought;  // where to go before the next line is read
+  bool at_file_end = false;              // nothing comes after `filled`
   bool failed = false;
 
   enum class Find : std::uint8_t { line, too_long, end };
 
   bool fill(Diagnostics& diagnostics);
+  void go_to(ReaderPosition position);
   Find find_line(std::size_t& end, std::size_t& next, Diagnostics& diagnostics);
   void skip_long_line(Diagnostics& diagnostics);
   std::size_t find_line_feed();
@@ -185,6 +188,20 @@ bool ProgramReader::State::fill(Diagnostics& diagnostics) {
   }
   line_feed = find_line_feed();
   return true;
+}
+
+// Keeps the buffer where the place is in it.
+void ProgramReader::State::go_to(ReaderPosition position) {
+  sought.reset();
+  line = position.line;
+  if (position.offset >= offset && position.offset <= offset + filled) {
+    cursor = static_cast<std::size_t>(position.offset - offset);
+    line_feed = find_line_feed();
+    return;
+  }
+  offset = position.offset;
+  cursor = filled = line_feed = 0;
+  at_file_end = false;
 }
 
 std::size_t ProgramReader::State::find_line_feed() {
@@ -297,6 +314,7 @@ ProgramReader ProgramReader::from_text(std::string name, std::string text) {
 
 bool ProgramReader::next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics) {
   State& state = *state_;
+  if (state.sought) state.go_to(*state.sought);
   while (!state.failed) {
     std::size_t end = 0;
     std::size_t next = 0;
@@ -321,20 +339,11 @@ bool ProgramReader::next_line(std::string_view& text, std::uint32_t& line, Diagn
 }
 
 ReaderPosition ProgramReader::position() const {
-  return {state_->offset + state_->cursor, state_->line};
+  return state_->sought.value_or(ReaderPosition{state_->offset + state_->cursor, state_->line});
 }
 
 void ProgramReader::seek(ReaderPosition position) {
-  State& state = *state_;
-  state.line = position.line;
-  if (position.offset >= state.offset && position.offset <= state.offset + state.filled) {
-    state.cursor = static_cast<std::size_t>(position.offset - state.offset);
-    state.line_feed = state.find_line_feed();
-    return;
-  }
-  state.offset = position.offset;
-  state.cursor = state.filled = state.line_feed = 0;
-  state.at_file_end = false;
+  state_->sought = position;
 }
 
 ProgramReader ProgramReader::again() const {

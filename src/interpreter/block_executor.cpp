@@ -1,6 +1,7 @@
 #include "block_executor.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "comment_text.hpp"
@@ -33,6 +34,7 @@ const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
     {feed_mode, &BlockExecutor::set_feed_mode},
 };
 const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
+    {macro, &BlockExecutor::end_macro_calls},
     {input_output, &BlockExecutor::use_input_output},
     {tool_change, &BlockExecutor::change_tool},
     {spindle, &BlockExecutor::run_spindle_group},
@@ -98,7 +100,9 @@ void BlockExecutor::finish(Closing closing) {
 void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   source_ = {block.line, line_number_of(block)};
-  if (!words_.read(block, parameters_, reporter_)) return;
+  const bool readable = words_.read(block, parameters_, reporter_);
+  if (words_.calls_macro()) return call_macro(readable);
+  if (!readable) return;
   if (!resolve_motion() || !check_words_used() || !check_words_shared() || !check_cutter_compensation()) return;
   if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
     jump(stops->number);
@@ -108,6 +112,7 @@ void BlockExecutor::execute(const Block& block) {
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
   go_on();
+  if (modal_macro_ && moves()) call_modal_macro();
 }
 
 // A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
@@ -135,11 +140,12 @@ bool BlockExecutor::step_cycle() {
 
 bool BlockExecutor::execute_words() {
   if (nurbs_.open) check_nurbs_is_closed();
-  if (words_.groups() != 0 && !run(steps_before_words)) return false;
+  const bool only_moves = (words_.groups() & ~bit_of(motion)) == 0;  // as most blocks do
+  if (!only_moves && !run(steps_before_words)) return false;
   if (words_.has('F') && !set_feed_rate()) return false;
   if (words_.has('S') && !set_spindle_speed()) return false;
   if (words_.has('T') && !select_tool()) return false;
-  if (words_.groups() != 0 && !run(steps_after_words)) return false;
+  if (!only_moves && !run(steps_after_words)) return false;
   return motion_ == nullptr || move(motion_->number);
 }
 
@@ -197,8 +203,8 @@ bool BlockExecutor::check_words_used() {
     used = used | entry->letters;
     axes |= entry->axes != AxisUse::none;
   };
-  if (words_.groups() != 0) {
-    for (std::size_t group = 0; group < modal_group_count; ++group) add(words_.code(static_cast<ModalGroup>(group)));
+  for (std::uint32_t groups = words_.groups(); groups != 0; groups &= groups - 1) {
+    add(words_.code(static_cast<ModalGroup>(std::countr_zero(groups))));
   }
   add(motion_);
   if (axes) used = used | axis_letters;
@@ -250,18 +256,24 @@ bool BlockExecutor::jump(CodeNumber number) {
     return fail("gcode.unused-word", assignments.front().span,
                 fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
   }
-  SubprogramJump found{.call = call, .good = true, .program = 0, .passes = 1, .span = words_.span(stopping)};
-  if (call) {
-    constexpr double highest_program = 999'999'999;
-    if (!words_.has('P')) {
-      found.good = fail("gcode.missing-word", found.span, "M98 without P", "P, the number of the program to call");
-    } else {
-      found.good = whole_word('P', 0, highest_program, found.program) &&
-                   (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
-    }
-  }
+  SubprogramJump found;
+  found.kind = call ? SubprogramJump::Kind::call : SubprogramJump::Kind::leave;
+  found.span = words_.span(stopping);
+  if (call) found.good = program_words(found);
+  if (!call && state_.call_depth == 0) modal_macro_.reset();  // the main program begins again
   jump_ = found;
   return true;
+}
+
+// P, the program, and L, how often.
+bool BlockExecutor::program_words(SubprogramJump& found) {
+  constexpr double highest_program = 999'999'999;
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", found.span, fmt::format("{} without P", found.code()),
+                "P, the number of the program to call");
+  }
+  return whole_word('P', 0, highest_program, found.program) &&
+         (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
 }
 
 // All values are computed before any is stored: in `#1=2 #2=#1` the second one sees the old #1.

@@ -163,12 +163,13 @@ class BlockExecutor {
   bool find_tool(std::int32_t number, Span span, const Tool*& tool);
   void load_tool(std::int32_t number);
   bool tool_offset(Point& offset);
+  bool reload_tools();
   bool set_tool_table_entry();
   bool check_tool_entry_words(Tool*& tool);
   void set_tool_offsets(Tool& tool);
   // Cycles: checked as a whole when they start, then a hole, a peck or a pass a step.
   enum class Cycle : std::uint8_t { none, drilling, threading, contour, lathe };
-  static constexpr std::size_t longest_cycle_step = 16;
+  static constexpr std::size_t longest_cycle_step = 18;
   bool step_cycle();
   bool start_drilling(CodeNumber code);
   bool check_drilling(CodeNumber code);
@@ -180,6 +181,7 @@ class BlockExecutor {
   bool peck();
   void finish_hole();
   void tap();
+  void bore_back();
   void move_along(Axis axis, double height, bool rapid);
   bool start_threading();
   bool check_threading();
@@ -243,6 +245,14 @@ class BlockExecutor {
   void keep_probe_result(const Point& end);
   Point preview_backoff(const Point& start, const Point& end) const;
   bool jump(CodeNumber code);
+  bool program_words(SubprogramJump& found);
+
+  // Macro calls.
+  void call_macro(bool readable);
+  bool check_macro_words(const SubprogramJump& call);
+  bool end_macro_calls(CodeNumber code);
+  bool moves() const;
+  void call_modal_macro();
 
   // Small things.
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
@@ -274,6 +284,7 @@ class BlockExecutor {
   std::vector<double> assigned_;
 
   std::optional<SubprogramJump> jump_;
+  std::optional<SubprogramJump> modal_macro_;  // of G66
 
   std::vector<ModalSnapshot> snapshots_;  // by call depth
   InterpreterOptions options_;

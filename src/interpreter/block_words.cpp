@@ -17,6 +17,7 @@ void BlockWords::clear() {
   present_ = {};
   if (groups_ != 0) codes_.fill(nullptr);
   groups_ = 0;
+  calls_macro_ = false;
 }
 
 bool BlockWords::read(const Block& block, const ParameterValues& parameters, Reporter& reporter) {
@@ -26,7 +27,7 @@ bool BlockWords::read(const Block& block, const ParameterValues& parameters, Rep
     double value = 0;
     if (!value_of(block, word.value, parameters, reporter, value)) {
       good = false;
-    } else if (word.letter == 'G' || word.letter == 'M') {
+    } else if (word.letter == 'G' || (word.letter == 'M' && !calls_macro_)) {
       good &= read_code(word, value, reporter);
     } else {
       good &= read_number(word, value, reporter);
@@ -65,9 +66,10 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
                    "one of them, or two blocks");
     return false;
   }
+  calls_macro_ = calls_macro_ || (entry->group == ModalGroup::macro && entry->number != passo::code(67));
   codes_[group] = entry;
   code_spans_[group] = word.span;
-  groups_ |= std::uint32_t{1} << group;
+  groups_ |= bit_of(entry->group);
   return true;
 }
 

@@ -12,6 +12,11 @@
 
 namespace passo {
 
+// The bit of a group in BlockWords::groups().
+constexpr std::uint32_t bit_of(ModalGroup group) {
+  return std::uint32_t{1} << index_of(group);
+}
+
 class BlockWords {
  public:
   // Evaluates the words of `block`. False when one is wrong: unknown, twice there, of a group already seen; all of them
@@ -23,6 +28,8 @@ class BlockWords {
   double operator[](char letter) const { return values_[letter_index(letter)]; }
   Span span(char letter) const { return spans_[letter_index(letter)]; }
   LetterSet present() const { return present_; }  // without G, M, N, O
+  // G65 or G66: what is behind it are arguments, M too.
+  bool calls_macro() const { return calls_macro_; }
   bool any_axis() const { return (present_ & (axis_letters | polar_letters)).any(); }
 
   const CodeEntry* code(ModalGroup group) const { return codes_[index_of(group)]; }
@@ -31,7 +38,7 @@ class BlockWords {
     return entry != nullptr && entry->number == number;
   }
   Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
-  // Bit g: there is a code of group g.
+  // Of those that the block has a code of.
   std::uint32_t groups() const { return groups_; }
 
  private:
@@ -39,6 +46,7 @@ class BlockWords {
   bool read_number(const Word& word, double value, Reporter& reporter);
 
   LetterSet present_;
+  bool calls_macro_ = false;
   std::uint32_t groups_ = 0;
   // Only what present_ and groups_ speak of is up to date, except codes_.
   std::array<double, letter_count> values_{};

@@ -58,7 +58,12 @@ class Line {
 };
 
 const char* name_of(Plane plane) {
-  return plane == Plane::xy ? "XY" : plane == Plane::zx ? "XZ" : "YZ";
+  switch (plane) {
+    case Plane::xy: return "XY";
+    case Plane::zx: return "XZ";
+    case Plane::yz: return "YZ";
+    default: return "UNKNOWN";  // rs274 has no names for those of U V W
+  }
 }
 
 // Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; the first number of spindle
@@ -197,6 +202,7 @@ struct Call {
     (line.number(set.tool->front_angle_deg) << ", ").number(set.tool->back_angle_deg) << ", ";
     line.whole(set.tool->orientation) << ")";
   }
+  void operator()(const operation::ReloadTools&) const { line << "RELOAD_TOOLDATA()"; }
   void operator()(const operation::ProgramStop&) const { line << "PROGRAM_STOP()"; }
   void operator()(const operation::OptionalProgramStop&) const { line << "OPTIONAL_PROGRAM_STOP()"; }
   void operator()(const operation::ProgramEnd&) const { line << "PROGRAM_END()"; }

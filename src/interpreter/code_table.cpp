@@ -12,7 +12,6 @@ namespace {
 
 using enum ModalGroup;
 using enum AxisUse;
-constexpr Support not_yet = Support::not_yet;
 constexpr Support yes = Support::yes;
 
 constexpr CodeEntry table[] = {
@@ -29,11 +28,11 @@ constexpr CodeEntry table[] = {
     {'G', code(8), lathe_diameter, none, "", yes, "X words are radii"},
     {'G', code(10), non_modal, may, "LPRIJQ", yes, "set a work offset or a tool"},
     {'G', code(17), plane, none, "", yes, "plane XY"},
-    {'G', code(17, 1), plane, none, "", not_yet, "plane UV"},
+    {'G', code(17, 1), plane, none, "", yes, "plane UV"},
     {'G', code(18), plane, none, "", yes, "plane ZX"},
-    {'G', code(18, 1), plane, none, "", not_yet, "plane WU"},
+    {'G', code(18, 1), plane, none, "", yes, "plane WU"},
     {'G', code(19), plane, none, "", yes, "plane YZ"},
-    {'G', code(19, 1), plane, none, "", not_yet, "plane VW"},
+    {'G', code(19, 1), plane, none, "", yes, "plane VW"},
     {'G', code(20), length_units, none, "", yes, "inches"},
     {'G', code(21), length_units, none, "", yes, "millimetres"},
     {'G', code(28), non_modal, may, "", yes, "go to the first home position"},
@@ -71,9 +70,9 @@ constexpr CodeEntry table[] = {
     {'G', code(61), path_mode, none, "", yes, "exact path"},
     {'G', code(61, 1), path_mode, none, "", yes, "exact stop"},
     {'G', code(64), path_mode, none, "PQR", yes, "blended path"},
-    {'G', code(65), non_modal, none, "P", not_yet, "macro call"},
-    {'G', code(66), non_modal, none, "P", not_yet, "modal macro call"},
-    {'G', code(67), non_modal, none, "", not_yet, "end of modal macro calls"},
+    {'G', code(65), macro, none, "PL", yes, "macro call"},
+    {'G', code(66), macro, none, "PL", yes, "macro call behind each block that moves"},
+    {'G', code(67), macro, none, "", yes, "no more macro calls of G66"},
     {'G', code(70), motion, may, "QDEP", yes, "lathe finishing cycle"},
     {'G', code(71), motion, may, "QDIR", yes, "lathe roughing cycle"},
     {'G', code(71, 1), motion, may, "QDIR", yes, "lathe roughing cycle"},
@@ -91,8 +90,8 @@ constexpr CodeEntry table[] = {
     {'G', code(84), motion, must, "@^RLP", yes, "right-hand tapping cycle"},
     {'G', code(85), motion, must, "@^RL", yes, "boring cycle, feed out"},
     {'G', code(86), motion, must, "@^RLP", yes, "boring cycle, spindle stop, rapid out"},
-    {'G', code(87), motion, must, "@^RLIJK", not_yet, "back boring, for which the spindle stops at an angle"},
-    {'G', code(88), motion, must, "@^RLP", not_yet, "boring with retract by hand"},
+    {'G', code(87), motion, must, "@^RLIJK", yes, "back boring cycle"},
+    {'G', code(88), motion, must, "@^RLP", yes, "boring cycle, retract by hand"},
     {'G', code(89), motion, must, "@^RLP", yes, "boring cycle with dwell, feed out"},
     {'G', code(90), distance, none, "", yes, "absolute distances"},
     {'G', code(90, 1), arc_distance, none, "", yes, "absolute arc centres"},
@@ -185,9 +184,9 @@ std::string_view name_of(ModalGroup group) {
       "non-modal codes",     "motion",        "planes",        "distance modes",
       "arc centre modes",    "feed modes",    "length units",  "cutter compensation",
       "tool length offsets", "retract modes", "work systems",  "path modes",
-      "spindle modes",       "lathe modes",   "program stops", "inputs and outputs",
-      "tool changes",        "spindle codes", "coolant codes", "override codes",
-      "user codes"};
+      "spindle modes",       "lathe modes",   "macro calls",   "program stops",
+      "inputs and outputs",  "tool changes",  "spindle codes", "coolant codes",
+      "override codes",      "user codes"};
   return names[index_of(group)];
 }
 

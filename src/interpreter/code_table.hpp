@@ -33,6 +33,7 @@ enum class ModalGroup : std::uint8_t {
   path_mode,            // 13
   spindle_mode,         // 14
   lathe_diameter,       // 15
+  macro,                // Fanuc's macro calls
   stopping,             // M group 4
   input_output,         // 5
   tool_change,          // 6
@@ -41,7 +42,7 @@ enum class ModalGroup : std::uint8_t {
   overrides,            // 9
   user,                 // 10
 };
-inline constexpr std::size_t modal_group_count = 21;
+inline constexpr std::size_t modal_group_count = 22;
 constexpr std::size_t index_of(ModalGroup group) {
   return static_cast<std::size_t>(group);
 }

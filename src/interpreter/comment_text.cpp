@@ -39,12 +39,27 @@ Found find_parameter(std::string_view text, const ParameterValues& parameters, S
   return found;
 }
 
+// How values are written from here on: %d, %f and %.3f, as LinuxCNC knows them. Returns how much of the text that was.
+std::size_t read_format(std::string_view text, int& decimals) {
+  constexpr int decimals_of_f = 4;
+  if (text.starts_with("%d")) return decimals = 0, 2;
+  if (text.starts_with("%f")) return decimals = decimals_of_f, 2;
+  if (!text.starts_with("%.")) return 0;
+  if (text.size() < 4 || !is_digit(text[2]) || text[3] != 'f') return 1;  // its % goes
+  return decimals = text[2] - '0', 4;
+}
+
 }  // namespace
 
 void fill_in_parameters(std::string_view text, const ParameterValues& parameters, SymbolTable& symbols,
                         std::string& out) {
   out.clear();
+  int decimals = 6;
   while (!text.empty()) {
+    if (const std::size_t format = text.front() == '%' ? read_format(text, decimals) : 0; format != 0) {
+      text.remove_prefix(format);
+      continue;
+    }
     const Found found = text.front() == '#' ? find_parameter(text, parameters, symbols) : Found{};
     if (found.length == 0) {
       out += text.front();
@@ -52,7 +67,8 @@ void fill_in_parameters(std::string_view text, const ParameterValues& parameters
       continue;
     }
     if (found.known) {
-      fmt::format_to(std::back_inserter(out), "{:.6f}", std::abs(found.value) < shown_as_zero ? 0 : found.value);
+      fmt::format_to(std::back_inserter(out), "{:.{}f}", std::abs(found.value) < shown_as_zero ? 0 : found.value,
+                     decimals);
     } else {
       out += "######";
     }

@@ -9,7 +9,8 @@
 
 namespace passo {
 
-// Six decimals, as LinuxCNC writes them; ###### where there is no such parameter.
+// Six decimals, or as %d (none), %f (four) or %.3f before them say, as LinuxCNC writes them; ###### where there is no
+// such parameter.
 void fill_in_parameters(std::string_view text, const ParameterValues& parameters, SymbolTable& symbols,
                         std::string& out);
 

@@ -75,8 +75,9 @@ bool BlockExecutor::set_cutter_compensation(CodeNumber number) {
 
 bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
   const Span span = words_.span(cutter_compensation);
-  if (state_.modal.plane() == Plane::yz) {
-    return fail("gcode.cutter-compensation", span, "cutter compensation in the plane YZ (G19)",
+  if (state_.modal.plane() != Plane::xy && state_.modal.plane() != Plane::zx) {
+    return fail("gcode.cutter-compensation", span,
+                fmt::format("cutter compensation in the plane of {}", spelling('G', state_.modal[plane])),
                 "G17, or G18 on a lathe");
   }
   if (state_.modal[cutter_compensation] != code(40)) {

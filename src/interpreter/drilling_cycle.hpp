@@ -21,6 +21,7 @@ struct DrillingWords {
   double depth = 0;    // the depth axis' word as written
   double dwell = 0;
   double peck = 0;
+  Point aside;  // G87: how far the tool goes aside, in the plane; through it the top of the back bore as written
 };
 
 // One block's holes.
@@ -31,6 +32,7 @@ struct DrillingCycle {
   bool in_hole = false;
   double retract = 0;  // the height of R
   double bottom = 0;
+  double top = 0;      // of a back bore
   double height = 0;   // to the next hole
   double clear = 0;    // out of a hole
   double reached = 0;  // by the pecks so far

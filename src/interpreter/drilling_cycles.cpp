@@ -1,4 +1,4 @@
-// BlockExecutor: drilling, tapping and boring cycles (G73, G74, G81 … G86, G89).
+// BlockExecutor: drilling, tapping and boring cycles (G73, G74, G81 … G89).
 //
 // The moves are those of RS274/NGC (NIST 6556, 3.5.16) in the order in which LinuxCNC makes them. A hole or a peck at a
 // time, so that any number of holes fits the queue.
@@ -26,8 +26,13 @@ constexpr bool taps(CodeNumber number) {
   return number == code(74) || number == code(84);
 }
 constexpr bool needs_dwell(CodeNumber number) {
-  return number == code(82) || number == code(86) || number == code(89);
+  return number == code(82) || number == code(86) || number == code(88) || number == code(89);
 }
+constexpr bool needs_spindle(CodeNumber number) {
+  return number == code(86) || number == code(87) || number == code(88);
+}
+// The words of G87 that go along X, Y and Z.
+constexpr std::pair<char, std::size_t> aside_letters[] = {{'I', 0}, {'J', 1}, {'K', 2}};
 
 }  // namespace
 
@@ -81,10 +86,12 @@ bool BlockExecutor::check_drilling(CodeNumber number) {
     return fail("gcode.cycle-compensation", motion_span(), fmt::format("{} while cutter compensation is on", name),
                 "G40 before");
   }
-  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'}) {
+  const bool uvw = is_of_uvw(state_.modal.plane());
+  for (const char letter : uvw ? std::string_view("XYZABC") : std::string_view("ABCUVW")) {
     if (!words_.has(letter)) continue;
-    return fail("gcode.cycle-axis", words_.span(letter), fmt::format("{} does not move {}", name, letter),
-                fmt::format("X, Y and Z; {} in a block before", letter));
+    return fail("gcode.cycle-axis", words_.span(letter),
+                fmt::format("{} does not move {}{}", name, letter, uvw ? " in a plane of U V W" : ""),
+                fmt::format("{}; {} in a block before", uvw ? "U, V and W" : "X, Y and Z", letter));
   }
   Point hole;
   return end_point(hole) && check_feed() && check_drilling_spindle(number);
@@ -101,7 +108,7 @@ bool BlockExecutor::check_drilling_spindle(CodeNumber number) {
                             direction == SpindleDirection::off ? "does not turn" : "turns the other way"),
                 right ? "M3 before, or in this block" : "M4 before, or in this block");
   }
-  if (number != code(86) || direction != SpindleDirection::off) return true;
+  if (!needs_spindle(number) || direction != SpindleDirection::off) return true;
   return fail("gcode.cycle-spindle", motion_span(), fmt::format("{} while the spindle does not turn", name),
               "M3 or M4 before, or in this block");
 }
@@ -118,6 +125,11 @@ bool BlockExecutor::check_drilling_words(CodeNumber number, bool first) {
   if (first && !words_.has('R')) return missing('R', "where the feed begins");
   if (first && needs_dwell(number) && !words_.has('P')) return missing('P', "the seconds to wait at the bottom");
   if (first && pecks(number) && !words_.has('Q')) return missing('Q', "the depth of one peck");
+  for (const auto& [letter, axis] : aside_letters) {
+    if (first && number == code(87) && !words_.has(letter)) {
+      return missing(letter, "how far the tool goes aside, or where the back bore begins");
+    }
+  }
   if (words_.has('P') && words_['P'] < 0) {
     return fail("gcode.negative-word", words_.span('P'),
                 fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
@@ -135,6 +147,10 @@ bool BlockExecutor::check_drilling_words(CodeNumber number, bool first) {
   if (words_.has('R')) kept.retract = words_['R'] * state_.length_unit();
   if (words_.has('P')) kept.dwell = words_['P'];
   if (words_.has('Q')) kept.peck = words_['Q'] * state_.length_unit();
+  const std::size_t first_axis = index_of(is_of_uvw(kept.plane) ? Axis::u : Axis::x);
+  for (const auto& [letter, axis] : aside_letters) {
+    if (words_.has(letter)) kept.aside[all_axes[first_axis + axis]] = words_[letter] * state_.length_unit();
+  }
   return true;
 }
 
@@ -146,6 +162,7 @@ void BlockExecutor::prepare_drilling(CodeNumber number) {
   drilling_.in_hole = false;
   drilling_.retract = drilling_words_.retract + (incremental ? drilling_words_.initial_height : 0);
   drilling_.bottom = drilling_words_.depth + (incremental ? drilling_.retract : 0);
+  drilling_.top = drilling_words_.aside[drilling_.axis] + (incremental ? drilling_.bottom : 0);
 }
 
 void BlockExecutor::move_along(Axis axis, double height, bool rapid) {
@@ -199,12 +216,48 @@ bool BlockExecutor::peck() {
 void BlockExecutor::finish_hole() {
   const CodeNumber number = drilling_.code;
   if (taps(number)) return tap();
+  if (number == code(87)) return bore_back();
   move_along(drilling_.axis, drilling_.bottom, false);
   if (needs_dwell(number)) emit(operation::Dwell{Seconds(drilling_words_.dwell)});
-  if (number == code(86)) emit(operation::TurnSpindle{});
+  if (needs_spindle(number)) emit(operation::TurnSpindle{});
+  if (number == code(88)) emit(operation::ProgramStop{});
   if (number == code(85)) move_along(drilling_.axis, drilling_.retract, false);
-  move_along(drilling_.axis, drilling_.clear, number != code(89));
-  if (number == code(86)) emit(operation::TurnSpindle{state_.spindles[0].direction});
+  if (number == code(88) && !state_.on_machine) {
+    state_.position[drilling_.axis] = drilling_.clear;  // taken out by hand
+  } else {
+    move_along(drilling_.axis, drilling_.clear, number != code(89));
+  }
+  if (needs_spindle(number)) emit(operation::TurnSpindle{state_.spindles[0].direction});
+}
+
+// With the spindle held at an angle the tool goes aside, through the hole and under it, and bores upwards there.
+void BlockExecutor::bore_back() {
+  const Axis axis = drilling_.axis;
+  Point aside = drilling_words_.aside;
+  aside[axis] = 0;
+  const SpindleDirection direction = state_.spindles[0].direction;
+  const auto traverse_by = [&](const Point& step) {
+    state_.position = state_.position + step;
+    emit(operation::StraightTraverse{state_.position});
+  };
+  // LinuxCNC hands the number of the direction on, where M19 has its P.
+  const auto way = static_cast<operation::OrientSpindle::Way>(static_cast<int>(direction) + 1);
+  const auto hold_spindle = [&] {
+    emit(operation::TurnSpindle{});
+    emit(operation::OrientSpindle{0, way});
+  };
+  traverse_by(aside);
+  hold_spindle();
+  move_along(axis, drilling_.bottom, true);
+  traverse_by(Point{} - aside);
+  emit(operation::TurnSpindle{direction});
+  move_along(axis, drilling_.top, false);
+  move_along(axis, drilling_.bottom, false);
+  hold_spindle();
+  traverse_by(aside);
+  move_along(axis, drilling_.clear, true);
+  traverse_by(Point{} - aside);
+  emit(operation::TurnSpindle{direction});
 }
 
 // With a floating holder: the feed follows from F, in and out, and nobody may change it meanwhile.

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "rules.hpp"
+
 namespace passo {
 namespace {
 
@@ -41,13 +43,15 @@ Field FieldReader::rest() const {
 
 void FieldReader::error(std::string_view code, const Field& field, std::string message, std::string expected) {
   const auto length = static_cast<std::uint32_t>(std::max<std::size_t>(field.text.size(), 1));
-  diagnostics_.add({.severity = Severity::error,
-                    .code = std::string(code),
-                    .file = file_,
-                    .place = {number_, field.column, length},
-                    .message = std::move(message),
-                    .expected = std::move(expected),
-                    .text = std::string(line_)});
+  Diagnostic diagnostic{.severity = Severity::error,
+                        .code = std::string(code),
+                        .file = file_,
+                        .place = {number_, field.column, length},
+                        .message = std::move(message),
+                        .expected = std::move(expected),
+                        .text = std::string(line_)};
+  diagnostic.rule = rule_of(diagnostic);
+  diagnostics_.add(std::move(diagnostic));
 }
 
 void FieldReader::error(std::string_view code, std::string message, std::string expected) {

@@ -3,6 +3,7 @@
 #include "block_executor.hpp"
 #include "grbl.hpp"
 #include "program_flow.hpp"
+#include "rules.hpp"
 
 namespace passo {
 
@@ -16,8 +17,9 @@ class Interpreter::Implementation {
         executor_(state_, parameters_, operations_, reporter_, symbols_) {
     parameters_.load(options.parameters);
     executor_.start(options);
+    diagnostics.look_up_rules_with(rule_of);
     if (options.dialect != Dialect::grbl) return;
-    diagnostics.look_up_rules_with(grbl_error);
+    diagnostics.look_up_rules_with([](const Diagnostic& diagnostic) { return grbl_error(diagnostic.code); });
     state_.modal.set(ModalGroup::motion, code(0));  // where LinuxCNC waits for a first motion code
   }
 
@@ -41,6 +43,8 @@ class Interpreter::Implementation {
     return saved;
   }
 
+  const ToolTable& tools() const { return state_.tools; }
+
   std::uint64_t offset() const { return flow_.offset(); }
 
   void watch(BlockWatcher& watcher) {
@@ -58,12 +62,15 @@ class Interpreter::Implementation {
   // One block: none, one or several operations.
   void step() {
     if (executor_.wants_contour()) return read_contour();
-    if (executor_.busy()) return executor_.go_on();
+    if (executor_.busy()) {
+      executor_.go_on();
+      return follow_jump();
+    }
     const Block* const block = executor_.ended() ? nullptr : flow_.next();
     text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {
       executor_.execute(*block);
-      if (const auto jump = executor_.take_jump()) follow(*jump);
+      follow_jump();
       if (watcher_ != nullptr) watcher_->after(state_);
       if (!operations_.empty()) flow_.note_progress();
       return;
@@ -79,6 +86,12 @@ class Interpreter::Implementation {
       const bool at_percent = flow_.end() == ProgramFlow::End::percent;
       executor_.finish(at_percent ? BlockExecutor::Closing::percent : BlockExecutor::Closing::none);
     }
+  }
+
+  // A macro of G66 runs when the cycle of its block is done.
+  void follow_jump() {
+    if (executor_.busy() || executor_.ended()) return;
+    if (const auto jump = executor_.take_jump()) follow(*jump);
   }
 
   void follow(const SubprogramJump& jump) {
@@ -123,6 +136,10 @@ bool Interpreter::next(Operation& operation) {
 
 SavedParameters Interpreter::saved_parameters() const {
   return implementation_->saved_parameters();
+}
+
+const ToolTable& Interpreter::tools() const {
+  return implementation_->tools();
 }
 
 void Interpreter::watch(BlockWatcher& watcher) {

@@ -183,7 +183,9 @@ void LatheContour::turn() {
 
 void LatheContour::orient() {
   const LathePoint back = segments.front().end - segments.back().end;
-  const bool mirror_x = back.imag() > 0;
+  // A contour that ends as high as it begins: the way to it falls.
+  const bool rises_to_it = segments.front().end.imag() > segments.front().start.imag();
+  const bool mirror_x = back.imag() > 0 || (back.imag() == 0 && rises_to_it);
   const bool mirror_z = back.real() < 0;
   for (LatheSegment& segment : segments) {
     for (LathePoint* const point : {&segment.start, &segment.end, &segment.center}) {

@@ -36,8 +36,14 @@ class ModalState {
   void set(ModalGroup group, CodeNumber number) { active_[index_of(group)] = number; }
 
   Plane plane() const {
-    const CodeNumber active = (*this)[ModalGroup::plane];
-    return active == code(17) ? Plane::xy : active == code(18) ? Plane::zx : Plane::yz;
+    switch ((*this)[ModalGroup::plane]) {
+      case code(17, 1): return Plane::uv;
+      case code(18): return Plane::zx;
+      case code(18, 1): return Plane::wu;
+      case code(19): return Plane::yz;
+      case code(19, 1): return Plane::vw;
+      default: return Plane::xy;
+    }
   }
   bool incremental() const { return (*this)[ModalGroup::distance] == code(91); }
   bool inches() const { return (*this)[ModalGroup::length_units] == code(20); }

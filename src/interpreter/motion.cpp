@@ -19,7 +19,15 @@ constexpr char center_letter(Axis axis) {
   return axis == Axis::x ? 'I' : axis == Axis::y ? 'J' : 'K';
 }
 constexpr std::string_view name_of(Plane plane) {
-  return plane == Plane::xy ? "XY (G17)" : plane == Plane::zx ? "ZX (G18)" : "YZ (G19)";
+  switch (plane) {
+    case Plane::xy: return "XY (G17)";
+    case Plane::zx: return "ZX (G18)";
+    case Plane::yz: return "YZ (G19)";
+    case Plane::uv: return "UV (G17.1)";
+    case Plane::wu: return "WU (G18.1)";
+    case Plane::vw: return "VW (G19.1)";
+  }
+  return {};
 }
 
 constexpr bool drills(CodeNumber number) {
@@ -81,6 +89,8 @@ bool BlockExecutor::move_by(CodeNumber number) {
     case code(84):
     case code(85):
     case code(86):
+    case code(87):
+    case code(88):
     case code(89): return start_drilling(number);
     case code(76): return start_threading();
     case code(70):
@@ -233,6 +243,10 @@ bool BlockExecutor::arc(bool clockwise) {
                 "a straight move first, which leads the tool to the contour");
   }
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
+  if (is_of_uvw(state_.modal.plane())) {
+    return fail("gcode.wrong-plane", motion_span(),
+                fmt::format("an arc in the plane {}", name_of(state_.modal.plane())), "G17, G18 or G19 before");
+  }
 
   ArcCenter found;
   std::int32_t turns = 1;

@@ -19,8 +19,15 @@ constexpr PlaneAxes axes_of(Plane plane) {
     case Plane::xy: return {Axis::x, Axis::y, Axis::z};
     case Plane::zx: return {Axis::z, Axis::x, Axis::y};
     case Plane::yz: return {Axis::y, Axis::z, Axis::x};
+    case Plane::uv: return {Axis::u, Axis::v, Axis::w};
+    case Plane::wu: return {Axis::w, Axis::u, Axis::v};
+    case Plane::vw: return {Axis::v, Axis::w, Axis::u};
   }
   return {Axis::x, Axis::y, Axis::z};
+}
+// U V W beside X Y Z: cycles alone know them.
+constexpr bool is_of_uvw(Plane plane) {
+  return plane == Plane::uv || plane == Plane::wu || plane == Plane::vw;
 }
 constexpr PlanePoint in_plane(const Point& point, const PlaneAxes& axes) {
   return {point[axes.first], point[axes.second]};

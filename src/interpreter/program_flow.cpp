@@ -1,8 +1,8 @@
 #include "program_flow.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "grbl.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -11,28 +11,6 @@ namespace {
 using enum ControlKind;
 
 constexpr double whole_tolerance = 1e-4;
-
-// 'O' first, after white space, '/' and N with its number: all that is looked at in a line that is skipped.
-bool may_be_control(std::string_view text) {
-  std::size_t i = 0;
-  const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
-  while (at(" \t/")) ++i;
-  if (at("nN")) {
-    ++i;
-    while (at(" \t0123456789.")) ++i;
-  }
-  return at("oO");
-}
-
-bool is_deleted(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first != std::string_view::npos && text[first] == '/';
-}
-
-bool is_percent(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%';
-}
 
 std::string_view name_of(ControlKind kind) {
   switch (kind) {
@@ -66,11 +44,12 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineSt
       reporter_(reporter),
       value_name_(symbols.intern("_value")),
       returned_name_(symbols.intern("_value_returned")) {
-  files_.push_back(std::make_unique<File>(std::move(reader), symbols_));
+  files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
   file_ = files_.front().get();
   (void)parameters_.set_named(value_name_, 0);
   (void)parameters_.set_named(returned_name_, 0);
-  reporter_.look_at(block_, file_->name);
+  look_at(line_);
+  reporter_.tell_calls_of(*this);
 }
 
 const Block* ProgramFlow::next() {
@@ -90,23 +69,23 @@ const Block* ProgramFlow::next() {
           const Frame& frame = frames_.back();
           report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}, 0});
         }
-        block_.text = {};  // the reader's, and gone
+        block_->text = {};  // the reader's, and gone
         return finish(End::file);
       case Read::skipped: continue;
       case Read::block: break;
     }
-    if (block_.percent) {
+    if (block_->percent) {
       if (is_percent_end()) return finish(End::percent);
       continue;
     }
-    if (watcher_ != nullptr) watcher_->before(block_, file_->name, state_, parameters_, symbols_);
-    if (!block_.control) {
-      begun_ = begun_ || !block_.words.empty() || !block_.assignments.empty();
-      return &block_;
+    if (watcher_ != nullptr) watcher_->before(*block_, file_->name, state_, parameters_, symbols_);
+    if (!block_->control) {
+      begun_ = begun_ || !block_->words.empty() || !block_->assignments.empty();
+      return block_;
     }
     begun_ = true;
-    state_.line = block_.line;
-    obey(*block_.control);
+    state_.line = block_->line;
+    obey(*block_->control);
     if (watcher_ != nullptr) watcher_->after(state_);
     if (contour_depth_ != 0) {
       left_sub_.reset();  // nothing was executed there, so nothing is put back
@@ -117,51 +96,11 @@ const Block* ProgramFlow::next() {
   return nullptr;
 }
 
-ProgramFlow::Read ProgramFlow::read() {
-  std::string_view text;
-  std::uint32_t line = 0;
-  block_at_ = file_->reader.position();
-  if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return Read::end;
-  if (options_.block_delete && is_deleted(text)) return Read::skipped;
-  return parse(text, line) ? Read::block : Read::skipped;
-}
-
-// A line that is no G-code is told once, however often a loop comes by.
-bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
-  std::set<std::uint32_t>& unreadable = file_->unreadable;
-  if (!unreadable.empty() && unreadable.contains(line)) return false;
-  if (file_->parser.parse(text, line, block_, reporter_.diagnostics()) && is_of_dialect()) return true;
-  unreadable.insert(line);
-  return false;
-}
-
-bool ProgramFlow::is_of_dialect() {
-  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(block_, state_, reporter_);
-}
-
 // A '%' before everything else opens the program, the next one closes it.
 bool ProgramFlow::is_percent_end() {
   const bool ends = std::exchange(begun_, true);
   opened_percent_ = opened_percent_ || !ends;
   return ends;
-}
-
-// What is behind the closing '%' of the main file is no program.
-bool ProgramFlow::closes_program(std::string_view text) {
-  if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
-  return closing_percent_ = std::exchange(file_->seen_percent, true);
-}
-
-bool ProgramFlow::lacks_closing_percent() {
-  if (!opened_percent_) return false;
-  ProgramReader& reader = files_.front()->reader;
-  if (!frames_.empty()) reader.seek(frames_.front().return_to);
-  std::string_view text;
-  std::uint32_t line = 0;
-  while (reader.next_line(text, line, reporter_.diagnostics())) {
-    if (is_percent(text)) return false;
-  }
-  return true;
 }
 
 const Block* ProgramFlow::finish(End end) {
@@ -221,29 +160,17 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
                     fmt::format("{} in the numbered program O{}, which begins at line {}",
                                 control.kind == endsub ? "endsub" : "return", label_text(label), frame.place.at.line),
                     "M99");
-    finish(End::error);
-    return;
+    return leave_frame();
   }
   double value = 0;
-  if (!control.arguments.empty() && !value_of(block_, control.arguments.front(), parameters_, reporter_, value)) return;
+  if (!control.arguments.empty() && !value_of(*block_, control.arguments.front(), parameters_, reporter_, value))
+    return;
   if (control.kind == endsub) {
     for (std::size_t i = frame.first_open; i < open_.size(); ++i) report_unclosed(open_[i]);
   }
   (void)parameters_.set_named(value_name_, value);
   (void)parameters_.set_named(returned_name_, control.arguments.empty() ? 0 : 1);
   leave_frame();
-}
-
-void ProgramFlow::leave_frame() {
-  const Frame frame = frames_.back();
-  open_.resize(frame.first_open);
-  frames_.pop_back();
-  parameters_.leave_sub();
-  state_.call_depth = static_cast<int>(frames_.size());
-  file_ = frame.caller;
-  file_->reader.seek(frame.return_to);
-  reporter_.look_at(block_, file_->name);
-  left_sub_ = frame.return_to.line - 1;
 }
 
 void ProgramFlow::begin_if(Symbol label, const Control& control) {
@@ -259,7 +186,7 @@ void ProgramFlow::begin_if(Symbol label, const Control& control) {
 // From a branch that was not taken to the one that is, or behind the endif.
 bool ProgramFlow::skip_branch(const Open& from) {
   while (skip_to(from, kinds({elseif, else_, endif}))) {
-    const Control& control = *block_.control;
+    const Control& control = *block_->control;
     double condition = 1;
     if (control.kind == endif) return open_.pop_back(), true;
     if (control.kind == else_) return true;
@@ -382,7 +309,7 @@ bool ProgramFlow::go_round(const Open& loop) {
   if (++idle_passes_ <= options_.idle_passes) return true;
   file_->reader.seek(loop.at);
   (void)read();
-  reporter_.error("gcode.endless-loop", block_.control ? block_.control->span : Span{1, 1},
+  reporter_.error("gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
                   fmt::format("the loop went round {} times without any operation", options_.idle_passes),
                   "a loop that ends, or that moves");
   finish(End::error);
@@ -402,11 +329,17 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
       finish(End::error);
       return false;
     }
-    const ControlKind kind = block_.control->kind;
+    const ControlKind kind = block_->control->kind;
     if (!frames_.empty() && kind == endsub && label == frames_.back().sub && opening.kind != sub) {
       report_unclosed(opening);
       while (any_open()) open_.pop_back();
       file_->reader.seek(block_at_);  // the sub ends here
+      return false;
+    }
+    if (kind == sub && opening.kind == sub) {
+      stray(*block_->control, fmt::format("a sub inside the sub {}", label_text(opening.label)),
+            "endsub before the next sub");
+      finish(End::error);
       return false;
     }
     if (label != opening.label) continue;
@@ -421,25 +354,11 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
   }
 }
 
-// The next O-word, whatever stands before it.
-bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
-  for (;;) {
-    std::string_view text;
-    std::uint32_t line = 0;
-    block_at_ = file_->reader.position();
-    if (reporter_.full() || !file_->reader.next_line(text, line, reporter_.diagnostics())) return false;
-    if (within_percents && closes_program(text)) return false;
-    if (!may_be_control(text) || (options_.block_delete && is_deleted(text))) continue;
-    if (!parse(text, line) || !block_.control) continue;
-    if (label_of(*block_.control, label)) return true;
-  }
-}
-
 bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   label = control.label;
   if (!control.computed_label) return true;
   double value = 0;
-  if (!value_of(block_, *control.computed_label, parameters_, reporter_, value)) return false;
+  if (!value_of(*block_, *control.computed_label, parameters_, reporter_, value)) return false;
   const double whole = std::round(value);
   if (std::abs(value - whole) > whole_tolerance || whole < 0 || whole > 1e9) {
     reporter_.error("gcode.bad-o-word", control.computed_label->span,
@@ -451,7 +370,7 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
 }
 
 bool ProgramFlow::argument(const Control& control, double& value) {
-  if (!control.arguments.empty()) return value_of(block_, control.arguments.front(), parameters_, reporter_, value);
+  if (!control.arguments.empty()) return value_of(*block_, control.arguments.front(), parameters_, reporter_, value);
   reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] behind it");
   return false;
 }
@@ -474,23 +393,9 @@ void ProgramFlow::report_unclosed(const Open& open) {
   file_->reader.seek(here);
 }
 
-// After a look elsewhere in the file: the block's text is the reader's, and gone.
-void ProgramFlow::reread_block_text() {
-  std::uint32_t line = 0;
-  file_->reader.seek(block_at_);
-  if (!file_->reader.next_line(block_.text, line, reporter_.diagnostics())) block_.text = {};
-}
-
 bool ProgramFlow::stray(const Control& control, std::string message, std::string expected) {
   reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
   return false;
-}
-
-// As it is written behind the O: 100, <name>.
-std::string ProgramFlow::label_text(Symbol label) const {
-  const std::string_view name = symbols_.name(label);
-  const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
-  return number ? std::string(name) : fmt::format("<{}>", name);
 }
 
 }  // namespace passo

@@ -23,6 +23,10 @@ void Reporter::error(const EvaluationError& error) {
   const std::string operand = plain_number(error.operand);
   switch (error.kind) {
     case Kind::unknown_parameter:
+      if (what.find("_hal[") != std::string::npos || what.find("_HAL[") != std::string::npos) {
+        return this->error("gcode.no-hal", error.span, fmt::format("there is no HAL here, and so no {}", what),
+                           "a parameter of the program; EXISTS[] of a HAL pin is 0");
+      }
       return this->error("gcode.unknown-parameter", error.span, fmt::format("{} has no value", what),
                          "a parameter that was set before; #1 to #5601, #<name>, or a predefined #<_name>");
     case Kind::bad_parameter_number:
@@ -62,7 +66,20 @@ void Reporter::add(Severity severity, std::string_view code, std::uint32_t line,
                     .place = place,
                     .message = std::move(message),
                     .expected = std::move(expected),
-                    .text = std::string(text)});
+                    .text = std::string(text),
+                    .calls = calls()});
+}
+
+void Reporter::pass_on(Diagnostics& faults) {
+  for (Diagnostic fault : faults.all()) {
+    fault.calls = calls();
+    diagnostics_.add(std::move(fault));
+  }
+  faults = Diagnostics();
+}
+
+std::vector<CallPlace> Reporter::calls() const {
+  return stack_ == nullptr ? std::vector<CallPlace>() : stack_->calls();
 }
 
 std::string plain_number(double value) {

@@ -3,12 +3,21 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/block.hpp"
 #include "passo/gcode/expression.hpp"
 
 namespace passo {
+
+// Who knows which subs are running.
+class CallStack {
+ public:
+  virtual ~CallStack() = default;
+  // The innermost first.
+  virtual std::vector<CallPlace> calls() const = 0;
+};
 
 class Reporter {
  public:
@@ -20,6 +29,9 @@ class Reporter {
     file_ = &file;
   }
 
+  // Each finding tells through which calls the program came there. Borrowed.
+  void tell_calls_of(const CallStack& stack) { stack_ = &stack; }
+
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
   void warning(std::string_view code, Span span, std::string message, std::string expected = {});
   // About another line than the block's own.
@@ -27,6 +39,9 @@ class Reporter {
                 std::string expected);
   // An expression that has no value.
   void error(const EvaluationError& error);
+
+  // What was found while the line was read.
+  void pass_on(Diagnostics& faults);
 
   // What the file says there.
   std::string quote(Span span) const;
@@ -38,10 +53,12 @@ class Reporter {
  private:
   void add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
            std::string message, std::string expected);
+  std::vector<CallPlace> calls() const;
 
   Diagnostics& diagnostics_;
   const Block* block_ = nullptr;
   const std::string* file_ = nullptr;
+  const CallStack* stack_ = nullptr;
 };
 
 // A number as a person writes it: "2.5", not "2.500000".

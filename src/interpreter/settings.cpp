@@ -129,7 +129,9 @@ bool BlockExecutor::set_lathe_diameter(CodeNumber number) {
 bool BlockExecutor::set_path_mode(CodeNumber number) {
   const double unit = state_.length_unit();
   if (words_.has('R')) {
-    return fail("gcode.unsupported-word", words_.span('R'), "R of G64 is not supported yet", "P and Q");
+    reporter_.warning("gcode.unused-word", words_.span('R'),
+                      "R of G64 has no effect: it tunes the corners of LinuxCNC 2.10's own planner",
+                      "P, from which the speed in corners follows");
   }
   state_.modal.set(path_mode, number);
   if (number == code(64)) {

@@ -1,4 +1,4 @@
-// ProgramFlow: calling subs, and finding them.
+// ProgramFlow: calling subs, leaving them, and finding them.
 #include <filesystem>
 
 #include "program_flow.hpp"
@@ -15,14 +15,14 @@ void ProgramFlow::call(Symbol label, const Control& control) {
   }
   std::array<double, sub_parameters> arguments{};
   for (std::size_t i = 0; i < control.arguments.size(); ++i) {
-    if (!value_of(block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
+    if (!value_of(*block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
   }
 
   Frame frame{file_, file_->reader.position(), label, {}, open_.size(), 1};
   File* const file = find_sub(label);
   if (file == nullptr) return report_unknown_sub(label, control.span, false);
   frame.place = file->subs.at(label.id);
-  if (!check_style(frame.place, label, control.span, false)) return;
+  if (!check_style(frame.place, label, control.span, {})) return;
   parameters_.enter_sub({arguments.data(), control.arguments.size()});
   enter(frame, file);
 }
@@ -37,12 +37,14 @@ bool ProgramFlow::has_room_for_call(Span span) {
 
 // Says where it was looked for.
 void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
-  const std::string_view name = symbols_.name(label);
+  const std::string sub = fmt::format("{}{}{}", numbered ? "O" : "o", label_text(label), numbered ? "" : " sub");
+  const std::string file = std::string(symbols_.name(label)) + ".ngc";
   reporter_.error("gcode.unknown-sub", span,
                   fmt::format("there is no {} {}", numbered ? "program" : "sub", label_text(label)),
-                  fmt::format("{}{}{} in this file, or in a file {}.ngc {}", numbered ? "O" : "o", label_text(label),
-                              numbered ? "" : " sub", name, places_looked_at()));
-  finish(closing_percent_ ? End::percent : End::error);
+                  fmt::format("{} in this file, or in a file {} {}", sub, file, places_looked_at(file)));
+  // The run goes on to find more errors, but not for ever with a loop of calls that lead nowhere.
+  constexpr std::uint64_t most_unknown_calls = 1000;
+  if (++unknown_calls_ == most_unknown_calls) finish(End::error);
 }
 
 void ProgramFlow::enter(const Frame& frame, File* file) {
@@ -50,7 +52,28 @@ void ProgramFlow::enter(const Frame& frame, File* file) {
   state_.call_depth = static_cast<int>(frames_.size());
   file_ = file;
   file_->reader.seek(frame.place.after);
-  reporter_.look_at(block_, file_->name);
+  look_at(*block_);
+}
+
+void ProgramFlow::leave_frame() {
+  const Frame frame = frames_.back();
+  open_.resize(frame.first_open);
+  frames_.pop_back();
+  parameters_.leave_sub();
+  state_.call_depth = static_cast<int>(frames_.size());
+  file_ = frame.caller;
+  file_->reader.seek(frame.return_to);
+  look_at(*block_);
+  left_sub_ = frame.return_to.line - 1;
+}
+
+std::vector<CallPlace> ProgramFlow::calls() const {
+  std::vector<CallPlace> calls;
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    calls.push_back(
+        {(frame->place.numbered ? "O" : "o") + label_text(frame->sub), frame->caller->name, frame->return_to.line - 1});
+  }
+  return calls;
 }
 
 bool ProgramFlow::call_for_contour(Symbol sub, Span span) {
@@ -77,7 +100,7 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   if (file.subs.contains(label.id)) return true;
   if (file.seen_all) return false;
   File* const reading = file_;
-  const Block current = block_;  // the call's, which the search overwrites
+  const Block current = *block_;  // the call's, which the search overwrites
   const ReaderPosition here = file.reader.position();
   const ReaderPosition call_at = block_at_;
   file_ = &file;
@@ -86,47 +109,64 @@ bool ProgramFlow::find_in(File& file, Symbol label) {
   while (!file.seen_all && !file.subs.contains(label.id)) {
     if (!read_control(found, true)) {
       file.seen_all = true;
-    } else if (block_.control->kind == ControlKind::sub || block_.control->kind == ControlKind::program) {
-      const bool numbered = block_.control->kind == ControlKind::program;
+    } else if (block_->control->kind == ControlKind::sub || block_->control->kind == ControlKind::program) {
+      const bool numbered = block_->control->kind == ControlKind::program;
       file.subs.try_emplace(found.id, SubPlace{block_at_, file.reader.position(), numbered});
     }
   }
   file.seen = file.reader.position();
   file.reader.seek(here);
   file_ = reading;
-  block_ = current;
+  line_ = current;
+  look_at(line_);
   block_at_ = call_at;
-  if (&file == file_) {
-    reread_block_text();
-    file.reader.seek(here);
-  }
+  const ReaderPosition next = file_->reader.position();
+  reread_block_text();
+  file_->reader.seek(next);
   return file.subs.contains(label.id);
 }
 
 // The first file of that name counts, as in LinuxCNC.
 ProgramFlow::File* ProgramFlow::open_named(Symbol label) {
-  constexpr std::size_t most_files = 64;
   const std::string name = std::string(symbols_.name(label)) + ".ngc";
-  const auto open_in = [&](const std::filesystem::path& folder) -> File* {
-    const std::filesystem::path path = folder / name;
-    std::error_code problem;
-    if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
-    auto reader = ProgramReader::open(path.string());
-    if (!reader) return nullptr;
-    files_.push_back(std::make_unique<File>(std::move(*reader), symbols_));
-    return files_.back().get();
-  };
-  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path());
+  File* file = open_in(std::filesystem::path(files_.front()->name).parent_path().string(), name);
   for (std::size_t i = 0; file == nullptr && i < options_.sub_folders.size(); ++i) {
-    file = open_in(options_.sub_folders[i]);
+    file = open_in(options_.sub_folders[i], name);
   }
   return file != nullptr && find_in(*file, label) ? file : nullptr;
 }
 
-std::string ProgramFlow::places_looked_at() const {
+ProgramFlow::File* ProgramFlow::open_in(const std::string& folder, const std::string& name) {
+  constexpr std::size_t most_files = 64;
+  const std::filesystem::path path = std::filesystem::path(folder) / name;
+  for (const auto& file : files_) {
+    if (file->name == path.string()) return file.get();
+  }
+  std::error_code problem;
+  if (files_.size() >= most_files || !std::filesystem::is_regular_file(path, problem)) return nullptr;
+  auto reader = ProgramReader::open(path.string());
+  if (!reader) return nullptr;
+  files_.push_back(std::make_unique<File>(std::move(*reader), files_.size(), symbols_));
+  return files_.back().get();
+}
+
+// Files that have the right name and not the sub are told too: a sub is called as it is spelled in its file.
+std::string ProgramFlow::places_looked_at(const std::string& file) const {
   std::string places = "beside the program";
   for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
+  for (const auto& open : files_) {
+    if (open.get() == file_) continue;
+    const bool has_its_name = std::filesystem::path(open->name).filename() == file;
+    places += fmt::format("; {} {}", open->name, has_its_name ? "is there without it" : "was looked through");
+  }
   return places;
+}
+
+// As it is written behind the O: 100, <name>.
+std::string ProgramFlow::label_text(Symbol label) const {
+  const std::string_view name = symbols_.name(label);
+  const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;
+  return number ? std::string(name) : fmt::format("<{}>", name);
 }
 
 }  // namespace passo

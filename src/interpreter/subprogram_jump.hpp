@@ -1,18 +1,41 @@
-// SubprogramJump: M98 or M99, whose words are the block's (BlockExecutor) and whose way is the program's (ProgramFlow).
+// SubprogramJump: M98, M99 or a macro call, whose words are the block's (BlockExecutor) and whose way is the program's
+// (ProgramFlow).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
+
+#include "parameters.hpp"
 
 #include "passo/gcode/block.hpp"
 
 namespace passo {
 
 struct SubprogramJump {
-  bool call = false;  // M98; else M99
-  bool good = true;   // false: where to cannot be told
+  enum class Kind : std::uint8_t {
+    leave,        // M99
+    call,         // M98
+    macro,        // G65
+    modal_macro,  // a block that moves, while G66 is active
+    find_macro,   // G66: whether there is such a program
+  };
+  Kind kind = Kind::leave;
+  bool good = true;  // false: where to cannot be told
   std::int32_t program = 0;
   std::int32_t passes = 1;
   Span span;
+  std::array<double, sub_parameters> arguments{};  // of a macro: its #1 … #30
+
+  bool is_macro() const { return kind != Kind::leave && kind != Kind::call; }
+  std::string_view code() const {
+    switch (kind) {
+      case Kind::leave: return "M99";
+      case Kind::call: return "M98";
+      case Kind::macro: return "G65";
+      default: return "G66";
+    }
+  }
 };
 
 }  // namespace passo

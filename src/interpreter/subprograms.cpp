@@ -1,15 +1,17 @@
-// ProgramFlow: numbered programs as Fanuc writes them: O1234, called with M98 P1234 L, ended with M99.
+// ProgramFlow: numbered programs as Fanuc writes them: O1234, called with M98 P1234 L or G65 P1234 L, ended with M99.
 //
-// They share #1 … #30 with their caller and have names of their own, as in LinuxCNC, and like there the two styles of
-// subs do not mix. What cannot be called ends the run: what follows counts on it.
+// They have names of their own. M98: they share #1 … #30 with their caller, as in LinuxCNC; G65 and G66: these are the
+// arguments. The two styles of subs do not mix. What cannot be called is told and passed over, so that the run finds
+// what else is wrong.
+#include <algorithm>
+
 #include "program_flow.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 
 ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
-  if (jump.call) {
-    if (!jump.good) finish(End::error);
+  if (jump.kind != SubprogramJump::Kind::leave) {
     if (jump.good && jump.passes > 0) call_program(jump);
     return Followed::goes_on;
   }
@@ -18,20 +20,32 @@ ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
 }
 
 void ProgramFlow::call_program(const SubprogramJump& jump) {
+  using Kind = SubprogramJump::Kind;
+  // What a macro of G66 moves does not call it once more.
+  if (jump.kind == Kind::modal_macro && std::ranges::any_of(frames_, &Frame::modal_macro)) return;
   const Symbol label = symbols_.intern(fmt::format("{}", jump.program));
   if (!has_room_for_call(jump.span)) return;
   Frame frame{file_, file_->reader.position(), label, {}, open_.size(), static_cast<std::uint64_t>(jump.passes)};
   File* const file = find_sub(label);
   if (file == nullptr) return report_unknown_sub(label, jump.span, true);
   frame.place = file->subs.at(label.id);
-  if (!check_style(frame.place, label, jump.span, true)) return;
-  parameters_.enter_subprogram();
+  if (!check_style(frame.place, label, jump.span, jump.code()) || jump.kind == Kind::find_macro) return;
+  frame.modal_macro = jump.kind == Kind::modal_macro;
+  if (jump.is_macro()) frame.arguments = jump.arguments;
+  enter_program(frame, file);
+}
+
+void ProgramFlow::enter_program(const Frame& frame, File* file) {
+  if (frame.arguments) {
+    parameters_.enter_sub(*frame.arguments);
+  } else {
+    parameters_.enter_subprogram();
+  }
   enter(frame, file);
 }
 
 void ProgramFlow::run_again() {
-  parameters_.enter_subprogram();
-  enter(again_->frame, again_->file);
+  enter_program(again_->frame, again_->file);
   again_.reset();
 }
 
@@ -42,8 +56,8 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
     reporter_.error("gcode.mixed-subs", jump.span,
                     fmt::format("M99 in o{} sub, which begins at line {}", label_text(frame.sub), frame.place.at.line),
                     fmt::format("o{0} endsub, or o{0} return", label_text(frame.sub)));
-    finish(End::error);
-    return Followed::goes_on;
+    leave_frame();
+    return Followed::left_sub;
   }
   File* const file = file_;
   const bool again = --frame.passes_left > 0;
@@ -69,15 +83,15 @@ bool ProgramFlow::restart_main(const SubprogramJump& jump) {
   return true;
 }
 
-bool ProgramFlow::check_style(const SubPlace& place, Symbol label, Span span, bool called_by_m98) {
-  if (place.numbered == called_by_m98) return true;
+// `caller`: M98, G65 or G66; empty: an O-word.
+bool ProgramFlow::check_style(const SubPlace& place, Symbol label, Span span, std::string_view caller) {
+  if (place.numbered != caller.empty()) return true;
   const std::string name = label_text(label);
   reporter_.error("gcode.mixed-subs", span,
-                  called_by_m98
-                      ? fmt::format("M98 calls o{} sub, at line {}", name, place.at.line)
-                      : fmt::format("O{} at line {} is a numbered program, called like a sub", name, place.at.line),
-                  called_by_m98 ? fmt::format("o{} call", name) : fmt::format("M98 P{}", name));
-  finish(End::error);
+                  place.numbered
+                      ? fmt::format("O{} at line {} is a numbered program, called like a sub", name, place.at.line)
+                      : fmt::format("{} calls o{} sub, at line {}", caller, name, place.at.line),
+                  place.numbered ? fmt::format("M98 P{}", name) : fmt::format("o{} call", name));
   return false;
 }
 

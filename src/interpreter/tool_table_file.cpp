@@ -1,6 +1,9 @@
 #include "passo/interpreter/tool_table_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "code_table.hpp"
 #include "file_fields.hpp"
@@ -132,6 +135,95 @@ bool read_tool_table(const std::string& path, LengthUnits units, ToolTable& tabl
   const std::size_t before = diagnostics.errors();
   TableReader(std::move(*reader), units, table, diagnostics).read();
   return diagnostics.errors() == before;
+}
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view value_letters = "XYZABCUVWDIJQ";
+constexpr double written_alike = 5e-7;  // six decimals are written
+
+// A tool's number for a letter of its line, in the file's units.
+double value_of(const Tool& tool, char letter, double unit) {
+  switch (letter) {
+    case 'D': return tool.diameter.value() / unit;
+    case 'I': return tool.front_angle_deg;
+    case 'J': return tool.back_angle_deg;
+    case 'Q': return tool.orientation;
+    default: break;
+  }
+  const Axis axis = *axis_of(letter);
+  return tool.offset[axis] / (is_rotary(axis) ? 1 : unit);
+}
+
+std::string written(char letter, double value, bool plus) {
+  std::string text = fmt::format("{:.6f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  if (text == "-0") text = "0";
+  return letter + (plus && text.front() != '-' ? "+" + text : text);
+}
+
+// A line without its remark: the places of its words.
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(blanks, end);
+  }
+  return words;
+}
+
+const Tool* tool_of(const std::vector<std::string_view>& words, const ToolTable& table) {
+  for (const std::string_view word : words) {
+    const auto number = upper(word.front()) == 'T' ? whole_number_of(word.substr(1)) : std::nullopt;
+    if (number) return table.find(*number);
+  }
+  return nullptr;
+}
+
+std::string line_with(const Tool& tool, std::string_view line, const std::vector<std::string_view>& words,
+                      double unit) {
+  std::string text;
+  LetterSet seen;
+  std::size_t copied = 0;
+  for (const std::string_view word : words) {
+    const auto at = static_cast<std::size_t>(word.data() - line.data());
+    const char letter = upper(word.front());
+    text += line.substr(copied, at - copied);
+    copied = at + word.size();
+    seen.add(letter);
+    const std::optional<double> old = number_of(word.substr(1));
+    const bool has_value = value_letters.find(letter) != std::string_view::npos && old;
+    const double value = has_value ? value_of(tool, letter, unit) : 0;
+    text += !has_value || std::abs(value - *old) < written_alike
+                ? std::string(word)
+                : written(word.front(), value, word.size() > 1 && word[1] == '+');
+  }
+  for (const char letter : value_letters) {
+    const double value = value_of(tool, letter, unit);
+    if (!seen.has(letter) && std::abs(value) >= written_alike) text += " " + written(letter, value, false);
+  }
+  return text += line.substr(copied);
+}
+
+}  // namespace
+
+std::string tool_table_text(std::string_view text, LengthUnits units, const ToolTable& table) {
+  const double unit = units == LengthUnits::inch ? mm_per_inch : 1;
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    const std::string_view head = line.substr(0, line.find_first_of(";\n"));
+    const std::vector<std::string_view> words = words_of(head);
+    const Tool* const tool = tool_of(words, table);
+    result += tool == nullptr ? std::string(head) : line_with(*tool, head, words, unit);
+    result += line.substr(head.size());
+  }
+  return result;
 }
 
 }  // namespace passo

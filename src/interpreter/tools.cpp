@@ -98,9 +98,26 @@ bool BlockExecutor::tool_offset(Point& offset) {
   if (tool != nullptr) offset = tool->offset;
   if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_tool_table_told_, true)) {
     reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
-                      fmt::format("the offset of tool {} is taken as zero: no tool table was given", number),
+                      fmt::format("the offset of tool {} is {}: no tool table was given", number,
+                                  state_.tools.find(number) == nullptr ? "taken as zero" : "that of an example"),
                       "--tools FILE, or G43.1 with the offset itself");
   }
+  return true;
+}
+
+// G10 L0. Nothing changes the table but the program, whose changes LinuxCNC would have written and now read again.
+bool BlockExecutor::reload_tools() {
+  if (state_.tool != 0) {
+    return fail("gcode.tool-loaded", words_.span('L'),
+                fmt::format("the tool table cannot be read again while tool {} is in the spindle", state_.tool),
+                "T0 M6 before");
+  }
+  for (const Word& word : reporter_.block().words) {
+    if (word.letter == 'G' || word.letter == 'L' || !(LetterSet("PRIJQ") | axis_letters).has(word.letter)) continue;
+    reporter_.warning("gcode.unused-word", word.span, fmt::format("{} has no effect beside G10 L0", word.letter),
+                      "G10 L0 alone");
+  }
+  emit(operation::ReloadTools{});
   return true;
 }
 

@@ -1,7 +1,9 @@
-// Length and product over all nine axes, millimetres and degrees alike: the tube around a path is measured so.
+// Length and product over all nine axes, millimetres and degrees alike: the tube around a path is measured so. And
+// over the axes that count as the length of a path.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "passo/geometry/axes.hpp"
 
@@ -17,6 +19,19 @@ inline double length_of(const Point& a) {
 }
 inline double distance(const Point& a, const Point& b) {
   return length_of(a - b);
+}
+
+// The group of axes whose travel is the length s: X Y Z, else U V W, else A B C (Curve).
+enum class CountedGroup : std::uint8_t { xyz, uvw, abc };
+inline double length_in(const Point& travel, CountedGroup group) {
+  const std::size_t first = group == CountedGroup::xyz ? 0 : group == CountedGroup::uvw ? 6 : 3;
+  double sum = 0;
+  for (std::size_t i = first; i < first + 3; ++i) sum += travel.values[i] * travel.values[i];
+  return std::sqrt(sum);
+}
+inline CountedGroup counted_group(const Point& travel) {
+  if (length_in(travel, CountedGroup::xyz) > 0) return CountedGroup::xyz;
+  return length_in(travel, CountedGroup::uvw) > 0 ? CountedGroup::uvw : CountedGroup::abc;
 }
 
 }  // namespace passo

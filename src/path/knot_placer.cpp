@@ -77,11 +77,15 @@ bool KnotPlacer::find_node(Node& node) {
     return true;
   }
   Cluster cluster{.first = first, .last = first, .tube = std::min(piece(first).tube, piece(first + 1).tube)};
-  while (cluster.last - first + 1 < most_clustered && extend(cluster)) {
+  if (goes_on(piece(first), piece(first + 1))) {  // there is nothing to round
+    node.s = piece(first).end();
+    node.width = 0;
+  } else {
+    while (cluster.last - first + 1 < most_clustered && extend(cluster)) {
+    }
+    node.s = (piece(first).end() + piece(cluster.last).end()) / 2;
+    node.width = width_of(cluster);
   }
-  node.s = (piece(first).end() + piece(cluster.last).end()) / 2;
-  node.width = width_of(cluster);
-  if (cluster.last == first && goes_on(piece(first), piece(first + 1))) node.width = 0;  // there is nothing to round
   node.before = first;
   node.after = cluster.last + 1;
   junction_ = node.after;
@@ -135,6 +139,7 @@ void KnotPlacer::fill_gap() {
   const Node& from = nodes_[1];
   const Node& to = nodes_[2];
   const bool is_last = known_ == 3;
+  knot_piece_ = std::max(knot_piece_, from.before);
   const double length = to.s - from.s;
   const double width = from.width > 0 ? room_of(from, nodes_[0], to) : 0;
   const double next_width = to.width > 0 ? room_of(to, from, nodes_[3]) : 0;

@@ -13,13 +13,6 @@ constexpr double rounding = 1e-9;
 // A merged line may be shorter than its pieces by this share, so that its time is not less than theirs.
 constexpr double least_length = 0.99;
 
-// The group of axes whose travel is the length: X Y Z, else U V W, else A B C (Curve).
-int counted_group(const Point& travel) {
-  const auto moves = [&](Axis a, Axis b, Axis c) { return travel[a] != 0 || travel[b] != 0 || travel[c] != 0; };
-  if (moves(Axis::x, Axis::y, Axis::z)) return 0;
-  return moves(Axis::u, Axis::v, Axis::w) ? 1 : 2;
-}
-
 bool are_alike(const Segment& before, const Segment& after) {
   return before.speed == after.speed && before.rapid == after.rapid && before.tolerance == after.tolerance &&
          before.merge == after.merge && before.mode != PathMode::exact_stop && before.work_zero == after.work_zero;

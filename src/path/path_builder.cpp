@@ -38,9 +38,8 @@ constexpr PlaneAxes axes_of(Plane plane) {
   switch (plane) {
     case Plane::zx: return {Axis::z, Axis::x};
     case Plane::yz: return {Axis::y, Axis::z};
-    case Plane::xy: break;
+    default: return {Axis::x, Axis::y};  // there are no arcs in the planes of U V W
   }
-  return {Axis::x, Axis::y};
 }
 
 // The angle from start to end in the sense of `turns`, 1 or -1 within one turn. As in LinuxCNC's canon layer two
@@ -60,11 +59,12 @@ inline constexpr bool is_one_of = (std::is_same_v<What, Others> || ...);
 template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
-              operation::SetRotation, operation::SetToolOffset, operation::SelectPlane, operation::SetFeedOverride,
-              operation::SetSpeedOverride, operation::SelectTool, operation::StartToolChange, operation::SetToolNumber,
-              operation::SetToolTableEntry, operation::PalletShuttle, operation::Finish, operation::TurnProbe,
-              operation::SetAdaptiveFeed, operation::SetFeedHold, operation::Comment, operation::Message,
-              operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
+              operation::SetRotation, operation::SetToolOffset, operation::ReloadTools, operation::SelectPlane,
+              operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
+              operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
+              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::SetAdaptiveFeed,
+              operation::SetFeedHold, operation::Comment, operation::Message, operation::Print, operation::Log,
+              operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {

@@ -80,30 +80,38 @@ bool PathSmoother::Implementation::next(PathItem& item) {
 
 void PathSmoother::Implementation::stop_at_the_end(const Knot& knot, Segment& segment) const {
   const Piece& last = piece(knot.piece);
-  const bool stops = last.rest_after && knot.along >= last.length;
-  segment.mode = stops ? PathMode::exact_stop : PathMode::continuous;
+  if (last.rest_after && knot.along >= last.length) segment.mode = PathMode::exact_stop;
 }
 
 void PathSmoother::Implementation::give_exact(const ExactPiece& exact, PathItem& item) {
   const Piece& whole = piece(exact.piece);
   Segment segment = whole.segment;
   segment.curve = whole.segment.curve.part(Mm(exact.from), Mm(exact.to));
+  segment.mode = PathMode::continuous;
   stop_at_the_end({.s = 0, .piece = exact.piece, .along = exact.to}, segment);
   item = segment;
   reader_.drop_before(exact.piece);
 }
 
-// All but the curve: as the path in its middle, but not faster than any of it.
+// As the path in its middle, but not faster than any of it. Where |dP/ds| is above 1 (the smoothed path cuts a corner
+// of s) the speed along s is less, so that the tool keeps to the feed.
 Segment PathSmoother::Implementation::segment_of(const TubeSpline::Span& span) const {
   const double middle = (span.from.knot.s + span.to.knot.s) / 2;
   std::uint64_t number = span.from.knot.piece;
   while (number < span.to.knot.piece && piece(number).end() <= middle) ++number;
+  const CountedGroup group = counted_group(piece(number).first_tangent);
   Segment segment = piece(number).segment;
   for (std::uint64_t i = span.from.knot.piece; i <= span.to.knot.piece; ++i) {
     if (i > span.from.knot.piece && piece(i).start >= span.to.knot.s) break;
     segment.speed = std::min(segment.speed, piece(i).segment.speed);
     segment.rapid = segment.rapid && piece(i).segment.rapid;
   }
+  const Mm length(span.to.knot.s - span.from.knot.s);
+  segment.curve = Curve::cubic(span.from.place, span.from.tangent, span.to.place, span.to.tangent, length);
+  const double steepest = std::max({length_in(span.from.tangent, group), length_in(span.to.tangent, group),
+                                    length_in(segment.curve.tangent(length / 2), group)});
+  if (steepest > 1) segment.speed = segment.speed / steepest;
+  segment.mode = span.goes_on ? PathMode::continuous : PathMode::exact_stop;
   stop_at_the_end(span.to.knot, segment);
   return segment;
 }
@@ -112,11 +120,7 @@ Segment PathSmoother::Implementation::segment_of(const TubeSpline::Span& span) c
 bool PathSmoother::Implementation::give_span(PathItem& item) {
   const bool smooth = span_.in_tube && !broken_;
   if (smooth) {
-    Segment segment = segment_of(span_);
-    segment.curve = Curve::cubic(span_.from.place, span_.from.tangent, span_.to.place, span_.to.tangent,
-                                 Mm(span_.to.knot.s - span_.from.knot.s));
-    if (!span_.goes_on) segment.mode = PathMode::exact_stop;
-    item = std::move(segment);
+    item = segment_of(span_);
   } else {
     cut_span();
   }

@@ -59,9 +59,8 @@ std::string name_of(const Action& action) {
 
 std::string to_text(const Segment& segment) {
   const Curve& curve = segment.curve;
-  std::string text = fmt::format("line {}: {}{} {} to {}", segment.source.line, segment.rapid ? "rapid" : "feed",
-                                 curve.shape() == Curve::Shape::cubic ? " cubic" : "", place(curve.start(), curve),
-                                 place(curve.end(), curve));
+  std::string text = fmt::format("line {}: {} {} to {}", segment.source.line, segment.rapid ? "rapid" : "feed",
+                                 place(curve.start(), curve), place(curve.end(), curve));
   if (curve.shape() == Curve::Shape::arc) {
     const Curve::ArcData& arc = curve.arc_data();
     text +=

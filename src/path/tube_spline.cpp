@@ -10,7 +10,7 @@ namespace passo {
 namespace {
 
 // Between the places that the sweeps watch the deviation may be a little more than there.
-constexpr double share_of_tube = 0.98;
+constexpr double share_of_tube = 0.99;
 // What is left of the tube, at least, where vertices between those places stick out.
 constexpr double least_share = 0.1;
 

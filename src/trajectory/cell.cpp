@@ -13,19 +13,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double fastest = 1e6;
 constexpr double strongest = 1e9;
 
-// The most that the path turns in a cell, in radians. What is taken off the limits grows with its square on an arc,
-// about (3/4) turn²; with half of it lost time would double in both directions: more cells, or more slack.
-constexpr double turn_a_cell = 0.025;
+// The most that the path turns in a cell, in radians. What is taken off the limits grows with its square: on an arc
+// it is about (3/4) turn², on a cubic as much again for the change of its bend.
+constexpr double turn_a_cell_of_arc = 0.04;
+constexpr double turn_a_cell_of_cubic = 0.025;
 
-// A cell is at most this part of the way that braking from full speed takes, so that the switch from speeding up to
-// braking is nearly where it is best; at the ends of an arc, where rests are, a finer one.
+// The switch from speeding up to braking is at the end of some cell. At its ends, where an arc is slow, a cell is no
+// longer than this part of the way that braking from full speed takes; from there they grow, to this or to a part of
+// the arc, whichever is longer.
 constexpr double braking_share = 1.0 / 64;
-constexpr double braking_share_at_ends = 1.0 / 64;
+constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
-constexpr double most_cells = 10'000;  // of a segment
 
 // Where limits fall with the speed: by what part of the top speed it changes in a cell, at most.
 constexpr double speed_share = 1.0 / 48;
+constexpr double most_graded = 10'000;  // cells of a segment
 
 // A feed that is below a limit's shoulder by this is planned as if the limit were constant; the override raises it no
 // further.
@@ -67,21 +69,20 @@ void CellCutter::begin(const Segment& segment) {
   const double strength = std::min(largest_multiple(steepest, limits_.acceleration), strongest);
   const double braking = top * top / (2 * strength);
   if (flat_top(steepest) < room_for_override * top) {
-    grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_cells);
+    grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_graded);
   }
   if (curve.shape() == Curve::Shape::line) return;
-
-  double turn = 0;
   if (curve.shape() == Curve::Shape::arc) {
-    turn = std::abs(curve.arc_data().sweep);
+    const double by_turn = length * turn_a_cell_of_arc / std::abs(curve.arc_data().sweep);
+    longest_ = std::min({length / 2, by_turn, std::max(braking * braking_share, length * length_share)});
+    shortest_ = std::clamp(braking * braking_share, longest_ / 64, longest_);
   } else {
-    turn = length * std::max(norm(curve.second_derivative(Mm(0))), norm(curve.second_derivative(curve.length())));
+    const double turn =
+        length * std::max(norm(curve.second_derivative(Mm(0))), norm(curve.second_derivative(curve.length())));
+    const double by_turn = length * turn_a_cell_of_cubic / std::max(turn, turn_a_cell_of_cubic);
+    const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share));
+    longest_ = shortest_ = length / std::ceil(length / wanted);
   }
-  const double wanted = std::min(braking * braking_share, length * turn_a_cell / std::max(turn, turn_a_cell));
-  longest_ = length / std::ceil(length / std::max(wanted, length / most_cells));
-  shortest_ = curve.shape() == Curve::Shape::arc
-                  ? std::min(longest_, std::max(braking * braking_share_at_ends, longest_ / 64))
-                  : longest_;
 }
 
 bool CellCutter::next(Piece& piece) {

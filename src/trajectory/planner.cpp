@@ -18,6 +18,9 @@ namespace {
 // Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
 constexpr double tangent_tolerance = 1e-6;
 
+// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+constexpr double rounding = 1e-9;
+
 // A rest of a cell that is shorter, in mm, is rounding.
 constexpr double smallest_rest = 1e-9;
 
@@ -118,8 +121,8 @@ class Planner::Implementation {
   }
 
   void append(const CellCutter::Piece& piece) {
-    const bool begins_at_rest = std::exchange(at_rest_, false) || cells_.empty();
-    cells_.push(piece).begins_at_rest = begins_at_rest;
+    const bool at_rest = std::exchange(at_rest_, false) || cells_.empty();
+    cells_.push(piece).begins_at_rest = at_rest;
     set_caps(cells_.size() - 1);
   }
 
@@ -147,7 +150,8 @@ class Planner::Implementation {
     }
     if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
     const double change = 2 * queued.cell.acceleration * queued.cell.length;
-    return std::max(std::min(most, entry + change), entry - change);
+    const bool too_fast = entry - change > most + rounding * entry;
+    return too_fast ? entry - change : std::min(most, entry + change);
   }
 
   // What is behind the queue lies between a stop at once and nothing that slows it. Both are carried back; from where
@@ -230,24 +234,25 @@ class Planner::Implementation {
     }
   }
 
-  // To rest within a straight cell; a curved one is short, and left at its end.
+  // To rest within the cell where that can be, or through it as slow as can be.
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
-    if (cells_[0].falling_count > 0) {
-      return {cell.length, least_exit(cells_.demands(0), cells_.falling(0), speed_squared_)};
+    const double deceleration =
+        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cells_.falling(0), cell.length, speed_squared_);
+    if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
+      return {speed_squared_ / (2 * deceleration), 0};
     }
-    if (!cell.straight) return {cell.length, least_exit(cells_.demands(0), speed_squared_)};
-    const double distance = speed_squared_ / (2 * cell.acceleration);
-    if (distance < cell.length) return {distance, 0};
-    return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
+    if (cell.straight) return {cell.length, speed_squared_ - 2 * cell.acceleration * cell.length};
+    return {cell.length, least_exit(cells_.demands(0), cells_.falling(0), speed_squared_)};
   }
 
   // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
   bool go(const Ride& ride, PlannedMove& move) {
     const Segment& segment = segments_.front();
     const double segment_end = segment.curve.length().value();
-    const double cell_end = cells_[0].cell.start + cells_[0].cell.length;
-    move.to = Mm(std::min(cells_[0].cell.start + ride.way, segment_end));
+    double cell_end = cells_[0].cell.start + cells_[0].cell.length;
+    if (cell_end > segment_end * (1 - 1e-12)) cell_end = segment_end;  // the sum has rounded it
+    move.to = Mm(ride.way < cells_[0].cell.length ? cells_[0].cell.start + ride.way : cell_end);
     speed_squared_ = ride.exit;
     const bool shortened = shorten(move);
     decided_ -= std::min<std::size_t>(decided_, 1);
@@ -267,9 +272,15 @@ class Planner::Implementation {
     Seconds left = longest_move_;
     for (std::size_t i = 0; i < move.phase_count; ++i) {
       Phase& phase = move.phases[i];
-      if (phase.duration <= left) {
-        left -= phase.duration;
+      if (phase.duration <= left * (1 + 1e-6)) {
+        left = std::max(left - phase.duration, Seconds(0));
         continue;
+      }
+      if (left < longest_move_ * 1e-6) {  // between two phases
+        move.phase_count = i;
+        move.to = phase.start;
+        speed_squared_ = squared(phase.velocity.value());
+        return true;
       }
       phase.duration = left;
       move.phase_count = i + 1;

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace passo {
 namespace {
+
+// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+constexpr double rounding = 1e-9;
 
 struct Corner {
   double x = 0;
@@ -125,6 +130,11 @@ Lines kept_lines(std::span<const FallingDemand> falling) {
   return lines;
 }
 
+double limit_of(const FallingDemand& falling, std::uint32_t number) {
+  const AccelerationCurve::Line& line = falling.curve->lines()[number];
+  return std::max(line.at_rest - falling.slack - line.fall * falling.slack_of_fall, line.at_rest / 2);
+}
+
 // Calls keep(p, q, limit), for p x + q y <= limit, with each of the demands that the lines make.
 template <class Keep>
 void for_each_demand(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const Lines& lines,
@@ -133,7 +143,7 @@ void for_each_demand(std::span<const AxisDemand> demands, std::span<const Fallin
     const FallingDemand& own = falling[k];
     const AxisDemand& demand = demands[own.demand];
     const AccelerationCurve::Line& line = own.curve->lines()[lines[k]];
-    const double limit = std::max(line.at_rest - own.slack - line.fall * own.slack_of_fall, line.at_rest / 2);
+    const double limit = limit_of(own, lines[k]);
     const double at_entry = line.fall * own.entry_weight;
     const double at_exit = line.fall * own.exit_weight;
     keep(at_entry + demand.entry_x, demand.entry_y, limit);
@@ -186,10 +196,10 @@ namespace {
 // What the demands leave of y for a given x.
 struct Exits {
   double least = 0;
-  double most = 0;
+  double most = std::numeric_limits<double>::infinity();
 };
-Exits exits(std::span<const AxisDemand> demands, double entry, double exit_most) {
-  Exits left{.most = exit_most};
+Exits exits(std::span<const AxisDemand> demands, double entry) {
+  Exits left;
   for (const AxisDemand& demand : demands) {
     for (const auto& [p, q] : {std::pair(demand.entry_x, demand.entry_y), std::pair(demand.exit_x, demand.exit_y)}) {
       if (q == 0) continue;
@@ -204,12 +214,26 @@ Exits exits(std::span<const AxisDemand> demands, double entry, double exit_most)
 }  // namespace
 
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
-  const Exits left = exits(demands, entry, exit_most);
-  return std::max(left.most, left.least);
+  const Exits left = exits(demands, entry);
+  const double most = std::max(0.0, std::min(left.most, exit_most));
+  // On the edge of what is possible rounding may leave nothing at all; then what is slower is right.
+  const bool too_fast = left.least > most + rounding * entry && left.least <= left.most;
+  return too_fast ? left.least : most;
 }
 
 double least_exit(std::span<const AxisDemand> demands, double entry) {
-  return exits(demands, entry, 0).least;
+  const Exits left = exits(demands, entry);
+  return left.least <= left.most ? left.least : std::clamp(left.most, 0.0, entry);
+}
+
+double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry) {
+  double most = std::numeric_limits<double>::infinity();
+  for (const AxisDemand& demand : demands) {
+    const double slope = 2 * length * std::max(std::abs(demand.entry_y), std::abs(demand.exit_x));
+    const double bend = std::max(std::abs(demand.entry_x + demand.entry_y), std::abs(demand.exit_x + demand.exit_y));
+    if (slope > 0) most = std::min(most, (demand.limit - bend * entry) / slope);
+  }
+  return most;
 }
 
 double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDemand> falling, double entry_most,
@@ -231,9 +255,9 @@ double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDeman
 
 double largest_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry,
                     double exit_most, double top) {
-  const Exits constant = exits(demands, entry, top);
-  const Interval all{.low = constant.least, .high = constant.most};
-  double exit = constant.most;
+  const Exits constant = exits(demands, entry);
+  const Interval all{.low = constant.least, .high = std::min(constant.most, top)};
+  double exit = all.high;
   double best = -1;
   Lines used{};
   Interval possible;
@@ -248,17 +272,34 @@ double largest_exit(std::span<const AxisDemand> demands, std::span<const Falling
     possible = left;
   }
   if (best >= 0 && best <= exit_most) return best;
-  if (best >= 0 && possible.low <= exit_most) return exit_most;
+  if (best >= 0 && possible.low <= exit_most + rounding * entry) return exit_most;
 
   // Braking as hard as can be, or harder than can be.
   const Interval fresh = exits_with(demands, falling, lines_at(falling, entry, exit_most), entry, all);
   const Interval kept = exits_with(demands, falling, kept_lines(falling), entry, all);
   const Interval& better = kept.low <= kept.high && kept.low < fresh.low ? kept : fresh;
-  return std::max(std::min(exit_most, better.high), better.low);
+  const bool too_fast = better.low > exit_most + rounding * entry && better.low <= better.high;
+  return too_fast ? better.low : std::max(0.0, std::min(exit_most, better.high));
 }
 
 double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry) {
+  if (falling.empty()) return least_exit(demands, entry);
   return largest_exit(demands, falling, entry, 0, entry);
+}
+
+// The limit at the entry is the lowest on the way to rest.
+double sure_deceleration(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double length,
+                         double entry) {
+  double most = sure_deceleration(demands, length, entry);
+  const Lines lines = lines_at(falling, entry, entry);
+  for (std::size_t k = 0; k < falling.size(); ++k) {
+    const FallingDemand& own = falling[k];
+    AxisDemand lowered = demands[own.demand];
+    const double w = std::max(own.entry_weight, own.exit_weight) * entry;
+    lowered.limit = limit_of(own, lines[k]) - own.curve->lines()[lines[k]].fall * w;
+    most = std::min(most, sure_deceleration({&lowered, 1}, length, entry));
+  }
+  return most;
 }
 
 }  // namespace passo

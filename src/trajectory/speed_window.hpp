@@ -26,6 +26,10 @@ double largest_exit(std::span<const AxisDemand> demands, double entry, double ex
 // The smallest y: braking as hard as may be.
 double least_exit(std::span<const AxisDemand> demands, double entry);
 
+// A deceleration from this x to rest that all demands allow wherever in the cell of this length the rest is; 0 or less:
+// none is sure to be allowed.
+double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry);
+
 // The same with limits that fall with the speed, by iteration: with the line of each curve that is the highest at the
 // speed found before, a linear program as above. Each line keeps to its curve, so each solution is possible.
 //
@@ -37,5 +41,7 @@ double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDeman
 double largest_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry,
                     double exit_most, double top);
 double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry);
+double sure_deceleration(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double length,
+                         double entry);
 
 }  // namespace passo

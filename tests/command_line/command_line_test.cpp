@@ -169,6 +169,33 @@ TEST_F(CommandLine, all_errors_of_a_program_come_in_one_go) {
   EXPECT_NE(outcome.err.find("3 errors"), std::string::npos) << outcome.err;
 }
 
+TEST_F(CommandLine, findings_tell_their_rule_and_the_calls_as_text_and_as_data) {
+  const std::string text = "G21\no<slot> call\nM2\no<slot> sub\nG4\no<slot> endsub\n";
+  const Outcome outcome = run_text(text);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("= rule: RS274/NGC 3.5.4, dwell\n"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("= in o<slot>, called at " + path("p.ngc") + ":2\n"), std::string::npos) << outcome.err;
+  const Outcome data = passo("check --json " + path("p.ngc") + " -m " + router);
+  const auto finding = nlohmann::json::parse(data.out)["findings"][0];
+  EXPECT_EQ(finding["rule"], "RS274/NGC 3.5.4, dwell");
+  EXPECT_EQ(finding["calls"].size(), 1U);
+  EXPECT_EQ(finding["calls"][0]["sub"], "o<slot>");
+  EXPECT_EQ(finding["calls"][0]["line"], 2);
+}
+
+TEST_F(CommandLine, a_loop_that_does_nothing_is_stopped_at_its_o_word_after_as_many_passes_as_are_allowed) {
+  const std::string program = write("p.ngc", "#1=0\no7 while [#1 LT 50]\n#1=[#1+1]\no7 endwhile\nM2\n");
+  EXPECT_EQ(passo("canon " + program).code, 0);
+  EXPECT_EQ(passo("canon --loop-limit 50 " + program).code, 0);
+  for (const std::string& command : {"canon "s, "explain "s, "check -m " + router + " ", "run -m " + router + " "}) {
+    const Outcome outcome = passo(command + "--loop-limit 49 " + program);
+    EXPECT_EQ(outcome.code, 2) << command;
+    EXPECT_NE((outcome.out + outcome.err).find(":2:1: error: the loop went round 49 times"), std::string::npos)
+        << command;
+  }
+  EXPECT_EQ(passo("canon --loop-limit 0 " + program).code, 2);
+}
+
 TEST_F(CommandLine, crlf_cr_and_a_byte_order_mark_are_fine) {
   for (const char* text : {"G21 F600\r\nG1 X1\r\nM2\r\n", "G21 F600\rG1 X1\rM2\r", "\xEF\xBB\xBFG21 F600\nG1 X1\nM2"}) {
     EXPECT_EQ(run_text(text).code, 0);
@@ -226,6 +253,24 @@ TEST_F(CommandLine, a_tool_table_counts_in_the_units_of_the_machine) {
   const Outcome run = passo("run " + program + " -m " + router + " --json --tools " + table);
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_DOUBLE_EQ(nlohmann::json::parse(run.out)["position_mm"]["Z"], 3.0);
+}
+
+TEST_F(CommandLine, a_good_run_writes_the_tools_that_it_set) {
+  const std::string table = write("shop.tbl", "; my tools\nT2 P1 Z2 ; drill\nT1 P7 D3\n");
+  ASSERT_EQ(run_text("G21\nG10 L1 P2 Z3.25\nM2\n", "--tools " + table).code, 0);
+  EXPECT_EQ(read(table), "; my tools\nT2 P1 Z3.25 ; drill\nT1 P7 D3\n");
+  EXPECT_EQ(run_text("G21\nG10 L1 P2 Z4\nG12\nM2\n", "--tools " + table).code, 2);
+  EXPECT_EQ(passo("check " + write("t.ngc", "G21\nG10 L1 P2 Z5\nM2\n") + " -m " + router + " --tools " + table).code,
+            0);
+  EXPECT_EQ(read(table), "; my tools\nT2 P1 Z3.25 ; drill\nT1 P7 D3\n");
+}
+
+TEST_F(CommandLine, canon_alone_has_the_example_tools_of_rs274) {
+  const std::string program = write("t.ngc", "G20\nG43 H1\nM2\n");
+  const Outcome canon = passo("canon " + program);
+  EXPECT_NE(canon.out.find("OFFSET(0.0000 0.0000 0.5110,"), std::string::npos) << canon.out;
+  EXPECT_NE(canon.err.find("the offset of tool 1 is that of an example"), std::string::npos) << canon.err;
+  EXPECT_NE(passo("check " + program + " -m " + router).err.find("taken as zero"), std::string::npos);
 }
 
 TEST_F(CommandLine, what_is_wrong_in_a_file_of_the_machine_is_told_with_its_place) {

@@ -11,8 +11,9 @@ namespace passo {
 
 int canon(const CanonArguments& arguments) {
   std::optional<ProgramReader> program = open_program(arguments.program);
-  const std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
+  std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
   if (!program || !options) return exit_bad_program;
+  if (options->tools.name.empty()) options->tools = example_tools();
   Result<OutputFile, OutputError> output = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!output) {
     std::fprintf(stderr, "passo: error: %s\n", output.error().message.c_str());

@@ -12,6 +12,10 @@ namespace passo {
 inline nlohmann::ordered_json as_json(std::span<const Diagnostic> findings) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Diagnostic& finding : findings) {
+    nlohmann::ordered_json calls = nlohmann::ordered_json::array();
+    for (const CallPlace& call : finding.calls) {
+      calls.push_back({{"sub", call.sub}, {"file", call.file}, {"line", call.line}});
+    }
     list.push_back({{"severity", finding.severity == Severity::error ? "error" : "warning"},
                     {"code", finding.code},
                     {"file", finding.file},
@@ -20,7 +24,8 @@ inline nlohmann::ordered_json as_json(std::span<const Diagnostic> findings) {
                     {"length", finding.place.length},
                     {"message", finding.message},
                     {"expected", finding.expected},
-                    {"rule", finding.rule}});
+                    {"rule", finding.rule},
+                    {"calls", std::move(calls)}});
   }
   return list;
 }

@@ -44,6 +44,9 @@ void add_program(CLI::App& command, ProgramArguments& arguments,
       });
   command.add_flag("--inches", arguments.inches, "lengths are inches until the program says G20 or G21");
   command.add_flag("--user-codes", arguments.user_codes, "allow M100 to M199; no program is run for them");
+  command.add_option("--loop-limit", arguments.loop_limit, "passes of a loop that does nothing before it is an error")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 // Files of the machine that a program depends on. `letters`: with LinuxCNC's short names too (run has a -t of its own).

@@ -42,10 +42,7 @@ void read_files(const ProgramArguments& arguments, InterpreterOptions& options, 
     options.settings = std::move(settings);
   }
   options.machine_units = machine_units(arguments, options);
-  std::string tools = arguments.tools;
-  if (tools.empty() && options.settings && arguments.files_of_settings) {
-    tools = options.settings->path_of("EMCIO", "TOOL_TABLE");
-  }
+  const std::string tools = tool_table_file(arguments, options);
   if (!tools.empty() && !read_tool_table(tools, options.machine_units, options.tools, diagnostics)) return;
 
   const std::string parameters = parameter_file(arguments, options);
@@ -56,6 +53,11 @@ void read_files(const ProgramArguments& arguments, InterpreterOptions& options, 
 }
 
 }  // namespace
+
+std::string tool_table_file(const ProgramArguments& arguments, const InterpreterOptions& options) {
+  if (!arguments.tools.empty() || !options.settings || !arguments.files_of_settings) return arguments.tools;
+  return options.settings->path_of("EMCIO", "TOOL_TABLE");
+}
 
 std::string parameter_file(const ProgramArguments& arguments, const InterpreterOptions& options) {
   if (!arguments.parameters.empty() || !options.settings || !arguments.files_of_settings) return arguments.parameters;
@@ -69,6 +71,7 @@ std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& ar
   options.units = arguments.inches ? LengthUnits::inch : LengthUnits::mm;
   options.dialect = arguments.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
   options.user_codes = arguments.user_codes;
+  options.idle_passes = arguments.loop_limit;
   Diagnostics diagnostics;
   read_files(arguments, options, diagnostics);
   show(diagnostics);

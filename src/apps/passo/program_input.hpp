@@ -19,6 +19,8 @@ std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
 std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments);
 std::optional<InterpreterOptions> machine_options(const ProgramArguments& arguments);
 
+// The tool table that the arguments or the settings name; empty: none.
+std::string tool_table_file(const ProgramArguments& arguments, const InterpreterOptions& options);
 // The parameter file that the arguments or the settings name; empty: none.
 std::string parameter_file(const ProgramArguments& arguments, const InterpreterOptions& options);
 

@@ -112,8 +112,9 @@ int run(const RunArguments& arguments) {
 
   std::signal(SIGINT, end_on_signal);
   std::signal(SIGTERM, end_on_signal);
+  const std::string tools = check.tools_change ? tool_table_file(arguments.program, *options) : std::string();
   Result<RunOutputs, OutputError> outputs =
-      RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options));
+      RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
   if (!outputs) return fail(outputs.error().message);
 
   Diagnostics late;
@@ -124,7 +125,8 @@ int run(const RunArguments& arguments) {
     show(late);
     return exit_bad_program;
   }
-  const Status<OutputError> written = outputs->commit(summary, job.saved_parameters());
+  const Status<OutputError> written =
+      outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);
   if (!written) return fail(written.error().message);
 
   if (arguments.json) {

@@ -2,11 +2,14 @@
 
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "passo/interpreter/tool_table_file.hpp"
 #include "passo/report/path_recorder.hpp"
 #include "passo/report/picture.hpp"
 #include "passo/report/trace_csv.hpp"
@@ -47,6 +50,8 @@ struct RunOutputs::State {
   std::vector<TraceFile> traces;
   std::optional<OutputFile> report;
   std::optional<OutputFile> parameters;
+  std::optional<OutputFile> tools;
+  std::string tool_lines;  // as they were before the run
   bool report_is_json = false;
   PathRecorder recorder;
   VirtualMachine* machine = nullptr;
@@ -91,7 +96,7 @@ bool is_trace_name(const std::string& path) {
 }
 
 Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, const MachineDescription& machine,
-                                                 const std::string& parameters) {
+                                                 const std::string& parameters, const std::string& tools) {
   auto state = std::make_unique<State>();
   for (const std::string& path : arguments.pictures) {
     const Status<OutputError> added = state->add_picture(path);
@@ -111,6 +116,13 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
     Result<OutputFile, OutputError> file = OutputFile::open(parameters);
     if (!file) return Failure{file.error()};
     state->parameters.emplace(std::move(*file));
+  }
+  if (!tools.empty()) {
+    std::ifstream before(tools, std::ios::binary);
+    state->tool_lines.assign(std::istreambuf_iterator<char>(before), {});
+    Result<OutputFile, OutputError> file = OutputFile::open(tools);
+    if (!file) return Failure{file.error()};
+    state->tools.emplace(std::move(*file));
   }
   return RunOutputs(std::move(state));
 }
@@ -133,7 +145,8 @@ bool RunOutputs::failed() const {
 }
 
 // Everything is written before the first file gets its name: all of them appear, or none.
-Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedParameters& parameters) {
+Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedParameters& parameters,
+                                       const ToolTable& tools, LengthUnits machine_units) {
   for (State::TraceFile& trace : state_->traces) trace.trace->finish(state_->machine->now());
   for (State::PictureFile& picture : state_->pictures) {
     const std::string title = std::filesystem::path(summary.program).filename();
@@ -143,12 +156,14 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedPar
   }
   if (state_->report) state_->report->write(state_->report_is_json ? to_json(summary) : to_text(summary, false));
   if (state_->parameters) state_->parameters->write(parameter_file_text(parameters));
+  if (state_->tools) state_->tools->write(tool_table_text(state_->tool_lines, machine_units, tools));
 
   std::vector<OutputFile*> files;
   for (State::TraceFile& trace : state_->traces) files.push_back(trace.file.get());
   for (State::PictureFile& picture : state_->pictures) files.push_back(&picture.file);
   if (state_->report) files.push_back(&*state_->report);
   if (state_->parameters) files.push_back(&*state_->parameters);
+  if (state_->tools) files.push_back(&*state_->tools);
   for (OutputFile* file : files) {
     Status<OutputError> committed = file->commit();
     if (!committed) return committed;

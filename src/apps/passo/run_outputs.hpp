@@ -23,9 +23,9 @@ bool is_trace_name(const std::string& path);
 
 class RunOutputs {
  public:
-  // `parameters`: the file that they go to after the run; empty: none. Fails when a file cannot be written.
+  // `parameters`, `tools`: the files that they go to after the run; empty: none. Fails when a file cannot be written.
   static Result<RunOutputs, OutputError> open(const RunArguments& arguments, const MachineDescription& machine,
-                                              const std::string& parameters);
+                                              const std::string& parameters, const std::string& tools);
 
   RunOutputs(RunOutputs&&) noexcept;
   RunOutputs& operator=(RunOutputs&&) noexcept;
@@ -36,7 +36,8 @@ class RunOutputs {
   // A file cannot take more: there is no point in going on.
   bool failed() const;
   // After the job has come to its end.
-  Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters);
+  Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters, const ToolTable& tools,
+                             LengthUnits machine_units);
 
  private:
   struct State;

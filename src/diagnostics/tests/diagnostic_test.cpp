@@ -37,6 +37,23 @@ TEST(Render, a_caret_stands_under_its_character_after_letters_outside_ascii) {
   EXPECT_NE(render(diagnostic, false).find("      |      ^\n"), std::string::npos);
 }
 
+TEST(Render, tells_the_rule_and_the_ends_of_a_long_stack_of_calls) {
+  Diagnostic diagnostic;
+  diagnostic.file = "part.ngc";
+  diagnostic.message = "wrong";
+  diagnostic.rule = "RS274/NGC 3.4, modal groups";
+  for (std::uint32_t line = 1; line <= 9; ++line) diagnostic.calls.push_back({"o1", "part.ngc", line});
+  const std::string nine = render(diagnostic, false);
+  EXPECT_NE(nine.find("      = rule: RS274/NGC 3.4, modal groups\n      = in o1, called at part.ngc:1\n"),
+            std::string::npos);
+  EXPECT_EQ(nine.find("more calls"), std::string::npos);
+  diagnostic.calls.push_back({"o1", "part.ngc", 10});
+  const std::string ten = render(diagnostic, false);
+  EXPECT_NE(ten.find("part.ngc:4\n      = ... 2 more calls ...\n      = in o1, called at part.ngc:7\n"),
+            std::string::npos)
+      << ten;
+}
+
 TEST(Render, control_characters_do_not_reach_the_terminal) {
   Diagnostic diagnostic = missing_feed();
   diagnostic.text = "G1 \x1b[31mX10";

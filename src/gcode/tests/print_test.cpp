@@ -89,10 +89,14 @@ class RandomLine {
     switch (below(7)) {
       case 0: return "#" + (one_in(2) ? name() : value(2)) + blank() + "=" + value(3);
       case 1:
-        return "(" + std::string(any_of({"", "msg,", "Debug ,", "PRINT,", "probeopen ", "logclose", "LOG,"})) +
+        return "(" +
+               std::string(any_of({"", "msg,", "Debug ,", "PRINT,", "probeopen ", "logclose", "LOG,", "LogOpen,",
+                                   "LOGAPPEND,", "abort,", "PROBECLOSE", "msg"})) +
                "text #1" + ")";
       default:
-        return any_of({"G", "M", "X", "Y", "Z", "A", "F", "S", "T", "@", "^", "$", "E", "L"}) + blank() + value(3);
+        return any_of({"G", "M", "X", "Y", "Z", "A", "B", "C", "D", "E", "F", "H", "I", "J",
+                       "K", "L", "P", "Q", "R", "S", "T", "U", "V", "W", "@", "^", "$"}) +
+               blank() + value(3);
     }
   }
   std::string control() {
@@ -104,7 +108,9 @@ class RandomLine {
       case 0: return text + " call" + brackets(3) + blank() + "(c)" + brackets(2);
       case 1: return text + any_of({" if", "while", " elseif ", "repeat"}) + brackets(3);
       case 2: return text + "return" + (one_in(2) ? brackets(3) : "");
-      default: return text + any_of({"sub", "endsub", "else", "endif", "do", "endwhile", "break", "continue", ""});
+      default:
+        return text +
+               any_of({"sub", "endsub", "else", "endif", "do", "endwhile", "endrepeat", "break", "continue", ""});
     }
   }
   std::string any_text() {
@@ -136,6 +142,39 @@ TEST(Print, of_a_random_block_parses_to_the_same_block) {
     ASSERT_TRUE(parser.parse(printed, 1, again, diagnostics)) << text << '\n' << render(diagnostics, false);
     ASSERT_TRUE(same_meaning(block, again)) << text << '\n' << printed;
     ASSERT_EQ(print(again, symbols), printed) << text;
+  }
+}
+
+std::vector<std::string> printed_program(const std::string& text, SymbolTable& symbols) {
+  ProgramReader reader = ProgramReader::from_text("part.ngc", text);
+  const BlockParser parser("part.ngc", symbols);
+  Diagnostics diagnostics;
+  Block block;
+  std::vector<std::string> lines;
+  std::string_view line_text;
+  std::uint32_t line = 0;
+  while (reader.next_line(line_text, line, diagnostics)) {
+    EXPECT_TRUE(parser.parse(line_text, line, block, diagnostics)) << render(diagnostics, false);
+    lines.push_back(print(block, symbols));
+  }
+  return lines;
+}
+
+// Line ends of all kinds, '%' around it, nothing kept from one line to the next.
+TEST(Print, of_a_random_program_is_a_program_that_prints_the_same) {
+  RandomLine random(test::seed() + 1);
+  const std::string ends[] = {"\n", "\r\n", "\r"};
+  for (std::size_t round = 0; round < 60; ++round) {
+    const std::string& end = ends[round % 3];
+    std::string text = "%" + end;
+    for (int i = 0; i < 100; ++i) text += random.make() + end;
+    SymbolTable symbols;
+    const std::vector<std::string> lines = printed_program(text + "%" + end, symbols);
+    ASSERT_EQ(lines.size(), 102U);
+    std::string again;
+    for (const std::string& line : lines) again += line + "\n";
+    SymbolTable other_symbols;
+    ASSERT_EQ(printed_program(again, other_symbols), lines);
   }
 }
 

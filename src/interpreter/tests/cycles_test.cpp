@@ -46,6 +46,67 @@ TEST(DrillingCycles, a_tap_moves_along_its_axis_in_every_plane) {
   }
 }
 
+std::string calls_from(const std::string& program, const char* first) {
+  const Interpreted result = interpret_text(program);
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  const std::string calls = result.calls();
+  const std::size_t begin = calls.find(first);
+  const std::size_t end = calls.find("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS");
+  return begin == std::string::npos || end == std::string::npos ? calls : calls.substr(begin, end - begin);
+}
+
+// As rs274 does it, with I, J and K along X, Y and Z in every plane.
+TEST(DrillingCycles, a_back_bore_goes_aside_through_the_hole_and_cuts_upwards) {
+  EXPECT_EQ(calls_from("G21 F600 M4 S100 G18\nG0 Y1\nG91\nG87 X1 Z1 Y-1 R0.5 I0.1 J-0.2 K0.3\nM2\n",
+                       "STRAIGHT_TRAVERSE(1.0000, 1.5000, 1.0000"),
+            "STRAIGHT_TRAVERSE(1.0000, 1.5000, 1.0000, 0.0000, 0.0000, 0.0000)\n"
+            "STRAIGHT_TRAVERSE(1.1000, 1.5000, 1.3000, 0.0000, 0.0000, 0.0000)\n"
+            "STOP_SPINDLE_TURNING(0)\n"
+            "ORIENT_SPINDLE(0, 0.0000, 3)\n"
+            "STRAIGHT_TRAVERSE(1.1000, 0.5000, 1.3000, 0.0000, 0.0000, 0.0000)\n"
+            "STRAIGHT_TRAVERSE(1.0000, 0.5000, 1.0000, 0.0000, 0.0000, 0.0000)\n"
+            "START_SPINDLE_COUNTERCLOCKWISE(0)\n"
+            "STRAIGHT_FEED(1.0000, 0.3000, 1.0000, 0.0000, 0.0000, 0.0000)\n"
+            "STRAIGHT_FEED(1.0000, 0.5000, 1.0000, 0.0000, 0.0000, 0.0000)\n"
+            "STOP_SPINDLE_TURNING(0)\n"
+            "ORIENT_SPINDLE(0, 0.0000, 3)\n"
+            "STRAIGHT_TRAVERSE(1.1000, 0.5000, 1.3000, 0.0000, 0.0000, 0.0000)\n"
+            "STRAIGHT_TRAVERSE(1.1000, 1.5000, 1.3000, 0.0000, 0.0000, 0.0000)\n"
+            "STRAIGHT_TRAVERSE(1.0000, 1.5000, 1.0000, 0.0000, 0.0000, 0.0000)\n"
+            "START_SPINDLE_COUNTERCLOCKWISE(0)\n");
+}
+
+// On the machine nobody has a hand on the tool: it must not go on from the bottom of the hole.
+TEST(DrillingCycles, a_retract_by_hand_is_a_rapid_on_the_machine) {
+  const std::string program = "G21 F600 M3 S100 G0 Z1\nG88 X1 Z-1 R0.5 P1\nM2\n";
+  EXPECT_EQ(calls_from(program, "STRAIGHT_FEED"),
+            "STRAIGHT_FEED(1.0000, 0.0000, -1.0000, 0.0000, 0.0000, 0.0000)\nDWELL(1.0000)\n"
+            "STOP_SPINDLE_TURNING(0)\nPROGRAM_STOP()\nSTART_SPINDLE_CLOCKWISE(0)\n");
+  InterpreterOptions options;
+  options.on_machine = true;
+  EXPECT_THAT(interpret_text(program, options).calls(),
+              HasSubstr("PROGRAM_STOP()\nSTRAIGHT_TRAVERSE(1.0000, 0.0000, 0.5000, 0.0000, 0.0000, 0.0000)\n"
+                        "START_SPINDLE_CLOCKWISE(0)\n"));
+}
+
+TEST(DrillingCycles, in_the_planes_of_UVW_drill_along_the_axis_through_them) {
+  struct InPlane {
+    const char* words;
+    Axis axis;
+  };
+  for (const auto& [words, axis] : {InPlane{"G17.1\nG81 U3 V5 W-7 R2", Axis::w},
+                                    {"G18.1\nG81 U3 W5 V-7 R2", Axis::v},
+                                    {"G19.1\nG81 V3 W5 U-7 R2", Axis::u}}) {
+    const Interpreted result = interpret_text(std::string("G21 F100 ") + words + "\nM2\n");
+    EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+    EXPECT_THAT(result.calls(), HasSubstr("SELECT_PLANE(CANON_PLANE_UNKNOWN)"));
+    Point expected = result.last<operation::StraightTraverse>().end;
+    EXPECT_EQ(expected[axis], 2);
+    expected[axis] = -7;
+    EXPECT_EQ(result.last<operation::StraightFeed>().end, expected);
+  }
+}
+
 TEST(DrillingCycles, tapping_leaves_overrides_off_that_were_off) {
   const Interpreted result = interpret_text("G21 F100 M3 S100 M49\nG84 X1 Z-1 R1\nX2\nM0\n");
   for (const auto& set : result.all<operation::SetFeedOverride>()) EXPECT_FALSE(set.on);
@@ -175,6 +236,18 @@ TEST(LatheCycles, every_contour_comes_to_an_end) {
       "G21 G18 F100\no7 sub\nG1 X10 Z0\nX10 Z-14\nX3\nX7 Z-22\no7 endsub\nG71.2 Q7 X15 Z0 D.04 I.5 R1\nM2\n");
   EXPECT_FALSE(sloped.diagnostics.any_error()) << sloped.rendered();
   EXPECT_LT(sloped.operations.size(), 200U);
+}
+
+// As LinuxCNC 2.10 does it; 2.9 cuts along the contour once, through all of the stock.
+TEST(LatheCycles, a_face_as_deep_as_the_contour_begins_is_roughed_too) {
+  const Interpreted result =
+      interpret_text("G21 G18 F100\no1 sub\nG1 X5 Z-4\nX10 Z-4\no1 endsub\nG72 Q1 X5 Z0 I1 R0.1\nM2\n");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  std::vector<double> cuts;
+  for (const auto& feed : result.all<operation::StraightFeed>()) {
+    if (feed.end[Axis::x] == 10) cuts.push_back(feed.end[Axis::z]);
+  }
+  EXPECT_THAT(cuts, testing::ElementsAre(0, -1, -2, -3, -4, testing::_)) << result.calls();
 }
 
 }  // namespace

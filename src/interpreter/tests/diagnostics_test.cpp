@@ -119,8 +119,15 @@ const Wrong wrongs[] = {
     {"G43.2\n", "gcode.missing-word", 1, 1, 5},
     {"G43.2 H1 X2\n", "gcode.unused-word", 1, 7, 2},
     {"G43.2 X2 G0\n", "gcode.axis-conflict", 1, 1, 5},
-    {"G0 X1\nG87 X1 Z-1 R2 I1 J1 K1\n", "gcode.unsupported-code", 2, 1, 3},
-    {"G88 X1 Z-1 R2 P1\n", "gcode.unsupported-code", 1, 1, 3},
+    {"F1 G87 X1 Z-1 R2 I1 J1 K1\n", "gcode.cycle-spindle", 1, 4, 3},
+    {"F1 M3 G87 X1 Z-1 R2 I1 J1\n", "gcode.missing-word", 1, 7, 3},
+    {"F1 G88 X1 Z-1 R2 P1\n", "gcode.cycle-spindle", 1, 4, 3},
+    {"F1 M3 G88 X1 Z-1 R2\n", "gcode.missing-word", 1, 7, 3},
+    {"F1 G17.1 G81 U1 W-1 R2 X1\n", "gcode.cycle-axis", 1, 24, 2},
+    {"F1 G17.1 G2 X1 I1\n", "gcode.wrong-plane", 1, 10, 2},
+    {"G19.1 G41.1 D1\n", "gcode.cutter-compensation", 1, 7, 5},
+    {"G10 L0\nT1 M6\nG10 L0\n", "gcode.tool-loaded", 3, 5, 2},
+    {"G0 X#<_hal[motion.foo]>\n", "gcode.no-hal", 1, 5, 19},
     {"G0 G1 X1 F1\n", "gcode.modal-conflict", 1, 4, 2},
     {"G17 G18\n", "gcode.modal-conflict", 1, 5, 3},
     {"M3 S1 M5\n", "gcode.modal-conflict", 1, 7, 2},
@@ -192,7 +199,19 @@ const Wrong wrongs[] = {
     {"F1 G5.2 X1 Y1 P1\nG55\n", "gcode.open-nurbs", 2, 1, 3},
     {"F1 G5.2 X1 Y1 P1\nG92 X0\n", "gcode.open-nurbs", 2, 1, 3},
     {"F1 G5.2 X1 Y1 P1\nM2\n", "gcode.open-nurbs", 2, 1, 2},
-    {"G65 P1 A2\n", "gcode.unsupported-code", 1, 1, 3},
+    {"o1 sub\no2 sub\no2 endsub\no1 endsub\n", "gcode.stray-o-word", 2, 1, 6},
+    {"G65 A2\n", "gcode.missing-word", 1, 1, 3},
+    {"G65 P1.5\n", "gcode.not-whole", 1, 5, 4},
+    {"G65 P1 A2\n", "gcode.unknown-sub", 1, 1, 3},
+    {"G66 P1\n", "gcode.unknown-sub", 1, 1, 3},
+    {"o1 sub\no1 endsub\nG65 P1\n", "gcode.mixed-subs", 3, 1, 3},
+    {"G65 P1 G4\nO1\nM99\n", "gcode.macro-argument", 1, 8, 2},
+    {"M3 G65 P1\nO1\nM99\n", "gcode.macro-argument", 1, 1, 2},
+    {"G65 P1 @2\nO1\nM99\n", "gcode.macro-argument", 1, 8, 2},
+    {"G65 P1 A1 A2\nO1\nM99\n", "gcode.repeated-word", 1, 11, 2},
+    {"G65 P1 #1=2\nO1\nM99\n", "gcode.unused-word", 1, 8, 4},
+    {"G66 P1\nG66 P1\nO1\nM99\n", "gcode.nested-macro", 2, 1, 3},
+    {"G66 P1\nG0 X1\nM2\nO1\nG66 P1\nM99\n", "gcode.nested-macro", 5, 1, 3},
     {"G51\n", "gcode.missing-word", 1, 1, 3},
     {"G51 X1 Y1\n", "gcode.missing-word", 1, 1, 3},
     {"G51 P0\n", "gcode.zero-scale", 1, 5, 2},
@@ -364,7 +383,7 @@ TEST(Diagnostics, the_nearest_code_is_suggested) {
 
 TEST(Diagnostics, an_unused_word_tells_which_codes_use_it) {
   const Interpreted result = interpret_text("G0 X1 K1\nM2\n");
-  EXPECT_EQ(result.diagnostics.all().front().expected, "K with G2, G3, G33, G33.1, G51 or G76");
+  EXPECT_EQ(result.diagnostics.all().front().expected, "K with G2, G3, G33, G33.1, G51, G76 or G87");
 }
 
 TEST(Diagnostics, reading_stops_when_there_are_enough) {

@@ -98,6 +98,29 @@ TEST(ToolTableFile, an_empty_one_has_no_tools_and_is_a_table) {
   EXPECT_FALSE(table.name.empty());
 }
 
+TEST(ToolTableFile, is_written_with_what_changed_and_all_else_as_it_was) {
+  const std::string text = "; tools\r\n\nT1  P4 Z+1.5\tD3 ; mill Z9\nt2 P2\n\nT3 P3 X1;no end";
+  ToolTable table = tools_of(text);
+  EXPECT_EQ(tool_table_text(text, LengthUnits::mm, table), text);
+  Tool* const mill = table.find(1);
+  mill->offset[Axis::z] = 2.25;
+  mill->offset[Axis::x] = -0.5;
+  table.find(2)->diameter = Mm(6);
+  table.find(2)->orientation = 3;
+  table.find(3)->offset[Axis::x] = 0;
+  EXPECT_EQ(tool_table_text(text, LengthUnits::mm, table),
+            "; tools\r\n\nT1  P4 Z+2.25\tD3 X-0.5 ; mill Z9\nt2 P2 D6 Q3\n\nT3 P3 X0;no end");
+}
+
+TEST(ToolTableFile, is_written_in_the_units_of_the_machine) {
+  const std::string text = "T1 P1 Z1 A1\n";
+  ToolTable table = tools_of(text, LengthUnits::inch);
+  EXPECT_EQ(tool_table_text(text, LengthUnits::inch, table), text);
+  table.find(1)->offset[Axis::z] = 12.7;
+  table.find(1)->offset[Axis::a] = 30;
+  EXPECT_EQ(tool_table_text(text, LengthUnits::inch, table), "T1 P1 Z0.5 A30\n");
+}
+
 TEST(ToolTableFile, what_is_wrong_is_told_with_its_place) {
   const Wrong wrongs[] = {
       {"T1 P1 K3\n", "tools.unknown-word", 1, 7},

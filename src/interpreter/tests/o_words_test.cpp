@@ -135,6 +135,101 @@ TEST(OWords, errors_in_a_sub_of_another_file_name_that_file) {
   EXPECT_THAT(result.diagnostics.all()[1].file, testing::EndsWith("main.ngc"));
 }
 
+// "o<inner> main.ngc:3", the innermost call first.
+std::string stack_of(const Diagnostic& diagnostic) {
+  std::string stack;
+  for (const CallPlace& call : diagnostic.calls) {
+    stack += call.sub + " " + std::filesystem::path(call.file).filename().string() + ":" + std::to_string(call.line);
+    stack += " ";
+  }
+  return stack;
+}
+
+Interpreted run_files(const std::string& folder_name, const std::vector<std::pair<const char*, const char*>>& files) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / folder_name;
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, text] : files) std::ofstream(folder / name) << text;
+  Interpreted result;
+  auto reader = ProgramReader::open((folder / files.front().first).string());
+  if (reader) interpret(std::move(*reader), {}, result);
+  return result;
+}
+
+TEST(OWords, an_error_tells_through_which_calls_the_program_came_there) {
+  const Interpreted result = interpret_text(
+      "o<outer> sub\n\no<inner> call\nM98 P9\no<outer> endsub\n"
+      "o<inner> sub\nG0 X1 K1\nwrong line\no<inner> endsub\n"
+      "G0 K1\no<outer> call\nG0 K2\nM2\nO9\nG4\nM99\n");
+  const auto& found = result.diagnostics.all();
+  ASSERT_EQ(found.size(), 5U) << result.rendered();
+  EXPECT_EQ(stack_of(found[0]), "");
+  EXPECT_EQ(stack_of(found[1]), "o<inner> test.ngc:3 o<outer> test.ngc:11 ");
+  EXPECT_EQ(stack_of(found[2]), stack_of(found[1])) << "a line that is no G-code";
+  EXPECT_EQ(stack_of(found[3]), "O9 test.ngc:4 o<outer> test.ngc:11 ");
+  EXPECT_EQ(stack_of(found[4]), "");
+}
+
+TEST(OWords, the_calls_of_an_error_name_the_files_they_stand_in) {
+  const Interpreted result = run_files("passo_stack", {{"main.ngc", "G0 X1\no<one> call\nM2\n"},
+                                                       {"one.ngc", "o<one> sub\no<two> call\no<one> endsub\n"},
+                                                       {"two.ngc", "o<two> sub\no1 while [1]\no<two> endsub\n"}});
+  ASSERT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
+  const Diagnostic& error = result.diagnostics.all().front();
+  EXPECT_THAT(error.file, testing::EndsWith("two.ngc"));
+  EXPECT_EQ(error.place.line, 2U);
+  EXPECT_EQ(stack_of(error), "o<two> one.ngc:2 o<one> main.ngc:2 ");
+}
+
+TEST(OWords, what_is_never_closed_is_told_at_its_opener) {
+  for (const char* const opener : {"o5 if [1]", "o5 while [1]", "o5 do", "o5 repeat [2]"}) {
+    const Interpreted in_main = interpret_text("G0 X1\n" + std::string(opener) + "\nG0 X2\n");
+    ASSERT_EQ(in_main.diagnostics.errors(), 1U) << opener << in_main.rendered();
+    EXPECT_EQ(in_main.diagnostics.all()[0].code, "gcode.unclosed-o-word") << opener;
+    EXPECT_EQ(in_main.diagnostics.all()[0].place.line, 2U) << opener;
+    const Interpreted in_sub =
+        interpret_text("o1 call\nG0 K1\nM2\no1 sub\n" + std::string(opener) + "\nG0 X2\no1 endsub\n");
+    ASSERT_EQ(in_sub.diagnostics.errors(), 2U) << opener << in_sub.rendered();
+    EXPECT_EQ(in_sub.diagnostics.all()[0].place.line, 5U) << opener;
+  }
+}
+
+TEST(OWords, a_sub_that_is_nowhere_tells_where_it_was_looked_for_and_the_run_goes_on) {
+  const Interpreted result =
+      run_files("passo_nowhere", {{"main.ngc", "o<half> call\no<lost> call\nM98 P8\nM98 P\nG0 X1 K1\nM2\n"},
+                                  {"half.ngc", "o<other> sub\no<other> endsub\n"}});
+  const auto& found = result.diagnostics.all();
+  ASSERT_EQ(found.size(), 5U) << result.rendered();
+  EXPECT_THAT(found[0].expected, testing::AllOf(testing::HasSubstr("o<half> sub in this file"),
+                                                testing::EndsWith("half.ngc is there without it")));
+  EXPECT_THAT(found[1].expected, testing::HasSubstr("in a file lost.ngc beside the program"));
+  EXPECT_THAT(found[2].expected, testing::HasSubstr("O8 in this file"));
+  EXPECT_EQ(found[4].code, "gcode.unused-word");
+}
+
+TEST(OWords, a_loop_of_calls_that_lead_nowhere_ends) {
+  const Interpreted result = interpret_text("o1 while [1]\n#31=[#31+1]\nG0 X#31\no[#31+9] call\no1 endwhile\nM2\n");
+  EXPECT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
+  EXPECT_EQ(result.all<operation::StraightTraverse>().size(), 1000U);
+}
+
+TEST(OWords, a_sub_ended_in_the_other_style_ends_all_the_same) {
+  const Interpreted result =
+      interpret_text("M98 P7\nG0 X1 K1\no8 call\nG0 X2 K2\nM2\nO7\no7 endsub\no8 sub\nM99\no8 endsub\n");
+  ASSERT_EQ(result.diagnostics.errors(), 4U) << result.rendered();
+  EXPECT_EQ(result.diagnostics.all()[0].code, "gcode.mixed-subs");
+  EXPECT_EQ(result.diagnostics.all()[2].code, "gcode.mixed-subs");
+}
+
+TEST(OWords, comments_and_lines_may_be_as_long_as_64_KiB) {
+  const std::string words(64 * 1024 - 20, 'x');
+  const Interpreted result = interpret_text("(" + words + ")\nG0 X1 (" + words + ")\n(msg," + words + ")\nM2\n");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_THAT(result.canon, testing::HasSubstr("MESSAGE(\"" + words));
+  const Interpreted longer = interpret_text("G0 X1 (" + words + words + ")\nG0 X2 K2\nM2\n");
+  ASSERT_EQ(longer.diagnostics.errors(), 2U);
+  EXPECT_EQ(longer.diagnostics.all()[0].code, "gcode.line-too-long");
+}
+
 TEST(OWords, a_long_loop_is_not_idle_while_it_does_something) {
   InterpreterOptions options;
   options.idle_passes = 10;

@@ -21,6 +21,11 @@ std::string says(const std::string& program) {
   return calls.substr(start + 9, calls.find("\")", start) - start - 9);
 }
 
+TEST(Comments, say_values_in_the_form_that_stands_before_them) {
+  EXPECT_THAT(interpret_text("#1=3.14159 #2=-7.6\n(debug,#1 %d#1 #2 %f#1 %.2f#2 100% %x #1)\nM2\n").calls(),
+              testing::HasSubstr("MESSAGE(\"3.141590 3 -8 3.1416 -7.60 100% %x 3.14\")"));
+}
+
 TEST(Parameters, are_zero_until_they_are_set) {
   EXPECT_EQ(says("(debug,#1 #5601)\n"), "0.000000 0.000000");
 }

@@ -1,4 +1,6 @@
 // Numbered programs (M98, M99), and the modal state saved and restored (M70 to M73).
+#include <sstream>
+
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,6 +55,72 @@ TEST(Subprograms, a_main_program_without_end_and_without_motion_is_stopped) {
   ASSERT_EQ(result.diagnostics.errors(), 1U);
   EXPECT_EQ(result.diagnostics.all().front().code, "gcode.endless-loop");
   EXPECT_EQ(result.diagnostics.all().front().place.line, 2U);
+}
+
+// What (PRINT,…) said.
+std::string prints(const std::string& program) {
+  const Interpreted result = interpret_text(program);
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  std::string said;
+  std::istringstream lines(result.calls());
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(">")) said += line;
+  }
+  return said;
+}
+
+TEST(MacroCalls, letters_are_the_parameters_of_the_program_that_is_called) {
+  EXPECT_EQ(prints("G65 P1 A1 B2 C3 I4 J5 K6 D7 E8 F9 H11 M13\nM2\nO1\n"
+                   "(print,>%d#1 %d#2 %d#3 %d#4 %d#5 %d#6 %d#7 %d#8 %d#9 %d#10 %d#11 %d#12 %d#13 %d#14)\nM99\n"),
+            ">1 2 3 4 5 6 7 8 9 0 11 0 13 0");
+  EXPECT_EQ(prints("G65 P1 Q17 R18 S19 T20 U21 V22 W23 X24 Y25 Z26\nM2\nO1\n"
+                   "(print,>%d#16 %d#17 %d#18 %d#19 %d#20 %d#21 %d#22 %d#23 %d#24 %d#25 %d#26 %d#27)\nM99\n"),
+            ">0 17 18 19 20 21 22 23 24 25 26 0");
+}
+
+TEST(MacroCalls, arguments_move_nothing_and_set_nothing) {
+  const Interpreted result = interpret_text("G65 P1 X5 F7 S9 T3 M3\nM2\nO1\nM99\n");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_TRUE(result.all<operation::StraightTraverse>().empty());
+  EXPECT_TRUE(result.all<operation::SelectTool>().empty());
+  for (const auto& turn : result.all<operation::TurnSpindle>()) EXPECT_EQ(turn.direction, SpindleDirection::off);
+}
+
+TEST(MacroCalls, numbers_and_names_of_the_caller_are_not_the_callees) {
+  EXPECT_THAT(stops("#1=4 #2=5\nG65 P1 A[#1+1]\nG0 X#1\nG0 X#2\nM2\nO1\nG0 X#1\nG0 X#2\n#1=9 #2=9\nM99\n"),
+              testing::ElementsAre(5, 0, 4, 5));
+}
+
+TEST(MacroCalls, repeat_with_their_arguments) {
+  EXPECT_THAT(stops("G65 P1 L3 A2\nG65 P1 L0 A5\nM2\nO1\nG0 X#1\n#1=8\nM99\n"), testing::ElementsAre(2, 2, 2));
+}
+
+TEST(MacroCalls, nest_and_share_with_what_they_call_by_M98) {
+  EXPECT_THAT(stops("G65 P1 A1\nG0 X#1\nM2\nO1\nG65 P2 A[#1+1]\nG0 X#1\nM98 P3\nG0 X#1\nM99\n"
+                    "O2\nG0 X#1\nM99\nO3\n#1=7\nM99\n"),
+              testing::ElementsAre(2, 1, 7, 0));
+}
+
+TEST(MacroCalls, of_G66_come_behind_each_block_that_moves) {
+  EXPECT_THAT(stops("G66 P1 A10\nG0 X1\nM8\nG90\nX2\nG92 X3\nG67\nX4\nM2\nO1\nG0 X#1\nG0 X[#1+1]\nM99\n"),
+              testing::ElementsAre(1, 10, 11, 2, 10, 11, 4));
+}
+
+TEST(MacroCalls, of_G66_repeat_and_reach_into_subs) {
+  EXPECT_THAT(stops("G66 P1 A10 L2\nM98 P2\nG67 G0 X3\nM2\nO1\nG0 X#1\nM99\nO2\nG0 X1\nM99\n"),
+              testing::ElementsAre(1, 10, 10, 3));
+}
+
+TEST(MacroCalls, of_G66_wait_for_the_end_of_a_cycle) {
+  const Interpreted result = interpret_text("G21 F100 G91\nG66 P1\nG81 X1 Z-1 R1 L60\nG67\nM2\nO1\nM8\nM99\n");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  const std::string calls = result.calls();
+  EXPECT_EQ(calls.find("FLOOD_ON"), calls.rfind("FLOOD_ON"));
+  EXPECT_GT(calls.find("FLOOD_ON"), calls.rfind("STRAIGHT_FEED(60.0000"));
+}
+
+TEST(MacroCalls, G67_may_stand_in_the_first_line) {
+  EXPECT_THAT(stops("G17 G40 G49 G67 G80\nG0 X1\nM2\n"), testing::ElementsAre(1));
 }
 
 TEST(ModalState, is_restored_in_the_order_of_a_block) {

@@ -97,5 +97,24 @@ TEST(Tools, g43_that_is_wrong_leaves_the_offset) {
   EXPECT_EQ(result.all<operation::SetToolOffset>().size(), 1U);
 }
 
+TEST(Tools, a_table_that_is_read_again_keeps_what_the_program_set) {
+  const Interpreted result = interpret_text("G10 L1 P8 Z3\nG10 L0\nG43 H8\nM2\n", with_tools());
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_THAT(result.calls(), HasSubstr("RELOAD_TOOLDATA()\n"));
+  EXPECT_EQ(result.last<operation::SetToolOffset>().offset[Axis::z], 3);
+}
+
+TEST(Tools, examples_are_those_of_rs274) {
+  InterpreterOptions options;
+  options.tools = example_tools();
+  const Interpreted result = interpret_text("G20\nG43 H1\nG43 H2\nG43 H3\nG43 H4\nM2\n", options);
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  std::vector<double> inches;
+  for (const auto& set : result.all<operation::SetToolOffset>()) inches.push_back(set.offset[Axis::z] / mm_per_inch);
+  EXPECT_THAT(inches, testing::ElementsAre(testing::DoubleEq(0.511), testing::DoubleEq(0.1), testing::DoubleEq(1.273),
+                                           testing::DoubleEq(0)));
+  EXPECT_EQ(options.tools.find(3)->diameter, Mm(0.201 * mm_per_inch));
+}
+
 }  // namespace
 }  // namespace passo

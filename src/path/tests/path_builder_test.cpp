@@ -40,16 +40,6 @@ TEST_F(PathTest, small_programs_look_as_their_golden_files) {
   EXPECT_TRUE(diagnostics_.all().empty()) << render(diagnostics_, false);
 }
 
-TEST(PathText, a_cubic_says_what_it_is) {
-  Segment segment{.curve = Curve::cubic(xyz(0, 0), xyz(1, 0), xyz(0.5, 0.25), xyz(0, 1), Mm(0.75)),
-                  .speed = MmPerSecond(10),
-                  .tolerance = Mm(0.01)};
-  segment.source.line = 7;
-  EXPECT_EQ(to_text(segment),
-            "line 7: feed cubic (X0.000000 Y0.000000) to (X0.500000 Y0.250000) length 0.750000 speed 10.000000 "
-            "continuous 0.010000\n");
-}
-
 TEST_F(PathTest, segments_join_bit_for_bit_and_moves_of_nothing_are_dropped) {
   add(operation::SetWorkOffset{.system = 2, .offset = xyz(0.1, 0.2, 0.3)});
   add(operation::SetRotation{30});

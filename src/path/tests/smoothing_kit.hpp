@@ -90,25 +90,6 @@ inline double tolerance_at(const ByLength& path, double s) {
   return least;
 }
 
-// How far `place` is outside of the tube around the path near s; s is moved to where it is least.
-inline double excess_near(const ByLength& path, const Point& place, double window, double& s) {
-  const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
-  double best = excess_at(s);
-  double best_s = s;
-  for (double reach = window; reach > window * 1e-4; reach /= 50) {
-    const double middle = best_s;
-    for (int i = -100; i <= 100; ++i) {
-      const double to = std::clamp(middle + reach * i / 100, 0.0, path.length());
-      const double excess = excess_at(to);
-      if (excess >= best) continue;
-      best = excess;
-      best_s = to;
-    }
-  }
-  s = best_s;
-  return best;
-}
-
 // With an exact stop before each action.
 inline ByLength by_length(const std::vector<PathItem>& items) {
   std::vector<Segment> segments;
@@ -129,12 +110,47 @@ inline std::size_t rests_of(const std::vector<PathItem>& items) {
   return rests;
 }
 
-// Where both go by the same length the deviation is measured at equal s; where lines were merged, nearby.
+// Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
+// where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
+// were cut). `shift` is how far it was when last looked for.
+struct LengthAlong {
+  double since_rest = 0;
+  double rest = 0;
+  double shift = 0;
+
+  double estimate() const { return rest + since_rest + shift; }
+
+  // The least of a measure of places of the path that may be meant.
+  template <class Measure>
+  double search(const Measure& measure, double end) {
+    constexpr double beyond = 0.5;
+    constexpr int samples = 20'000;
+    double low = -beyond;
+    double high = 0.0102 * since_rest + beyond;
+    double best = measure(std::clamp(estimate(), 0.0, end));
+    for (int pass = 0; pass < 3 && best > 0; ++pass) {
+      const double step = (high - low) / samples;
+      double best_shift = shift;
+      for (int i = 0; i <= samples; ++i) {
+        const double to = low + step * i;
+        const double here = measure(std::clamp(rest + since_rest + to, 0.0, end));
+        if (here >= best) continue;
+        best = here;
+        best_shift = to;
+      }
+      shift = best_shift;
+      low = shift - 2 * step;
+      high = shift + 2 * step;
+    }
+    return best;
+  }
+};
+
 inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vector<PathItem>& smoothed,
                         int samples = 40) {
   Faults faults;
   const ByLength path = by_length(programmed);
-  double s = 0;
+  LengthAlong s;
   const Segment* before = nullptr;
   for (const PathItem& item : smoothed) {
     const auto* const segment = std::get_if<Segment>(&item);
@@ -161,18 +177,18 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
     for (int i = 0; i <= samples; ++i) {
       const double along = length * i / samples;
       const Point place = curve.at(Mm(along));
-      double at = std::min(s + along, path.length());
-      double excess = apart(path.at(at), place) - tolerance_at(path, at);
-      if (excess > 0) {
-        excess = excess_near(path, place, 20 * tolerance_at(path, at), at);
-        s = at - along;
-      }
+      const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
+      double excess = excess_at(std::min(s.estimate(), path.length()));
+      if (excess > 0) excess = s.search(excess_at, path.length());
+      s.since_rest += i < samples ? length / samples : 0;
       if (excess <= faults.excess) continue;
       faults.excess = excess;
-      faults.where =
-          "at " + std::to_string(at) + " of\n" + to_text(*segment) + "beside\n" + to_text(path[path.index_at(at)]);
+      faults.where = "at " + std::to_string(s.estimate()) + " of\n" + to_text(*segment) + "beside\n" +
+                     to_text(path[path.index_at(s.estimate())]);
     }
-    s += length;
+    if (segment->mode == PathMode::exact_stop) {
+      s = {.since_rest = 0, .rest = s.estimate(), .shift = 0};
+    }
   }
   return faults;
 }

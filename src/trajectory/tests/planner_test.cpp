@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../cell.hpp"
+#include "../speed_window.hpp"
 #include "random_program.hpp"
 
+#include "passo/path/path_smoother.hpp"
 #include "passo/trajectory/motion_text.hpp"
-#include "passo/trajectory/segment_limits.hpp"
 
 namespace passo {
 namespace {
@@ -45,6 +47,13 @@ std::vector<MotionItem> plan(const std::vector<PathItem>& path, const MotionLimi
   return test::drain(planner);
 }
 
+// As a job does it: rounded corners.
+std::vector<PathItem> smoothed(const std::vector<PathItem>& path) {
+  test::ListSource<PathItem> source(path);
+  PathSmoother smoother(source);
+  return test::drain(smoother);
+}
+
 double total_time(const std::vector<MotionItem>& motion) {
   double sum = 0;
   for (const MotionItem& item : motion) {
@@ -81,6 +90,16 @@ Motion motion_at(const Curve& curve, Real s, Real v, Real a) {
     motion.acceleration[axis] = slope * a;
   }
   if (curve.shape() == Curve::Shape::line) return motion;
+  if (curve.shape() == Curve::Shape::cubic) {
+    const Curve::CubicData cubic = curve.cubic_data();
+    for (const Axis axis : all_axes) {
+      const Real slope = cubic.first[axis] + s * (2 * Real(cubic.second[axis]) + 3 * s * Real(cubic.third[axis]));
+      const Real bend = 2 * Real(cubic.second[axis]) + 6 * s * Real(cubic.third[axis]);
+      motion.velocity[axis] = slope * v;
+      motion.acceleration[axis] = slope * a + bend * v * v;
+    }
+    return motion;
+  }
   const Curve::ArcData& arc = curve.arc_data();
   const Real radius = arc.start_radius + (Real(arc.end_radius) - arc.start_radius) * s / length;
   const Real angle = arc.start_angle + Real(arc.sweep) * s / length;
@@ -99,18 +118,18 @@ Motion motion_at(const Curve& curve, Real s, Real v, Real a) {
   return motion;
 }
 
-void expect_within_limits(const PlannedMove& move, const MotionLimits& limits) {
+void expect_within_limits(const PlannedMove& move, const MotionLimits& limits, Real slack = 1e-4L) {
   for (const Phase& phase : move) {
     for (int k = 0; k <= 16; ++k) {
       const Real t = Real(phase.duration.value()) * k / 16;
       const Real v = phase.velocity.value() + phase.acceleration.value() * t;
       const Real s = phase.start.value() + t * (phase.velocity.value() + t * phase.acceleration.value() / 2);
       ASSERT_GE(v, -1e-12L);
-      ASSERT_LE(v, Real(move.segment.speed.value()) * (1 + 1e-12L));
+      ASSERT_LE(v, Real(move.segment.speed.value()) * (1 + 1e-9L));
       const Motion motion = motion_at(move.segment.curve, s, v, phase.acceleration.value());
       for (const Axis axis : all_axes) {
-        ASSERT_LE(std::abs(motion.velocity[axis]), limits.velocity[axis].value() * (1 + 1e-9L)) << letter_of(axis);
-        ASSERT_LE(std::abs(motion.acceleration[axis]), limits.acceleration[axis].value() * (1 + 1e-9L))
+        ASSERT_LE(std::abs(motion.velocity[axis]), limits.velocity[axis].value() * (1 + 1e-6L)) << letter_of(axis);
+        ASSERT_LE(std::abs(motion.acceleration[axis]), limits.acceleration[axis].value() * (1 + slack))
             << letter_of(axis) << " at s " << double(s) << " of " << move.segment.curve.length().value();
       }
     }
@@ -119,6 +138,7 @@ void expect_within_limits(const PlannedMove& move, const MotionLimits& limits) {
 
 void expect_continuous(const std::vector<MotionItem>& motion) {
   double speed = 0;
+  double position = 0;  // on the segment
   for (const MotionItem& item : motion) {
     const auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) {
@@ -127,77 +147,74 @@ void expect_continuous(const std::vector<MotionItem>& motion) {
     }
     SCOPED_TRACE(passo::to_text(*move));
     const double length = move->segment.curve.length().value();
-    double position = 0;
     ASSERT_GE(move->phase_count, 1U);
     for (const Phase& phase : *move) {
       ASSERT_GT(phase.duration.value(), 0);
-      ASSERT_NEAR(phase.start.value(), position, 1e-12 * length);
-      ASSERT_NEAR(phase.velocity.value(), speed, 1e-9 * speed);
+      ASSERT_NEAR(phase.start.value(), position, 1e-11 * length);
+      ASSERT_NEAR(phase.velocity.value(), speed, 1e-9 * (1 + speed));
       position = phase.position_at(phase.duration).value();
       speed = phase.velocity_at(phase.duration).value();
       ASSERT_GE(speed, 0);
     }
-    ASSERT_NEAR(position, length, 1e-12 * length);
+    ASSERT_NEAR(position, move->to.value(), 1e-11 * length);
+    if (move->to.value() == length) position = 0;
   }
+  ASSERT_EQ(position, 0) << "a segment is not played to its end";
   ASSERT_EQ(speed, 0) << "the program does not end at rest";
 }
 
-// The whole program at once: backwards, then forwards. The squares of the speeds at which moves are entered.
-std::vector<double> entries_offline(const std::vector<PathItem>& path, const MotionLimits& limits) {
-  const std::size_t n = path.size();
-  std::vector<double> cap(n + 1, 0), reach(n, 0);
-  Mm straight{0};
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto* segment = std::get_if<Segment>(&path[i]);
-    if (segment == nullptr) continue;
-    const Mm straight_before = straight;
-    straight = segment->curve.length();
-    const SegmentLimits own = segment_limits(*segment, limits);
-    reach[i] = 2 * own.acceleration.value() * segment->curve.length().value();
-    const auto* before = i > 0 ? std::get_if<Segment>(&path[i - 1]) : nullptr;
-    if (before == nullptr) continue;
-    const double top = std::min(own.speed, segment_limits(*before, limits).speed).value();
-    const Junction junction = junction_between(*before, *segment, straight_before, limits);
-    if (junction.straight) straight += straight_before;
-    cap[i] = std::min(junction.speed.value() * junction.speed.value(), top * top);
+// The whole program at once: backwards over all cells, then forwards. The squares of the speeds at their ends.
+std::vector<double> exits_offline(const std::vector<PathItem>& path, const MotionLimits& limits) {
+  struct Whole {
+    CellCutter::Piece piece;
+    double top = 0;
+    double entry = 0;
+  };
+  std::vector<Whole> cells;
+  CellCutter cutter(limits);
+  const Segment* before = nullptr;
+  for (const PathItem& item : path) {
+    const auto* segment = std::get_if<Segment>(&item);
+    if (segment != nullptr) cutter.begin(*segment);
+    bool rest = before == nullptr || segment == nullptr || before->mode == PathMode::exact_stop;
+    if (!rest) {
+      const Point turn = segment->curve.tangent(Mm(0)) - before->curve.tangent(before->curve.length());
+      for (const double part : turn.values) rest = rest || std::abs(part) > 1e-6;
+    }
+    before = segment;
+    Whole cell;
+    while (segment != nullptr && cutter.next(cell.piece)) {
+      cell.top = std::min(cell.piece.cell.top_squared, cell.piece.cell.feed_squared);
+      cell.entry = rest || cells.empty() ? 0 : std::min(cell.top, cells.back().top);
+      rest = false;
+      cells.push_back(cell);
+    }
   }
-  for (std::size_t i = n; i-- > 0;) cap[i] = std::min(cap[i], cap[i + 1] + reach[i]);
-  for (std::size_t i = 0; i < n; ++i) cap[i + 1] = std::min(cap[i + 1], cap[i] + reach[i]);
-  return cap;
-}
-
-struct Corner {
-  Real turn = 0;          // radians
-  Real acceleration = 0;  // along the change of direction
-  bool only_xyz = true;
-};
-Corner corner_between(const Curve& in, const Curve& out, const MotionLimits& limits) {
-  PerAxis<Real> in_unit;
-  PerAxis<Real> out_unit;
-  Corner corner;
-  Real across = 0;
-  Real along = 0;
-  for (const Axis axis : all_axes) {
-    in_unit[axis] = (Real(in.end()[axis]) - Real(in.start()[axis])) / Real(in.length().value());
-    out_unit[axis] = (Real(out.end()[axis]) - Real(out.start()[axis])) / Real(out.length().value());
-    across += (out_unit[axis] - in_unit[axis]) * (out_unit[axis] - in_unit[axis]);
-    along += (out_unit[axis] + in_unit[axis]) * (out_unit[axis] + in_unit[axis]);
-    corner.only_xyz &= axis <= Axis::z || (in_unit[axis] == 0 && out_unit[axis] == 0);
+  double exit = 0;
+  for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
+    const Cell& data = cell->piece.cell;
+    const std::span demands(cell->piece.demands.data(), cell->piece.demand_count);
+    exit = cell->entry = data.straight ? std::min(cell->entry, exit + 2 * data.acceleration * data.length)
+                                       : largest_entry(demands, cell->entry, std::min(exit, cell->top));
   }
-  corner.turn = 2 * std::atan2(std::sqrt(across), std::sqrt(along));
-  corner.acceleration = std::numeric_limits<Real>::infinity();
-  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-    const Real part = std::abs(out_unit[axis] - in_unit[axis]) / std::sqrt(across);
-    if (part > 0) corner.acceleration = std::min(corner.acceleration, limits.acceleration[axis].value() / part);
+  std::vector<double> exits;
+  double speed = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Cell& data = cells[i].piece.cell;
+    const std::span demands(cells[i].piece.demands.data(), cells[i].piece.demand_count);
+    const double most = std::min(cells[i].top, i + 1 < cells.size() ? cells[i + 1].entry : 0);
+    const double change = 2 * data.acceleration * data.length;
+    speed = data.straight ? std::min(most, speed + change) : largest_exit(demands, speed, most);
+    exits.push_back(speed);
   }
-  return corner;
+  return exits;
 }
 
 class RandomPrograms : public testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     limits_ = test::random_limits(random_);
-    path_ = test::RandomProgram(random_).draw(4000);
+    path_ = smoothed(test::RandomProgram(random_).draw(4000));
     motion_ = plan(path_, limits_);
   }
   std::string seed() const { return "PASSO_SEED=" + std::to_string(random_.seed()); }
@@ -224,39 +241,44 @@ TEST_P(RandomPrograms, move_without_jumps_and_rest_at_actions_and_at_the_end) {
   expect_continuous(motion_);
 }
 
-TEST_P(RandomPrograms, keep_the_order_of_their_items) {
+TEST_P(RandomPrograms, play_every_segment_in_order_and_every_action) {
   SCOPED_TRACE(seed());
-  const auto line_of = [](const auto& item) {
-    return std::visit(
-        [](const auto& what) {
-          if constexpr (requires { what.segment; })
-            return what.segment.source.line;
-          else
-            return what.source.line;
-        },
-        item);
-  };
-  ASSERT_EQ(motion_.size(), path_.size());
-  for (std::size_t i = 0; i < path_.size(); ++i) ASSERT_EQ(line_of(motion_[i]), line_of(path_[i]));
+  std::size_t at = 0;
+  for (const MotionItem& item : motion_) {
+    ASSERT_LT(at, path_.size());
+    if (const auto* move = std::get_if<PlannedMove>(&item)) {
+      const auto& segment = std::get<Segment>(path_[at]);
+      ASSERT_EQ(move->segment.curve.start(), segment.curve.start());
+      ASSERT_EQ(move->segment.source.line, segment.source.line);
+      if (move->to == segment.curve.length()) ++at;
+    } else {
+      ASSERT_EQ(std::get<Action>(item).source.line, std::get<Action>(path_[at]).source.line);
+      ++at;
+    }
+  }
+  ASSERT_EQ(at, path_.size());
 }
 
 TEST_P(RandomPrograms, are_planned_as_if_seen_whole) {
   SCOPED_TRACE(seed());
-  const std::vector<double> entries = entries_offline(path_, limits_);
-  double speed_after = 0;
-  for (std::size_t i = 0; i < path_.size(); ++i) {
-    const auto* move = std::get_if<PlannedMove>(&motion_[i]);
+  const std::vector<double> exits = exits_offline(path_, limits_);
+  std::size_t cell = 0;
+  CellCutter cutter(limits_);
+  for (const MotionItem& item : motion_) {
+    const auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) continue;
-    // A phase that ends at rest may begin a rounding beside its speed.
-    const double expected = std::sqrt(entries[i]);
-    ASSERT_NEAR(entry_speed(*move), expected, 1e-15 * expected) << "item " << i;
-    speed_after = std::sqrt(entries[i + 1]);
-    ASSERT_NEAR(exit_speed(*move), speed_after, 1e-9 * speed_after) << "item " << i;
-    if (move->phase_count == 3) {
-      const double top = segment_limits(move->segment, limits_).speed.value();
-      ASSERT_DOUBLE_EQ(move->phases[1].velocity.value(), top) << "cruises below its top speed";
-    }
+    if (move->from() == Mm(0)) cutter.begin(move->segment);
+    CellCutter::Piece piece;
+    double end = 0;
+    do {
+      ASSERT_TRUE(cutter.next(piece));
+      end = piece.cell.start + piece.cell.length;
+      ++cell;
+    } while (end < move->to.value());
+    const double expected = std::sqrt(exits[cell - 1]);
+    ASSERT_NEAR(exit_speed(*move), expected, 1e-9 * (1 + expected)) << "cell " << cell;
   }
+  ASSERT_EQ(cell, exits.size());
 }
 
 TEST_P(RandomPrograms, stay_safe_when_the_queue_is_too_short_for_braking) {
@@ -271,37 +293,45 @@ TEST_P(RandomPrograms, stay_safe_when_the_queue_is_too_short_for_braking) {
   EXPECT_GE(total_time(hurried), total_time(motion_) * (1 - 1e-9));
 }
 
-// By angles, in long double: the circle beside the corner, and it begins within half of the straight way before.
-TEST_P(RandomPrograms, pass_junctions_of_lines_no_faster_than_the_circle_beside_them) {
+// Hold, resume and override at any time, in moves of a few milliseconds.
+TEST_P(RandomPrograms, keep_all_that_in_spite_of_holds_and_overrides) {
   SCOPED_TRACE(seed());
-  int checked = 0;
-  Real straight = 0;
-  for (std::size_t i = 1; i < motion_.size(); ++i) {
-    const auto* before = std::get_if<PlannedMove>(&motion_[i - 1]);
-    const auto* after = std::get_if<PlannedMove>(&motion_[i]);
-    if (before == nullptr || after == nullptr) {
-      straight = 0;
+  test::ListSource<PathItem> source(std::vector<PathItem>(path_.begin(), path_.begin() + 600));
+  Planner planner(source, limits_);
+  planner.limit_moves_to(Seconds(0.1));
+  std::vector<MotionItem> motion;
+  bool holding = false;
+  int holds = 0;
+  double override = 1;
+  MotionItem item;
+  while (planner.next(item)) {
+    const auto* action = std::get_if<Action>(&item);
+    if (action != nullptr && action->kind == Action::Kind::feed_hold) {
+      ASSERT_TRUE(holding);
+      holding = false;
+      planner.resume();
       continue;
     }
-    const Curve& in = before->segment.curve;
-    const Curve& out = after->segment.curve;
-    straight += in.length().value();
-    if (in.shape() != Curve::Shape::line || out.shape() != Curve::Shape::line) {
-      straight = 0;
-      continue;
+    if (auto* move = std::get_if<PlannedMove>(&item)) {
+      ASSERT_LE(move->duration().value(), 0.1 * (1 + 1e-9));
+      // The feed that counts for the limits below: what it was, until it has slowed down to the new one.
+      move->segment.speed = MmPerSecond(std::numeric_limits<double>::infinity());
     }
-    const Corner corner = corner_between(in, out, limits_);
-    const Real straight_before = straight;
-    if (corner.turn > 1e-6L) straight = 0;
-    if (before->segment.mode != PathMode::continuous || !corner.only_xyz) continue;
-    if (corner.turn < 1e-3L || corner.turn > 3.14L) continue;
-    const Real half = corner.turn / 2;
-    const Real by_tolerance = Real(before->segment.tolerance.value()) * std::cos(half) / (1 - std::cos(half));
-    const Real radius = std::min(by_tolerance, straight_before / 2 / std::tan(half));
-    ASSERT_LE(entry_speed(*after), std::sqrt(corner.acceleration * radius) * (1 + 1e-6L)) << "item " << i;
-    ++checked;
+    motion.push_back(item);
+    if (!holding && random_.chance(0.02)) {
+      holding = true;
+      ++holds;
+      planner.hold();
+    }
+    if (random_.chance(0.01)) planner.set_feed_override(override = random_.between(0.3, 2));
   }
-  EXPECT_GT(checked, 100);
+  EXPECT_GT(holds, 10);
+  expect_continuous(motion);
+  if (HasFatalFailure()) return;
+  for (const MotionItem& planned : motion) {
+    if (const auto* move = std::get_if<PlannedMove>(&planned)) expect_within_limits(*move, limits_, 1e-3L);
+    if (HasFatalFailure()) return;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Five, RandomPrograms, testing::Range(0, 5));
@@ -316,9 +346,9 @@ TEST(Planner, a_single_move_is_a_trapezoid_and_a_short_one_a_triangle) {
 }
 
 TEST(Planner, a_square_slows_at_its_corners) {
-  test::expect_golden(
-      "src/trajectory/tests/golden/square.txt",
-      to_text(plan(polyline({xyz(0, 0), xyz(10, 0), xyz(10, 10), xyz(0, 10), xyz(0, 0)}, 20), equal_limits(100, 500))));
+  test::expect_golden("src/trajectory/tests/golden/square.txt",
+                      to_text(plan(smoothed(polyline({xyz(0, 0), xyz(10, 0), xyz(10, 10), xyz(0, 10), xyz(0, 0)}, 20)),
+                                   equal_limits(100, 500))));
 }
 
 TEST(Planner, a_stadium_is_driven_through_its_tangent_joints) {
@@ -335,11 +365,13 @@ TEST(Planner, a_reversal_stops_at_the_corner) {
   EXPECT_NEAR(entry_speed(std::get<PlannedMove>(motion[1])), 0, 1e-6);
 }
 
-TEST(Planner, a_right_angle_is_passed_at_the_speed_of_the_circle_beside_it) {
-  const auto motion = plan(polyline({xyz(0, 0), xyz(50, 0), xyz(50, 50)}, 50), equal_limits(100, 500));
-  // The circle's radius is 0.01·cos 45°/(1 − cos 45°); along the diagonal two axes give √2 times 500.
-  const double radius = 0.01 * std::sqrt(0.5) / (1 - std::sqrt(0.5));
-  EXPECT_NEAR(entry_speed(std::get<PlannedMove>(motion[1])), std::sqrt(500 * std::sqrt(2) * radius), 1e-9);
+TEST(Planner, a_rounded_right_angle_is_passed_faster_than_it_could_be_stopped_at) {
+  const auto corner = polyline({xyz(0, 0), xyz(50, 0), xyz(50, 50)}, 50);
+  const double rounded = total_time(plan(smoothed(corner), equal_limits(100, 500)));
+  const double stopped = total_time(plan(corner, equal_limits(100, 500)));
+  // A parabola with both axes at 500 mm/s² that passes 0.01 mm beside the corner saves 2 sqrt(sqrt(2) 0.01 / 500) s.
+  EXPECT_LT(rounded, stopped - 0.006);
+  EXPECT_GT(rounded, stopped - 0.0107);
 }
 
 TEST(Planner, exact_stop_stops_and_exact_path_stops_at_corners_only) {
@@ -349,23 +381,29 @@ TEST(Planner, exact_stop_stops_and_exact_path_stops_at_corners_only) {
     std::vector<PathItem> path = polyline({xyz(0, 0), xyz(50, 0), xyz(100, 50 * bend)}, 50);
     std::get<Segment>(path[0]).mode = mode;
     std::get<Segment>(path[0]).tolerance = Mm(0);
-    const double speed = entry_speed(std::get<PlannedMove>(plan(path, equal_limits(100, 500))[1]));
-    if (stops) {
-      EXPECT_EQ(speed, 0);
-    } else {
-      EXPECT_DOUBLE_EQ(speed, 50);
+    double slowest = 50;
+    double way = 0;
+    for (const MotionItem& item : plan(smoothed(path), equal_limits(100, 500))) {
+      const auto& move = std::get<PlannedMove>(item);
+      const double speed = exit_speed(move);
+      way += (move.to - move.from()).value();
+      if (way > 20 && way < 80) slowest = std::min(slowest, speed);
+    }
+    EXPECT_EQ(slowest == 0, stops) << slowest;
+    if (bend == 0 && !stops) {
+      EXPECT_DOUBLE_EQ(slowest, 50);
     }
   }
 }
 
 TEST(Planner, splitting_a_line_hardly_changes_its_time) {
   const Point end = xyz(80, 37, 11);
-  const auto whole = plan(polyline({xyz(0, 0), end, xyz(80, 0)}, 150), equal_limits(200, 700));
+  const auto whole = plan(smoothed(polyline({xyz(0, 0), end, xyz(80, 0)}, 150)), equal_limits(200, 700));
   for (const int pieces : {2, 7, 100, 10'000}) {
     std::vector<Point> corners;
     for (int i = 0; i <= pieces; ++i) corners.push_back(end * (double(i) / pieces));
     corners.push_back(xyz(80, 0));
-    EXPECT_NEAR(total_time(plan(polyline(corners, 150), equal_limits(200, 700))) / total_time(whole), 1, 1e-3)
+    EXPECT_NEAR(total_time(plan(smoothed(polyline(corners, 150)), equal_limits(200, 700))) / total_time(whole), 1, 1e-3)
         << pieces;
   }
 }
@@ -382,12 +420,9 @@ TEST(Planner, strong_spirals_keep_the_axes_within_their_limits_too) {
     spiral.curve = Curve::arc(xyz(radius * std::cos(start), radius * std::sin(start)),
                               xyz(radius * 2 * std::cos(start + sweep), radius * 2 * std::sin(start + sweep)), Axis::x,
                               Axis::y, 0, 0, sweep);
-    // Straight on after it, so that the spiral is still speeding up where it is widest.
-    const Point end = spiral.curve.end();
-    const Point beyond = end + spiral.curve.tangent(spiral.curve.length()) * 500;
-    const auto motion = plan({spiral, line(end, beyond, 1e5)}, limits);
+    const auto motion = plan({spiral}, limits);
     SCOPED_TRACE(to_text(motion));
-    expect_within_limits(std::get<PlannedMove>(motion.at(0)), limits);
+    for (const MotionItem& item : motion) expect_within_limits(std::get<PlannedMove>(item), limits);
     if (HasFatalFailure()) return;
   }
 }
@@ -402,8 +437,7 @@ TEST(Planner, a_circle_of_chords_is_driven_like_the_circle) {
       const double angle = 2 * std::numbers::pi * i / chords;
       corners.push_back(xyz(5 * std::cos(angle), 5 * std::sin(angle)));
     }
-    // Faster by what two axes give together along a diagonal, on which an arc does not count.
-    EXPECT_NEAR(total_time(plan(polyline(corners, 300), equal_limits(400, 500))) / round, 0.84, 0.05) << chords;
+    EXPECT_NEAR(total_time(plan(smoothed(polyline(corners, 300)), equal_limits(400, 500))) / round, 1, 0.01) << chords;
   }
 }
 
@@ -414,7 +448,7 @@ TEST(Planner, dust_of_a_nanometre_thousandth_is_planned_without_a_jump) {
   corners.push_back(xyz(50 + 1e-9, 0));
   corners.push_back(xyz(50 + 1e-9, 1e-9));
   corners.push_back(xyz(100, 1e-9));
-  const auto motion = plan(polyline(corners, 100), equal_limits(200, 700));
+  const auto motion = plan(smoothed(polyline(corners, 100)), equal_limits(200, 700));
   expect_continuous(motion);
   for (const MotionItem& item : motion) expect_within_limits(std::get<PlannedMove>(item), equal_limits(200, 700));
 }

@@ -27,6 +27,7 @@ struct ProgramCheck {
   bool good = false;        // no error: it may run
   Seconds nominal_time{0};  // at the programmed speeds, without ramps: good for progress only
   std::uint64_t moves = 0;
+  bool tools_change = false;  // the program sets some in the tool table
 };
 
 // Interprets the whole program and builds its path; what is wrong is in `diagnostics`.
@@ -51,6 +52,7 @@ class Job {
   const InProcessLink& link() const { return link_; }
   const Frame& frame() const { return path_builder_.frame(); }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
+  const ToolTable& tools() const { return interpreter_.tools(); }
 
   // The nominal time of what has been planned so far.
   Seconds nominal_time() const { return nominal_time_; }

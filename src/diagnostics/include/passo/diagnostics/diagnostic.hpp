@@ -22,6 +22,14 @@ struct SourcePlace {
 
 enum class Severity : std::uint8_t { warning, error };
 
+// A sub that was running, and where it was called.
+struct CallPlace {
+  std::string sub;   // "o100", "o<name>", "O1000"
+  std::string file;  // of the call, as its line
+  std::uint32_t line = 0;
+  friend bool operator==(const CallPlace&, const CallPlace&) = default;
+};
+
 struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;  // "gcode.missing-feed": area, dot, what is wrong; never changes once published
@@ -31,6 +39,7 @@ struct Diagnostic {
   std::string expected;   // what would have been right, or how to mend it; may be empty
   std::string text;       // the source line, for the caret; may be empty
   std::string rule = {};  // where it is written that this is wrong, or another program's number for it; may be empty
+  std::vector<CallPlace> calls = {};  // the subs that ran there, the innermost first
 };
 
 // Collects diagnostics up to a limit of errors; the rest is counted, not kept. The same finding at the same place (a
@@ -40,8 +49,8 @@ class Diagnostics {
   explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}
 
   void add(Diagnostic diagnostic);
-  // What to write as the rule of a diagnostic that comes without one, by its code; the stage that knows gives it.
-  using RuleOf = std::string (*)(std::string_view code);
+  // What to write as the rule of a diagnostic that comes without one; the stage that knows gives it.
+  using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
   const std::vector<Diagnostic>& all() const { return all_; }
   std::size_t errors() const { return errors_; }
@@ -62,7 +71,10 @@ class Diagnostics {
 //       3 | G1 X10
 //         |    ^~~
 //         = expected: F before the first feed move, or on it
-//         = rule: grbl error:22, undefined feed rate
+//         = rule: RS274/NGC 3.5.2, G1
+//         = in o<slot>, called at part.ngc:9
+//
+// Of a long stack of calls, the innermost and the outermost.
 std::string render(const Diagnostic& diagnostic, bool colour);
 // All of them, each as above, and a closing line that counts ("2 errors").
 std::string render(const Diagnostics& diagnostics, bool colour);

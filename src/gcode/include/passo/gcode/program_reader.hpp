@@ -43,6 +43,7 @@ class ProgramReader {
 
   // Where the line that comes next begins.
   ReaderPosition position() const;
+  // Costs nothing before the next line is read.
   void seek(ReaderPosition position);
 
   const std::string& name() const;

@@ -6,8 +6,8 @@
 // A line moves every axis in proportion to s. An arc turns two axes of a plane about a centre and moves all others in
 // proportion (helix); where the radius at its end differs from that at its start (programs round their numbers) the
 // radius grows in proportion too, so that both ends are met exactly. A cubic is a piece of a smoothed path: every axis
-// a polynomial of s, whose parameter is nearly its length: |dP/ds| is at most 1 plus rounding, and falls below in
-// corners.
+// a polynomial of s, whose parameter is nearly its length: |dP/ds| falls below 1 in corners, and rises to
+// 1.1 at most where it smooths noise.
 #pragma once
 
 #include "passo/geometry/axes.hpp"

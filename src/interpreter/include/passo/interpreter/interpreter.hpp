@@ -56,6 +56,8 @@ class Interpreter final : public Source<Operation> {
 
   // What is to be saved for the next run: InterpreterOptions::parameters with what the program changed.
   SavedParameters saved_parameters() const;
+  // The tools as the program has left them so far (G10 L1, L10, L11).
+  const ToolTable& tools() const;
   // What this module's explain() sees blocks with; borrowed.
   void watch(BlockWatcher& watcher);
 

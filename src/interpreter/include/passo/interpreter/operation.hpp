@@ -17,7 +17,8 @@ namespace passo {
 
 struct Tool;
 
-enum class Plane : std::uint8_t { xy, zx, yz };  // G17, G18, G19
+// G17, G18, G19, and of U V W G17.1, G18.1, G19.1, in which there are no arcs.
+enum class Plane : std::uint8_t { xy, zx, yz, uv, wu, vw };
 enum class LengthUnits : std::uint8_t { mm, inch };
 enum class FeedMode : std::uint8_t { units_per_minute, inverse_time, units_per_revolution };  // G94, G93, G95
 enum class PathMode : std::uint8_t { exact_path, exact_stop, continuous };                    // G61, G61.1, G64
@@ -198,6 +199,7 @@ struct SetToolTableEntry {
   std::int32_t place = 0;
   const Tool* tool = nullptr;  // borrowed, until the next operation is asked for
 };
+struct ReloadTools {};          // G10 L0
 struct ProgramStop {};          // M0
 struct OptionalProgramStop {};  // M1
 struct ProgramEnd {};           // M2, M30
@@ -234,10 +236,10 @@ using OperationKind =
                  operation::StraightProbe, operation::TurnProbe, operation::OrientSpindle, operation::AwaitSpindle,
                  operation::SetAdaptiveFeed, operation::SetFeedHold, operation::SetDigitalOutput,
                  operation::SetAnalogOutput, operation::ReadInput, operation::UserCode, operation::StartToolChange,
-                 operation::ChangeTool, operation::SetToolNumber, operation::SetToolTableEntry, operation::ProgramStop,
-                 operation::OptionalProgramStop, operation::ProgramEnd, operation::PalletShuttle, operation::Finish,
-                 operation::Comment, operation::Message, operation::Print, operation::Log, operation::Reset,
-                 operation::SetFeedReference>;
+                 operation::ChangeTool, operation::SetToolNumber, operation::SetToolTableEntry, operation::ReloadTools,
+                 operation::ProgramStop, operation::OptionalProgramStop, operation::ProgramEnd,
+                 operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message, operation::Print,
+                 operation::Log, operation::Reset, operation::SetFeedReference>;
 
 // Where an operation comes from: what a diagnostic about a move points at.
 struct OperationSource {

@@ -24,6 +24,7 @@ struct Tool {
   double front_angle_deg = 0;    // lathe tools
   double back_angle_deg = 0;     // lathe tools
   std::int32_t orientation = 0;  // lathe tools, 1 to 9: on which side of its nose the tool's point is; 0: a mill's
+  friend bool operator==(const Tool&, const Tool&) = default;
 };
 
 class ToolTable {
@@ -47,11 +48,16 @@ class ToolTable {
   }
   const std::map<std::int32_t, Tool>& all() const { return tools_; }
 
+  friend bool operator==(const ToolTable&, const ToolTable&) = default;
+
   // Where it came from, for messages; empty: nobody gave a table.
   std::string name;
 
  private:
   std::map<std::int32_t, Tool> tools_;
 };
+
+// What LinuxCNC's rs274 has without a table: three examples. Their table has no name: nobody gave it.
+ToolTable example_tools();
 
 }  // namespace passo

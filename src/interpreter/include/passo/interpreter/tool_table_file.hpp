@@ -7,6 +7,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/operation.hpp"
@@ -17,5 +18,9 @@ namespace passo {
 // False when something is wrong with the file; all of it is in `diagnostics`. `units`: of its lengths.
 [[nodiscard]] bool read_tool_table(const std::string& path, LengthUnits units, ToolTable& table,
                                    Diagnostics& diagnostics);
+
+// `text`, that of such a file, with its tools as they are in `table` now: numbers that differ are written anew, words
+// that were not there behind the others. Order, remarks and all other lines stay.
+std::string tool_table_text(std::string_view text, LengthUnits units, const ToolTable& table);
 
 }  // namespace passo

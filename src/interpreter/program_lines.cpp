@@ -1,0 +1,130 @@
+// ProgramFlow: its lines, read and parsed or kept from an earlier pass.
+#include <algorithm>
+
+#include "grbl.hpp"
+#include "program_flow.hpp"
+
+namespace passo {
+namespace {
+
+// 'O' first, after white space, '/' and N with its number: all that is looked at in a line that is skipped.
+bool may_be_control(std::string_view text) {
+  std::size_t i = 0;
+  const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
+  while (at(" \t/")) ++i;
+  if (at("nN")) {
+    ++i;
+    while (at(" \t0123456789.")) ++i;
+  }
+  return at("oO");
+}
+
+bool is_deleted(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first != std::string_view::npos && text[first] == '/';
+}
+
+bool is_percent(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  return first != std::string_view::npos && text.find_last_not_of(" \t") == first && text[first] == '%';
+}
+
+}  // namespace
+
+ProgramFlow::Read ProgramFlow::read() {
+  block_at_ = file_->reader.position();
+  if (reporter_.full()) return Read::end;
+  if (recall()) return Read::block;
+  std::string_view text;
+  std::uint32_t line = 0;
+  if (!next_line(text, line)) return Read::end;
+  const bool good = !(options_.block_delete && is_deleted(text)) && parse(text, line);
+  file_->read_to = std::max(file_->read_to, block_at_.offset + 1);
+  return good ? Read::block : Read::skipped;
+}
+
+// The next line's block, where it is kept.
+bool ProgramFlow::recall() {
+  if (block_at_.offset >= file_->read_to) return false;
+  KeptBlock* const kept = kept_.find(file_->number, block_at_);
+  if (kept == nullptr) return false;
+  file_->reader.seek(kept->after);
+  look_at(kept->block);
+  return true;
+}
+
+bool ProgramFlow::next_line(std::string_view& text, std::uint32_t& line) {
+  const bool good = file_->reader.next_line(text, line, faults_);
+  if (!faults_.all().empty()) reporter_.pass_on(faults_);
+  return good;
+}
+
+// A line that is no G-code is told once, however often a loop comes by. One that comes a second time is kept.
+bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
+  std::set<std::uint32_t>& unreadable = file_->unreadable;
+  if (!unreadable.empty() && unreadable.contains(line)) return false;
+  KeptBlock* kept = nullptr;
+  if (block_at_.offset < file_->read_to && text.size() <= KeptBlocks::longest_text) {
+    kept = &kept_.make_room(file_->number, block_at_, file_->reader.position(), text);
+    text = kept->text;
+  }
+  look_at(kept != nullptr ? kept->block : line_);
+  if (file_->parser.parse(text, line, *block_, faults_) && is_of_dialect()) return true;
+  reporter_.pass_on(faults_);
+  if (kept != nullptr) KeptBlocks::drop(*kept);
+  unreadable.insert(line);
+  return false;
+}
+
+void ProgramFlow::look_at(Block& block) {
+  block_ = &block;
+  reporter_.look_at(block, file_->name);
+}
+
+bool ProgramFlow::is_of_dialect() {
+  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(*block_, state_, reporter_);
+}
+
+// The next O-word, whatever stands before it.
+bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
+  for (;;) {
+    std::string_view text;
+    std::uint32_t line = 0;
+    block_at_ = file_->reader.position();
+    if (within_percents || !recall()) {
+      if (reporter_.full() || !next_line(text, line)) return false;
+      if (within_percents && closes_program(text)) return false;
+      if (!may_be_control(text) || (options_.block_delete && is_deleted(text)) || !parse(text, line)) continue;
+    }
+    if (!block_->control) continue;
+    if (label_of(*block_->control, label)) return true;
+  }
+}
+
+// After a look elsewhere in the file: the block's text is the reader's, and gone, unless it is kept.
+void ProgramFlow::reread_block_text() {
+  if (block_ != &line_) return;
+  std::uint32_t line = 0;
+  file_->reader.seek(block_at_);
+  if (!file_->reader.next_line(block_->text, line, reporter_.diagnostics())) block_->text = {};
+}
+
+// What is behind the closing '%' of the main file is no program.
+bool ProgramFlow::closes_program(std::string_view text) {
+  if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
+  return std::exchange(file_->seen_percent, true);
+}
+
+bool ProgramFlow::lacks_closing_percent() {
+  if (!opened_percent_) return false;
+  ProgramReader& reader = files_.front()->reader;
+  if (!frames_.empty()) reader.seek(frames_.front().return_to);
+  std::string_view text;
+  std::uint32_t line = 0;
+  while (reader.next_line(text, line, reporter_.diagnostics())) {
+    if (is_percent(text)) return false;
+  }
+  return true;
+}
+
+}  // namespace passo
