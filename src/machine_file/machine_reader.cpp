@@ -242,8 +242,8 @@ void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys,
   if (axis.acceleration_at(axis.velocity) >= least) return;
   const double fastest = axis.motor->fastest_with(least).value();
   reader.error("machine.too-weak", keys.velocity.name,
-               fmt::format("at {:g} {}/s the motor of axis {} has nothing left to accelerate with", axis.velocity.value(),
-                           keys.unit, letter_of(axis.axis)),
+               fmt::format("at {:g} {}/s the motor of axis {} has nothing left to accelerate with",
+                           axis.velocity.value(), keys.unit, letter_of(axis.axis)),
                fmt::format("{} below {:.4g}, or a stronger motor", keys.velocity.name, fastest));
 }
 

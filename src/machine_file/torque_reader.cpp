@@ -50,6 +50,8 @@ std::optional<TorqueCurve> from(TableReader& reader, std::string_view key, Resul
 }
 
 std::optional<TorqueCurve> read_points(TableReader& reader, const Rotor& rotor) {
+  reader.know(pull_out_key.name);
+  for (const NumberKey* key : electrical_keys) reader.know(key->name);
   for (const NumberKey* key : electrical_keys) {
     if (!reader.has(key->name)) continue;
     reader.error(torque_code, key->name,
@@ -108,10 +110,8 @@ std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::opti
   }
   const auto share = reader.number(share_key, Need::optional);
   if (!curve || !rotor_inertia || !unit_per_turn) return std::nullopt;
-  return AxisMotor{.curve = std::move(*curve),
-                   .load = load,
-                   .share = share.value_or(0.7),
-                   .radians_per_unit = radians_per_unit};
+  return AxisMotor{
+      .curve = std::move(*curve), .load = load, .share = share.value_or(0.7), .radians_per_unit = radians_per_unit};
 }
 
 }  // namespace passo

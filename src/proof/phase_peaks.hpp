@@ -54,8 +54,8 @@ class PhasePeaks {
   Seconds now_{0};  // at the start of the phase in hand
   std::uint32_t line_ = 0;
   std::vector<SpeedLimit> limits_;  // by axis
-  std::vector<Motion> before_;  // by axis, at the end of the phase before
-  std::optional<Point> place_;  // there
+  std::vector<Motion> before_;      // by axis, at the end of the phase before
+  std::optional<Point> place_;      // there
 };
 
 }  // namespace passo::proof

@@ -4,8 +4,8 @@
 // small cells, x runs straight in each, and the limits are asked at its middle. From the end of a stretch backwards:
 // the largest x at each node from which the rest can still be played (by bisection: is there an x at the next node
 // that keeps every limit?). Then forwards from rest, always as fast as allowed. A line is a single cell, exact: speed
-// up, go on, brake; where a limit falls with the speed, A is asked at the speed in the middle of each cell, and a line is
-// cut like a curve, finer to its ends. Pfeiffer and Johanni 1987; Pham and Pham 2018 (reachability).
+// up, go on, brake; where a limit falls with the speed, A is asked at the speed in the middle of each cell, and a line
+// is cut like a curve, finer to its ends. Pfeiffer and Johanni 1987; Pham and Pham 2018 (reachability).
 //
 // Rest is where the program demands it: at actions, exact stops, the ends, and where the direction jumps by more than
 // rounding. Memory: a window of cells. What is behind the window is taken for as fast as its first cell allows, so

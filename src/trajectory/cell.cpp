@@ -26,7 +26,7 @@ constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
 
 // Where limits fall with the speed: by what part of the top speed it changes in a cell, at most.
-constexpr double speed_share = 1.0 / 48;
+constexpr double speed_share = 1.0 / 64;
 constexpr double most_graded = 10'000;  // cells of a segment
 
 // A feed that is below a limit's shoulder by this is planned as if the limit were constant; the override raises it no

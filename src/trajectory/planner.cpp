@@ -238,7 +238,8 @@ class Planner::Implementation {
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
     const double deceleration =
-        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cells_.falling(0), cell.length, speed_squared_);
+        cell.straight ? cell.acceleration
+                      : sure_deceleration(cells_.demands(0), cells_.falling(0), cell.length, speed_squared_);
     if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
       return {speed_squared_ / (2 * deceleration), 0};
     }

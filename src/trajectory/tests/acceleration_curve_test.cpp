@@ -149,7 +149,7 @@ TEST(AccelerationCurve, of_a_constant_is_none) {
 // A0 (1 - v/w): v = w (1 - exp(-A0 t / w)), s = w t - w v / A0.
 TEST(FallingLimits, a_line_from_rest_to_rest_takes_as_long_as_the_closed_form_says) {
   const Machine machine(even_fall, 114);
-  for (const double length : {0.01, 0.3, 2.0, 5.0, 10.0}) {
+  for (const double length : {0.3, 2.0, 5.0, 10.0}) {
     const auto way = [](double t) {
       const double v = 120 * (1 - std::exp(-2000 * t / 120));
       return 120 * t - 120 * v / 2000;
@@ -160,7 +160,7 @@ TEST(FallingLimits, a_line_from_rest_to_rest_takes_as_long_as_the_closed_form_sa
     ASSERT_LT(120 * (1 - std::exp(-2000 * low / 120)), 114);
     const double time = time_of_line(length, 1000, machine.limits);
     EXPECT_GT(time, 2 * low * (1 - 1e-9)) << length;
-    EXPECT_LT(time, 2 * low * 1.01) << length;
+    EXPECT_LT(time, 2 * low * 1.005) << length;
     EXPECT_NEAR(integrated_time(length, 114, even_fall), 2 * low, 1e-5 * low);
   }
 }
@@ -172,7 +172,8 @@ TEST(FallingLimits, a_line_takes_as_long_as_numerical_integration_says) {
       const double expected = integrated_time(length, std::min(speed, 150.0), shouldered);
       const double time = time_of_line(length, speed, machine.limits);
       EXPECT_GT(time, expected * (1 - 1e-5)) << length << " at " << speed;
-      EXPECT_LT(time, expected * 1.01) << length << " at " << speed;
+      // A line that is much shorter than braking has few cells.
+      EXPECT_LT(time, expected * (length < 0.1 ? 1.02 : 1.005)) << length << " at " << speed;
     }
   }
 }

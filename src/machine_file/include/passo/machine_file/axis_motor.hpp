@@ -2,8 +2,8 @@
 //
 //     J φ'' = share · pull-out(φ') - friction         J: rotor, load and slide, as felt at the shaft
 //
-// `share` of pull-out is the most that is asked of the motor, friction included; the rest is kept for what is not in the
-// file: resonance, a warm winding, a supply that sags. For braking, where friction helps, the same is allowed.
+// `share` of pull-out is the most that is asked of the motor, friction included; the rest is kept for what is not in
+// the file: resonance, a warm winding, a supply that sags. For braking, where friction helps, the same is allowed.
 #pragma once
 
 #include "passo/motor/torque_curve.hpp"

@@ -4,7 +4,8 @@
 // once, before a job; the street takes its options from here. docs/manual/machine-file.md explains every key.
 //
 // Invariant: a description that was handed out is whole and sound. Every number is finite and in range, every
-// axis can be played at its full velocity by the board and accelerates at every velocity, and there is at least one axis.
+// axis can be played at its full velocity by the board and accelerates at every velocity, and there is at least one
+// axis.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +33,8 @@ struct AxisDescription {
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};    // never more than this; the motor may leave less
   std::optional<AxisMotor> motor;  // where the file tells it: acceleration follows its torque
-  MmPerSecond3 jerk{0};   // 0: no limit
-  bool inverted = false;  // the motor turns the other way
+  MmPerSecond3 jerk{0};            // 0: no limit
+  bool inverted = false;           // the motor turns the other way
 
   MmPerSecond2 acceleration_at(MmPerSecond speed) const {
     return motor ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;

@@ -30,7 +30,7 @@ struct ProvenAxis {
   MmPerSecond2 acceleration{0};
   MmPerSecond3 jerk{0};
   // Where it falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all speeds.
-  std::function<MmPerSecond2(MmPerSecond)> acceleration_at;
+  std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
 };
 struct ProofOptions {
   std::vector<ProvenAxis> axes;  // in the order of the board's motors

@@ -13,7 +13,8 @@
 //
 // What the samples promise where they are concave beyond the shoulder is lost: the chord below it counts.
 //
-// Invariant: falls are not negative and descending, so that line after line is the highest. Without lines it does not limit.
+// Invariant: falls are not negative and descending, so that line after line is the highest. Without lines it does not
+// limit.
 #pragma once
 
 #include <cstddef>
