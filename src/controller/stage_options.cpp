@@ -1,5 +1,7 @@
 #include "passo/controller/stage_options.hpp"
 
+#include <vector>
+
 namespace passo {
 
 PathOptions path_options(const MachineDescription& machine, const std::string& program) {
@@ -14,12 +16,28 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   return options;
 }
 
+namespace {
+
+AccelerationCurve falling_limit(const AxisDescription& axis) {
+  constexpr int samples = 4096;
+  if (!axis.motor) return {};
+  std::vector<AccelerationCurve::Sample> all;
+  for (int i = 0; i <= samples; ++i) {
+    const MmPerSecond speed = axis.velocity * (static_cast<double>(i) / samples);
+    all.push_back({.speed = speed, .acceleration = axis.motor->acceleration_at(speed)});
+  }
+  return AccelerationCurve::below(all, axis.acceleration);
+}
+
+}  // namespace
+
 MotionLimits motion_limits(const MachineDescription& machine) {
   MotionLimits limits;
   for (const AxisDescription& axis : machine.axes) {
     limits.velocity[axis.axis] = axis.velocity;
     limits.acceleration[axis.axis] = axis.acceleration;
     limits.jerk[axis.axis] = axis.jerk;
+    limits.falling[axis.axis] = falling_limit(axis);
   }
   return limits;
 }

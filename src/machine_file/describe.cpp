@@ -5,6 +5,18 @@
 namespace passo {
 namespace {
 
+// The acceleration at some speeds, where it follows the motor's torque.
+std::string describe_torque(const AxisDescription& axis, const char* unit) {
+  if (!axis.motor) return "";
+  std::string line = fmt::format("                {:g} of pull-out:", axis.motor->share);
+  for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const MmPerSecond speed = part * axis.velocity;
+    line += fmt::format(" {:.4g} {unit}/s2 at {:g} {unit}/s{}", axis.acceleration_at(speed).value(), speed.value(),
+                        part < 1 ? "," : "\n", fmt::arg("unit", unit));
+  }
+  return line;
+}
+
 std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
   std::string line = fmt::format(
@@ -14,7 +26,7 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
       axis.velocity.value(), axis.highest_step_rate().value(), axis.acceleration.value(), fmt::arg("unit", unit));
   if (axis.jerk > MmPerSecond3(0)) line += fmt::format(", {:g} {}/s3", axis.jerk.value(), unit);
   if (axis.inverted) line += ", inverted";
-  return line + "\n";
+  return line + "\n" + describe_torque(axis, unit);
 }
 
 std::string describe_tool(const ToolDescription& tool) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "table_reader.hpp"
+#include "torque_reader.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -23,6 +24,8 @@ constexpr NumberKey diameter_key{"diameter_mm", 0, 1000, "3"};
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
+
+constexpr std::string_view torque_table = "torque";
 
 // The keys of an axis that carry a unit in their names.
 struct AxisKeys {
@@ -76,6 +79,8 @@ class MachineReader {
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
+  void read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const;
+  static std::optional<double> way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis);
   double read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const;
   void check_velocity(const TableReader& reader, const AxisKeys& keys, const AxisDescription& axis) const;
   void order_motors();
@@ -208,11 +213,45 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
     }
   }
   if (const auto velocity = reader.number(keys.velocity, Need::required)) axis.velocity = MmPerSecond(*velocity);
-  if (const auto acceleration = reader.number(keys.acceleration, Need::required)) {
-    axis.acceleration = MmPerSecond2(*acceleration);
-  }
+  read_acceleration(reader, keys, axis);
   if (const auto jerk = reader.number(keys.jerk, Need::optional)) axis.jerk = MmPerSecond3(*jerk);
   check_velocity(reader, keys, axis);
+}
+
+// A constant, a motor, or the lower one of both.
+void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const {
+  const TomlEntry* torque = reader.table(torque_table, "a table [axis.X.torque] with the motor's data", Need::optional);
+  const auto constant = reader.number(keys.acceleration, torque == nullptr ? Need::required : Need::optional);
+  if (constant) axis.acceleration = MmPerSecond2(*constant);
+  if (torque == nullptr) return;
+
+  const std::string path = reader.full_name(torque_table);
+  TableReader own(std::get<TomlTable>(torque->value.content), path, torque->place, reporter_);
+  const auto unit_per_turn = way_of_a_turn(reader, keys, axis.axis);
+  axis.motor = read_torque(own, is_rotary(axis.axis), unit_per_turn);
+  finish(own);
+  if (!unit_per_turn && !reader.has(keys.gear.name)) {
+    own.error("machine.torque", "", fmt::format("[{}] does not tell how far a turn of its motor goes", path),
+              fmt::format("the scale of [axis.{}] by {} and {}", letter_of(axis.axis), turn_key.name, keys.gear.name));
+  }
+  if (!axis.motor) return;
+  const MmPerSecond2 at_rest = axis.motor->acceleration_at(MmPerSecond(0));
+  axis.acceleration = constant ? std::min(axis.acceleration, at_rest) : at_rest;
+  if (axis.velocity == MmPerSecond(0)) return;
+  const MmPerSecond2 least(keys.acceleration.least);
+  if (axis.acceleration_at(axis.velocity) >= least) return;
+  const double fastest = axis.motor->fastest_with(least).value();
+  reader.error("machine.too-weak", keys.velocity.name,
+               fmt::format("at {:g} {}/s the motor of axis {} has nothing left to accelerate with",
+                           axis.velocity.value(), keys.unit, letter_of(axis.axis)),
+               fmt::format("{} below {:.4g}, or a stronger motor", keys.velocity.name, fastest));
+}
+
+// Millimetres or degrees of the axis for a turn of the motor, where the file tells them.
+std::optional<double> MachineReader::way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis) {
+  const std::optional<double> gear = reader.peek(keys.gear);
+  if (!gear) return std::nullopt;
+  return is_rotary(axis) ? 360 / *gear : *gear;
 }
 
 // Steps a millimetre or degree, told as such or by motor and gear; 0 where neither is right.

@@ -79,6 +79,12 @@ std::optional<double> TableReader::number(const NumberKey& key, Need need) {
   return *value;
 }
 
+std::optional<double> TableReader::peek(const NumberKey& key) const {
+  const TomlEntry* entry = find(table_, key.name);
+  const auto* value = entry != nullptr ? std::get_if<double>(&entry->value.content) : nullptr;
+  return value != nullptr && *value >= key.least && *value <= key.most ? std::optional(*value) : std::nullopt;
+}
+
 std::optional<double> TableReader::whole_number(const NumberKey& key, Need need) {
   const auto value = number(key, need);
   if (!value || *value == std::floor(*value)) return value;
@@ -90,18 +96,41 @@ std::optional<double> TableReader::whole_number(const NumberKey& key, Need need)
 std::optional<LowHigh> TableReader::low_high(const NumberKey& key, Need need) {
   const TomlEntry* entry = ask(key.name, fmt::format("{} = {}", key.name, key.example), need);
   if (entry == nullptr) return std::nullopt;
-  const std::string expected = fmt::format("two numbers, as in {} = {}", key.name, key.example);
+  return pair_of(key, entry->value, fmt::format("two numbers, as in {} = {}", key.name, key.example));
+}
+
+std::optional<std::vector<LowHigh>> TableReader::pairs(const NumberKey& key) {
+  const TomlEntry* entry = ask(key.name, fmt::format("{} = {}", key.name, key.example), Need::required);
+  if (entry == nullptr) return std::nullopt;
+  const std::string expected = fmt::format("pairs of numbers, as in {} = {}", key.name, key.example);
   const auto* list = std::get_if<TomlArray>(&entry->value.content);
-  if (list == nullptr || list->size() != 2) {
+  if (list == nullptr) {
     wrong_type(*entry, expected);
+    return std::nullopt;
+  }
+  std::vector<LowHigh> all;
+  for (const TomlValue& value : *list) {
+    const std::optional<LowHigh> pair = pair_of(key, value, expected);
+    if (!pair) return std::nullopt;
+    all.push_back(*pair);
+  }
+  return all;
+}
+
+std::optional<LowHigh> TableReader::pair_of(const NumberKey& key, const TomlValue& value,
+                                            const std::string& expected) const {
+  const auto* list = std::get_if<TomlArray>(&value.content);
+  if (list == nullptr || list->size() != 2) {
+    reporter_.error("machine.wrong-type", value.place, fmt::format("{} is {}", full_name(key.name), kind_of(value)),
+                    expected);
     return std::nullopt;
   }
   LowHigh ends;
   bool good = true;
   for (const auto& [item, end] : {std::pair(&(*list)[0], &ends.low), std::pair(&(*list)[1], &ends.high)}) {
-    if (const auto* value = std::get_if<double>(&item->content)) {
-      good = in_range(key, *value, item->place) && good;
-      *end = *value;
+    if (const auto* number = std::get_if<double>(&item->content)) {
+      good = in_range(key, *number, item->place) && good;
+      *end = *number;
     } else {
       reporter_.error("machine.wrong-type", item->place,
                       fmt::format("{} has {} in its list", full_name(key.name), kind_of(*item)), expected);

@@ -40,9 +40,15 @@ class TableReader {
   SourcePlace place_of(std::string_view key) const;  // of its value, or of the table where there is none
 
   std::optional<double> number(const NumberKey& key, Need need);
+  // A number that another reading of this table reports on.
+  std::optional<double> peek(const NumberKey& key) const;
   std::optional<double> whole_number(const NumberKey& key, Need need);
   // A list of two numbers in the key's range.
   std::optional<LowHigh> low_high(const NumberKey& key, Need need);
+  // A list of such lists, [[a, b], [c, d]]; required.
+  std::optional<std::vector<LowHigh>> pairs(const NumberKey& key);
+  // A key that may be here although it is not asked for.
+  void know(std::string_view key) { known_.push_back(key); }
   std::optional<bool> flag(std::string_view key);
   std::optional<std::string> text(std::string_view key, std::string_view example, Need need);
   // A table in this one; `what` describes it for messages.
@@ -64,6 +70,7 @@ class TableReader {
   };
 
   const TomlEntry* ask(std::string_view key, std::string example, Need need);
+  std::optional<LowHigh> pair_of(const NumberKey& key, const TomlValue& value, const std::string& expected) const;
   void wrong_type(const TomlEntry& entry, std::string expected) const;
   bool in_range(const NumberKey& key, double value, const SourcePlace& place) const;
   void report_unknown(const TomlEntry& entry, const std::vector<std::string_view>& top_keys);

@@ -76,7 +76,7 @@ std::vector<std::string> MotionProof::faults() const {
 class MotionProver::Implementation {
  public:
   explicit Implementation(const ProofOptions& options)
-      : proof_(begun(options)), peaks_(proof_), steps_(options, proof_), deviation_(proof_), bound_(options) {}
+      : proof_(begun(options)), peaks_(proof_, options), steps_(options, proof_), deviation_(proof_), bound_(options) {}
 
   void watch(const PathItem& item) { deviation_.programmed(item); }
   void watch(const BoardItem& item) {

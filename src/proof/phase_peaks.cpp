@@ -12,6 +12,10 @@ constexpr double most_looks = 4096;
 
 }  // namespace
 
+PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options) : proof_(proof), before_(proof.axes.size()) {
+  for (const ProvenAxis& axis : options.axes) limits_.emplace_back(axis);
+}
+
 PhasePeaks::Way PhasePeaks::way_at(const Phase& phase, double t) {
   const double v = phase.velocity.value();
   const double a = phase.acceleration.value();
@@ -35,10 +39,30 @@ void PhasePeaks::raise(Finding& finding, double value, double t) const {
   finding.line = line_;
 }
 
+// How much of its limit an acceleration is, as mm/s² of the constant limit.
+double PhasePeaks::severity(std::size_t i, const Motion& motion) const {
+  const SpeedLimit& limit = limits_[i];
+  const double value = std::abs(motion.acceleration);
+  return limit.falls() ? value * limit.constant() / limit.at(motion.velocity) : value;
+}
+
+void PhasePeaks::raise_acceleration(std::size_t i, const Motion& motion, double t) {
+  Finding& finding = proof_.axes[i].acceleration;
+  if (!limits_[i].falls()) {
+    raise(finding, motion.acceleration, t);
+    return;
+  }
+  const double limit = limits_[i].at(motion.velocity);
+  if (!(std::abs(motion.acceleration) > finding.multiple() * limit)) return;
+  finding.limit = limit;
+  finding.value = 0;
+  raise(finding, motion.acceleration, t);
+}
+
 void PhasePeaks::see(std::size_t i, const Motion& motion, double t) {
   AxisProof& axis = proof_.axes[i];
   raise(axis.velocity, motion.velocity, t);
-  raise(axis.acceleration, motion.acceleration, t);
+  raise_acceleration(i, motion, t);
   raise(axis.jerk, motion.jerk, t);
 }
 
@@ -104,7 +128,8 @@ void PhasePeaks::look_at(const ExactCurve& curve, const Phase& phase) {
       const Way way = way_at(phase, t);
       see(i, motion_of(curve.at(proof_.axes[i].axis, way.s), way), t);
     }
-    if (!curve.is_line()) look_at_curved(curve, phase, i);
+    // Under a falling limit the worst of a phase with jerk may be anywhere on a line as well.
+    if (!curve.is_line() || (limits_[i].falls() && phase.jerk.value() != 0)) look_at_curved(curve, phase, i);
   }
 }
 
@@ -125,7 +150,7 @@ void PhasePeaks::look_at_curved(const ExactCurve& curve, const Phase& phase, std
     const double t = duration * k / looks;
     const Motion motion = motion_at(t);
     for (std::size_t kind = 0; kind < 3; ++kind) {
-      const double here = std::abs(motion.*kinds[kind]);
+      const double here = kind == 1 ? severity(i, motion) : std::abs(motion.*kinds[kind]);
       if (!(here > best[kind])) continue;
       best[kind] = here;
       where[kind] = t;
@@ -135,14 +160,23 @@ void PhasePeaks::look_at_curved(const ExactCurve& curve, const Phase& phase, std
   constexpr double golden = 0.6180339887498949;
   for (std::size_t kind = 0; kind < 3; ++kind) {
     Finding& finding = proof_.axes[i].*findings[kind];
-    if (best[kind] < worth_a_look * finding.value) continue;
-    const auto value = [&](double t) { return std::abs(motion_at(t).*kinds[kind]); };
+    const bool falling = kind == 1 && limits_[i].falls();
+    const double worst = falling ? finding.multiple() * limits_[i].constant() : finding.value;
+    if (best[kind] < worth_a_look * worst) continue;
+    const auto value = [&](double t) {
+      return falling ? severity(i, motion_at(t)) : std::abs(motion_at(t).*kinds[kind]);
+    };
     double low = std::max(where[kind] - duration / looks, 0.0);
     double high = std::min(where[kind] + duration / looks, duration);
     for (int pass = 0; pass < 30; ++pass) {
       const double a = high - golden * (high - low);
       const double b = low + golden * (high - low);
       (value(a) > value(b) ? high : low) = value(a) > value(b) ? b : a;
+    }
+    if (falling) {
+      raise_acceleration(i, motion_at(where[kind]), where[kind]);
+      raise_acceleration(i, motion_at((low + high) / 2), (low + high) / 2);
+      continue;
     }
     raise(finding, best[kind], where[kind]);
     raise(finding, value((low + high) / 2), (low + high) / 2);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "exact_curve.hpp"
+#include "speed_limit.hpp"
 
 #include "passo/proof/motion_proof.hpp"
 
@@ -18,7 +19,7 @@ namespace passo::proof {
 class PhasePeaks {
  public:
   // Writes what it finds into `proof`, which has its axes and limits already.
-  explicit PhasePeaks(MotionProof& proof) : proof_(proof), before_(proof.axes.size()) {}
+  PhasePeaks(MotionProof& proof, const ProofOptions& options);
 
   void watch(const PlannedMove& move);
   // An action, or the end: the machine rests there.
@@ -46,12 +47,15 @@ class PhasePeaks {
   void meet(std::size_t i, const Motion& motion);
   void check_gap(double gap);
   void raise(Finding& finding, double value, double t) const;
+  void raise_acceleration(std::size_t i, const Motion& motion, double t);
+  double severity(std::size_t i, const Motion& motion) const;
 
   MotionProof& proof_;
   Seconds now_{0};  // at the start of the phase in hand
   std::uint32_t line_ = 0;
-  std::vector<Motion> before_;  // by axis, at the end of the phase before
-  std::optional<Point> place_;  // there
+  std::vector<SpeedLimit> limits_;  // by axis
+  std::vector<Motion> before_;      // by axis, at the end of the phase before
+  std::optional<Point> place_;      // there
 };
 
 }  // namespace passo::proof

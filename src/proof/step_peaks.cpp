@@ -1,5 +1,6 @@
 #include "step_peaks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace passo::proof {
@@ -26,6 +27,7 @@ StepPeaks::StepPeaks(const ProofOptions& options, MotionProof& proof)
       counts_(options.axes.size()) {
   for (std::size_t m = 0; m < options.axes.size(); ++m) {
     step_.push_back(options.axes[m].step.value());
+    limits_.emplace_back(options.axes[m]);
     proof_.axes[m].step_velocity_noise = 2 * step_[m] / window;
     proof_.axes[m].step_acceleration_noise = 4 * step_[m] / (window * window);
   }
@@ -74,6 +76,16 @@ void StepPeaks::difference(std::size_t m) {
   };
   AxisProof& axis = proof_.axes[m];
   raise(axis.step_velocity, static_cast<double>(std::abs(here - middle)) * step_[m] / window, window / 2);
+  if (limits_[m].falls()) {
+    const double slower = static_cast<double>(std::min(std::abs(here - middle), std::abs(middle - first)));
+    const double least = (slower - 2) * step_[m] / window - limits_[m].constant() * window;
+    const double limit = limits_[m].at(std::max(least, 0.0));
+    const double value = static_cast<double>(std::abs(here - 2 * middle + first)) * step_[m] / (window * window);
+    const double noise = axis.step_acceleration_noise;
+    if (!(value * (axis.step_acceleration.limit + noise) > axis.step_acceleration.value * (limit + noise))) return;
+    axis.step_acceleration.limit = limit;
+    axis.step_acceleration.value = 0;
+  }
   raise(axis.step_acceleration, static_cast<double>(std::abs(here - 2 * middle + first)) * step_[m] / (window * window),
         window);
 }

@@ -6,6 +6,9 @@
 //
 //   (q(t) − q(t−T)) / T       (q(t) − 2 q(t−T) + q(t−2T)) / T²
 //
+// Where the limit falls with the speed, the one that counts is at the lowest speed that the window may hold: the slower
+// of its two halves, less what the constant limit changes in T.
+//
 // Neither can be beyond the limit but for rounding: a count is within a step of the true place (half a step of
 // rounding, and as much again for steps that wait for the event clock). That adds up to 2 steps/T and 4 steps/T².
 #pragma once
@@ -13,6 +16,8 @@
 #include <array>
 #include <cstdint>
 #include <vector>
+
+#include "speed_limit.hpp"
 
 #include "passo/proof/motion_proof.hpp"
 
@@ -34,6 +39,7 @@ class StepPeaks {
   std::int64_t before(std::size_t m, std::size_t samples) const;
 
   MotionProof& proof_;
+  std::vector<SpeedLimit> limits_;   // by motor
   std::vector<double> step_;         // mm; 0: not looked at
   std::vector<std::int64_t> place_;  // 1/65536 step, by motor
   std::int64_t time_ = 32768;        // 1/65536 tick

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace passo::proof {
 namespace {
 
 constexpr double turn_of_a_cell = 0.02;  // radians
 constexpr double fewest_cells = 64;      // of a curve that turns
+constexpr double cells_of_a_ramp = 200;  // from rest to full speed, on a line under falling limits
 constexpr std::size_t window = 65536;    // cells
 constexpr double fastest = 1e12;         // x where nothing limits it
 constexpr double strongest = 1e12;
@@ -21,6 +23,13 @@ double square(double value) {
 }
 
 }  // namespace
+
+TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes) {
+  for (const ProvenAxis& axis : axes_) {
+    limits_.emplace_back(axis);
+    any_falls_ |= limits_.back().falls();
+  }
+}
 
 void TimeBound::watch(const PlannedMove& move) {
   const Segment& segment = move.segment;
@@ -56,8 +65,14 @@ void TimeBound::add_curve(const Segment& segment) {
     }
   }
   const std::size_t first = cells_.size();
-  const int count = curve.is_line() ? 1 : static_cast<int>(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
-  for (int i = 0; i < count; ++i) add_cell(curve, length * i / count, length * (i + 1) / count, feed);
+  const int count = curve.is_line() ? cells_of_line(curve, feed)
+                                    : static_cast<int>(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
+  const auto place = [&](int i) {
+    const double share = static_cast<double>(i) / count;
+    if (!any_falls_ || i == count) return length * i / count;
+    return length * (1 - std::cos(std::numbers::pi * share)) / 2;
+  };
+  for (int i = 0; i < count; ++i) add_cell(curve, place(i), place(i + 1), feed);
   Cell& entry = cells_[first];
   entry.entry_scale = scale;
   entry.entry_cap = std::min({entry.entry_cap, kink, first > 0 ? cells_[first - 1].exit_cap * scale : fastest});
@@ -65,10 +80,24 @@ void TimeBound::add_curve(const Segment& segment) {
   if (cells_.size() >= 2 * window) settle(window);
 }
 
+// One is exact under constant limits; else so many that the speed changes little in each.
+int TimeBound::cells_of_line(const ExactCurve& curve, double feed) const {
+  if (!any_falls_) return 1;
+  double top = feed;
+  double strength = strongest;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double steep = std::abs(curve.at(axes_[i].axis, 0).first);
+    if (steep == 0) continue;
+    if (axes_[i].velocity.value() > 0) top = std::min(top, square(axes_[i].velocity.value() / steep));
+    if (limits_[i].constant() > 0) strength = std::min(strength, limits_[i].constant() / steep);
+  }
+  return static_cast<int>(std::clamp(cells_of_a_ramp * std::sqrt(2 * strength * curve.length() / top), 2.0, 4000.0));
+}
+
 void TimeBound::add_cell(const ExactCurve& curve, double from, double to, double feed) {
   Cell cell;
   cell.length = to - from;
-  cell.line = curve.is_line();
+  cell.line = curve.is_line() && !any_falls_;
   const bool goes_on = from > 0 && !cells_.empty();
   cell.entry_cap = goes_on ? cells_.back().exit_cap : cap_at(curve, from, feed);
   cell.exit_cap = cap_at(curve, to, feed);
@@ -123,7 +152,7 @@ double TimeBound::curvature_cap(const Row& first, const Row& second, double most
     double low = -INFINITY;
     double high = INFINITY;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      const double limit = axes_[i].acceleration.value();
+      const double limit = limits_[i].at(first[i] * std::sqrt(x));
       if (!(limit > 0)) continue;
       const double pull = second[i] * x;
       if (first[i] == 0) {
@@ -149,6 +178,7 @@ double TimeBound::curvature_cap(const Row& first, const Row& second, double most
 
 // At the middle u = (next - x) / 2h and x is the mean of both, so that a limit reads |α next + β x| ≤ A.
 TimeBound::Range TimeBound::next_of(const Cell& cell, double x) const {
+  if (any_falls_) return next_under_falling(cell, x);
   Range range{.low = 0, .high = INFINITY};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double limit = axes_[i].acceleration.value();
@@ -164,6 +194,33 @@ TimeBound::Range TimeBound::next_of(const Cell& cell, double x) const {
     const double b = (limit - beta * x) / alpha;
     range.low = std::max(range.low, std::min(a, b));
     range.high = std::min(range.high, std::max(a, b));
+  }
+  return range;
+}
+
+// The limit at the middle depends on the next x, hardly, so that a few rounds settle it.
+TimeBound::Range TimeBound::next_under_falling(const Cell& cell, double x) const {
+  Range range{.low = 0, .high = INFINITY};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!(limits_[i].constant() > 0)) continue;
+    const double steep = cell.first[i] / (2 * cell.length);
+    const double alpha = cell.second[i] / 2 + steep;
+    const double beta = cell.second[i] / 2 - steep;
+    const auto limit = [&](double next) {
+      return limits_[i].at(cell.first[i] * std::sqrt((x + std::max(next, 0.0)) / 2));
+    };
+    if (alpha == 0) {
+      if (std::abs(beta * x) > limit(x)) range.high = -1;
+      continue;
+    }
+    double low = x;
+    double high = x;
+    for (int round = 0; round < 6; ++round) {
+      low = (-limit(low) * (alpha > 0 ? 1 : -1) - beta * x) / alpha;
+      high = (limit(high) * (alpha > 0 ? 1 : -1) - beta * x) / alpha;
+    }
+    range.low = std::max(range.low, low);
+    range.high = std::min(range.high, high);
   }
   return range;
 }

@@ -4,7 +4,8 @@
 // small cells, x runs straight in each, and the limits are asked at its middle. From the end of a stretch backwards:
 // the largest x at each node from which the rest can still be played (by bisection: is there an x at the next node
 // that keeps every limit?). Then forwards from rest, always as fast as allowed. A line is a single cell, exact: speed
-// up, go on, brake. Pfeiffer and Johanni 1987; Pham and Pham 2018 (reachability).
+// up, go on, brake; where a limit falls with the speed, A is asked at the speed in the middle of each cell, and a line
+// is cut like a curve, finer to its ends. Pfeiffer and Johanni 1987; Pham and Pham 2018 (reachability).
 //
 // Rest is where the program demands it: at actions, exact stops, the ends, and where the direction jumps by more than
 // rounding. Memory: a window of cells. What is behind the window is taken for as fast as its first cell allows, so
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "exact_curve.hpp"
+#include "speed_limit.hpp"
 
 #include "passo/proof/motion_proof.hpp"
 
@@ -23,7 +25,7 @@ namespace passo::proof {
 
 class TimeBound {
  public:
-  explicit TimeBound(const ProofOptions& options) : axes_(options.axes) {}
+  explicit TimeBound(const ProofOptions& options);
 
   void watch(const PlannedMove& move);
   void rest(Seconds dwell);
@@ -64,12 +66,16 @@ class TimeBound {
   double kink_cap(const Joint& before, const Joint& after) const;
   // The next x that the cell's limits allow after x.
   Range next_of(const Cell& cell, double x) const;
+  Range next_under_falling(const Cell& cell, double x) const;
+  int cells_of_line(const ExactCurve& curve, double feed) const;
   double entry_for(const Cell& cell, double exit) const;
   double exit_for(const Cell& cell, double entry, double most) const;
   double line_reach(const Cell& cell) const;
   static double time_of_line(const Cell& cell, double entry, double exit, double reach);
 
   std::vector<ProvenAxis> axes_;
+  std::vector<SpeedLimit> limits_;
+  bool any_falls_ = false;
   std::vector<Cell> cells_;
   std::optional<Joint> joint_;
   double x_ = 0;  // where the first cell begins

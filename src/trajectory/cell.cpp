@@ -25,6 +25,14 @@ constexpr double braking_share = 1.0 / 64;
 constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
 
+// Where limits fall with the speed: by what part of the top speed it changes in a cell, at most.
+constexpr double speed_share = 1.0 / 64;
+constexpr double most_graded = 10'000;  // cells of a segment
+
+// A feed that is below a limit's shoulder by this is planned as if the limit were constant; the override raises it no
+// further.
+constexpr double room_for_override = 2;
+
 double squared(double value) {
   return value * value;
 }
@@ -55,12 +63,15 @@ void CellCutter::begin(const Segment& segment) {
   const Curve& curve = segment.curve;
   const double length = curve.length().value();
   longest_ = shortest_ = length;
-  if (curve.shape() == Curve::Shape::line) return;
-
+  grade_ = 0;
   const Point steepest = curve.steepest();
   const double top = std::min({segment.speed.value(), largest_multiple(steepest, limits_.velocity), fastest});
   const double strength = std::min(largest_multiple(steepest, limits_.acceleration), strongest);
   const double braking = top * top / (2 * strength);
+  if (flat_top(steepest) < room_for_override * top) {
+    grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_graded);
+  }
+  if (curve.shape() == Curve::Shape::line) return;
   if (curve.shape() == Curve::Shape::arc) {
     const double by_turn = length * turn_a_cell_of_arc / std::abs(curve.arc_data().sweep);
     longest_ = std::min({length / 2, by_turn, std::max(braking * braking_share, length * length_share)});
@@ -86,6 +97,7 @@ bool CellCutter::next(Piece& piece) {
   } else if (size > left / 2 && longest_ > shortest_) {
     size = left / growth;
   }
+  if (grade_ > 0) size = graded(size, left);
   double to = at_ + size;
   if (length - to < size * 1e-6) to = length;
   cut(*segment_, at_, to, piece);
@@ -93,10 +105,31 @@ bool CellCutter::next(Piece& piece) {
   return true;
 }
 
+// From rest the speed grows with the root of s: so do the cells, and each end of the segment may be a rest. At least
+// two: between two rests one would have no speed.
+double CellCutter::graded(double size, double left) const {
+  const double near_start = grade_ * (grade_ + 2 * std::sqrt(at_));
+  const double root = std::sqrt(left);
+  const double near_end = root <= 1.5 * grade_ ? left : grade_ * (2 * root - grade_);
+  return std::min({size, near_start, near_end, at_ == 0 ? left / 2 : left});
+}
+
+// The speed along the path up to which every limit is constant.
+double CellCutter::flat_top(const Point& direction) const {
+  double top = infinity;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const AccelerationCurve& curve = limits_.falling.values[i];
+    const double part = std::abs(direction.values[i]);
+    if (!curve.empty() && part > 0) top = std::min(top, std::sqrt(curve.shoulder()) / part);
+  }
+  return top;
+}
+
 // Bounds of the derivatives between two places: of a cubic the third is constant; on an arc each derivative turns the
 // one before, so that its size is that of the slope in the plane times the turn a millimetre.
 CellCutter::Bend CellCutter::bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out) {
   Bend bend;
+  if (curve.shape() == Curve::Shape::line) return bend;
   if (curve.shape() == Curve::Shape::cubic) {
     for (std::size_t i = 0; i < axis_count; ++i) {
       bend.third.values[i] = 6 * std::abs(curve.cubic_data().third.values[i]);
@@ -122,9 +155,12 @@ void CellCutter::cut(const Segment& segment, double from, double to, Piece& piec
   const Point slope_in = curve.tangent(Mm(from));
   piece.cell = {.start = from, .end = to, .length = h, .feed_squared = squared(segment.speed.value())};
   piece.demand_count = 0;
+  piece.falling_count = 0;
 
-  if (curve.shape() == Curve::Shape::line) {
-    piece.cell.top_squared = squared(std::min(largest_multiple(slope_in, limits_.velocity), fastest));
+  const double flat = flat_top(slope_in);
+  const double top_in = std::min(largest_multiple(slope_in, limits_.velocity), fastest);
+  if (curve.shape() == Curve::Shape::line && !(flat < room_for_override * std::min(top_in, segment.speed.value()))) {
+    piece.cell.top_squared = squared(std::min(top_in, flat));
     piece.cell.acceleration = std::min(largest_multiple(slope_in, limits_.acceleration), strongest);
     piece.cell.straight = true;
     return;
@@ -162,6 +198,20 @@ void CellCutter::cut(const Segment& segment, double from, double to, Piece& piec
                                            .exit_x = -out,
                                            .exit_y = bend_out.values[i] + out,
                                            .limit = std::max(limit - slack, limit / 2)};
+    const AccelerationCurve& falling = limits_.falling.values[i];
+    const double steep = steepest.values[i];
+    if (falling.empty() || !(squared(steep * top) > falling.shoulder())) continue;
+    // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
+    const double second =
+        std::max(std::abs(bend_in.values[i]), std::abs(bend_out.values[i])) + h * bend.third.values[i];
+    const double bending =
+        2 * (second * second + steep * bend.third.values[i]) * top * top + 8 * steep * second * strength;
+    piece.falling[piece.falling_count++] = {.curve = &falling,
+                                            .demand = static_cast<std::uint32_t>(piece.demand_count - 1),
+                                            .entry_weight = squared(slope_in.values[i]),
+                                            .exit_weight = squared(slope_out.values[i]),
+                                            .slack = slack,
+                                            .slack_of_fall = eighth * bending};
   }
 }
 

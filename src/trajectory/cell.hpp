@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "passo/path/segment.hpp"
@@ -31,6 +32,22 @@ struct AxisDemand {
   double limit = 0;
 };
 
+// Of an axis whose limit falls with its speed. In the cell the square of that is about entry_weight x at the entry and
+// exit_weight y at the exit; with each line of the curve, at both ends,
+//
+//     |demand| + fall w <= at_rest - slack - fall slack_of_fall
+//
+// holds all along, and keeps to the curve.
+struct FallingDemand {
+  const AccelerationCurve* curve = nullptr;
+  std::uint32_t demand = 0;  // the axis's own among the cell's demands
+  std::uint32_t line = 0;    // of the curve, with which the cell was last found possible
+  double entry_weight = 0;
+  double exit_weight = 0;
+  double slack = 0;
+  double slack_of_fall = 0;
+};
+
 struct Cell {
   double start = 0;         // s on the segment's curve
   double end = 0;           // of the last cell exactly the curve's length
@@ -41,7 +58,8 @@ struct Cell {
   bool straight = false;
 };
 
-// Cuts segments into cells. The straight ones are whole segments and make no demands but their acceleration.
+// Cuts segments into cells. The straight ones are whole segments and make no demands but their acceleration; lines on
+// which a limit falls with the speed are cut like curves.
 class CellCutter {
  public:
   explicit CellCutter(const MotionLimits& limits) : limits_(limits) {}
@@ -50,6 +68,8 @@ class CellCutter {
     Cell cell;
     std::array<AxisDemand, axis_count> demands;
     std::size_t demand_count = 0;
+    std::array<FallingDemand, axis_count> falling;
+    std::size_t falling_count = 0;
   };
   // Begins with a segment; next() then gives its cells in order.
   void begin(const Segment& segment);
@@ -62,6 +82,8 @@ class CellCutter {
     Point third;
     Point fourth;
   };
+  double graded(double size, double left) const;
+  double flat_top(const Point& direction) const;
   static Bend bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out);
 
   const MotionLimits& limits_;
@@ -69,6 +91,7 @@ class CellCutter {
   double at_ = 0;        // s up to which it is cut
   double longest_ = 0;   // cells in the middle
   double shortest_ = 0;  // and at the ends, from where they grow
+  double grade_ = 0;     // where limits fall with the speed: what each cell adds to the root of s, from a rest on
 };
 
 }  // namespace passo

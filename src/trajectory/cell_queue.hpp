@@ -15,6 +15,7 @@ class CellQueue {
   struct Entry {
     Cell cell;
     std::size_t demand_count = 0;
+    std::size_t falling_count = 0;
     bool begins_at_rest = false;
     double top_squared = 0;    // of the cell, with the override of the feed
     double entry_cap = 0;      // squared: by the tops on both sides, 0 at a rest
@@ -22,9 +23,13 @@ class CellQueue {
     double entry_if_open = 0;  // the same if the path went straight on there for ever
   };
 
-  // `axes`: the most demands a cell makes.
-  CellQueue(std::size_t capacity, std::size_t axes)
-      : axes_(axes), entries_(capacity + 1), demands_((capacity + 1) * axes) {}
+  // `axes`: the most demands a cell makes; the limits of `falling_axes` of them fall with the speed.
+  CellQueue(std::size_t capacity, std::size_t axes, std::size_t falling_axes)
+      : axes_(axes),
+        falling_axes_(falling_axes),
+        entries_(capacity + 1),
+        demands_((capacity + 1) * axes),
+        falling_((capacity + 1) * falling_axes) {}
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -37,12 +42,20 @@ class CellQueue {
     const std::size_t at = slot(i);
     return {demands_.data() + at * axes_, entries_[at].demand_count};
   }
+  std::span<FallingDemand> falling(std::size_t i) {
+    const std::size_t at = slot(i);
+    return {falling_.data() + at * falling_axes_, entries_[at].falling_count};
+  }
+  std::span<const FallingDemand> falling(std::size_t i) const {
+    const std::size_t at = slot(i);
+    return {falling_.data() + at * falling_axes_, entries_[at].falling_count};
+  }
 
   Entry& push(const CellCutter::Piece& piece) {
-    assert(!full() && piece.demand_count <= axes_);
+    assert(!full());
     const std::size_t at = slot(size_++);
-    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[at * axes_ + k] = piece.demands[k];
-    return entries_[at] = {.cell = piece.cell, .demand_count = piece.demand_count};
+    entries_[at] = {};
+    return put(piece, at);
   }
   // Once between two calls of pop().
   void push_front(const CellCutter::Piece& piece) {
@@ -52,25 +65,33 @@ class CellQueue {
     replace_front(piece);
   }
   // The first cell, cut anew.
-  void replace_front(const CellCutter::Piece& piece) {
-    entries_[head_].cell = piece.cell;
-    entries_[head_].demand_count = piece.demand_count;
-    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[head_ * axes_ + k] = piece.demands[k];
-  }
+  void replace_front(const CellCutter::Piece& piece) { put(piece, head_); }
   void pop() {
     head_ = head_ + 1 == entries_.size() ? 0 : head_ + 1;
     --size_;
   }
 
  private:
+  Entry& put(const CellCutter::Piece& piece, std::size_t at) {
+    assert(piece.demand_count <= axes_ && piece.falling_count <= falling_axes_);
+    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[at * axes_ + k] = piece.demands[k];
+    for (std::size_t k = 0; k < piece.falling_count; ++k) falling_[at * falling_axes_ + k] = piece.falling[k];
+    Entry& entry = entries_[at];
+    entry.cell = piece.cell;
+    entry.demand_count = piece.demand_count;
+    entry.falling_count = piece.falling_count;
+    return entry;
+  }
   std::size_t slot(std::size_t i) const {
     const std::size_t at = head_ + i;
     return at < entries_.size() ? at : at - entries_.size();
   }
 
   std::size_t axes_;
+  std::size_t falling_axes_;
   std::vector<Entry> entries_;
   std::vector<AxisDemand> demands_;
+  std::vector<FallingDemand> falling_;
   std::size_t head_ = 0;
   std::size_t size_ = 0;
 };

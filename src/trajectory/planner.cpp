@@ -45,6 +45,11 @@ bool has_jerk_limit(const MotionLimits& limits) {
                      [](MmPerSecond3 limit) { return limit > MmPerSecond3(0); });
 }
 
+std::size_t falling_axes(const MotionLimits& limits) {
+  return static_cast<std::size_t>(std::count_if(limits.falling.values.begin(), limits.falling.values.end(),
+                                                [](const AccelerationCurve& curve) { return !curve.empty(); }));
+}
+
 }  // namespace
 
 bool has_corner(const Curve& before, const Curve& after) {
@@ -59,7 +64,7 @@ class Planner::Implementation {
       : path_(path),
         limits_(limits),
         cutter_(limits_),
-        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits)) {
+        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits), falling_axes(limits)) {
     if (has_jerk_limit(limits)) jerk_limited_.emplace(path, limits, most_queued);
   }
 
@@ -144,17 +149,22 @@ class Planner::Implementation {
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
 
-  double entry_to(std::size_t i, double exit_most) const {
+  double entry_to(std::size_t i, double exit_most) {
     const CellQueue::Entry& entry = cells_[i];
     const Cell& cell = entry.cell;
     if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
-    return largest_entry(cells_.demands(i), entry.entry_cap, std::min(exit_most, entry.top_squared));
+    const double most = std::min(exit_most, entry.top_squared);
+    if (entry.falling_count == 0) return largest_entry(cells_.demands(i), entry.entry_cap, most);
+    return largest_entry(cells_.demands(i), cells_.falling(i), entry.entry_cap, most);
   }
   // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
   double exit_from(std::size_t i, double entry, double exit_most) const {
     if (exit_most == 0) return 0;  // whatever came before left room for it
     const CellQueue::Entry& queued = cells_[i];
     const double most = std::min(exit_most, queued.top_squared);
+    if (queued.falling_count > 0) {
+      return largest_exit(cells_.demands(i), cells_.falling(i), entry, most, queued.top_squared);
+    }
     if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
     const double change = 2 * queued.cell.acceleration * queued.cell.length;
     const bool too_fast = entry - change > most + rounding * entry;
@@ -168,8 +178,10 @@ class Planner::Implementation {
     double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
     for (std::size_t i = cells_.size(); i-- > 0;) {
       const bool equal = if_rest == if_open;
-      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);
-      if_open = cells_[i].entry_if_open = equal ? if_rest : entry_to(i, if_open);
+      if (!equal) if_open = entry_to(i, if_open);
+      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after the other: its choice of lines is kept
+      if (equal) if_open = if_rest;
+      cells_[i].entry_if_open = if_open;
     }
   }
 
@@ -246,13 +258,14 @@ class Planner::Implementation {
   Ride shortest_ride() const {
     const Cell& cell = cells_[0].cell;
     const double deceleration =
-        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(0), cell.length, speed_squared_);
+        cell.straight ? cell.acceleration
+                      : sure_deceleration(cells_.demands(0), cells_.falling(0), cell.length, speed_squared_);
     if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
       const double way = speed_squared_ / (2 * deceleration);
       return {way + smallest_cell < cell.length ? way : cell.length, 0};
     }
     const double least = cell.straight ? std::max(0.0, speed_squared_ - 2 * cell.acceleration * cell.length)
-                                       : least_exit(cells_.demands(0), speed_squared_);
+                                       : least_exit(cells_.demands(0), cells_.falling(0), speed_squared_);
     return {cell.length, std::min(least, planned_exit())};
   }
 

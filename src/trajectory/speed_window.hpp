@@ -30,4 +30,18 @@ double least_exit(std::span<const AxisDemand> demands, double entry);
 // none is sure to be allowed.
 double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry);
 
+// The same with limits that fall with the speed, by iteration: with the line of each curve that is the highest at the
+// speed found before, a linear program as above. Each line keeps to its curve, so each solution is possible.
+//
+// Backwards, the lines of the best solution are kept in the demands: with them the forward pass always finds a way.
+double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDemand> falling, double entry_most,
+                     double exit_most);
+
+// `top`: of the cell. As far as the limits decide the answer does not depend on `exit_most`.
+double largest_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry,
+                    double exit_most, double top);
+double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry);
+double sure_deceleration(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double length,
+                         double entry);
+
 }  // namespace passo

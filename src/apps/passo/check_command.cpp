@@ -18,6 +18,11 @@ nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
   return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
 }
 
+std::function<MmPerSecond2(MmPerSecond)> falling_limit(const AxisDescription& axis) {
+  if (!axis.motor) return {};
+  return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
+}
+
 ProofOptions proof_options(const MachineDescription& machine) {
   ProofOptions options;
   for (const AxisDescription& axis : machine.axes) {
@@ -25,7 +30,8 @@ ProofOptions proof_options(const MachineDescription& machine) {
                             .step = axis.step(),
                             .velocity = axis.velocity,
                             .acceleration = axis.acceleration,
-                            .jerk = axis.jerk});
+                            .jerk = axis.jerk,
+                            .acceleration_at = falling_limit(axis)});
   }
   options.tick_rate = machine.board.clock;
   return options;

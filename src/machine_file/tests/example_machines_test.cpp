@@ -53,7 +53,7 @@ TEST(ExampleMachines, the_bench_has_the_limits_that_its_table_tells) {
 }
 
 TEST(ExampleMachines, have_machine_zero_within_their_travel_so_that_programs_run_without_a_work_offset) {
-  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml", "bench.toml"}) {
+  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml", "bench.toml", "strong-router.toml"}) {
     const MachineDescription machine = example(name);
     EXPECT_EQ(machine.axes.size(), 3U);
     for (const AxisDescription& axis : machine.axes) {
@@ -66,7 +66,7 @@ TEST(ExampleMachines, have_machine_zero_within_their_travel_so_that_programs_run
 }
 
 TEST(ExampleMachines, brake_from_full_velocity_within_a_tenth_of_their_travel) {
-  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml", "bench.toml"}) {
+  for (const char* name : {"pantograph.toml", "forty-eight.toml", "router.toml", "bench.toml", "strong-router.toml"}) {
     for (const AxisDescription& axis : example(name).axes) {
       const double braking = std::pow(axis.velocity.value(), 2) / (2 * axis.acceleration.value());
       EXPECT_LT(braking, (axis.travel_high - axis.travel_low) / 10) << name << " " << letter_of(axis.axis);

@@ -97,6 +97,27 @@ TEST(MotionProof, a_line_from_rest_to_rest_takes_twice_the_root_of_length_by_acc
   EXPECT_EQ(proof.axes[1].velocity.value, 0);
 }
 
+// A = 500 (1 - v/110): v = 110 (1 - exp(-500 t/110)).
+TEST(MotionProof, a_limit_that_falls_with_the_speed_is_asked_at_the_speed) {
+  ProofOptions falling = options();
+  for (ProvenAxis& axis : falling.axes) {
+    axis.acceleration_at = [](MmPerSecond v) { return MmPerSecond2(500 * (1 - v.value() / 110)); };
+  }
+  MotionProver prover(falling);
+  const PlannedMove planned = triangle(line(xyz(0, 0), xyz(8, 0)), 250);  // up to 44.7 mm/s
+  prover.watch(PathItem(planned.segment));
+  prover.watch(MotionItem(planned));
+  const MotionProof proof = prover.finish();
+  const double top = std::sqrt(8.0 * 250);
+  EXPECT_NEAR(proof.axes[0].acceleration.multiple(), 250 / (500 * (1 - top / 110)), 1e-6);
+  EXPECT_NEAR(proof.axes[0].acceleration.limit, 500 * (1 - top / 110), 1e-3);
+  const auto way = [](double t) { return 110 * t - 110 * 110 * (1 - std::exp(-500 * t / 110)) / 500; };
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) (way((low + high) / 2) < 4 ? low : high) = (low + high) / 2;
+  EXPECT_NEAR(proof.time_bound.value(), 2 * low, 1e-3 * low);
+}
+
 TEST(MotionProof, the_bound_of_a_line_knows_velocity_and_feed) {
   EXPECT_NEAR(bound_of({line(xyz(0, 0), xyz(60, 0))}), 60.0 / 100 + 100.0 / 500, 1e-12);
   EXPECT_NEAR(bound_of({line(xyz(0, 0), xyz(60, 0), 1, 20)}), 60.0 / 20 + 20.0 / 500, 1e-12);

@@ -122,7 +122,7 @@ inline Motion motion_at(const Curve& curve, Real s, Real v, Real a) {
   return motion;
 }
 
-inline void expect_within_limits(const PlannedMove& move, const MotionLimits& limits, Real slack = 5e-4L) {
+inline void expect_within_limits(const PlannedMove& move, const MotionLimits& limits, Real slack = 2e-3L) {
   for (const Phase& phase : move) {
     for (int k = 0; k <= 16; ++k) {
       const Real t = Real(phase.duration.value()) * k / 16;

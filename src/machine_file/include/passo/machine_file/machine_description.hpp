@@ -4,9 +4,11 @@
 // once, before a job; the street takes its options from here. docs/manual/machine-file.md explains every key.
 //
 // Invariant: a description that was handed out is whole and sound. Every number is finite and in range, every
-// axis can be played at its full velocity by the board, and there is at least one axis.
+// axis can be played at its full velocity by the board and accelerates at every velocity, and there is at least one
+// axis.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -15,6 +17,7 @@
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/geometry/axes.hpp"
+#include "passo/machine_file/axis_motor.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -28,9 +31,14 @@ struct AxisDescription {
   double travel_low = 0;      // machine coordinates
   double travel_high = 0;
   MmPerSecond velocity{0};
-  MmPerSecond2 acceleration{0};
-  MmPerSecond3 jerk{0};   // 0: no limit
-  bool inverted = false;  // the motor turns the other way
+  MmPerSecond2 acceleration{0};    // never more than this; the motor may leave less
+  std::optional<AxisMotor> motor;  // where the file tells it: acceleration follows its torque
+  MmPerSecond3 jerk{0};            // 0: no limit
+  bool inverted = false;           // the motor turns the other way
+
+  MmPerSecond2 acceleration_at(MmPerSecond speed) const {
+    return motor ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;
+  }
 
   // The way of one step, and the steps a second at full velocity.
   Mm step() const { return Mm(1.0 / steps_per_unit); }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,13 +29,16 @@ struct ProvenAxis {
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};
   MmPerSecond3 jerk{0};
+  // Where it falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all speeds.
+  std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
 };
 struct ProofOptions {
   std::vector<ProvenAxis> axes;  // in the order of the board's motors
   Hertz tick_rate{16e6};
 };
 
-// The worst that was found of one kind. In the units of its kind: mm (or degrees) and seconds.
+// The worst that was found of one kind: the largest, or where the limit changes with the speed the largest multiple of
+// the limit there. In the units of its kind: mm (or degrees) and seconds.
 struct Finding {
   double value = 0;
   double limit = 0;        // 0: there is none

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "passo/geometry/axes.hpp"
+#include "passo/trajectory/acceleration_curve.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -10,6 +11,8 @@ struct MotionLimits {
   PerAxis<MmPerSecond> velocity;
   PerAxis<MmPerSecond2> acceleration;
   PerAxis<MmPerSecond3> jerk;
+  // Beside the constant, what a motor has left at the axis's speed. Empty: the constant alone.
+  PerAxis<AccelerationCurve> falling;
 };
 
 }  // namespace passo

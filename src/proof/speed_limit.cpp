@@ -1,0 +1,30 @@
+#include "speed_limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo::proof {
+namespace {
+
+constexpr int values = 20'000;  // not the number of anyone else's table
+
+}  // namespace
+
+SpeedLimit::SpeedLimit(const ProvenAxis& axis) : constant_(axis.acceleration.value()) {
+  if (!axis.acceleration_at || !(axis.velocity > MmPerSecond(0))) return;
+  step_ = axis.velocity.value() / values;
+  for (int i = 0; i <= values; ++i) {
+    const double limit = axis.acceleration_at(MmPerSecond(i * step_)).value();
+    table_.push_back(constant_ > 0 ? std::min(constant_, limit) : limit);
+  }
+}
+
+double SpeedLimit::at(double speed) const {
+  if (table_.empty()) return constant_;
+  const double place = std::min(std::abs(speed) / step_, static_cast<double>(values));
+  const auto below = std::min(static_cast<std::size_t>(place), table_.size() - 2);
+  const double share = place - static_cast<double>(below);
+  return table_[below] * (1 - share) + table_[below + 1] * share;
+}
+
+}  // namespace passo::proof

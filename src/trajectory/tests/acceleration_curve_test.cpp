@@ -1,0 +1,235 @@
+// Limits that fall with the speed: the curve itself, and what the planner makes of it.
+#include "passo/trajectory/acceleration_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "random_program.hpp"
+
+#include "passo/trajectory/motion_text.hpp"
+
+namespace passo {
+namespace {
+
+using test::xyz;
+using Limit = std::function<double(double)>;
+
+AccelerationCurve curve_of(const Limit& limit, double fastest, double most) {
+  std::vector<AccelerationCurve::Sample> samples;
+  for (int i = 0; i <= 4096; ++i) {
+    const double speed = fastest * i / 4096;
+    samples.push_back({.speed = MmPerSecond(speed), .acceleration = MmPerSecond2(limit(speed))});
+  }
+  return AccelerationCurve::below(samples, MmPerSecond2(most));
+}
+
+// All axes alike.
+struct Machine {
+  Limit limit;
+  double fastest;
+  MotionLimits limits;
+
+  Machine(const Limit& own, double velocity) : limit(own), fastest(velocity) {
+    for (const Axis axis : all_axes) {
+      limits.velocity[axis] = MmPerSecond(velocity);
+      limits.acceleration[axis] = MmPerSecond2(own(0));
+      limits.falling[axis] = curve_of(own, velocity, own(0));
+    }
+  }
+};
+
+double even_fall(double v) {
+  return 2000 * (1 - v / 120);
+}
+// Flat, then as a motor on a chopper.
+double shouldered(double v) {
+  return v < 40 ? 3000 : 3000 * std::pow(40 / v, 1.3);
+}
+
+std::vector<MotionItem> plan(const std::vector<PathItem>& path, const MotionLimits& limits,
+                             std::size_t most_queued = Planner::most_queued_cells) {
+  test::ListSource<PathItem> source(path);
+  Planner planner(source, limits, most_queued);
+  return test::drain(planner);
+}
+
+double total_time(const std::vector<MotionItem>& motion) {
+  double sum = 0;
+  for (const MotionItem& item : motion) {
+    if (const auto* move = std::get_if<PlannedMove>(&item)) sum += move->duration().value();
+  }
+  return sum;
+}
+
+Segment line(const Point& start, const Point& end, double speed) {
+  return {.curve = Curve::line(start, end), .speed = MmPerSecond(speed), .tolerance = Mm(0.01), .source = {}};
+}
+double time_of_line(double length, double speed, const MotionLimits& limits) {
+  return total_time(plan({line(xyz(0, 0), xyz(length, 0), speed)}, limits));
+}
+
+// From rest to rest by small steps of the speed: as long as dv/dt = A(v) speeds up, and on at `top`.
+double integrated_time(double length, double top, const Limit& limit) {
+  constexpr int steps = 2'000'000;
+  const double change = top / steps;
+  double time = 0;
+  double way = 0;
+  for (int i = 0; i < steps && way < length / 2; ++i) {
+    const double v = change * (i + 0.5);
+    time += change / limit(v);
+    way += v * change / limit(v);
+  }
+  return 2 * (time + std::max(length / 2 - way, 0.0) / top);
+}
+
+void expect_below(const Limit& limit, const MotionItem& item, const Machine& machine) {
+  const auto* move = std::get_if<PlannedMove>(&item);
+  if (move == nullptr) return;
+  const Curve& curve = move->segment.curve;
+  for (const Phase& phase : *move) {
+    for (int k = 0; k <= 12; ++k) {
+      const double t = phase.duration.value() * k / 12;
+      const double v = phase.velocity.value() + phase.acceleration.value() * t;
+      const Mm s(phase.start.value() + t * (phase.velocity.value() + t * phase.acceleration.value() / 2));
+      const Point slope = curve.tangent(s);
+      const Point bend = curve.second_derivative(s);
+      for (const Axis axis : all_axes) {
+        const double speed = std::abs(slope[axis] * v);
+        ASSERT_LE(speed, machine.fastest * (1 + 1e-9));
+        ASSERT_LE(std::abs(slope[axis] * phase.acceleration.value() + bend[axis] * v * v),
+                  limit(std::min(speed, machine.fastest)) * (1 + 1e-7))
+            << letter_of(axis) << " at " << speed << " mm/s\n"
+            << to_text(*move);
+      }
+    }
+  }
+}
+
+TEST(AccelerationCurve, is_never_above_what_it_is_made_of_and_hardly_below) {
+  for (const Limit& limit : {Limit(even_fall), Limit(shouldered)}) {
+    const AccelerationCurve curve = curve_of(limit, 110, limit(0));
+    for (double v = 0; v <= 110; v += 0.01) {
+      const double here = std::min(curve.at(MmPerSecond(v)).value(), limit(0));
+      ASSERT_LE(here, limit(v) * (1 + 1e-12)) << v;
+      ASSERT_GE(here, limit(v) * 0.99) << v;
+    }
+    EXPECT_LT(curve.lines().size(), 200U);
+  }
+}
+
+TEST(AccelerationCurve, is_below_any_falling_stairs) {
+  test::Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  for (int n = 0; n < 200; ++n) {
+    std::vector<AccelerationCurve::Sample> samples;
+    double speed = 0;
+    double acceleration = 1000;
+    for (int i = 0; i < 30; ++i) {
+      samples.push_back({.speed = MmPerSecond(speed), .acceleration = MmPerSecond2(acceleration)});
+      speed += random.between(0.1, 5);
+      if (random.chance(0.7)) acceleration *= random.between(0.7, 1);
+    }
+    const double most = random.chance(0.5) ? 1000 : 800;
+    const AccelerationCurve curve = AccelerationCurve::below(samples, MmPerSecond2(most));
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+      for (const double v : {samples[i].speed.value(), samples[i + 1].speed.value() - 1e-9}) {
+        const double here = curve.empty() ? most : std::min(most, curve.at(MmPerSecond(v)).value());
+        ASSERT_LE(here, std::min(most, samples[i + 1].acceleration.value()) * (1 + 1e-9)) << v;
+      }
+    }
+  }
+}
+
+TEST(AccelerationCurve, of_a_constant_is_none) {
+  EXPECT_TRUE(curve_of([](double) { return 500.0; }, 100, 500).empty());
+  EXPECT_TRUE(curve_of([](double) { return 700.0; }, 100, 500).empty());
+}
+
+// A0 (1 - v/w): v = w (1 - exp(-A0 t / w)), s = w t - w v / A0.
+TEST(FallingLimits, a_line_from_rest_to_rest_takes_as_long_as_the_closed_form_says) {
+  const Machine machine(even_fall, 114);
+  for (const double length : {0.3, 2.0, 5.0, 10.0}) {
+    const auto way = [](double t) {
+      const double v = 120 * (1 - std::exp(-2000 * t / 120));
+      return 120 * t - 120 * v / 2000;
+    };
+    double low = 0;
+    double high = 1;
+    for (int i = 0; i < 100; ++i) (way((low + high) / 2) < length / 2 ? low : high) = (low + high) / 2;
+    ASSERT_LT(120 * (1 - std::exp(-2000 * low / 120)), 114);
+    const double time = time_of_line(length, 1000, machine.limits);
+    EXPECT_GT(time, 2 * low * (1 - 1e-9)) << length;
+    EXPECT_LT(time, 2 * low * 1.005) << length;
+    EXPECT_NEAR(integrated_time(length, 114, even_fall), 2 * low, 1e-5 * low);
+  }
+}
+
+TEST(FallingLimits, a_line_takes_as_long_as_numerical_integration_says) {
+  const Machine machine(shouldered, 150);
+  for (const double speed : {25.0, 70.0, 150.0, 1000.0}) {
+    for (const double length : {0.02, 1.0, 8.0, 60.0}) {
+      const double expected = integrated_time(length, std::min(speed, 150.0), shouldered);
+      const double time = time_of_line(length, speed, machine.limits);
+      EXPECT_GT(time, expected * (1 - 1e-5)) << length << " at " << speed;
+      // A line that is much shorter than braking has few cells.
+      EXPECT_LT(time, expected * (length < 0.1 ? 1.02 : 1.005)) << length << " at " << speed;
+    }
+  }
+}
+
+TEST(FallingLimits, a_curve_that_is_constant_is_planned_as_a_constant_limit) {
+  Machine machine([](double) { return 500.0; }, 100);
+  const MotionLimits constant = machine.limits;
+  for (const Axis axis : all_axes) {
+    machine.limits.acceleration[axis] = MmPerSecond2(900);
+    machine.limits.falling[axis] = curve_of(machine.limit, 100, 900);
+  }
+  test::Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  const auto path = test::RandomProgram(random).draw(1000);
+  EXPECT_NEAR(total_time(plan(path, machine.limits)) / total_time(plan(path, constant)), 1, 2e-3);
+  EXPECT_NEAR(time_of_line(60, 1000, machine.limits), 60.0 / 100 + 100.0 / 500, 1e-3);
+}
+
+TEST(FallingLimits, a_slow_feed_below_the_shoulder_is_planned_in_three_phases) {
+  const Machine machine(shouldered, 150);
+  const auto motion = plan({line(xyz(0, 0), xyz(60, 0), 15)}, machine.limits);
+  EXPECT_EQ(std::get<PlannedMove>(motion.at(0)).phase_count, 3U);
+}
+
+class FallingPrograms : public testing::TestWithParam<int> {};
+
+TEST_P(FallingPrograms, never_exceed_the_curve_and_come_to_rest) {
+  test::Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  const double shoulder = random.between(5, 100);
+  const double power = random.between(0.3, 2);
+  const double strong = random.between(300, 5000);
+  const Limit limit = [=](double v) { return v < shoulder ? strong : strong * std::pow(shoulder / v, power); };
+  const Machine machine(limit, random.between(50, 300));
+  const auto path = test::RandomProgram(random).draw(1500);
+  for (const std::size_t queued : {Planner::most_queued_cells, std::size_t{500}}) {
+    double speed = 0;
+    for (const MotionItem& item : plan(path, machine.limits, queued)) {
+      expect_below(limit, item, machine);
+      if (HasFatalFailure()) return;
+      const auto* move = std::get_if<PlannedMove>(&item);
+      if (move == nullptr) {
+        ASSERT_EQ(speed, 0);
+        continue;
+      }
+      for (const Phase& phase : *move) {
+        ASSERT_TRUE(std::isfinite(phase.duration.value()) && phase.duration.value() > 0);
+        ASSERT_NEAR(phase.velocity.value(), speed, 1e-9 * speed + 1e-12);
+        speed = phase.velocity_at(phase.duration).value();
+      }
+    }
+    ASSERT_EQ(speed, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Five, FallingPrograms, testing::Range(0, 5));
+
+}  // namespace
+}  // namespace passo
