@@ -27,6 +27,9 @@ constexpr double smallest_part = 0.02;
 // A rest of a cell that is shorter, in mm, is rounding.
 constexpr double smallest_rest = 1e-9;
 
+// Of a segment's length: how far beside its end its last cell may end.
+constexpr double end_rounding = 1e-14;
+
 // In mm: a hold leaves no less of a cell, so that what is left can be halved.
 constexpr double smallest_cell = 1e-6;
 
@@ -251,7 +254,10 @@ class Planner::Implementation {
   bool go(const Ride& ride, PlannedMove& move) {
     const Segment& segment = segments_.front();
     const double segment_end = segment.curve.length().value();
-    const double cell_end = cells_[0].cell.start + cells_[0].cell.length;
+    double cell_end = cells_[0].cell.start + cells_[0].cell.length;
+    // What is left of a cell that was cut may end beside the segment's end, by rounding.
+    const bool last = cell_end >= segment_end * (1 - end_rounding);
+    if (last) cell_end = segment_end;
     move.to = Mm(std::min(cells_[0].cell.start + ride.way, segment_end));
     speed_squared_ = ride.exit;
     const bool shortened = shorten(move);
@@ -264,8 +270,6 @@ class Planner::Implementation {
       return true;
     }
     cells_.pop();
-    // What is left of a cell that was cut may end beside the segment's end, by rounding.
-    const bool last = cell_end >= segment_end - smallest_rest;
     if (last) {
       move.to = segment.curve.length();
       segments_.pop_front();
