@@ -22,7 +22,7 @@ constexpr double tangent_tolerance = 1e-6;
 // Of squares of speeds, relative: less is what arithmetic makes of equal ones.
 constexpr double rounding = 1e-9;
 
-// Of the longest time of a move: phases are not cut into shorter ones, but the move gets longer or shorter by it.
+// Of the longest time of a move: phases are not cut into shorter ones, but the move gets shorter by it.
 constexpr double smallest_part = 0.02;
 
 // A rest of a cell that is shorter, in mm, is rounding.
@@ -324,7 +324,7 @@ class Planner::Implementation {
 
   // To the longest time that a move may take.
   bool shorten(PlannedMove& move) {
-    Seconds left = longest_move_;
+    Seconds left = longest_move_ * (1 - smallest_part);
     for (std::size_t i = 0; i < move.phase_count; ++i) {
       Phase& phase = move.phases[i];
       if (phase.duration <= left + longest_move_ * smallest_part) {

@@ -94,7 +94,7 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(
       "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
-      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 2.5:1 --override 50@5");
+      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20");
 
   CheckArguments check_arguments;
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");

@@ -73,7 +73,7 @@ TEST_P(RandomPrograms, are_planned_as_if_seen_whole) {
       ++cell;
     } while (end < move->to.value());
     const double reached = exit_speed(*move);
-    ASSERT_NEAR(reached * reached, exits[cell - 1], 1e-6 * (1 + exits[cell - 1])) << "cell " << cell;
+    ASSERT_NEAR(reached * reached, exits[cell - 1], 1e-5 * (1 + exits[cell - 1])) << "cell " << cell;
   }
   ASSERT_EQ(cell, exits.size());
 }
@@ -110,7 +110,8 @@ TEST_P(RandomPrograms, keep_all_that_in_spite_of_holds_and_overrides) {
       continue;
     }
     if (auto* move = std::get_if<PlannedMove>(&item)) {
-      ASSERT_LE(move->duration().value(), 0.1 * 1.021);
+      ASSERT_LE(move->duration().value(), 0.1 * 1.1);  // dust is not cut
+
       // The feed that counts for the limits below: what it was, until it has slowed down to the new one.
       move->segment.speed = MmPerSecond(std::numeric_limits<double>::infinity());
     }
@@ -126,7 +127,7 @@ TEST_P(RandomPrograms, keep_all_that_in_spite_of_holds_and_overrides) {
   expect_continuous(motion);
   if (HasFatalFailure()) return;
   for (const MotionItem& planned : motion) {
-    if (const auto* move = std::get_if<PlannedMove>(&planned)) expect_within_limits(*move, limits_, 2e-3L);
+    if (const auto* move = std::get_if<PlannedMove>(&planned)) expect_within_limits(*move, limits_);
     if (HasFatalFailure()) return;
   }
 }
