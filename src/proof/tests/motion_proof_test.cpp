@@ -338,8 +338,8 @@ TEST(MotionProof, an_exact_path_may_not_be_left) {
   std::vector<Segment> corner = {line(xyz(0, 0), xyz(5, 0)), line(xyz(5, 0), xyz(5, 5))};
   for (Segment& segment : corner) segment.tolerance = Mm(0);
   const MotionProof proof =
-      proof_of(corner, {steady(line(xyz(0, 0), xyz(5 - 0.002, 0)), 1), steady(line(xyz(5 - 0.002, 0), xyz(5, 0.002)), 1),
-                        steady(line(xyz(5, 0.002), xyz(5, 5)), 1)});
+      proof_of(corner, {steady(line(xyz(0, 0), xyz(5 - 0.002, 0)), 1),
+                        steady(line(xyz(5 - 0.002, 0), xyz(5, 0.002)), 1), steady(line(xyz(5, 0.002), xyz(5, 5)), 1)});
   EXPECT_THAT(faults_of(proof), testing::HasSubstr("deviation"));
   EXPECT_EQ(proof_of(corner, {steady(corner[0], 1), steady(corner[1], 1)}).deviation.value, 0);
 }
