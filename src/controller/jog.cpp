@@ -1,19 +1,13 @@
 #include "passo/controller/jog.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "passo/controller/stage_options.hpp"
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
-
-double norm(const Point& vector) {
-  double sum = 0;
-  for (const double value : vector.values) sum += value * value;
-  return std::sqrt(sum);
-}
 
 StepOptions steps_from(const MachineDescription& description, const Point& start) {
   StepOptions options = step_options(description);
@@ -32,7 +26,7 @@ bool Jog::Line::next(PathItem& item) {
 
 Jog::Line::Line(const MachineDescription& description, const Point& from, const JogRequest& request)
     : start(from), target(from), speed(request.speed) {
-  const double length = norm(request.direction);
+  const double length = length_of(request.direction);
   if (!(length > 0)) return;
   double way = request.distance > Mm(0) ? request.distance.value() : std::numeric_limits<double>::infinity();
   for (const AxisDescription& axis : description.axes) {

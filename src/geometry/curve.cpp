@@ -1,32 +1,15 @@
 #include "passo/geometry/curve.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::array first_linear = {Axis::x, Axis::y, Axis::z};
-constexpr std::array second_linear_axes = {Axis::u, Axis::v, Axis::w};
-constexpr std::array rotary_axes = {Axis::a, Axis::b, Axis::c};
-
-double length_over(const Point& vector, const auto& axes) {
-  double sum = 0;
-  for (const Axis axis : axes) sum += vector[axis] * vector[axis];
-  return std::sqrt(sum);
-}
-
-// The first of the three groups of axes that moves at all counts.
-double counted_length(const Point& travel) {
-  const double linear = length_over(travel, first_linear);
-  if (linear > 0) return linear;
-  const double second_linear = length_over(travel, second_linear_axes);
-  if (second_linear > 0) return second_linear;
-  return length_over(travel, rotary_axes);
-}
 
 double low_angle(const Curve::ArcData& arc) {
   return std::min(arc.start_angle, arc.start_angle + arc.sweep);
@@ -109,7 +92,7 @@ Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, 
   Point travel = end - start;
   travel[first] = 0;
   travel[second] = 0;
-  const double along = length_over(travel, first_linear);
+  const double along = length_in(travel, CountedGroup::xyz);
   const double around = (arc.start_radius + arc.end_radius) / 2 * std::abs(sweep);
   const double outward = arc.end_radius - arc.start_radius;
   curve.length_ = std::sqrt(around * around + outward * outward + along * along);
@@ -219,6 +202,24 @@ Point Curve::second_derivative(Mm s) const {
   return second;
 }
 
+Point Curve::third_derivative(Mm s) const {
+  Point third;
+  if (shape_ == Shape::cubic) {
+    third = cube_ * 6;
+  } else if (shape_ == Shape::arc && length_ > 0) {
+    // P = r (cos t, sin t) with r and t linear in s: P''' = -3 r' t'² (cos t, sin t) - r t'³ (-sin t, cos t).
+    const double turn = arc_.sweep / length_;
+    const double growth = (arc_.end_radius - arc_.start_radius) / length_;
+    const double radius = arc_.start_radius + growth * s.value();
+    const double angle = arc_.start_angle + turn * s.value();
+    const double out = -3 * growth * turn * turn;
+    const double along = -radius * turn * turn * turn;
+    third[arc_.first] = out * std::cos(angle) - along * std::sin(angle);
+    third[arc_.second] = out * std::sin(angle) + along * std::cos(angle);
+  }
+  return third;
+}
+
 // A cubic's slope is largest at an end or where its change is nothing.
 Point Curve::steepest_of_cubic() const {
   Point steepest;
@@ -253,8 +254,7 @@ Point Curve::steepest() const {
 double Curve::curvature() const {
   if (shape_ == Shape::line || !(length_ > 0)) return 0;
   if (shape_ == Shape::cubic) {
-    return std::max(length_over(second_derivative(Mm(0)), all_axes),
-                    length_over(second_derivative(length()), all_axes));
+    return std::max(length_of(second_derivative(Mm(0))), length_of(second_derivative(length())));
   }
   // r'' = 0 and angle'' = 0, so that what is left is the pull to the centre and, in a spiral, the sideways part.
   const double turning = arc_.sweep / length_;

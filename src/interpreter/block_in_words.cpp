@@ -130,7 +130,7 @@ class Meanings {
   static std::string of_code(const WordValue& word) {
     const CodeEntry* const entry = code_of(word);
     if (entry == nullptr) return "no code of the language";
-    return std::string(entry->what) + (entry->support == Support::yes ? "" : ", which is not supported yet");
+    return std::string(entry->what);
   }
 
   std::string of_feed(double value) const {

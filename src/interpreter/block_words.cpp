@@ -47,12 +47,6 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
                    guess.empty() ? "a code of docs/gcode.md" : fmt::format("{}, perhaps", guess));
     return false;
   }
-  if (entry->support != Support::yes) {
-    reporter.error("gcode.unsupported-code", word.span,
-                   fmt::format("{} ({}) is not supported yet", spelling(*entry), entry->what),
-                   "a code of docs/gcode.md");
-    return false;
-  }
   const std::size_t group = index_of(entry->group);
   // G80 gives way to another motion: `G17 G40 G80 G0` is how many programs begin.
   if (entry->group == ModalGroup::motion && codes_[group] != nullptr) {

@@ -80,7 +80,6 @@ inline constexpr LetterSet axis_letters = "XYZABCUVW";
 inline constexpr LetterSet polar_letters = "@^";
 
 enum class AxisUse : std::uint8_t { none, may, must };
-enum class Support : std::uint8_t { yes, not_yet };
 
 struct CodeEntry {
   char letter = 'G';
@@ -88,8 +87,7 @@ struct CodeEntry {
   ModalGroup group = ModalGroup::non_modal;
   AxisUse axes = AxisUse::none;  // what it does with axis words
   LetterSet letters;             // the other words it uses
-  Support support = Support::yes;
-  std::string_view what;  // a few words for messages
+  std::string_view what;         // a few words for messages
 };
 
 // Null where the language has no such code.

@@ -97,13 +97,13 @@ struct Translation {
 constexpr Translation translations[] = {
     {"gcode.unexpected-text", 1}, {"gcode.bad-character", 1},       {"gcode.unknown-word", 1},
     {"gcode.missing-value", 2},   {"gcode.number-out-of-range", 2}, {"gcode.negative-word", 4},
-    {"gcode.line-too-long", 11},  {"gcode.unknown-code", 20},       {"gcode.unsupported-code", 20},
-    {"gcode.modal-conflict", 21}, {"gcode.missing-feed", 22},       {"gcode.not-whole", 23},
-    {"gcode.axis-conflict", 24},  {"gcode.ambiguous-word", 36},     {"gcode.repeated-word", 25},
-    {"gcode.missing-axis", 26},   {"gcode.missing-word", 28},       {"gcode.g53-without-move", 30},
-    {"gcode.missing-motion", 31}, {"gcode.wrong-center", 36},       {"gcode.arc-radii-differ", 33},
-    {"gcode.zero-arc", 33},       {"gcode.impossible-arc", 34},     {"gcode.missing-center", 35},
-    {"gcode.mixed-arc", 36},      {"gcode.unused-word", 36},
+    {"gcode.line-too-long", 11},  {"gcode.unknown-code", 20},       {"gcode.modal-conflict", 21},
+    {"gcode.missing-feed", 22},   {"gcode.not-whole", 23},          {"gcode.axis-conflict", 24},
+    {"gcode.ambiguous-word", 36}, {"gcode.repeated-word", 25},      {"gcode.missing-axis", 26},
+    {"gcode.missing-word", 28},   {"gcode.g53-without-move", 30},   {"gcode.missing-motion", 31},
+    {"gcode.wrong-center", 36},   {"gcode.arc-radii-differ", 33},   {"gcode.zero-arc", 33},
+    {"gcode.impossible-arc", 34}, {"gcode.missing-center", 35},     {"gcode.mixed-arc", 36},
+    {"gcode.unused-word", 36},
 };
 
 const Error& error_of(int number) {

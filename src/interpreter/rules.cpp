@@ -104,7 +104,6 @@ constexpr Rule table[] = {
     {"gcode.unknown-sub", "LinuxCNC manual, O Codes: Calling Files"},
     {"gcode.unknown-tool", "LinuxCNC manual, Tool Compensation: Tool Table"},
     {"gcode.unknown-word", "RS274/NGC 3.3.2, word"},
-    {"gcode.unsupported-code", "Passo, docs/gcode.md: Differences from LinuxCNC"},
     {"gcode.unused-feed", "RS274/NGC 3.5.19, set feed rate mode"},
     {"gcode.unused-in-contour", "LinuxCNC manual, G-codes: G71 G72 Lathe roughing cycles"},
     {"gcode.unused-word", "Passo, docs/gcode.md: Order in a block"},

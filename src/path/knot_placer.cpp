@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-#include "euclid.hpp"
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {

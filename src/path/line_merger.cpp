@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "euclid.hpp"
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "euclid.hpp"
 #include "tube_spline.hpp"
+
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {

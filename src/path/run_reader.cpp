@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "euclid.hpp"
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {

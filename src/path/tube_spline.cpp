@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "euclid.hpp"
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {

@@ -9,10 +9,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// What no machine does; it keeps a segment finite that no axis limits.
-constexpr double fastest = 1e6;
-constexpr double strongest = 1e9;
-
 // The most that the path turns in a cell, in radians. What is taken off the limits grows with its square: on an arc
 // it is about (3/4) turn², on a cubic as much again for the change of its bend.
 constexpr double turn_a_cell_of_arc = 0.04;
@@ -35,12 +31,6 @@ constexpr double room_for_override = 2;
 
 double squared(double value) {
   return value * value;
-}
-
-double norm(const Point& vector) {
-  double sum = 0;
-  for (const double value : vector.values) sum += value * value;
-  return std::sqrt(sum);
 }
 
 // The largest k for which k·|direction| stays within `limit` on every axis.
@@ -77,8 +67,7 @@ void CellCutter::begin(const Segment& segment) {
     longest_ = std::min({length / 2, by_turn, std::max(braking * braking_share, length * length_share)});
     shortest_ = std::clamp(braking * braking_share, longest_ / 64, longest_);
   } else {
-    const double turn =
-        length * std::max(norm(curve.second_derivative(Mm(0))), norm(curve.second_derivative(curve.length())));
+    const double turn = length * curve.curvature();
     const double by_turn = length * turn_a_cell_of_cubic / std::max(turn, turn_a_cell_of_cubic);
     const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share));
     longest_ = shortest_ = length / std::ceil(length / wanted);

@@ -8,21 +8,12 @@ namespace passo {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double fastest = 1e6;
-constexpr double strongest = 1e9;
-constexpr double sharpest = 1e13;
 
 constexpr double cells_a_ramp = 8;      // while the acceleration goes from 0 to its limit
 constexpr double cells_a_braking = 64;  // at least this fine against the time that braking takes
 constexpr double turn_a_cell = 0.1;     // radians
 constexpr double most_cells = 20'000;   // of a segment
 constexpr double fewest_from_rest = 8;  // of a segment that begins or ends at rest
-
-double norm(const Point& vector) {
-  double sum = 0;
-  for (const double value : vector.values) sum += value * value;
-  return std::sqrt(sum);
-}
 
 double limit_or_infinity(double limit) {
   return limit > 0 ? limit : infinity;
@@ -45,23 +36,8 @@ std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits) {
 }
 
 JerkCutter::Derivatives JerkCutter::derivatives(const Curve& curve, double s) {
-  Derivatives all{.first = curve.tangent(Mm(s)), .second = curve.second_derivative(Mm(s)), .third = {}};
-  if (curve.shape() == Curve::Shape::cubic) {
-    all.third = curve.cubic_data().third * 6;
-  } else if (curve.shape() == Curve::Shape::arc) {
-    // P = r (cos t, sin t) with r and t linear in s: P''' = -3 r' t'² (cos t, sin t) - r t'³ (-sin t, cos t).
-    const Curve::ArcData& arc = curve.arc_data();
-    const double length = curve.length().value();
-    const double turn = arc.sweep / length;
-    const double growth = (arc.end_radius - arc.start_radius) / length;
-    const double radius = arc.start_radius + growth * s;
-    const double angle = arc.start_angle + turn * s;
-    const double out = -3 * growth * turn * turn;
-    const double along = -radius * turn * turn * turn;
-    all.third[arc.first] = out * std::cos(angle) - along * std::sin(angle);
-    all.third[arc.second] = out * std::sin(angle) + along * std::cos(angle);
-  }
-  return all;
+  return {
+      .first = curve.tangent(Mm(s)), .second = curve.second_derivative(Mm(s)), .third = curve.third_derivative(Mm(s))};
 }
 
 void JerkCutter::begin(const Segment& segment, double entry_squared, double exit_squared) {
@@ -88,7 +64,7 @@ void JerkCutter::begin(const Segment& segment, double entry_squared, double exit
   if (curve.shape() == Curve::Shape::arc) {
     turn = std::abs(curve.arc_data().sweep);
   } else if (curve.shape() == Curve::Shape::cubic) {
-    turn = length_ * std::max(norm(curve.second_derivative(Mm(0))), norm(curve.second_derivative(curve.length())));
+    turn = length_ * curve.curvature();
   }
   if (turn > turn_a_cell) longest_ = length_ * turn_a_cell / turn;
   shortest_ = length_ / most_cells;

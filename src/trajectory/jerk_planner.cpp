@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rest.hpp"
+
 namespace passo {
 namespace {
 
@@ -81,17 +83,9 @@ void JerkPlanner::pull() {
     return;
   }
   const Segment& segment = segments_[cut_];
-  if (cut_ > 0 || profile_.size() > 0) {
-    const Segment& before = segments_[cut_ - 1];
-    begins_at_rest_ = before.mode == PathMode::exact_stop || has_corner(before.curve, segment.curve);
-  } else {
-    begins_at_rest_ = true;
-  }
-  double exit = 0;
-  if (segments_.size() > cut_ + 1 && segment.mode != PathMode::exact_stop) {
-    const Segment& after = segments_[cut_ + 1];
-    if (!has_corner(segment.curve, after.curve)) exit = cutter_.joint_cap(segment, after);
-  }
+  begins_at_rest_ = cut_ == 0 || rests_between(segments_[cut_ - 1], segment);
+  const bool ends_at_rest = segments_.size() == cut_ + 1 || rests_between(segment, segments_[cut_ + 1]);
+  const double exit = ends_at_rest ? 0 : cutter_.joint_cap(segment, segments_[cut_ + 1]);
   estimate_ = begins_at_rest_ ? 0 : std::min(estimate_, cutter_.joint_cap(segments_[cut_ - 1], segment));
   cutter_.begin(segment, estimate_, exit);
   cutting_ = true;

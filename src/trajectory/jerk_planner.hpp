@@ -45,7 +45,4 @@ class JerkPlanner final : public Source<MotionItem> {
   std::vector<AxisShape> shapes_;
 };
 
-// Where the directions of two segments differ by more than rounding the path has a corner, and rests there.
-bool has_corner(const Curve& before, const Curve& after);
-
 }  // namespace passo

@@ -10,14 +10,12 @@
 #include "cell.hpp"
 #include "cell_queue.hpp"
 #include "jerk_planner.hpp"
+#include "rest.hpp"
 #include "speed_profile.hpp"
 #include "speed_window.hpp"
 
 namespace passo {
 namespace {
-
-// Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
-constexpr double tangent_tolerance = 1e-6;
 
 // Of squares of speeds, relative: less is what arithmetic makes of equal ones.
 constexpr double rounding = 1e-9;
@@ -51,12 +49,6 @@ std::size_t falling_axes(const MotionLimits& limits) {
 }
 
 }  // namespace
-
-bool has_corner(const Curve& before, const Curve& after) {
-  const Point change = after.tangent(Mm(0)) - before.tangent(before.length());
-  return std::any_of(change.values.begin(), change.values.end(),
-                     [](double part) { return std::abs(part) > tangent_tolerance; });
-}
 
 class Planner::Implementation {
  public:
@@ -129,8 +121,7 @@ class Planner::Implementation {
   }
 
   void begin(const Segment& segment) {
-    at_rest_ = segments_.empty() || segments_.back().mode == PathMode::exact_stop ||
-               has_corner(segments_.back().curve, segment.curve);
+    at_rest_ = segments_.empty() || rests_between(segments_.back(), segment);
     segments_.push_back(segment);
     cutter_.begin(segments_.back());
     cutting_ = true;

@@ -99,6 +99,26 @@ TEST_F(CommandLine, the_csv_trace_adds_up_to_the_steps_counted) {
   EXPECT_EQ(z, -640);
 }
 
+TEST_F(CommandLine, a_hold_stops_for_good_or_for_as_long_as_was_said) {
+  const std::string program = "G21 G1 X50 F600\nM2\n";
+  const auto whole = nlohmann::json::parse(run_text(program, "--json").out);
+  const auto stopped = nlohmann::json::parse(run_text(program, "--json --hold-at 1").out);
+  EXPECT_LT(stopped["steps"]["X"]["total"], whole["steps"]["X"]["total"]);
+  const auto paused = nlohmann::json::parse(run_text(program, "--json --hold-at 1:2 --override 150@3.5").out);
+  EXPECT_EQ(paused["steps"]["X"]["total"], whole["steps"]["X"]["total"]);
+  EXPECT_EQ(paused["holds"].size(), 1);
+}
+
+TEST_F(CommandLine, a_hold_or_an_override_that_makes_no_sense_is_refused) {
+  for (const char* option :
+       {"--hold-at inf", "--hold-at -1", "--hold-at nan", "--hold-at 1:inf", "--hold-at 1:1e300",
+        "--hold-at 1:", "--override 100", "--override 0@1", "--override 201@1", "--override 50@inf"}) {
+    const Outcome outcome = run_text("G21 G1 X1 F600\nM2\n", option);
+    EXPECT_EQ(outcome.code, 2) << option;
+    EXPECT_NE(outcome.err.find("expected --"), std::string::npos) << option << outcome.err;
+  }
+}
+
 TEST_F(CommandLine, an_existing_picture_survives_a_program_that_is_wrong) {
   write("a.png", "precious");
   const Outcome outcome = run_text("G21 G1 X1\nM2\n", "--picture " + path("a.png"));

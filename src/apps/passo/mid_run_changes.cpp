@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <string_view>
+
+#include "program_input.hpp"
 
 namespace passo {
 namespace {
 
 constexpr double least_percent = 1;
 constexpr double most_percent = 200;
+// A time beyond it is a slip of the pen, and would not fit a clock of ticks.
+constexpr double most_seconds = 1e6;
 
 std::optional<double> number(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size() && value >= 0;
+  const bool good = error == std::errc() && end == text.data() + text.size() && value >= 0 && value <= most_seconds;
   return good ? std::optional(value) : std::nullopt;
 }
 
@@ -25,11 +28,6 @@ std::optional<std::pair<double, double>> pair_of(std::string_view text, char bet
   const std::optional<double> second = number(text.substr(at + 1));
   if (!first || !second) return std::nullopt;
   return std::pair(*first, *second);
-}
-
-std::nullopt_t refuse(const std::string& text, const char* expected) {
-  std::fprintf(stderr, "passo: error: '%s': expected %s\n", text.c_str(), expected);
-  return std::nullopt;
 }
 
 }  // namespace
@@ -43,13 +41,15 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
     } else if (const auto both = pair_of(text, ':')) {
       changes.changes_.push_back({.at = Seconds(both->first), .pause = Seconds(both->second)});
     } else {
-      return refuse(text, "--hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
+      refuse("'" + text + "': expected --hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
+      return std::nullopt;
     }
   }
   for (const std::string& text : overrides) {
     const auto both = pair_of(text, '@');
     if (!both || both->first < least_percent || both->first > most_percent) {
-      return refuse(text, "--override PERCENT@SECONDS, with 1 to 200 percent");
+      refuse("'" + text + "': expected --override PERCENT@SECONDS, with 1 to 200 percent");
+      return std::nullopt;
     }
     changes.changes_.push_back({.at = Seconds(both->second), .factor = both->first / 100});
   }

@@ -296,6 +296,25 @@ TEST_F(RandomCubics, meet_their_ends_and_the_slopes_there) {
   }
 }
 
+// Of a cubic and of a spiral, against differences of the second one.
+TEST_F(RandomCubics, and_spirals_have_the_third_derivative_of_their_bend) {
+  for (int n = 0; n < 1000; ++n) {
+    const Point start = point_of(3 + value_(random_) / 5, 0, value_(random_));
+    const Point end = point_of(0, 4 + value_(random_) / 5, value_(random_));
+    const Curve spiral = Curve::arc(start, end, Axis::x, Axis::y, 0, 0, std::numbers::pi / 2);
+    for (const Curve& curve : {draw(), spiral}) {
+      const double middle = curve.length().value() / 2;
+      const double h = middle * 1e-4;
+      const Point change =
+          (curve.second_derivative(Mm(middle + h)) - curve.second_derivative(Mm(middle - h))) * (0.5 / h);
+      const Point third = curve.third_derivative(Mm(middle));
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        ASSERT_NEAR(third[axis], change[axis], 1e-5 * (1 + std::abs(change[axis])));
+      }
+    }
+  }
+}
+
 TEST_F(RandomCubics, extents_and_steepest_hold_and_are_touched) {
   for (int n = 0; n < 300; ++n) {
     const Curve curve = draw();

@@ -65,6 +65,7 @@ class Curve {
   Point tangent(Mm s) const;
   // d²P/ds².
   Point second_derivative(Mm s) const;
+  Point third_derivative(Mm s) const;
   // The largest |dP/ds| of each axis anywhere on the curve.
   Point steepest() const;
   // 1/r of the projection on the arc's plane, per mm of s squared: |d²P/ds²| in the plane, at most; 0 for a

@@ -7,6 +7,11 @@
 
 namespace passo {
 
+// What no machine does, in mm and seconds; it keeps a segment finite that no axis limits.
+inline constexpr double fastest = 1e6;
+inline constexpr double strongest = 1e9;
+inline constexpr double sharpest = 1e13;
+
 struct MotionLimits {
   PerAxis<MmPerSecond> velocity;
   PerAxis<MmPerSecond2> acceleration;

@@ -1,5 +1,5 @@
-// Length and product over all nine axes, millimetres and degrees alike: the tube around a path is measured so. And
-// over the axes that count as the length of a path.
+// Length and product over all nine axes, millimetres and degrees alike: bends, and the tube around a path, are measured
+// so. And over the axes that count as the length of a path.
 #pragma once
 
 #include <cmath>
@@ -32,6 +32,9 @@ inline double length_in(const Point& travel, CountedGroup group) {
 inline CountedGroup counted_group(const Point& travel) {
   if (length_in(travel, CountedGroup::xyz) > 0) return CountedGroup::xyz;
   return length_in(travel, CountedGroup::uvw) > 0 ? CountedGroup::uvw : CountedGroup::abc;
+}
+inline double counted_length(const Point& travel) {
+  return length_in(travel, counted_group(travel));
 }
 
 }  // namespace passo

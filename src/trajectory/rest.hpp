@@ -1,0 +1,21 @@
+// Where a path has to rest between two of its segments. Private to trajectory/.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+// Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
+inline constexpr double tangent_tolerance = 1e-6;
+
+inline bool rests_between(const Segment& before, const Segment& after) {
+  if (before.mode == PathMode::exact_stop) return true;
+  const Point change = after.curve.tangent(Mm(0)) - before.curve.tangent(before.curve.length());
+  return std::any_of(change.values.begin(), change.values.end(),
+                     [](double part) { return std::abs(part) > tangent_tolerance; });
+}
+
+}  // namespace passo
