@@ -4,6 +4,7 @@
 //
 // Prints figures; decides nothing.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -50,19 +51,60 @@ void measure(const std::string& path, const MachineDescription& machine) {
               static_cast<double>(job.link().bytes_sent()) / machine_time / 1e3);
 }
 
-void measure_memory() {
-  const fs::path path = fs::temp_directory_path() / ("passo-two-million-" + std::to_string(getpid()) + ".ngc");
-  {
-    std::ofstream file(path);
-    file << "G21 G90 F3000\n";
-    for (int i = 0; i < 2'000'000; ++i) {
-      file << "G1 X" << (i % 2000) * 0.01 << " Y" << (i / 2000) * 0.05 << " Z" << -((i * 7) % 13) * 0.01 << "\n";
-    }
-    file << "M2\n";
+// A program of our own in the folder for such, removed at the end.
+class GeneratedProgram {
+ public:
+  explicit GeneratedProgram(const std::string& name)
+      : path_(fs::temp_directory_path() / (name + "-" + std::to_string(getpid()) + ".ngc")), file_(path_) {
+    file_ << "G21 G90 G0 Z5\nF3000\n";
   }
-  const Cost cost = cost_of({PASSO_PROGRAM, "run", path.string(), "-m", router, "-q"});
+  ~GeneratedProgram() { fs::remove(path_); }
+  GeneratedProgram(const GeneratedProgram&) = delete;
+  GeneratedProgram& operator=(const GeneratedProgram&) = delete;
+
+  std::ostream& line() { return file_ << "G1"; }
+  std::string finish() {
+    file_ << "G0 Z5\nM2\n";
+    file_.close();
+    return path_.string();
+  }
+
+ private:
+  fs::path path_;
+  std::ofstream file_;
+};
+
+// A surface of hills and furrows in rows of a thousand moves of 0.2 mm, there and back.
+void write_relief(GeneratedProgram& program, int moves) {
+  constexpr int a_row = 1000;
+  const int rows = moves / a_row;
+  for (int i = 0; i < moves; ++i) {
+    const int row = i / a_row;
+    const int column = row % 2 == 0 ? i % a_row : a_row - 1 - i % a_row;
+    const double x = column * 0.2;
+    const double y = row * 200.0 / rows;
+    const double z = -2 + std::sin(x / 7) * std::cos(y / 11) + 0.3 * std::sin(x / 2.1 + y / 3) - 0.01 * (i % 3);
+    program.line() << " X" << x << " Y" << y << " Z" << z << "\n";
+  }
+}
+
+void measure_generated(const MachineDescription& machine) {
+  std::printf("\nthe same with 400 steps/mm\n");
+  GeneratedProgram relief("passo-relief-of-200000-moves");
+  write_relief(relief, 200'000);
+  measure(relief.finish(), machine);
+  GeneratedProgram long_moves("passo-long-moves");
+  for (int i = 0; i < 1000; ++i) {
+    long_moves.line() << " X" << (i % 2 == 0 ? 200 : 0) << " Y" << i * 0.03 << " Z" << -(i % 7) * 0.5 << "\n";
+  }
+  measure(long_moves.finish(), machine);
+}
+
+void measure_memory() {
+  GeneratedProgram program("passo-two-million");
+  write_relief(program, 2'000'000);
+  const Cost cost = cost_of({PASSO_PROGRAM, "run", program.finish(), "-m", router, "-q"});
   std::printf("\ntwo million lines            %10.1f s wall, %.1f MiB at most\n", cost.seconds, cost.mebibytes);
-  fs::remove(path);
 }
 
 void measure_start() {
@@ -95,6 +137,10 @@ int main(int argc, char** argv) {
               "events", "on the wire");
   std::printf("%-28s %12s %12s %11s %13s %9s %15s\n", "", "time", "", "", "a CPU second", "a frame", "");
   for (const std::string& program : programs) measure(program, *machine);
+  if (argc > 1) return 0;
+  const auto bench = load_machine_file((source_dir / "examples" / "machines" / "bench.toml").string(), diagnostics);
+  if (!bench) return 1;
+  measure_generated(*bench);
   measure_memory();
   measure_start();
   return 0;

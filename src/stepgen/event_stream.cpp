@@ -1,5 +1,6 @@
 #include "event_stream.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,7 +11,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // A move's events stay between these multiples of the slow rate; outside, a new stretch divides more or less finely.
 constexpr double rate_before_finer = 0.5;
 constexpr double rate_before_coarser = 4;
-constexpr double slow_share = 1.0 / 16;  // of the board's highest event rate
+// Where the grid is made finer: a share of the board's highest event rate, but not above what is fine enough anyway.
+constexpr double slow_share = 1.0 / 16;
+constexpr double fine_enough = 10'000;
 constexpr std::int64_t finest_grid = whole_step / 256;
 constexpr double turn_an_event = 0.25;  // radians
 // Another motor must be this much faster before it becomes the master.
@@ -24,7 +27,7 @@ EventStream::EventStream(const StepOptions& options)
     : options_(options),
       tick_rate_(options.clock.tick_rate.value()),
       shortest_interval_(std::llround(options.clock.tick_rate / options.clock.highest_event_rate * whole_tick)),
-      slow_rate_(options.clock.highest_event_rate.value() * slow_share) {
+      slow_rate_(std::min(options.clock.highest_event_rate.value() * slow_share, fine_enough)) {
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     end_[m] = place_of(options_.motors[m], options_.start);
   }
@@ -77,15 +80,18 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   return true;
 }
 
-// Events come neither so slowly nor so fast that another division would be better.
-bool EventStream::rate_fits() const {
+// Where events come neither so slowly nor so fast that another division would be better.
+EventStream::FittingRates EventStream::fitting_rates() const {
   const auto squared = [](double x) { return x * x; };
-  const double rate = rate_squared(std::fabs(path_.slope(stretch_.master, spot_)));
   const double slow = slow_rate_ * static_cast<double>(stretch_.grid);
-  if (stretch_.grid < whole_step && rate > squared(rate_before_coarser * slow)) {
-    return stretch_.grid >= coarsest_grid(stretch_.master);
-  }
-  return rate > squared(rate_before_finer * slow) || stretch_.grid == finest_grid;
+  return {.above = stretch_.grid == finest_grid ? -1 : squared(rate_before_finer * slow),
+          .most = stretch_.grid == whole_step ? infinity : squared(rate_before_coarser * slow)};
+}
+
+bool EventStream::rate_fits() const {
+  const double rate = rate_squared(std::fabs(path_.slope(stretch_.master, spot_)));
+  const FittingRates rates = fitting_rates();
+  return rates.hold(rate) || (rate > rates.most && stretch_.grid >= coarsest_grid(stretch_.master));
 }
 
 // A step, but on an arc of few steps so little that its direction hardly changes from event to event.
@@ -154,6 +160,7 @@ bool EventStream::push_border(EventBuffer& events) {
   if (!due) return false;
   events.restart(at_last_event_);
   push(fixed_time(moment_.time), events);
+  at_last_event_ = here_;
   return true;
 }
 
@@ -161,7 +168,6 @@ bool EventStream::push_border(EventBuffer& events) {
 void EventStream::push(std::int64_t time, EventBuffer& events) {
   // Two events are never closer than the board can play them: where masters change, the new one may have to wait.
   last_event_ = std::max(time, last_event_ + shortest_interval_);
-  for (unsigned m = 0; m < options_.motor_count; ++m) at_last_event_[m] = here_[m];
   events.push(last_event_, here_, options_.motor_count);
 }
 
@@ -171,6 +177,12 @@ void EventStream::go_to(double s) {
   for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, spot_);
 }
 
+// Going down, the step is the crossing itself: from here on the place lies below the line.
+void EventStream::leave_master_line() {
+  if (stretch_.sign < 0) here_[stretch_.master] -= 0.5;
+  at_last_event_ = here_;
+}
+
 void EventStream::push_master(double target, const MotorPath::Spot& spot, EventBuffer& events) {
   moment_ = clock_.at(spot.s);
   spot_ = spot;
@@ -178,10 +190,38 @@ void EventStream::push_master(double target, const MotorPath::Spot& spot, EventB
     here_[m] = m == stretch_.master ? target : path_.place(m, spot);
   }
   push(fixed_time(moment_.time), events);
-  // Going down, the step is the crossing itself: from here on the place lies below the line.
-  if (stretch_.sign < 0) at_last_event_[stretch_.master] = here_[stretch_.master] -= 0.5;
+  leave_master_line();
   target_ = target + stretch_.sign * static_cast<double>(stretch_.grid);
   in_stretch_ = rate_fits();
+}
+
+// What the loop of fill() does with a line, event by event, as long as its stretch and its phase last: the motors go in
+// proportion and none turns back, so that little is left to do. False when there is nothing of the kind.
+bool EventStream::fill_line(EventBuffer& events) {
+  const double end = std::min(path_.end(), clock_.phase_end());
+  const MotorPath::Line master = path_.line(stretch_.master);
+  const double step = stretch_.sign * static_cast<double>(stretch_.grid);
+  const double slope = std::fabs(master.slope);
+  const FittingRates rates = fitting_rates();
+  const double first_target = target_;
+  bool fits = true;
+  double s = spot_.s;
+  for (std::size_t room = enough_events - events.size(); room > 0 && fits; --room) {
+    const double next = std::max(s, (target_ - master.base) / master.slope);
+    if (next > end) break;
+    s = next;
+    moment_ = clock_.at(s);
+    for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.line(m).at(s);
+    here_[stretch_.master] = target_;
+    push(fixed_time(moment_.time), events);
+    target_ += step;
+    fits = rates.hold(rate_squared(slope));
+  }
+  if (target_ == first_target) return false;
+  leave_master_line();
+  spot_ = path_.at(s);
+  in_stretch_ = fits;
+  return true;
 }
 
 EventStream::Stop EventStream::finish_move() {
@@ -199,6 +239,7 @@ EventStream::Stop EventStream::fill(EventBuffer& events) {
       if (start == Start::nothing_moves) return finish_move();
       if (start == Start::turned) continue;
     }
+    if (path_.is_straight() && fill_line(events)) continue;
     const double s = path_.crossing(stretch_.master, target_, spot_);
     if (s == infinity) {  // turns back before: choose again
       in_stretch_ = false;

@@ -2,10 +2,10 @@
 // the phases at each line of the grid.
 //
 // The master is the motor that moves fastest. Its events come at the lowest power-of-two multiple of its step rate that
-// stays above a sixteenth of the board's highest rate, so that on a slow move the other motors are never late by more
-// than one short event. A stretch goes on from move to move as long as its master leads and its rate fits, so that many
-// short moves make segments as long as one long move does. With fitting and replay about 40 ns an event on a line, 100
-// ns on a cubic, 140 ns on an arc; 15 ns more with jerk.
+// stays above a sixteenth of the board's highest rate or 10 kHz, so that on a slow move the other motors are never late
+// by more than one short event. A stretch goes on from move to move as long as its master leads and its rate fits, so
+// that many short moves make segments as long as one long move does. With fitting and replay about 40 ns an event on a
+// line, 100 ns on a cubic, 140 ns on an arc; 15 ns more with jerk.
 #pragma once
 
 #include <array>
@@ -55,13 +55,23 @@ class EventStream {
     double slope = 0;  // |d place / ds| on the way
   };
 
+  // Squares, as rate_squared() gives them.
+  struct FittingRates {
+    double above = 0;
+    double most = 0;
+    bool hold(double rate) const { return rate > above && rate <= most; }
+  };
+
   Fastest fastest() const;
   Start start_stretch(EventBuffer& events);
   bool push_border(EventBuffer& events);
+  bool fill_line(EventBuffer& events);
+  void leave_master_line();
   void push_master(double target, const MotorPath::Spot& spot, EventBuffer& events);
   void push(std::int64_t time, EventBuffer& events);
   void go_to(double s);
   bool master_leads(const MotorPath::Spot& spot) const;
+  FittingRates fitting_rates() const;
   bool rate_fits() const;
   std::int64_t coarsest_grid(unsigned motor) const;
   double rate_squared(double slope) const;

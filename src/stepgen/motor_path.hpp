@@ -70,6 +70,13 @@ class MotorPath {
   double reach(unsigned motor, const Spot& spot) const;
   bool is_turning(unsigned motor) const { return terms_[motor].way != Way::straight; }
 
+  // Of a motor that goes straight.
+  struct Line {
+    double base = 0;  // place at s = 0
+    double slope = 0;
+    double at(double s) const { return base + slope * s; }
+  };
+  Line line(unsigned motor) const { return {.base = terms_[motor].base, .slope = terms_[motor].scale}; }
   bool is_straight() const { return curve_->shape() == Curve::Shape::line; }
   double end() const { return end_; }
 

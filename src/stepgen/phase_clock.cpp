@@ -25,6 +25,12 @@ void PhaseClock::begin_phase(std::size_t index, double time) {
   time_ = 0;
 }
 
+double PhaseClock::time_with_jerk(double way) const {
+  const ConstantJerk now{motion_.speed_after(time_), motion_.acceleration_after(time_), motion_.jerk};
+  const double guess = time_ + now.soon(way - motion_.way_after(time_));
+  return motion_.time_to(way, duration_, guess, ConstantJerk::rounding * way);
+}
+
 double PhaseClock::duration() const {
   double sum = phase_start_;
   for (std::size_t i = phase_; i < move_->phase_count; ++i) sum += move_->phases[i].duration.value();

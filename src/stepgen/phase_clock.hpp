@@ -24,22 +24,19 @@ class PhaseClock {
   Moment at(double s) {
     while (s > end_ && phase_ + 1 < move_->phase_count) begin_phase(phase_ + 1, phase_start_ + duration_);
     const double way = s - start_;
-    if (motion_.jerk == 0) {
-      time_ = motion_.time_to(way, duration_);
-    } else {
-      const ConstantJerk now{motion_.speed_after(time_), motion_.acceleration_after(time_), motion_.jerk};
-      const double guess = time_ + now.soon(way - motion_.way_after(time_));
-      time_ = motion_.time_to(way, duration_, guess, ConstantJerk::rounding * way);
-    }
+    time_ = motion_.jerk == 0 ? motion_.time_to(way, duration_) : time_with_jerk(way);
     return {.time = phase_start_ + time_,
             .speed = motion_.speed_after(time_),
             .acceleration = motion_.acceleration_after(time_)};
   }
+  // Where on the path the phase of the last call ends.
+  double phase_end() const { return end_; }
   // Of the whole move.
   double duration() const;
   bool ends_at_rest() const;
 
  private:
+  double time_with_jerk(double way) const;
   void begin_phase(std::size_t phase, double time);
 
   const PlannedMove* move_ = nullptr;
