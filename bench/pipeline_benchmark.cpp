@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
+#include "passo/controller/stage_options.hpp"
 
 namespace {
 
@@ -25,28 +26,51 @@ namespace fs = std::filesystem;
 const fs::path source_dir = PASSO_SOURCE_DIR;
 const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
 
+// From text to frames that nobody plays. CPU seconds.
+double time_to_the_wire(const std::string& path, const MachineDescription& machine) {
+  Diagnostics diagnostics;
+  auto program = ProgramReader::open(path);
+  const double start = cpu_seconds(RUSAGE_SELF);
+  const PathOptions path_as = path_options(machine, program->name());
+  Interpreter interpreter(std::move(*program), InterpreterOptions(), diagnostics);
+  PathBuilder builder(interpreter, path_as, diagnostics);
+  PathSmoother smoother(builder);
+  Planner planner(smoother, motion_limits(machine));
+  StepGenerator steps(planner, step_options(machine));
+  const auto motors = static_cast<std::uint8_t>(machine.axes.size());
+  std::uint8_t frame[largest_frame];
+  std::uint8_t sequence = 0;
+  for (BoardItem item; steps.next(item);) {
+    if (const auto* segment = std::get_if<BoardSegment>(&item)) encode(*segment, motors, sequence++, frame);
+  }
+  return cpu_seconds(RUSAGE_SELF) - start;
+}
+
 void measure(const std::string& path, const MachineDescription& machine) {
+  const std::string name = fs::path(path).filename();
   Diagnostics diagnostics;
   auto program = ProgramReader::open(path);
   if (!program) {
-    std::printf("%-28s cannot be read\n", fs::path(path).filename().c_str());
+    std::printf("%-28s cannot be read\n", name.c_str());
     return;
   }
   const double start = cpu_seconds(RUSAGE_SELF);
   Job job(std::move(*program), machine, InterpreterOptions(), diagnostics);
   while (job.advance()) {
   }
-  const double seconds = cpu_seconds(RUSAGE_SELF) - start;
+  const double whole = cpu_seconds(RUSAGE_SELF) - start;
   if (diagnostics.any_error()) {
-    std::printf("%-28s has errors\n", fs::path(path).filename().c_str());
+    std::printf("%-28s has errors\n", name.c_str());
     return;
   }
+  const double to_wire = time_to_the_wire(path, machine);
   const MachineCounts counts = job.machine().counts();
-  std::int64_t steps = 0;
-  for (std::size_t m = 0; m < machine.axes.size(); ++m) steps += counts.motors[m].total;
+  std::int64_t sum = 0;
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) sum += counts.motors[m].total;
+  const auto steps = static_cast<double>(sum);
   const double machine_time = static_cast<double>(job.machine().now().count) / machine.board.clock.value();
-  std::printf("%-28s %10.1f s %12lld %9.3f s %9.2f M/s %9.1f %10.1f kB/s\n", fs::path(path).filename().c_str(),
-              machine_time, static_cast<long long>(steps), seconds, static_cast<double>(steps) / seconds / 1e6,
+  std::printf("%-28s %9.1f s %10.0f %9.3f s %6.1f M/s %9.3f s %6.1f M/s %8.1f %8.1f kB/s\n", name.c_str(), machine_time,
+              steps, to_wire, steps / to_wire / 1e6, whole, steps / whole / 1e6,
               static_cast<double>(counts.events) / static_cast<double>(job.link().frames_sent()),
               static_cast<double>(job.link().bytes_sent()) / machine_time / 1e3);
 }
@@ -55,10 +79,12 @@ void measure(const std::string& path, const MachineDescription& machine) {
 class GeneratedProgram {
  public:
   explicit GeneratedProgram(const std::string& name)
-      : path_(fs::temp_directory_path() / (name + "-" + std::to_string(getpid()) + ".ngc")), file_(path_) {
+      : folder_(fs::temp_directory_path() / ("passo-" + std::to_string(getpid()))), path_(folder_ / (name + ".ngc")) {
+    fs::create_directory(folder_);
+    file_.open(path_);
     file_ << "G21 G90 G0 Z5\nF3000\n";
   }
-  ~GeneratedProgram() { fs::remove(path_); }
+  ~GeneratedProgram() { fs::remove_all(folder_); }
   GeneratedProgram(const GeneratedProgram&) = delete;
   GeneratedProgram& operator=(const GeneratedProgram&) = delete;
 
@@ -70,6 +96,7 @@ class GeneratedProgram {
   }
 
  private:
+  fs::path folder_;
   fs::path path_;
   std::ofstream file_;
 };
@@ -90,10 +117,10 @@ void write_relief(GeneratedProgram& program, int moves) {
 
 void measure_generated(const MachineDescription& machine) {
   std::printf("\nthe same with 400 steps/mm\n");
-  GeneratedProgram relief("passo-relief-of-200000-moves");
+  GeneratedProgram relief("relief of 200000 moves");
   write_relief(relief, 200'000);
   measure(relief.finish(), machine);
-  GeneratedProgram long_moves("passo-long-moves");
+  GeneratedProgram long_moves("long moves");
   for (int i = 0; i < 1000; ++i) {
     long_moves.line() << " X" << (i % 2 == 0 ? 200 : 0) << " Y" << i * 0.03 << " Z" << -(i % 7) * 0.5 << "\n";
   }
@@ -101,7 +128,7 @@ void measure_generated(const MachineDescription& machine) {
 }
 
 void measure_memory() {
-  GeneratedProgram program("passo-two-million");
+  GeneratedProgram program("two million");
   write_relief(program, 2'000'000);
   const Cost cost = cost_of({PASSO_PROGRAM, "run", program.finish(), "-m", router, "-q"});
   std::printf("\ntwo million lines            %10.1f s wall, %.1f MiB at most\n", cost.seconds, cost.mebibytes);
@@ -133,9 +160,9 @@ int main(int argc, char** argv) {
     const fs::path chips = source_dir / ".." / "shared" / "peers" / "linuxcnc" / "programs" / "3D_Chips.ngc";
     if (fs::exists(chips)) programs.push_back(chips.string());
   }
-  std::printf("%-28s %12s %12s %11s %13s %9s %15s\n", "on the router, one core", "machine", "steps", "CPU", "steps",
-              "events", "on the wire");
-  std::printf("%-28s %12s %12s %11s %13s %9s %15s\n", "", "time", "", "", "a CPU second", "a frame", "");
+  std::printf("%-28s %11s %10s %22s %22s %8s %13s\n", "on the router, one core", "machine", "steps",
+              "text to wire, CPU", "and the board, CPU", "events", "on the wire");
+  std::printf("%-28s %11s %10s %11s %10s %11s %10s %8s\n", "", "time", "", "", "steps", "", "steps", "a frame");
   for (const std::string& program : programs) measure(program, *machine);
   if (argc > 1) return 0;
   const auto bench = load_machine_file((source_dir / "examples" / "machines" / "bench.toml").string(), diagnostics);

@@ -13,6 +13,19 @@ constexpr double place_rounding = 1;
 
 }  // namespace
 
+double Parabola::above_zero(double from) const {
+  if (at(from) > 0) return from;
+  const double root = b * b - 4 * c * a;
+  if (root < 0) return std::numeric_limits<double>::infinity();
+  // Both roots without cancellation: q / c and a / q.
+  const double q = -(b + std::copysign(std::sqrt(root), b)) / 2;
+  double first = std::numeric_limits<double>::infinity();
+  for (const double s : {q / c, a / q}) {
+    if (s > from && s < first) first = s;
+  }
+  return first;
+}
+
 CubicPlace::CubicPlace(const Curve& curve, const Motor& motor, double end) : end_(end) {
   const double scale = motor.steps_per_unit * place_per_step;
   const Curve::CubicData cubic = curve.cubic_data();

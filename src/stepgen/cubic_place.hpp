@@ -14,6 +14,17 @@
 
 namespace passo {
 
+// a + b s + c s²
+struct Parabola {
+  double a = 0;
+  double b = 0;
+  double c = 0;
+
+  double at(double s) const { return a + s * (b + s * c); }
+  // The first s >= from where it is above zero, or becomes so; infinity if it never is.
+  double above_zero(double from) const;
+};
+
 class CubicPlace {
  public:
   CubicPlace() = default;
@@ -22,6 +33,8 @@ class CubicPlace {
 
   double at(double s) const { return base_ + s * (first_ + s * (second_ + s * third_)); }
   double slope(double s) const { return first_ + s * (2 * second_ + s * 3 * third_); }
+  // The same as a polynomial.
+  Parabola slope() const { return {first_, 2 * second_, 3 * third_}; }
   // Whether it goes up just behind `s`, on a turning point too.
   bool rises(double s) const { return at(next_end(s)) > at(s); }
 

@@ -61,6 +61,7 @@ void EventStream::start_move(const PlannedMove& move) {
   spot_ = path_.at(move.from().value());
   moment_ = clock_.at(spot_.s);
   in_stretch_ = in_stretch_ && master_leads(spot_) && rate_fits();
+  if (in_stretch_) leads_until_ = path_.leads_until(stretch_.master, stretch_.sign, takeover, spot_.s);
 }
 
 // The square of how many places a second a motor of this slope goes one step from here: close to rest it is that which
@@ -142,6 +143,7 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   }
   events.restart(here_);
   in_stretch_ = true;
+  leads_until_ = path_.leads_until(stretch_.master, stretch_.sign, takeover, spot_.s);
   return Start::done;
 }
 
@@ -248,7 +250,7 @@ EventStream::Stop EventStream::fill(EventBuffer& events) {
     if (s > path_.end()) return finish_move();
     // On a curve another motor may have become the faster one on the way.
     const MotorPath::Spot spot = path_.at(s);
-    const bool leads = path_.is_straight() || master_leads(spot);
+    const bool leads = s <= leads_until_ || master_leads(spot);
     if (!leads && !events.empty()) {
       in_stretch_ = false;
       continue;

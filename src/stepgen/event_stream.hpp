@@ -100,7 +100,8 @@ class EventStream {
 
   bool in_stretch_ = false;
   Stretch stretch_;
-  double target_ = 0;  // the master's next line of the grid
+  double leads_until_ = 0;  // s, as far as is known beforehand
+  double target_ = 0;       // the master's next line of the grid
   std::int64_t last_event_ = INT64_MIN / 2;
 };
 

@@ -19,6 +19,7 @@ void MotorPath::start(const Curve& curve, double end, const StepOptions& options
   curve_ = &curve;
   end_ = end;
   turn_ = 0;
+  motors_ = options.motor_count;
   const bool arc = curve.shape() == Curve::Shape::arc;
   if (arc) start_arc(curve.arc_data(), curve.length().value());
   for (unsigned m = 0; m < options.motor_count; ++m) {
@@ -76,6 +77,29 @@ double MotorPath::travel(unsigned motor, double distance, double from) const {
     case Way::straight: break;
   }
   return term.scale == 0 ? infinity : distance / std::fabs(term.scale);
+}
+
+// Not round.
+Parabola MotorPath::slope_of(unsigned motor) const {
+  const Term& term = terms_[motor];
+  return term.way == Way::cubic ? cubics_[motor].slope() : Parabola{.a = term.scale};
+}
+
+double MotorPath::leads_until(unsigned master, int sign, double takeover, double from) const {
+  if (turn_ != 0) return from;
+  const Parabola own = slope_of(master);
+  const double own_share = -sign * takeover;
+  double until = infinity;
+  for (unsigned m = 0; m < motors_; ++m) {
+    if (m == master) continue;
+    const Parabola other = slope_of(m);
+    for (const double way : {1.0, -1.0}) {
+      const Parabola ahead{way * other.a + own_share * own.a, way * other.b + own_share * own.b,
+                           way * other.c + own_share * own.c};
+      until = std::min(until, ahead.above_zero(from));
+    }
+  }
+  return until;
 }
 
 double MotorPath::reach(unsigned motor, const Spot& spot) const {

@@ -66,6 +66,9 @@ class MotorPath {
   // How much s it takes until the motor is `distance` away from where it is at `from`, turning back or not: what "fast"
   // means also where a motor turns back and its slope is nothing. Infinity if it never gets there.
   double travel(unsigned motor, double distance, double from) const;
+  // How far on from `from` all others are no faster than `master`, which counts in direction `sign`, but for the factor
+  // `takeover`. Only `from` on an arc, where that is to be looked at from place to place.
+  double leads_until(unsigned master, int sign, double takeover, double from) const;
   // The radius on which the motor turns at `spot`, in places; infinity where it goes straight.
   double reach(unsigned motor, const Spot& spot) const;
   bool is_turning(unsigned motor) const { return terms_[motor].way != Way::straight; }
@@ -95,6 +98,7 @@ class MotorPath {
 
   void start_arc(const Curve::ArcData& arc, double length);
   Term straight_term(const Motor& motor) const;
+  Parabola slope_of(unsigned motor) const;
   static Term round_term(const Motor& motor, const Curve::ArcData& arc);
 
   Spot on_circle(double s) const;
@@ -107,6 +111,7 @@ class MotorPath {
   double angle_at(const Term& term, double s) const { return term.angle + turn_ * s; }
   double radius_at(double s) const { return radius_ + growth_ * s; }
 
+  unsigned motors_ = 0;
   std::array<Term, max_motors> terms_;
   std::array<CubicPlace, max_motors> cubics_;  // of those that go along one
   const Curve* curve_ = nullptr;
