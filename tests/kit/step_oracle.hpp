@@ -96,26 +96,26 @@ inline long double exact_time(const PlannedMove& move, long double s) {
   return time;
 }
 
-// Where an axis of an arc's plane turns back.
+// Where an axis of an arc's plane turns back: the sign of its slope changes, at most once from sample to sample.
 inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& curve) {
-  std::vector<long double> turns;
+  const Curve::ArcData& arc = curve.arc_data();
   const long double length = curve.length().value();
-  const int samples = 64 + static_cast<int>(std::fabs(curve.arc_data().sweep) * 64);
-  const auto place = [&](long double s) { return exact_place(motor, curve, s); };
-  for (int i = 1; i < samples; ++i) {
-    const long double step = length / samples;
-    const long double at = step * i;
-    const bool was_rising = place(at) > place(at - step);
-    if ((place(at + step) > place(at)) == was_rising) continue;
-    // The slope changes its sign in here: ternary search.
-    long double low = at - step;
-    long double high = at + step;
-    for (int k = 0; k < 120; ++k) {
-      const long double a = low + (high - low) / 3;
-      const long double b = high - (high - low) / 3;
-      ((place(a) < place(b)) == was_rising ? low : high) = (place(a) < place(b)) == was_rising ? a : b;
-    }
-    turns.push_back((low + high) / 2);
+  const long double turn = arc.sweep / length;
+  const long double growth = (static_cast<long double>(arc.end_radius) - arc.start_radius) / length;
+  const auto rises = [&](long double s) {
+    const long double angle = arc.start_angle + turn * s;
+    const long double around = (arc.start_radius + growth * s) * turn;
+    const long double slope = motor.axis == arc.first ? growth * std::cos(angle) - around * std::sin(angle)
+                                                      : growth * std::sin(angle) + around * std::cos(angle);
+    return (slope > 0) == (motor.steps_per_unit > 0);
+  };
+  const int samples = 64 + static_cast<int>(std::fabs(arc.sweep) * 64);
+  std::vector<long double> turns;
+  for (int i = 0; i < samples; ++i) {
+    const long double low = length * i / samples;
+    const long double high = length * (i + 1) / samples;
+    const bool rose = rises(low);
+    if (rises(high) != rose) turns.push_back(bisect([&](long double s) { return rises(s) == rose; }, low, high));
   }
   return turns;
 }
