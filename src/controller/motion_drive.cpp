@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace passo {
 namespace {
@@ -33,11 +34,21 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       step_generator_(watched_motion_, steps),
       watched_board_(step_generator_),
       link_(machine, steps.motor_count),
+      probe_(link_, steps),
       rested_(now()) {
-  watched_motion_.watch([this](const MotionItem& item) { planned_ += time_of(item); });
+  watched_motion_.watch([this](const MotionItem& item) {
+    planned_ += time_of(item);
+    const auto* move = std::get_if<PlannedMove>(&item);
+    if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
+  });
 }
 
 void MotionDrive::go_live(const LiveOptions& options) {
+  live_ = options;
+  commit_by(options);
+}
+
+void MotionDrive::commit_by(const LiveOptions& options) {
   horizon_ = options.horizon;
   planner_.limit_moves_to(options.longest_move);
   step_generator_.limit_waiting_to(options.longest_move);
@@ -46,6 +57,7 @@ void MotionDrive::go_live(const LiveOptions& options) {
 bool MotionDrive::advance() {
   if (state_ == State::ended) return false;
   if (state_ == State::held) return true;
+  look_at_probe();
   if (committed() >= horizon_ && link_.busy()) {
     link_.wait();
   } else if (watched_board_.next(item_)) {
@@ -59,7 +71,48 @@ bool MotionDrive::advance() {
 void MotionDrive::send(const BoardItem& item) {
   if (const auto* segment = std::get_if<BoardSegment>(&item)) return link_.send(*segment);
   const auto& action = std::get<Action>(item);
-  if (action.kind != Action::Kind::feed_hold) return link_.send(board_outputs(action.outputs));
+  switch (action.kind) {
+    case Action::Kind::probe_begin: return begin_probe(action);
+    case Action::Kind::probe_end: return end_probe(action);
+    case Action::Kind::feed_hold: return rest_in_feed_hold();
+    default: return link_.send(board_outputs(action.outputs));
+  }
+}
+
+void MotionDrive::look_at_probe() {
+  if (contact_seen_ || !probe_.contact()) return;
+  contact_seen_ = true;
+  if (probe_.is_running()) {
+    probe_brakes_ = true;
+    planner_.hold();
+  } else {
+    stopped_by_probe_ = true;
+    stop();
+  }
+}
+
+void MotionDrive::begin_probe(const Action& action) {
+  link_.drain();
+  probe_.begin(action);
+  contact_seen_ = false;
+  end_of_probe_.reset();
+  commit_by(probing_options);
+}
+
+void MotionDrive::end_probe(const Action& action) {
+  probe_.end(end_of_probe_.value_or(action.place));
+  commit_by(live_);
+  contact_seen_ = false;
+  // The contact may have come when the path was at its end already.
+  if (std::exchange(probe_brakes_, false) && state_ == State::running) planner_.resume();
+}
+
+void MotionDrive::rest_in_feed_hold() {
+  if (probe_brakes_) {
+    probe_brakes_ = false;
+    planner_.drop_to_action();
+    if (state_ == State::running) planner_.resume();
+  }
   // One that was resumed before it came to rest is none.
   if (state_ == State::holding) rest_in_hold();
 }
@@ -88,7 +141,7 @@ void MotionDrive::hold() {
 
 void MotionDrive::resume() {
   if (stopping_ || (state_ != State::holding && state_ != State::held)) return;
-  planner_.resume();
+  if (!probe_brakes_) planner_.resume();
   state_ = State::running;
 }
 

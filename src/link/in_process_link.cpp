@@ -7,6 +7,7 @@
 namespace passo {
 
 InProcessLink::InProcessLink(BoardPort& port, std::uint8_t motors) : port_(port), motors_(motors) {
+  decoder_.set_motors(motors);
   say_hello();
 }
 
@@ -36,6 +37,13 @@ void InProcessLink::send(const BoardOutputs& outputs) {
   put_on_wire(frame, encode(outputs, ++last_sent_, frame));
 }
 
+void InProcessLink::send(const ProbeWatch& watch) {
+  if (!wait_for_credit()) return;
+  probe_report_.reset();
+  std::uint8_t frame[largest_frame];
+  put_on_wire(frame, encode(watch, ++last_sent_, frame));
+}
+
 void InProcessLink::drain() {
   while (!error_ && busy() && listen()) {
   }
@@ -43,7 +51,9 @@ void InProcessLink::drain() {
 
 void InProcessLink::wait() {
   const std::uint8_t before = last_executed_;
-  while (!error_ && busy() && last_executed_ == before && listen()) {
+  const auto touched = [this] { return probe_report_ && probe_report_->happened; };
+  const bool touched_before = touched();
+  while (!error_ && busy() && last_executed_ == before && touched() == touched_before && listen()) {
   }
 }
 
@@ -73,6 +83,7 @@ void InProcessLink::take(const WireFrame& frame) {
       last_executed_ = credit.executed;
       break;
     }
+    case MessageType::probe_report: decode(frame, motors_, probe_report_.emplace()); break;
     default: error_ = LinkError::refused; break;
   }
 }

@@ -64,6 +64,15 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
 }
 
+bool VirtualMachine::Hardware::probe() const {
+  return std::any_of(bodies.begin(), bodies.end(), [this](const TouchBody& body) {
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+      if (motors[m].position < body.motors[m].low || motors[m].position > body.motors[m].high) return false;
+    }
+    return true;
+  });
+}
+
 MachineCounts VirtualMachine::counts() const {
   const auto shortest = [](std::int64_t interval) { return Ticks{interval == INT64_MAX ? 0 : interval}; };
   MachineCounts counts;

@@ -92,6 +92,16 @@ class Planner::Implementation {
     decided_ = 0;
     if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
   }
+  void drop_to_action() {
+    if (jerk_limited_) return jerk_limited_->drop_to_action();
+    const auto drop = [this] {
+      while (!cells_.empty()) cells_.pop();
+      segments_.clear();
+      cutting_ = false;
+    };
+    for (drop(); !closed_; drop()) pull();
+    decided_ = 0;
+  }
 
  private:
   // Each pass over the queue is paid for by as many new cells as it found undecided, which makes planning amortised
@@ -384,6 +394,10 @@ void Planner::hold() {
 }
 void Planner::resume() {
   implementation_->resume();
+}
+
+void Planner::drop_to_action() {
+  implementation_->drop_to_action();
 }
 
 }  // namespace passo

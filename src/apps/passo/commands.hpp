@@ -45,6 +45,7 @@ struct RunArguments {
   std::uint64_t passes = 1;            // of a main program that ends with M99
   std::vector<std::string> holds;      // SECONDS or SECONDS:SECONDS
   std::vector<std::string> overrides;  // PERCENT@SECONDS
+  std::vector<std::string> touches;    // LOW:HIGH of axes, as X10:60,Z:-2
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };

@@ -90,11 +90,14 @@ int parse_and_run(int argc, char** argv) {
       ->capture_default_str();
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
+  run_command.add_option("--touch", run_arguments.touches,
+                         "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(
       "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
-      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20");
+      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20\n"
+      "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2");
 
   CheckArguments check_arguments;
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/good_path.hpp"
 #include "passo/controller/motion_drive.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -26,17 +27,26 @@ struct ProgramCheck {
   Seconds nominal_time{0};  // at the programmed speeds, without ramps: good for progress only
   std::uint64_t moves = 0;
   bool tools_change = false;  // the program sets some in the tool table
+  bool probes = false;        // and what comes behind was checked as if probe moves were touched at their ends
 };
 
 // Interprets the whole program and builds its path; what is wrong is in `diagnostics`.
+//
+// What a probe will find is not known yet. Probe moves are taken to be touched at their ends; so the path may be another
+// in the run, and behind the first probe move what is wrong with it is told as a warning. Errors in how the program is
+// written remain errors. A loop that only a probe can end is not followed for ever.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics);
 
 class Job {
  public:
-  // `diagnostics` gets what the second pass still finds (nothing, after a good check).
+  // Who tells what probe moves find: the board; or nobody, and they are touched at their ends, as in the checking pass.
+  enum class Probing : std::uint8_t { by_board, nominal };
+
+  // `diagnostics` gets what the second pass still finds: nothing after a good check, if nothing was probed. An error
+  // there ends the job, at rest before the move that is wrong.
   Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-      Diagnostics& diagnostics);
+      Diagnostics& diagnostics, Probing probing = Probing::by_board);
 
   // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
   // has an error.
@@ -44,6 +54,7 @@ class Job {
 
   // To hold, resume, change and stop it in mid-run.
   MotionDrive& drive() { return drive_; }
+  const MotionDrive& drive() const { return drive_; }
 
   // Who wants to watch, before the first advance().
   Tap<PathItem>& path() { return watched_path_; }
@@ -61,10 +72,12 @@ class Job {
  private:
   PathOptions path_options_;
   MotionLimits limits_;
+  ProbeOutcome probe_outcome_;
 
   // The street.
   Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
+  GoodPath good_path_;        // as long as nothing is wrong
   Tap<PathItem> watched_path_;
   PathSmoother smoother_;   // corners -> curves within the tolerance
   VirtualMachine machine_;  // what is at the other end of the wire

@@ -5,13 +5,18 @@
 // after the time that is committed. Without go_live() the drive reads ahead as far as the board's queue goes. Live,
 // it commits at most the horizon and what one pull adds, two moves and what is waited for: 15 ms with the defaults.
 //
+// In a probe move the drive commits little more than it must, whether live or not. When the board tells of the contact
+// it brakes on the path behind that, and drops the rest of the move.
+//
 // Virtual time passes only while the board plays: at rest it stands still, but in wait(). See docs/decisions/0017.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/probe_move.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/link/in_process_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
@@ -25,6 +30,9 @@ struct LiveOptions {
   Seconds horizon{0.05};        // nothing is added while as much is committed
   Seconds longest_move{0.005};  // the planner's moves end after this time
 };
+
+// In a probe move: the tool goes on so long into what it touched, before it brakes.
+inline constexpr LiveOptions probing_options{.horizon = Seconds(0.004), .longest_move = Seconds(0.001)};
 
 class MotionDrive {
  public:
@@ -40,6 +48,12 @@ class MotionDrive {
 
   // Before the first advance().
   void go_live(const LiveOptions& options);
+
+  // Who wants to know what probe moves find, before the first advance(); and whether a probe that is touched in another
+  // move stops the drive.
+  ProbeMove& probe() { return probe_; }
+  // That happened.
+  bool stopped_by_probe() const { return stopped_by_probe_; }
 
   // Goes on a little: sends one board segment, or lets the board play one. False when it has ended.
   [[nodiscard]] bool advance();
@@ -68,6 +82,11 @@ class MotionDrive {
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
   void send(const BoardItem& item);
+  void commit_by(const LiveOptions& options);
+  void look_at_probe();
+  void begin_probe(const Action& action);
+  void end_probe(const Action& action);
+  void rest_in_feed_hold();
   void rest_in_hold();
   bool end();
 
@@ -78,11 +97,18 @@ class MotionDrive {
   StepGenerator step_generator_;  // phases -> board segments
   Tap<BoardItem> watched_board_;
   InProcessLink link_;  // board segments -> wire
+  ProbeMove probe_;
 
   BoardItem item_;
   State state_ = State::running;
   bool stopping_ = false;
-  Seconds horizon_{std::numeric_limits<double>::infinity()};
+  bool contact_seen_ = false;  // of what the board watches for now
+  bool probe_brakes_ = false;  // after a contact, until the path is at rest
+  bool stopped_by_probe_ = false;
+  std::optional<Point> end_of_probe_;  // of the motion that is committed, in a probe move
+  LiveOptions live_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
+                    .longest_move = Seconds(std::numeric_limits<double>::infinity())};
+  Seconds horizon_ = live_.horizon;
   Seconds planned_{0};  // time of all motion given by the planner
   Seconds rested_;      // time of the machine that was no motion of this drive
 };

@@ -8,6 +8,7 @@
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
+//   bool probe();                                     whether the probe is touched; a board without one leaves it out
 //
 // Invariant: items are executed in the order of their sequence numbers, each once; none is taken after a gap. Time
 // passes only between events: outputs are switched at the event before them, and a segment follows another without
@@ -20,6 +21,7 @@
 
 #include "passo/base/ring.hpp"
 #include "passo/firmware/player.hpp"
+#include "passo/firmware/probe_watcher.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
 
@@ -43,11 +45,12 @@ class Board {
       case Decoded::refused: complain(WireError::bad_frame); break;
     }
   }
-  // Items were executed that the host has not been told of.
-  bool owes_report() const { return reported_ != executed_; }
+  // Items were executed that the host has not been told of, or the probe has something to say.
+  bool owes_report() const { return reported_ != executed_ || probe_.owes_report(); }
   void report() {
     reported_ = executed_;
     send(Credit{.executed = reported_, .free = static_cast<uint8_t>(queue_capacity - queue_.size())});
+    if (probe_.owes_report()) send(probe_.take_report(), motors_);
   }
 
   // The timer's side. Nothing to play: no event will come.
@@ -57,6 +60,7 @@ class Board {
   void on_event() {
     const uint8_t stepped = player_.play();
     if (stepped != 0) hardware_.step(stepped, player_.directions());
+    if (probe_.watches()) probe_.on_event(stepped, player_.directions(), touched());
     if (player_.done()) {
       retire();
       advance();
@@ -65,16 +69,18 @@ class Board {
 
  private:
   struct Entry {
-    bool is_segment = false;
+    MessageType type = MessageType::segment;
     BoardSegment segment;
     BoardOutputs outputs;
+    ProbeWatch watch;
   };
 
   void take(const WireFrame& frame) {
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::segment:
-      case MessageType::outputs: return enqueue(frame);
+      case MessageType::outputs:
+      case MessageType::watch_probe: return enqueue(frame);
       default: return complain(WireError::unexpected);
     }
   }
@@ -88,6 +94,7 @@ class Board {
     decoder_.set_motors(motors_);
     // Both sides count steps and their fractions from the same start.
     player_ = Player(motors_);
+    probe_ = ProbeWatcher();
     expected_ = static_cast<uint8_t>(frame.sequence + 1);
     executed_ = reported_ = frame.sequence;
     complained_ = false;
@@ -101,13 +108,16 @@ class Board {
     if (missing != 0) return complain(WireError::out_of_sequence);
     if (queue_.full()) return complain(WireError::queue_full);
     Entry entry;
-    entry.is_segment = frame.type == MessageType::segment;
-    if (entry.is_segment) {
+    entry.type = frame.type;
+    if (entry.type == MessageType::segment) {
       decode(frame, motors_, entry.segment);
       const uint8_t used = entry.segment.directions | entry.segment.flips;
       if (entry.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
-    } else {
+    } else if (entry.type == MessageType::outputs) {
       decode(frame, entry.outputs);
+    } else {
+      decode(frame, entry.watch);
+      if (entry.watch.until > ProbeUntil::released) return complain(WireError::bad_value);
     }
     ++expected_;
     complained_ = false;
@@ -115,13 +125,22 @@ class Board {
     if (idle()) advance();
   }
 
-  // Loads the next segment, and switches the outputs that come before it.
+  // Loads the next segment, and does what comes before it.
   void advance() {
     for (; !queue_.empty(); retire()) {
       const Entry& entry = queue_.front();
-      if (entry.is_segment) return player_.load(entry.segment);
-      hardware_.outputs(entry.outputs);
+      if (entry.type == MessageType::segment) return player_.load(entry.segment);
+      if (entry.type == MessageType::outputs) {
+        hardware_.outputs(entry.outputs);
+      } else {
+        probe_.begin(entry.watch, touched());
+      }
     }
+  }
+
+  bool touched() {
+    if constexpr (requires { hardware_.probe(); }) return hardware_.probe();
+    return false;
   }
 
   void retire() {
@@ -136,16 +155,17 @@ class Board {
     send(ErrorReport{.reason = reason, .expected = expected_});
   }
 
-  template <class Message>
-  void send(const Message& message) {
+  template <class... Message>
+  void send(const Message&... message) {
     uint8_t frame[largest_frame];
-    const uint8_t size = encode(message, sent_++, frame);
+    const uint8_t size = encode(message..., sent_++, frame);
     for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);
   }
 
   Hardware& hardware_;
   Decoder decoder_;
   Player player_{0};
+  ProbeWatcher probe_;
   Ring<Entry, queue_capacity> queue_;  // its front is what is being played
   uint8_t most_motors_;
   uint8_t motors_ = 0;  // agreed upon with the host

@@ -22,9 +22,11 @@ class InProcessLink final : public Link {
 
   void send(const BoardSegment& segment) override;
   void send(const BoardOutputs& outputs) override;
+  void send(const ProbeWatch& watch) override;
   void drain() override;
   bool busy() const override { return under_way() > 0; }
   void wait() override;
+  const std::optional<ProbeReport>& probe_report() const override { return probe_report_; }
   std::optional<LinkError> error() const override { return error_; }
 
   std::uint64_t frames_sent() const override { return frames_sent_; }
@@ -46,6 +48,7 @@ class InProcessLink final : public Link {
   Decoder decoder_;
   std::optional<HelloReply> board_;
   std::optional<LinkError> error_;
+  std::optional<ProbeReport> probe_report_;
   std::uint8_t last_sent_ = 0;      // sequence number of the last item sent
   std::uint8_t last_executed_ = 0;  // of the last one that the board told to be done
   std::uint64_t frames_sent_ = 0;

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/probe.hpp"
 
 namespace passo {
 
@@ -31,12 +32,15 @@ class Link {
   // Never fail on their own: the first error is kept, and nothing is sent after it.
   virtual void send(const BoardSegment& segment) = 0;
   virtual void send(const BoardOutputs& outputs) = 0;
+  virtual void send(const ProbeWatch& watch) = 0;
   // Waits until the board has executed all that was sent.
   virtual void drain() = 0;
   // Whether something that was sent is, as far as we know, not done.
   virtual bool busy() const = 0;
-  // While it is busy: waits until the board has done one more of them.
+  // While it is busy: waits until the board has done one more of them, or tells of its probe.
   virtual void wait() = 0;
+  // What the board told of its probe last, since the last watch was sent.
+  virtual const std::optional<ProbeReport>& probe_report() const = 0;
   virtual std::optional<LinkError> error() const = 0;
 
   virtual std::uint64_t frames_sent() const = 0;

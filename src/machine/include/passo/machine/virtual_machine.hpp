@@ -2,7 +2,7 @@
 // timer.
 //
 // Place on the street: the end. Time is counted in ticks and passes only while the board plays; at rest it stands
-// still. The same bytes give the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6
+// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it. The same bytes give the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6
 // ns an event of a three-axis machine; without observers there is nothing to pay for them.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include "passo/link/board_port.hpp"
 #include "passo/machine/machine_counts.hpp"
 #include "passo/machine/machine_observer.hpp"
+#include "passo/machine/touch_body.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -28,6 +29,8 @@ class VirtualMachine final : public BoardPort {
 
   // The observer outlives the machine's last run().
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
+
+  void add_body(const TouchBody& body) { hardware_.bodies.push_back(body); }
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run() override;
@@ -53,6 +56,7 @@ class VirtualMachine final : public BoardPort {
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
     void send(std::uint8_t byte) { to_host.push_back(byte); }
+    bool probe() const;
 
     std::int64_t now = 0;
     std::array<Motor, max_motors> motors;
@@ -60,6 +64,7 @@ class VirtualMachine final : public BoardPort {
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
     std::vector<MachineObserver*> observers;
+    std::vector<TouchBody> bodies;
     std::vector<std::uint8_t> to_host;
   };
 

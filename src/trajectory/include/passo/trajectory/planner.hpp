@@ -47,6 +47,8 @@ class Planner final : public Source<MotionItem> {
   // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
   void hold();
   void resume();
+  // At rest in a hold: drops what is left of the path up to the next action, which comes next after resume().
+  void drop_to_action();
 
  private:
   class Implementation;

@@ -5,6 +5,7 @@
 
 #include "passo/wire/board_segment.hpp"
 #include "passo/wire/encoder.hpp"
+#include "passo/wire/probe.hpp"
 #include "passo/wire/wire_frame.hpp"
 
 namespace passo {
@@ -70,6 +71,12 @@ inline uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* fr
   return encoder.finish();
 }
 
+inline uint8_t encode(const ProbeWatch& watch, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::watch_probe, sequence);
+  encoder.put8(static_cast<uint8_t>(watch.until));
+  return encoder.finish();
+}
+
 inline uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame) {
   Encoder encoder(frame, MessageType::hello_reply, sequence);
   encoder.put8(reply.version);
@@ -90,6 +97,13 @@ inline uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame
   Encoder encoder(frame, MessageType::error, sequence);
   encoder.put8(static_cast<uint8_t>(error.reason));
   encoder.put8(error.expected);
+  return encoder.finish();
+}
+
+inline uint8_t encode(const ProbeReport& report, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::probe_report, sequence);
+  encoder.put8(static_cast<uint8_t>((report.touched ? 1 : 0) | (report.happened ? 2 : 0)));
+  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(report.steps[motor]));
   return encoder.finish();
 }
 
@@ -124,6 +138,10 @@ inline void decode(const WireFrame& frame, BoardOutputs& outputs) {
   outputs = {.switches = frame.payload[0], .spindle_rpm = load16(frame.payload + 1)};
 }
 
+inline void decode(const WireFrame& frame, ProbeWatch& watch) {
+  watch = {.until = static_cast<ProbeUntil>(frame.payload[0])};
+}
+
 inline void decode(const WireFrame& frame, HelloReply& reply) {
   reply = {.version = frame.payload[0],
            .motors = frame.payload[1],
@@ -137,6 +155,13 @@ inline void decode(const WireFrame& frame, Credit& credit) {
 
 inline void decode(const WireFrame& frame, ErrorReport& error) {
   error = {.reason = static_cast<WireError>(frame.payload[0]), .expected = frame.payload[1]};
+}
+
+inline void decode(const WireFrame& frame, uint8_t motors, ProbeReport& report) {
+  report = {.touched = (frame.payload[0] & 1U) != 0, .happened = (frame.payload[0] & 2U) != 0};
+  for (uint8_t motor = 0; motor < motors; ++motor) {
+    report.steps[motor] = static_cast<int32_t>(load32(frame.payload + 1 + 4 * motor));
+  }
 }
 
 }  // namespace passo

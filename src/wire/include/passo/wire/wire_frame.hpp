@@ -5,7 +5,7 @@
 // The sync byte never occurs between link and payload: where a message has one, the byte on the wire is instead the
 // distance to the next such place (0: none), and `link` is the distance to the first. So a sync byte is the start of a
 // frame, a receiver is in step again at the very next frame after any garbage, and each byte costs it the same work.
-// The type alone tells the length (a segment's also the number of motors). Portable.
+// The type alone tells the length (a segment's and a probe report's also the number of motors). Portable.
 #pragma once
 
 #include <stdint.h>
@@ -23,14 +23,16 @@ enum class MessageType : uint8_t {
   hello = 0x0F,
   segment = 0x33,
   outputs = 0x3C,
+  watch_probe = 0x66,
   // board to host
   hello_reply = 0xF0,
   credit = 0xCC,
   error = 0xC3,
+  probe_report = 0x99,
 };
 
 inline constexpr uint8_t frame_overhead = 6;
-inline constexpr uint8_t largest_payload = 10 + 2 * max_motors;
+inline constexpr uint8_t largest_payload = 1 + 4 * max_motors;
 inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
 
 struct WireFrame {
@@ -46,7 +48,9 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::credit:
     case MessageType::error: return 2;
     case MessageType::segment: return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(10 + 2 * motors);
+    case MessageType::probe_report: return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(1 + 4 * motors);
     case MessageType::outputs: return 3;
+    case MessageType::watch_probe: return 1;
     case MessageType::hello_reply: return 7;
   }
   return 0;
