@@ -39,6 +39,18 @@ bool is_probe(const PathItem& item) {
   return action != nullptr && action->kind == Action::Kind::probe_end;
 }
 
+// The check is not the whole program's.
+void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
+  const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
+  diagnostics.add({.severity = Severity::warning,
+                   .code = "path.unchecked",
+                   .file = file,
+                   .place = {.line = line, .column = 0, .length = 1},
+                   .message = "the check ends here, ten million moves behind a probe move",
+                   .expected = "a loop that also ends where the probe is touched at the end of its move",
+                   .text = {}});
+}
+
 }  // namespace
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
@@ -59,6 +71,7 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
       diagnostics.doubt_errors("if the probe is touched at the end of its move");
     }
   }
+  if (behind_a_probe == most_moves_behind_a_probe) tell_end(diagnostics, path.file, item);
   diagnostics.doubt_errors({});
   check.tools_change = interpreter.tools() != options.tools;
   check.good = !diagnostics.any_error();

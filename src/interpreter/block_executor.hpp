@@ -175,6 +175,8 @@ class BlockExecutor {
   enum class Cycle : std::uint8_t { none, drilling, threading, contour, lathe };
   static constexpr std::size_t longest_cycle_step = 18;
   bool step_cycle();
+  bool check_cycle(std::string_view name);
+  bool check_uncompensated(std::string_view name);
   bool start_drilling(CodeNumber code);
   bool check_drilling(CodeNumber code);
   bool check_drilling_words(CodeNumber code, bool first);

@@ -240,10 +240,8 @@ bool PathBuilder::take_probe_step(PathItem& item) {
   }
   if (probe_step_ == ProbeStep::end) {
     probe_step_ = ProbeStep::rest;
-    item = Action{.kind = Action::Kind::probe_end,
-                  .outputs = outputs(),
-                  .place = position_,
-                  .source = operation_.source};
+    item =
+        Action{.kind = Action::Kind::probe_end, .outputs = outputs(), .place = position_, .source = operation_.source};
     return true;
   }
   if (probe_step_ == ProbeStep::rest && options_.probe != nullptr) position_ = options_.probe->rest;

@@ -103,12 +103,14 @@ std::string title_of(const ChordsArguments& arguments) {
 
 int draw(const AnyCurve& curve, ChordTolerance tolerance, const ChordsArguments& arguments) {
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
-  if (!format) return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+  if (!format)
+    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
   const ChordDrawing drawing = std::visit([&](const auto& one) { return record_chords(one, tolerance); }, curve);
   const std::size_t count = drawing.ends.size() - 1;
   if (count >= ChordDrawing::most_chords) {
-    return fail(exit_bad_program, fmt::format("--picture: {} chords or more are too many to be seen; choose a larger --tolerance",
-                              ChordDrawing::most_chords));
+    return fail(exit_bad_program,
+                fmt::format("--picture: {} chords or more are too many to be seen; choose a larger --tolerance",
+                            ChordDrawing::most_chords));
   }
   auto file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);

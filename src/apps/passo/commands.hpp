@@ -51,6 +51,16 @@ struct RunArguments {
 };
 int run(const RunArguments& arguments);
 
+struct JogArguments {
+  std::string machine;
+  std::vector<std::string> moves;  // "X+10", or "X+" as far as the travel goes
+  double feed = 600;               // mm a minute along the way
+  double lease = 0.2;              // s
+  std::optional<double> held;      // s for which the lease is renewed; none: to the end
+  bool json = false;
+};
+int jog(const JogArguments& arguments);
+
 struct CheckArguments {
   ProgramArguments program;
   std::string machine;

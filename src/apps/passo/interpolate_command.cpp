@@ -180,8 +180,8 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
   if (!format) return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", path));
   for (const StudiedMethod& one : studied) {
     if (one.measures.pulses <= most_pictured_pulses) continue;
-    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to be seen; {} are the most", one.measures.pulses,
-                              most_pictured_pulses));
+    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to be seen; {} are the most",
+                                              one.measures.pulses, most_pictured_pulses));
   }
   auto file = OutputFile::open(path);
   Status<OutputError> done = Unit{};

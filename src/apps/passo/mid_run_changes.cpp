@@ -41,7 +41,8 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
     } else if (const auto both = pair_of(text, ':')) {
       changes.changes_.push_back({.at = Seconds(both->first), .pause = Seconds(both->second)});
     } else {
-      fail(exit_bad_program, "'" + text + "': expected --hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
+      fail(exit_bad_program,
+           "'" + text + "': expected --hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
       return std::nullopt;
     }
   }

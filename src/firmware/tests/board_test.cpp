@@ -20,7 +20,10 @@ struct Bench {
     if (decoder.feed(byte) == Decoded::frame) replies.push_back(decoder.frame());
   }
 
+  bool probe() const { return touched; }
+
   std::int64_t now = 0;
+  bool touched = false;
   std::vector<std::string> log;
   Decoder decoder;
   std::vector<WireFrame> replies;
@@ -246,6 +249,100 @@ TEST_F(BoardTest, starts_fractions_afresh_with_each_hello) {
     play_to_the_end();
     EXPECT_EQ(bench_.log.size(), 1U);  // from one half, half a step makes a whole one
   }
+}
+
+class BoardProbe : public BoardTest {
+ protected:
+  // What the board has told of its probe since the last call.
+  std::vector<ProbeReport> reports() {
+    if (board_.owes_report()) board_.report();
+    std::vector<ProbeReport> found;
+    for (const WireFrame& frame : bench_.replies) {
+      if (frame.type == MessageType::probe_report) decode(frame, 3, found.emplace_back());
+    }
+    bench_.replies.clear();
+    return found;
+  }
+  void events(int count) {
+    for (int i = 0; i < count; ++i) event();
+  }
+  void greet_with_probe() {
+    greet();
+    bench_.decoder.set_motors(3);
+  }
+};
+
+TEST_F(BoardProbe, keeps_the_steps_at_the_event_of_the_contact) {
+  greet_with_probe();
+  send_segment(1, 3);
+  play_to_the_end();
+  send(ProbeWatch{.until = ProbeUntil::touched}, std::uint8_t{2});
+  const std::vector<ProbeReport> begin = reports();
+  ASSERT_EQ(begin.size(), 1U);
+  EXPECT_FALSE(begin[0].touched);
+  EXPECT_FALSE(begin[0].happened);
+  // Motor 0 up; motor 2 down.
+  send(BoardSegment{.events = 9, .directions = 4, .flips = 5, .interval = 10U << 16}, std::uint8_t{3}, std::uint8_t{3});
+  events(4);
+  EXPECT_TRUE(reports().empty());
+  bench_.touched = true;
+  event();
+  bench_.touched = false;
+  events(2);
+  const std::vector<ProbeReport> contact = reports();
+  ASSERT_EQ(contact.size(), 1U);
+  EXPECT_TRUE(contact[0].touched);
+  EXPECT_TRUE(contact[0].happened);
+  EXPECT_EQ(contact[0].steps[0], 5);
+  EXPECT_EQ(contact[0].steps[1], 0);
+  EXPECT_EQ(contact[0].steps[2], -5);
+  bench_.touched = true;
+  events(2);
+  EXPECT_TRUE(reports().empty()) << "told once";
+}
+
+TEST_F(BoardProbe, waits_for_the_change_not_for_the_state) {
+  greet_with_probe();
+  bench_.touched = true;
+  send(ProbeWatch{.until = ProbeUntil::touched}, std::uint8_t{1});
+  EXPECT_TRUE(reports().at(0).touched);
+  send_segment(2, 9);
+  events(2);
+  bench_.touched = false;
+  events(2);
+  EXPECT_TRUE(reports().empty());
+  bench_.touched = true;
+  event();
+  EXPECT_EQ(reports().at(0).steps[0], 5);
+}
+
+TEST_F(BoardProbe, until_it_is_free_or_not_at_all) {
+  greet_with_probe();
+  bench_.touched = true;
+  send(ProbeWatch{.until = ProbeUntil::released}, std::uint8_t{1});
+  (void)reports();
+  send_segment(2, 9);
+  events(3);
+  bench_.touched = false;
+  event();
+  const std::vector<ProbeReport> found = reports();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_FALSE(found[0].touched);
+  EXPECT_EQ(found[0].steps[0], 4);
+  play_to_the_end();
+  send(ProbeWatch{.until = ProbeUntil::touched}, std::uint8_t{3});
+  (void)reports();
+  send(ProbeWatch{}, std::uint8_t{4});
+  send_segment(5, 2);
+  bench_.touched = true;
+  play_to_the_end();
+  EXPECT_TRUE(reports().empty());
+}
+
+TEST_F(BoardProbe, refuses_a_watch_for_what_there_is_not) {
+  greet_with_probe();
+  send(ProbeWatch{.until = static_cast<ProbeUntil>(3)}, std::uint8_t{1});
+  EXPECT_EQ(last_error().reason, WireError::bad_value);
 }
 
 }  // namespace

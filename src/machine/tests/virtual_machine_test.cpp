@@ -97,6 +97,31 @@ TEST(VirtualMachine, events_without_steps_take_time_and_are_not_shown) {
   EXPECT_EQ(machine.counts().events, 101);
 }
 
+TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
+  VirtualMachine machine(1, clock);
+  TouchBody far;
+  far.motors[0] = {.low = 500, .high = 600};
+  TouchBody body;
+  body.motors[0] = {.low = 120, .high = 130};
+  machine.add_body(far);
+  machine.add_body(body);
+  InProcessLink link(machine, 1);
+  link.send(every_event(20, 100));
+  link.send(ProbeWatch{.until = ProbeUntil::touched});
+  link.drain();
+  ASSERT_TRUE(link.probe_report());
+  EXPECT_FALSE(link.probe_report()->touched);
+  link.send(every_event(200, 100));
+  link.wait();
+  ASSERT_TRUE(link.probe_report()->happened);
+  EXPECT_EQ(link.probe_report()->steps[0], 100);
+  EXPECT_EQ(machine.counts().motors[0].position, 120) << "told at once";
+  EXPECT_TRUE(link.busy());
+  link.drain();
+  EXPECT_EQ(machine.counts().motors[0].position, 220);
+  EXPECT_FALSE(link.error());
+}
+
 TEST(VirtualMachine, time_goes_on_past_32_bits) {
   VirtualMachine machine(1, clock);
   InProcessLink link(machine, 1);

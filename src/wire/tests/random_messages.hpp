@@ -48,7 +48,7 @@ class RandomMessages {
     std::array<std::uint8_t, largest_frame> frame{};
     std::uint8_t size = 0;
     const std::uint8_t sequence = byte();
-    switch (below(8)) {
+    switch (below(10)) {
       case 0: size = encode(Hello{.version = byte(), .motors = byte()}, sequence, frame.data()); break;
       case 1: size = encode(BoardOutputs{.switches = byte(), .spindle_rpm = word()}, sequence, frame.data()); break;
       case 2: {
@@ -63,6 +63,13 @@ class RandomMessages {
       case 4: {
         const ErrorReport error{.reason = static_cast<WireError>(byte()), .expected = byte()};
         size = encode(error, sequence, frame.data());
+        break;
+      }
+      case 5: size = encode(ProbeWatch{.until = static_cast<ProbeUntil>(byte())}, sequence, frame.data()); break;
+      case 6: {
+        ProbeReport report{.touched = below(2) == 1, .happened = below(2) == 1};
+        for (std::int32_t& steps : report.steps) steps = static_cast<std::int32_t>(word() << 16U | word());
+        size = encode(report, motors, sequence, frame.data());
         break;
       }
       default: size = encode(segment(motors), motors, sequence, frame.data()); break;

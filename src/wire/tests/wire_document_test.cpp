@@ -35,6 +35,9 @@ std::vector<std::string> example_session() {
   line(encode(Credit{.executed = 1, .free = 31}, 1, frame));
   line(encode(Credit{.executed = 2, .free = 32}, 2, frame));
   line(encode(ErrorReport{.reason = WireError::out_of_sequence, .expected = 3}, 3, frame));
+  line(encode(ProbeWatch{.until = ProbeUntil::touched}, 3, frame));
+  line(encode(ProbeReport{.touched = false, .happened = false}, 2, 4, frame));
+  line(encode(ProbeReport{.touched = true, .happened = true, .steps = {0, -960}}, 2, 5, frame));
   return lines;
 }
 

@@ -32,9 +32,9 @@ struct ProgramCheck {
 
 // Interprets the whole program and builds its path; what is wrong is in `diagnostics`.
 //
-// What a probe will find is not known yet. Probe moves are taken to be touched at their ends; so the path may be another
-// in the run, and behind the first probe move what is wrong with it is told as a warning. Errors in how the program is
-// written remain errors. A loop that only a probe can end is not followed for ever.
+// What a probe will find is not known yet. Probe moves are taken to be touched at their ends; so the path may be
+// another in the run, and behind the first probe move what is wrong with it is told as a warning. Errors in how the
+// program is written remain errors. A loop that only a probe can end is not followed for ever.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics);
 

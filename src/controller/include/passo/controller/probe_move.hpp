@@ -1,5 +1,5 @@
-// ProbeMove: a probe move as a drive runs it: the board watches its probe from the beginning to the end of the move, and
-// what it reports becomes places on the machine.
+// ProbeMove: a probe move as a drive runs it: the board watches its probe from the beginning to the end of the move,
+// and what it reports becomes places on the machine.
 //
 // The board keeps the steps at the very event of the contact; so the place is exact to the step, however much later the
 // machine comes to rest.

@@ -1,5 +1,5 @@
-// ProbeOutcome: what a machine has found in its last probe move. Written where the machine is driven, and read, down the
-// street, by those who go on from there: no stage reads beyond a probe move before the machine has come to rest.
+// ProbeOutcome: what a machine has found in its last probe move. Written where the machine is driven, and read, down
+// the street, by those who go on from there: no stage reads beyond a probe move before the machine has come to rest.
 #pragma once
 
 #include "passo/geometry/axes.hpp"

@@ -2,8 +2,9 @@
 // timer.
 //
 // Place on the street: the end. Time is counted in ticks and passes only while the board plays; at rest it stands
-// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it. The same bytes give the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6
-// ns an event of a three-axis machine; without observers there is nothing to pay for them.
+// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it. The same bytes give
+// the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6 ns an event of a three-axis
+// machine; without observers there is nothing to pay for them.
 #pragma once
 
 #include <array>

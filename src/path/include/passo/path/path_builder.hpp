@@ -41,7 +41,7 @@ struct PathOptions {
   Point start;                  // machine position at the start
   // What the machine has found in its last probe move, which is where the path goes on; null: it came to its end.
   const ProbeOutcome* probe = nullptr;
-  std::string file;             // names the program in diagnostics
+  std::string file;  // names the program in diagnostics
 };
 
 class PathBuilder final : public Source<PathItem> {
