@@ -8,7 +8,7 @@
 
 namespace passo::test {
 
-inline void require(bool condition, const char* what, std::string_view text = {}) {
+inline void require(bool condition, const char* what, std::string_view text = "") {
   if (condition) return;
   std::fprintf(stderr, "%s%s%.*s\n", what, text.empty() ? "" : ": ", static_cast<int>(text.size()), text.data());
   std::abort();
