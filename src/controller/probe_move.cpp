@@ -6,15 +6,13 @@ namespace passo {
 
 void ProbeMove::guard_other_moves() {
   guards_ = true;
-  link_.send(ProbeWatch{.until = ProbeUntil::touched});
+  link_.watch_probe(ProbeUntil::touched);
 }
 
 void ProbeMove::begin(const Action& action) {
-  link_.send(ProbeWatch{.until = action.probe_toward ? ProbeUntil::touched : ProbeUntil::released});
-  link_.drain();
+  link_.watch_probe(action.probe_toward ? ProbeUntil::touched : ProbeUntil::released);
   start_ = action.place;
-  const bool touched = link_.probe_report() && link_.probe_report()->touched;
-  outcome_ = {.refused = touched == action.probe_toward, .touched = false, .contact = start_, .rest = start_};
+  outcome_ = {.refused = link_.probe_report().touched == action.probe_toward, .touched = false, .contact = start_, .rest = start_};
   running_ = true;
   if (told_ != nullptr) *told_ = outcome_;
 }
@@ -25,10 +23,9 @@ void ProbeMove::end(const Point& rest) {
   if (!outcome_.refused) {
     outcome_.rest = rest;
     outcome_.touched = contact();
-    outcome_.contact = outcome_.touched ? contact_place(*link_.probe_report()) : rest;
+    outcome_.contact = outcome_.touched ? contact_place(link_.probe_report()) : rest;
   }
-  link_.send(ProbeWatch{.until = guards_ ? ProbeUntil::touched : ProbeUntil::off});
-  link_.drain();
+  link_.watch_probe(guards_ ? ProbeUntil::touched : ProbeUntil::off);
   if (told_ != nullptr) *told_ = outcome_;
   for (const auto& watcher : watchers_) watcher(outcome_);
 }

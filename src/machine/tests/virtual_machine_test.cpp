@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <random>
 #include <string>
 #include <tuple>
@@ -15,6 +16,7 @@ namespace passo {
 namespace {
 
 constexpr Hertz clock{16e6};
+constexpr Seconds forever{std::numeric_limits<double>::infinity()};
 
 // Motor 0 steps at every event, up or down.
 BoardSegment every_event(std::uint8_t events, std::uint32_t ticks, bool down = false) {
@@ -44,7 +46,7 @@ class Recorder final : public MachineObserver {
 
 TEST(VirtualMachine, stands_still_until_it_is_told_to_move) {
   VirtualMachine machine(3, clock);
-  EXPECT_FALSE(machine.run());
+  EXPECT_FALSE(machine.run(forever));
   const MachineCounts counts = machine.counts();
   EXPECT_EQ(counts.motor_count, 3);
   EXPECT_EQ(counts.time.count, 0);
@@ -107,19 +109,27 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
   machine.add_body(body);
   InProcessLink link(machine, 1);
   link.send(every_event(20, 100));
-  link.send(ProbeWatch{.until = ProbeUntil::touched});
-  link.drain();
-  ASSERT_TRUE(link.probe_report());
-  EXPECT_FALSE(link.probe_report()->touched);
+  link.watch_probe(ProbeUntil::touched);
+  EXPECT_FALSE(link.probe_report().touched);
   link.send(every_event(200, 100));
-  link.wait();
-  ASSERT_TRUE(link.probe_report()->happened);
-  EXPECT_EQ(link.probe_report()->steps[0], 100);
+  while (link.busy() && !link.probe_report().happened) link.wait();
+  EXPECT_TRUE(link.probe_report().happened);
+  EXPECT_EQ(link.probe_report().steps[0], 100);
   EXPECT_EQ(machine.counts().motors[0].position, 120) << "told at once";
   EXPECT_TRUE(link.busy());
   link.drain();
   EXPECT_EQ(machine.counts().motors[0].position, 220);
+  EXPECT_EQ(link.probe_report().steps[0], 100) << "kept";
+  EXPECT_FALSE(link.probe_report().touched);
   EXPECT_FALSE(link.error());
+  link.watch_probe(ProbeUntil::released);
+  link.send(every_event(95, 100, true));
+  link.drain();
+  EXPECT_EQ(link.probe_report().steps[0], 0) << "it waits for the change to free, which was not yet";
+  link.send(every_event(10, 100, true));
+  link.drain();
+  EXPECT_TRUE(link.probe_report().happened);
+  EXPECT_EQ(link.probe_report().steps[0], -101);
 }
 
 TEST(VirtualMachine, time_goes_on_past_32_bits) {

@@ -1,8 +1,8 @@
-// ProbeMove: a probe move as a drive runs it: the board watches its probe from the beginning to the end of the move,
-// and what it reports becomes places on the machine.
+// ProbeMove: a probe move as a drive runs it: the board's probe is watched from the beginning to the end of the move,
+// and what is heard of it becomes places on the machine.
 //
-// The board keeps the steps at the very event of the contact; so the place is exact to the step, however much later the
-// machine comes to rest.
+// The board tells the motors' positions at the very event of the contact; so the place is exact to the step, however
+// much later the machine comes to rest.
 #pragma once
 
 #include <functional>
@@ -33,7 +33,7 @@ class ProbeMove {
   void begin(const Action& action);
   bool is_running() const { return running_; }
   // What the board watches for has happened.
-  bool contact() const { return link_.probe_report() && link_.probe_report()->happened; }
+  bool contact() const { return link_.probe_report().happened; }
   // At rest again; where, if that is not the end of the move.
   void end(const Point& rest);
 
