@@ -12,7 +12,10 @@ void ProbeMove::guard_other_moves() {
 void ProbeMove::begin(const Action& action) {
   link_.watch_probe(action.probe_toward ? ProbeUntil::touched : ProbeUntil::released);
   start_ = action.place;
-  outcome_ = {.refused = link_.probe_report().touched == action.probe_toward, .touched = false, .contact = start_, .rest = start_};
+  outcome_ = {.refused = link_.probe_report().touched == action.probe_toward,
+              .touched = false,
+              .contact = start_,
+              .rest = start_};
   running_ = true;
   if (told_ != nullptr) *told_ = outcome_;
 }

@@ -18,8 +18,8 @@ enum class ProbeUntil : std::uint8_t {
 };
 
 struct ProbeReport {
-  bool touched = false;                         // the probe, as far as the host has heard
-  bool happened = false;                        // what is watched for
+  bool touched = false;                          // the probe, as far as the host has heard
+  bool happened = false;                         // what is watched for
   std::array<std::int32_t, max_motors> steps{};  // of each motor from the beginning of the watch to that event
 };
 
