@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "passo/controller/stage_options.hpp"
 
@@ -20,6 +21,36 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
+// So many moves behind a probe move are checked.
+constexpr std::uint64_t most_moves_behind_a_probe = 10'000'000;
+
+InterpreterOptions answered_by(const ProbeOutcome& outcome, InterpreterOptions options, Job::Probing probing) {
+  if (probing == Job::Probing::by_board) options.probe = &outcome;
+  return options;
+}
+
+PathOptions answered_by(const ProbeOutcome& outcome, PathOptions options, Job::Probing probing) {
+  if (probing == Job::Probing::by_board) options.probe = &outcome;
+  return options;
+}
+
+bool is_probe(const PathItem& item) {
+  const auto* action = std::get_if<Action>(&item);
+  return action != nullptr && action->kind == Action::Kind::probe_end;
+}
+
+// The check is not the whole program's.
+void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
+  const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
+  diagnostics.add({.severity = Severity::warning,
+                   .code = "path.unchecked",
+                   .file = file,
+                   .place = {.line = line, .column = 0, .length = 1},
+                   .message = "the check ends here, ten million moves behind a probe move",
+                   .expected = "a loop that also ends where the probe is touched at the end of its move",
+                   .text = {}});
+}
+
 }  // namespace
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
@@ -29,30 +60,45 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path, diagnostics);
   ProgramCheck check;
+  std::uint64_t behind_a_probe = 0;
   PathItem item;
-  while (!diagnostics.full() && builder.next(item)) {
+  while (!diagnostics.full() && behind_a_probe < most_moves_behind_a_probe && builder.next(item)) {
     check.nominal_time += nominal_time_of(item, limits);
     if (std::holds_alternative<Segment>(item)) ++check.moves;
+    if (check.probes) ++behind_a_probe;
+    if (!check.probes && is_probe(item)) {
+      check.probes = true;
+      diagnostics.doubt_errors("if the probe is touched at the end of its move");
+    }
   }
+  if (behind_a_probe == most_moves_behind_a_probe) tell_end(diagnostics, path.file, item);
+  diagnostics.doubt_errors({});
   check.tools_change = interpreter.tools() != options.tools;
   check.good = !diagnostics.any_error();
   return check;
 }
 
-Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-         Diagnostics& diagnostics, const std::optional<LineOptions>& line)
-    : path_options_(path_options(machine, program.name())),
+Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& interpretation,
+         Diagnostics& diagnostics, const Options& options)
+    : path_options_(answered_by(probe_outcome_, path_options(machine, program.name()), options.probing)),
       limits_(motion_limits(machine)),
-      interpreter_(std::move(program), options, diagnostics),
+      interpreter_(std::move(program), answered_by(probe_outcome_, interpretation, options.probing), diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
-      watched_path_(path_builder_),
+      good_path_(path_builder_, diagnostics),
+      watched_path_(good_path_),
       smoother_(watched_path_),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
-      line_(line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *line) : std::nullopt),
+      line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
+                         : std::nullopt),
       drive_(smoother_, limits_, step_options(machine), machine_, board_line()) {
   if (line_) [[maybe_unused]]
     const bool used = drive_.use_tails({});
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
+  drive_.probe().tell(probe_outcome_);
+  if (machine.probe.guards && options.probing == Probing::by_board) {
+    drive_.go_live({});
+    drive_.probe().guard_other_moves();
+  }
 }
 
 BoardLine Job::board_line() {

@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "board_outputs.hpp"
@@ -27,14 +28,22 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       watched_board_(step_generator_),
       link_(line.port != nullptr ? *line.port : machine, steps.motor_count, line.care),
       steps_(steps),
+      probe_(link_, steps),
       rested_(now()) {
   watched_motion_.watch([this](const MotionItem& item) {
     planned_ += time_of(item);
     if (refiller_) refiller_->watch(item);
+    const auto* move = std::get_if<PlannedMove>(&item);
+    if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
   });
 }
 
 void MotionDrive::go_live(const LiveOptions& options) {
+  live_ = options;
+  commit_by(options);
+}
+
+void MotionDrive::commit_by(const LiveOptions& options) {
   horizon_ = options.horizon;
   planner_.limit_moves_to(options.longest_move);
   step_generator_.limit_waiting_to(options.longest_move);
@@ -65,6 +74,7 @@ bool MotionDrive::advance_with_tails() {
 bool MotionDrive::advance() {
   if (state_ == State::ended) return false;
   if (state_ == State::held) return true;
+  look_at_probe();
   if (refiller_) return advance_with_tails();
   if (committed() >= horizon_ && link_.busy()) {
     link_.wait();
@@ -79,7 +89,48 @@ bool MotionDrive::advance() {
 void MotionDrive::send(const BoardItem& item) {
   if (const auto* segment = std::get_if<BoardSegment>(&item)) return link_.send(*segment);
   const auto& action = std::get<Action>(item);
-  if (action.kind != Action::Kind::feed_hold) return link_.send(board_outputs(action.outputs));
+  switch (action.kind) {
+    case Action::Kind::probe_begin: return begin_probe(action);
+    case Action::Kind::probe_end: return end_probe(action);
+    case Action::Kind::feed_hold: return rest_in_feed_hold();
+    default: return link_.send(board_outputs(action.outputs));
+  }
+}
+
+void MotionDrive::look_at_probe() {
+  if (contact_seen_ || !probe_.contact()) return;
+  contact_seen_ = true;
+  if (probe_.is_running()) {
+    probe_brakes_ = true;
+    planner_.hold();
+  } else {
+    stopped_by_probe_ = true;
+    stop();
+  }
+}
+
+void MotionDrive::begin_probe(const Action& action) {
+  link_.drain();
+  probe_.begin(action);
+  contact_seen_ = false;
+  end_of_probe_.reset();
+  commit_by(probing_options);
+}
+
+void MotionDrive::end_probe(const Action& action) {
+  probe_.end(end_of_probe_.value_or(action.place));
+  commit_by(live_);
+  contact_seen_ = false;
+  // The contact may have come when the path was at its end already.
+  if (std::exchange(probe_brakes_, false) && state_ == State::running) planner_.resume();
+}
+
+void MotionDrive::rest_in_feed_hold() {
+  if (probe_brakes_) {
+    probe_brakes_ = false;
+    planner_.drop_to_action();
+    if (state_ == State::running) planner_.resume();
+  }
   // One that was resumed before it came to rest is none.
   if (state_ == State::holding) rest_in_hold();
 }
@@ -108,7 +159,7 @@ void MotionDrive::hold() {
 
 void MotionDrive::resume() {
   if (stopping_ || (state_ != State::holding && state_ != State::held)) return;
-  planner_.resume();
+  if (!probe_brakes_) planner_.resume();
   state_ = State::running;
 }
 

@@ -75,6 +75,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 void Diagnostics::add(Diagnostic diagnostic) {
+  if (!doubt_.empty() && diagnostic.severity == Severity::error) {
+    diagnostic.severity = Severity::warning;
+    diagnostic.message += ", " + doubt_;
+  }
+  add_certain(std::move(diagnostic));
+}
+
+void Diagnostics::add_certain(Diagnostic diagnostic) {
   // A line in a loop is wrong once, however often it is run.
   const auto is_same = [&](const Diagnostic& other) {
     return other.place == diagnostic.place && other.code == diagnostic.code && other.file == diagnostic.file;

@@ -57,6 +57,10 @@ class BlockExecutor {
   bool busy() const { return cycle_ != Cycle::none; }
   void go_on();
 
+  // The program waits for what the machine finds in the probe move that was given last.
+  bool awaits_probe() const { return probing_.has_value(); }
+  void take_probe_outcome();
+
   // A lathe cycle wants the blocks of this sub, one after the other, in place of execute().
   bool wants_contour() const { return cycle_ == Cycle::contour; }
   Symbol contour_sub() const { return lathe_->sub; }
@@ -171,6 +175,8 @@ class BlockExecutor {
   enum class Cycle : std::uint8_t { none, drilling, threading, contour, lathe };
   static constexpr std::size_t longest_cycle_step = 18;
   bool step_cycle();
+  bool check_cycle(std::string_view name);
+  bool check_uncompensated(std::string_view name);
   bool start_drilling(CodeNumber code);
   bool check_drilling(CodeNumber code);
   bool check_drilling_words(CodeNumber code, bool first);
@@ -242,7 +248,7 @@ class BlockExecutor {
   bool read_input();
   bool probe(CodeNumber code);
   bool check_probe(CodeNumber code);
-  void keep_probe_result(const Point& end);
+  void keep_probe_result(const Point& place, bool touched);
   Point preview_backoff(const Point& start, const Point& end) const;
   bool jump(CodeNumber code);
   bool program_words(SubprogramJump& found);
@@ -283,6 +289,7 @@ class BlockExecutor {
   std::string text_;  // of its comment, with parameters filled in
   std::vector<double> assigned_;
 
+  std::optional<CodeNumber> probing_;
   std::optional<SubprogramJump> jump_;
   std::optional<SubprogramJump> modal_macro_;  // of G66
 

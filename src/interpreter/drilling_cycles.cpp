@@ -78,14 +78,7 @@ bool BlockExecutor::start_drilling(CodeNumber number) {
 // What has nothing to do with this cycle's own words.
 bool BlockExecutor::check_drilling(CodeNumber number) {
   const std::string name = spelling('G', number);
-  if (state_.modal.inverse_time()) {
-    return fail("gcode.cycle-inverse-time", motion_span(), fmt::format("{} in inverse time feed (G93)", name),
-                "G94 or G95 before");
-  }
-  if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.cycle-compensation", motion_span(), fmt::format("{} while cutter compensation is on", name),
-                "G40 before");
-  }
+  if (!check_cycle(name)) return false;
   const bool uvw = is_of_uvw(state_.modal.plane());
   for (const char letter : uvw ? std::string_view("XYZABC") : std::string_view("ABCUVW")) {
     if (!words_.has(letter)) continue;

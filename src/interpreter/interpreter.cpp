@@ -25,6 +25,7 @@ class Interpreter::Implementation {
 
   bool next(Operation& operation) {
     while (operations_.empty()) {
+      if (executor_.awaits_probe()) executor_.take_probe_outcome();
       if (finished_) return false;
       step();
     }

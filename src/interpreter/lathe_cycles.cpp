@@ -61,14 +61,7 @@ bool BlockExecutor::check_lathe(CodeNumber number) {
   if (state_.modal[plane] != code(18)) {
     return fail("gcode.wrong-plane", motion_span(), fmt::format("{} outside the plane ZX", name), "G18 before");
   }
-  if (state_.modal.inverse_time()) {
-    return fail("gcode.cycle-inverse-time", motion_span(), fmt::format("{} in inverse time feed (G93)", name),
-                "G94 or G95 before");
-  }
-  if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.cycle-compensation", motion_span(), fmt::format("{} while cutter compensation is on", name),
-                "G40 before");
-  }
+  if (!check_cycle(name)) return false;
   const auto positive = [&](char letter) {
     return !words_.has(letter) || words_[letter] > 0 ||
            fail("gcode.negative-word", words_.span(letter),

@@ -104,6 +104,19 @@ bool BlockExecutor::move_by(CodeNumber number) {
   }
 }
 
+// A cycle feeds at units a minute or a revolution, along the programmed path.
+bool BlockExecutor::check_cycle(std::string_view name) {
+  if (!state_.modal.inverse_time()) return check_uncompensated(name);
+  return fail("gcode.cycle-inverse-time", motion_span(), fmt::format("{} in inverse time feed (G93)", name),
+              "G94 or G95 before");
+}
+
+bool BlockExecutor::check_uncompensated(std::string_view name) {
+  if (state_.modal[cutter_compensation] == code(40)) return true;
+  return fail("gcode.cycle-compensation", motion_span(), fmt::format("{} while cutter compensation is on", name),
+              "G40 before");
+}
+
 double BlockExecutor::axis_word(Axis axis) const {
   const double value = words_[letter_of(axis)] * state_.units_of(axis);
   return axis == Axis::x && state_.modal.diameters() ? value / 2 : value;

@@ -73,7 +73,7 @@ void Reporter::add(Severity severity, std::string_view code, std::uint32_t line,
 void Reporter::pass_on(Diagnostics& faults) {
   for (Diagnostic fault : faults.all()) {
     fault.calls = calls();
-    diagnostics_.add(std::move(fault));
+    diagnostics_.add_certain(std::move(fault));
   }
   faults = Diagnostics();
 }

@@ -73,6 +73,7 @@ constexpr Rule table[] = {
     {"gcode.open-nurbs", "LinuxCNC manual, G-codes: G5.2 G5.3 NURBS Block"},
     {"gcode.overflow", "Passo, docs/gcode.md: Limits"},
     {"gcode.peck-too-small", "Passo, docs/gcode.md: Limits"},
+    {"gcode.probe-before", "LinuxCNC manual, G-codes: G38.n Straight Probe"},
     {"gcode.probe-mode", "RS274/NGC 3.5.9, straight probe"},
     {"gcode.probe-too-short", "RS274/NGC 3.5.9, straight probe"},
     {"gcode.probe-untouched", "LinuxCNC manual, G-codes: G38.n Straight Probe"},

@@ -66,9 +66,7 @@ bool BlockExecutor::start_threading() {
 }
 
 bool BlockExecutor::check_threading() {
-  if (state_.modal[cutter_compensation] != code(40)) {
-    return fail("gcode.cycle-compensation", motion_span(), "G76 while cutter compensation is on", "G40 before");
-  }
+  if (!check_uncompensated("G76")) return false;
   for (const char letter : {'A', 'B', 'C'}) {
     if (!words_.has(letter)) continue;
     return fail("gcode.cycle-axis", words_.span(letter), fmt::format("G76 does not move {}", letter),

@@ -1,5 +1,6 @@
 #include "passo/link/in_process_link.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdlib>
 #include <span>
@@ -71,6 +72,19 @@ void InProcessLink::wait() {
   }
 }
 
+void InProcessLink::watch_probe(ProbeUntil until) {
+  drain();
+  probe_until_ = until;
+  probe_report_ = {};
+  status_.reset();
+  ask();
+  while (!status_ && listen()) {
+  }
+  if (!status_) return;
+  probe_report_.touched = (status_->inputs & input_probe) != 0;
+  std::copy_n(status_->positions, probed_from_.size(), probed_from_.begin());
+}
+
 void InProcessLink::wait_for_room() {
   while (!error_ && room() <= 0 && listen()) {
   }
@@ -130,7 +144,11 @@ void InProcessLink::take(const WireFrame& frame) {
       return take(error);
     }
     case MessageType::fault: error_ = LinkError::stopped; break;
-    case MessageType::captured:
+    case MessageType::captured: {
+      Captured captured;
+      decode(frame, motors_, captured);
+      return take(captured);
+    }
     case MessageType::about: break;
     default: error_ = LinkError::refused; break;
   }
@@ -159,6 +177,17 @@ void InProcessLink::take(const BoardStatus& status) {
   if ((status.state & board_trusted) == 0) error_ = LinkError::stopped;
   take(Credit{.executed = status.executed, .taken = status.taken, .free = status.free});
   repeat();
+}
+
+// Each tells of a change, and is told once.
+void InProcessLink::take(const Captured& captured) {
+  if ((captured.input & input_probe) == 0) return;
+  probe_report_.touched = !probe_report_.touched;
+  const bool waited_for = probe_until_ == (probe_report_.touched ? ProbeUntil::touched : ProbeUntil::released);
+  if (!waited_for || probe_report_.happened) return;
+  probe_report_.happened = true;
+  for (std::size_t m = 0; m < motors_; ++m) probe_report_.steps[m] = captured.positions[m] - probed_from_[m];
+  news_ = true;
 }
 
 void InProcessLink::take(const ErrorReport& error) {

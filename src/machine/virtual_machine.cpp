@@ -38,11 +38,25 @@ bool VirtualMachine::run_to(Ticks time) {
     hardware_.now = next_event_;
     ++events_;
     board_.on_event();
+    if (!hardware_.bodies.empty()) look_at_bodies();
     if (board_.owes_report()) board_.report();
   }
   if (!hardware_.to_host.empty()) return true;
   if (end != INT64_MAX) hardware_.now = std::max(hardware_.now, end);
   return false;
+}
+
+void VirtualMachine::add_body(const TouchBody& body) {
+  hardware_.bodies.push_back(body);
+  look_at_bodies();
+}
+
+// The probe's pin changes.
+void VirtualMachine::look_at_bodies() {
+  const bool touched = hardware_.is_in_a_body();
+  if (touched == touched_) return;
+  touched_ = touched;
+  board_.set_inputs(touched ? input_probe : 0, input_probe);
 }
 
 void VirtualMachine::wait(Ticks time) {
@@ -80,6 +94,15 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   outputs_now = wanted;
   ++output_changes;
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
+}
+
+bool VirtualMachine::Hardware::is_in_a_body() const {
+  return std::any_of(bodies.begin(), bodies.end(), [this](const TouchBody& body) {
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+      if (motors[m].position < body.motors[m].low || motors[m].position > body.motors[m].high) return false;
+    }
+    return true;
+  });
 }
 
 MachineCounts VirtualMachine::counts() const {

@@ -76,6 +76,7 @@ class MachineReader {
 
   void read_board(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
+  void read_probe(const TomlEntry& entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
@@ -102,10 +103,12 @@ MachineDescription MachineReader::read() {
   if (const auto tolerance = top.number(path_tolerance_key, Need::optional)) machine_.path_tolerance = Mm(*tolerance);
   const TomlEntry* board = top.table("board", "a table [board] with the board's clock", Need::required);
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
+  const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
   const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
   if (tool != nullptr) read_tool(*tool);
+  if (probe != nullptr) read_probe(*probe);
   if (axes != nullptr) read_axes(*axes);
   return std::move(machine_);
 }
@@ -153,6 +156,12 @@ void MachineReader::read_tool(const TomlEntry& entry) {
   if (const auto name = reader.text("name", "Spindle", Need::optional)) tool.name = *name;
   if (const auto rpm = reader.number(rpm_key, Need::optional)) tool.highest_rpm = *rpm;
   if (const auto diameter = reader.number(diameter_key, Need::optional)) tool.diameter = Mm(*diameter);
+  finish(reader);
+}
+
+void MachineReader::read_probe(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "probe", entry.place, reporter_);
+  machine_.probe.guards = reader.flag("guards").value_or(false);
   finish(reader);
 }
 

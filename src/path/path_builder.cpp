@@ -127,7 +127,7 @@ bool PathBuilder::next(PathItem& item) {
     item = *std::exchange(held_, std::nullopt);
     return true;
   }
-  bool has_item = take_chord(item) || take_spline_chord(item);
+  bool has_item = take_chord(item) || take_spline_chord(item) || take_probe_step(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
   if (outputs() == handed_on_) return has_item;
@@ -174,7 +174,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
       Overloaded{
           [&](const operation::StraightTraverse& move) { return take_line(move.end, true, item); },
           [&](const operation::StraightFeed& move) { return take_line(move.end, false, item); },
-          [&](const operation::StraightProbe& probe) { return take_probe(probe.end, item); },
+          [&](const operation::StraightProbe& probe) { return take_probe(probe, item); },
           [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
           [&](const operation::NurbsFeed& curve) { return take_spline(curve, item); },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
@@ -218,11 +218,35 @@ bool PathBuilder::take_line(const Point& work_end, bool rapid, PathItem& item) {
   return take_curve(Curve::line(position_, machine_end(work_end)), rapid, item);
 }
 
-// The machine has no probe: nothing is touched, and the tool comes to rest at the end.
-bool PathBuilder::take_probe(const Point& work_end, PathItem& item) {
-  if (!take_line(work_end, false, item)) return false;
-  std::get<Segment>(item).mode = PathMode::exact_stop;
+bool PathBuilder::take_probe(const operation::StraightProbe& probe, PathItem& item) {
+  probe_step_ = ProbeStep::move;
+  probe_end_ = probe.end;
+  item = Action{.kind = Action::Kind::probe_begin,
+                .outputs = outputs(),
+                .probe_toward = probe.toward,
+                .place = position_,
+                .source = operation_.source};
   return true;
+}
+
+bool PathBuilder::take_probe_step(PathItem& item) {
+  if (probe_step_ == ProbeStep::move) {
+    probe_step_ = ProbeStep::end;
+    const bool refused = options_.probe != nullptr && options_.probe->refused;
+    if (!refused && take_line(probe_end_, false, item)) {
+      std::get<Segment>(item).mode = PathMode::exact_stop;
+      return true;
+    }
+  }
+  if (probe_step_ == ProbeStep::end) {
+    probe_step_ = ProbeStep::rest;
+    item =
+        Action{.kind = Action::Kind::probe_end, .outputs = outputs(), .place = position_, .source = operation_.source};
+    return true;
+  }
+  if (probe_step_ == ProbeStep::rest && options_.probe != nullptr) position_ = options_.probe->rest;
+  probe_step_ = ProbeStep::none;
+  return false;
 }
 
 // What the machine has not is told once.

@@ -50,6 +50,8 @@ std::string name_of(const Action& action) {
     case Action::Kind::optional_stop: return "optional stop";
     case Action::Kind::tool_change: return fmt::format("tool change {}", action.tool);
     case Action::Kind::feed_hold: return "feed hold";
+    case Action::Kind::probe_begin: return action.probe_toward ? "probe until touched" : "probe until free";
+    case Action::Kind::probe_end: return "probe move ends";
     case Action::Kind::program_end: break;
   }
   return "program end";

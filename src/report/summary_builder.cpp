@@ -38,15 +38,12 @@ class SummaryBuilder::Implementation {
     const Segment& segment = move.segment;
     (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
     peaks_.watch(move);
+    (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += move.to - move.from();
+    add_extents(move, machine_minus_work);
     if (move.from() > Mm(0)) return;  // a later part of a segment that is counted already
-
     ++sum_.moves;
     if (segment.rapid) ++sum_.rapids;
     if (segment.curve.shape() == Curve::Shape::arc) ++sum_.arcs;
-    (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += segment.curve.length();
-    const Box box = segment.curve.extents();
-    machine_.add(box.low, box.high);
-    work_.add(box.low - machine_minus_work, box.high - machine_minus_work);
   }
 
   void watch(const Action& action, const Point& /*machine_minus_work*/) {
@@ -71,6 +68,16 @@ class SummaryBuilder::Implementation {
   }
 
  private:
+  // Of a segment that is not followed to its end, what is.
+  void add_extents(const PlannedMove& move, const Point& machine_minus_work) {
+    const Curve& whole = move.segment.curve;
+    const bool is_part = move.from() > Mm(0) || move.to < whole.length();
+    if (is_part && !(move.to > move.from())) return;
+    const Box box = is_part ? whole.part(move.from(), move.to).extents() : whole.extents();
+    machine_.add(box.low, box.high);
+    work_.add(box.low - machine_minus_work, box.high - machine_minus_work);
+  }
+
   std::vector<Axis> axes_;
   RunSummary sum_;
   Extents machine_;

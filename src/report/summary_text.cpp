@@ -122,11 +122,20 @@ class Text {
     for (const HoldSummary& hold : summary.holds) {
       out_ += fmt::format("  at {:.3f}: slower after {:.1f} ms, at rest at {:.3f} in", hold.asked.value(),
                           hold.reaction.value() * 1e3, hold.rest.value());
-      for (std::size_t i = 0; i < hold.place.size(); ++i) {
-        out_ += fmt::format(" {}{}", letter_of(summary.axes[i].axis), place(hold.place[i]));
-      }
+      add_place(summary, hold.place);
       out_ += hold.resumed ? fmt::format("; went on at {:.3f}\n", hold.resumed->value()) : "; ended there\n";
     }
+  }
+
+  void probes(const RunSummary& summary, const ProbeSummary& probes) {
+    heading("Probe", unit_of_places(summary));
+    out_ += fmt::format("  {}, {} touched; at most {:.3f} from contact to rest\n", counted(probes.moves, "move"),
+                        grouped(probes.touched), probes.farthest_overrun.value());
+    out_ += probes.last_touched ? "  the last touched at" : "  the last touched nothing, up to";
+    add_place(summary, probes.last_contact);
+    out_ += ", at rest in";
+    add_place(summary, probes.last_rest);
+    out_ += " (machine)\n";
   }
 
   std::string take() { return std::move(out_); }
@@ -144,6 +153,11 @@ class Text {
     out_ += fmt::format("  {:10}{:>18}", name, value);
     if (!note.empty()) out_ += fmt::format("  {}", note);
     out_ += "\n";
+  }
+  void add_place(const RunSummary& summary, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      out_ += fmt::format(" {}{}", letter_of(summary.axes[i].axis), place(values[i]));
+    }
   }
   static std::string range(const std::optional<Range>& extents) {
     if (!extents) return "no motion";
@@ -171,6 +185,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   text.axes(summary);
   if (summary.board) text.board(*summary.board);
   if (!summary.holds.empty()) text.holds(summary);
+  if (summary.probes) text.probes(summary, *summary.probes);
   return text.take();
 }
 

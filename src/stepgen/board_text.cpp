@@ -32,6 +32,8 @@ std::string text_of(const Action& action) {
     case Action::Kind::tool_change: return fmt::format("tool change {}\n", action.tool);
     case Action::Kind::program_end: return "program end\n";
     case Action::Kind::feed_hold: return "feed hold\n";
+    case Action::Kind::probe_begin: return action.probe_toward ? "probe until touched\n" : "probe until free\n";
+    case Action::Kind::probe_end: return "probe move ends\n";
     case Action::Kind::outputs: break;
   }
   const OutputState& outputs = action.outputs;

@@ -26,7 +26,9 @@ class StepGenerator::Implementation {
     }
   }
 
-  void limit_waiting_to(Seconds time) { longest_wait_ = std::llround(tick_rate_ * time * whole_tick); }
+  void limit_waiting_to(Seconds time) {
+    longest_wait_ = std::isfinite(time.value()) ? std::llround(tick_rate_ * time * whole_tick) : INT64_MAX;
+  }
 
   void loosen_to_one_in(int share) {
     share_ = share;

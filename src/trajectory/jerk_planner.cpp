@@ -37,6 +37,17 @@ bool JerkPlanner::next(MotionItem& item) {
   return true;
 }
 
+void JerkPlanner::drop_to_action() {
+  do {
+    segments_.clear();
+  } while (fetch());
+  profile_.drop(profile_.size());
+  given_ = decided_ = cut_ = 0;
+  cutting_ = false;
+  closed_ = begins_at_rest_ = true;
+  estimate_ = 0;
+}
+
 void JerkPlanner::look_ahead() {
   profile_.drop(given_);
   given_ = decided_ = 0;

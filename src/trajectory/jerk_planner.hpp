@@ -17,6 +17,8 @@ class JerkPlanner final : public Source<MotionItem> {
   JerkPlanner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued);
 
   [[nodiscard]] bool next(MotionItem& item) override;
+  // At rest: what is left of the path up to the next action is dropped.
+  void drop_to_action();
 
  private:
   bool fetch();

@@ -93,6 +93,16 @@ class Planner::Implementation {
     decided_ = 0;
     if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
   }
+  void drop_to_action() {
+    if (jerk_limited_) return jerk_limited_->drop_to_action();
+    const auto drop = [this] {
+      while (!cells_.empty()) cells_.pop();
+      segments_.clear();
+      cutting_ = false;
+    };
+    for (drop(); !closed_; drop()) pull();
+    decided_ = 0;
+  }
 
   bool braking_plan(std::vector<PlannedMove>& plan) const {
     plan.clear();
@@ -426,6 +436,10 @@ bool Planner::braking_plan(std::vector<PlannedMove>& plan) const {
 }
 void Planner::restart() {
   implementation_->restart();
+}
+
+void Planner::drop_to_action() {
+  implementation_->drop_to_action();
 }
 
 }  // namespace passo

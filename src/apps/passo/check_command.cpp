@@ -66,7 +66,7 @@ int check(const CheckArguments& arguments) {
   const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
   if (result.good && arguments.motion) {
     show(findings);
-    Job job(std::move(*program), *machine, *options, findings);
+    Job job(std::move(*program), *machine, *options, findings, {.probing = Job::Probing::nominal});
     const MotionProof proof = prove(job, *machine, arguments.program.program, result.nominal_time);
     std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
     return proof.good() ? exit_done : exit_failed;

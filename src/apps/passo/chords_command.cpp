@@ -15,11 +15,6 @@
 namespace passo {
 namespace {
 
-int fail(const OutputError& error) {
-  fmt::print(stderr, "passo: error: {}\n", error.message);
-  return exit_failed;
-}
-
 Result<StepScale, std::string> scale_of(const std::string& text) {
   const char* const what = "steps a millimetre above 0, one number or X,Y,Z";
   const auto numbers = numbers_of("--steps-per-mm", text, 1, 3, what);
@@ -82,19 +77,19 @@ int print_chords(const AnyCurve& curve, ChordTolerance tolerance, const ChordsAr
   std::optional<StepScale> scale;
   if (!arguments.steps_per_mm.empty()) {
     const auto parsed = scale_of(arguments.steps_per_mm);
-    if (!parsed) return refuse(parsed.error());
+    if (!parsed) return fail(exit_bad_program, parsed.error());
     scale = *parsed;
   }
   auto file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
-  if (!file) return fail(file.error());
+  if (!file) return fail(exit_failed, file.error().message);
   const auto error = std::visit(
       [&](const auto& one) {
         return scale ? write_step_chords(one, tolerance, *scale, *file) : write_chords(one, tolerance, *file);
       },
       curve);
-  if (error) return refuse(error->message);
+  if (error) return fail(exit_bad_program, error->message);
   const Status<OutputError> written = file->commit();
-  return written ? exit_done : fail(written.error());
+  return written ? exit_done : fail(exit_failed, written.error().message);
 }
 
 std::string title_of(const ChordsArguments& arguments) {
@@ -108,28 +103,30 @@ std::string title_of(const ChordsArguments& arguments) {
 
 int draw(const AnyCurve& curve, ChordTolerance tolerance, const ChordsArguments& arguments) {
   const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
-  if (!format) return refuse(fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+  if (!format)
+    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
   const ChordDrawing drawing = std::visit([&](const auto& one) { return record_chords(one, tolerance); }, curve);
   const std::size_t count = drawing.ends.size() - 1;
   if (count >= ChordDrawing::most_chords) {
-    return refuse(fmt::format("--picture: {} chords or more are too many to be seen; choose a larger --tolerance",
-                              ChordDrawing::most_chords));
+    return fail(exit_bad_program,
+                fmt::format("--picture: {} chords or more are too many to be seen; choose a larger --tolerance",
+                            ChordDrawing::most_chords));
   }
   auto file = OutputFile::open(arguments.picture);
-  if (!file) return fail(file.error());
+  if (!file) return fail(exit_failed, file.error().message);
   PictureOptions options{.format = *format, .program = title_of(arguments), .machine = {}};
   Status<OutputError> done = draw_chords(drawing, options, *file);
   if (done) done = file->commit();
-  return done ? exit_done : fail(done.error());
+  return done ? exit_done : fail(exit_failed, done.error().message);
 }
 
 }  // namespace
 
 int chords(const ChordsArguments& arguments) {
   const auto curve = curve_of(arguments);
-  if (!curve) return refuse(curve.error());
+  if (!curve) return fail(exit_bad_program, curve.error());
   const auto tolerance = ChordTolerance::of(Mm(arguments.tolerance));
-  if (!tolerance) return refuse("--tolerance: " + tolerance.error().message);
+  if (!tolerance) return fail(exit_bad_program, "--tolerance: " + tolerance.error().message);
   if (arguments.picture.empty()) return print_chords(*curve, *tolerance, arguments);
   const int code = draw(*curve, *tolerance, arguments);
   // A picture is an answer by itself; numbers beside it go where they are asked to.

@@ -45,10 +45,21 @@ struct RunArguments {
   std::uint64_t passes = 1;            // of a main program that ends with M99
   std::vector<std::string> holds;      // SECONDS or SECONDS:SECONDS
   std::vector<std::string> overrides;  // PERCENT@SECONDS
+  std::vector<std::string> touches;    // LOW:HIGH of axes, as X10:60,Z:-2
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
+
+struct JogArguments {
+  std::string machine;
+  std::vector<std::string> moves;  // "X+10", or "X+" as far as the travel goes
+  double feed = 600;               // mm a minute along the way
+  double lease = 0.2;              // s
+  std::optional<double> held;      // s for which the lease is renewed; none: to the end
+  bool json = false;
+};
+int jog(const JogArguments& arguments);
 
 struct CheckArguments {
   ProgramArguments program;

@@ -143,7 +143,8 @@ nlohmann::ordered_json as_json(const Explanation& line) {
 int explain(const ExplainArguments& arguments) {
   Place place;
   if (!read_place(arguments.program.program, place)) {
-    return refuse(fmt::format("{}: expected FILE, FILE:LINE or FILE:FROM-TO, lines from 1", arguments.program.program));
+    return fail(exit_bad_program,
+                fmt::format("{}: expected FILE, FILE:LINE or FILE:FROM-TO, lines from 1", arguments.program.program));
   }
   ProgramArguments program_arguments = arguments.program;
   program_arguments.program = place.file;
@@ -154,12 +155,12 @@ int explain(const ExplainArguments& arguments) {
   Diagnostics findings(1000);
   const Explanations result = explain(std::move(*program), *options, place.lines, findings);
   if (result.lines.empty()) {
-    return refuse(fmt::format("{} has {} lines: expected a line from 1 to {}", place.file, result.lines_in_file,
-                              result.lines_in_file));
+    return fail(exit_bad_program, fmt::format("{} has {} lines: expected a line from 1 to {}", place.file,
+                                              result.lines_in_file, result.lines_in_file));
   }
   if (place.whole_file && result.lines_in_file > most_lines) {
-    return refuse(fmt::format("{} has {} lines: expected {}:FROM-TO, {} lines at most", place.file,
-                              result.lines_in_file, place.file, most_lines));
+    return fail(exit_bad_program, fmt::format("{} has {} lines: expected {}:FROM-TO, {} lines at most", place.file,
+                                              result.lines_in_file, place.file, most_lines));
   }
 
   if (arguments.json) {

@@ -83,7 +83,7 @@ Parsed<Method> parse_method(const InterpolateArguments& arguments) {
 
 int write_pulses(const Method& method, const StepMove& move, const std::string& path) {
   auto source = start(method, move);
-  if (!source) return refuse(title(method) + " " + source.error());
+  if (!source) return fail(exit_bad_program, title(method) + " " + source.error());
   auto file = OutputFile::open(path.empty() ? "-" : path);
   if (!file) {
     fmt::print(stderr, "passo: error: {}\n", file.error().message);
@@ -177,11 +177,11 @@ void print_table(const std::vector<StudiedMethod>& studied, const StepMove& move
 
 int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const std::string& path) {
   const std::optional<PictureFormat> format = picture_format_of(path);
-  if (!format) return refuse(fmt::format("--picture: '{}' should end in .svg or .png", path));
+  if (!format) return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", path));
   for (const StudiedMethod& one : studied) {
     if (one.measures.pulses <= most_pictured_pulses) continue;
-    return refuse(fmt::format("--picture: {} pulses are too many to be seen; {} are the most", one.measures.pulses,
-                              most_pictured_pulses));
+    return fail(exit_bad_program, fmt::format("--picture: {} pulses are too many to be seen; {} are the most",
+                                              one.measures.pulses, most_pictured_pulses));
   }
   auto file = OutputFile::open(path);
   Status<OutputError> done = Unit{};
@@ -200,24 +200,24 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
 
 int interpolate(const InterpolateArguments& arguments) {
   const Parsed<StepMove> move = parse_move(arguments);
-  if (!move) return refuse(move.error());
-  if (!(arguments.steps_per_mm > 0)) return refuse("--steps-per-mm: expected a number above 0");
+  if (!move) return fail(exit_bad_program, move.error());
+  if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");
   std::vector<Method> methods;
   if (arguments.compare) {
-    if (!arguments.method.empty()) return refuse("--compare takes every method: leave --method out");
+    if (!arguments.method.empty()) return fail(exit_bad_program, "--compare takes every method: leave --method out");
     methods = methods_for(*move);
   } else {
-    if (arguments.method.empty()) return refuse("expected --method NAME, or --compare");
+    if (arguments.method.empty()) return fail(exit_bad_program, "expected --method NAME, or --compare");
     const Parsed<Method> method = parse_method(arguments);
-    if (!method) return refuse(method.error());
+    if (!method) return fail(exit_bad_program, method.error());
     methods = {*method};
   }
   const bool figures = arguments.compare || arguments.json;
-  if (figures && !arguments.output.empty()) return refuse("--output is for the pulses of one method");
+  if (figures && !arguments.output.empty()) return fail(exit_bad_program, "--output is for the pulses of one method");
   if (!figures && arguments.picture.empty()) return write_pulses(methods[0], *move, arguments.output);
 
   const Parsed<std::vector<StudiedMethod>> studied = study(methods, *move);
-  if (!studied) return refuse(studied.error());
+  if (!studied) return fail(exit_bad_program, studied.error());
   if (!arguments.picture.empty()) {
     const int code = draw(*studied, *move, arguments.picture);
     if (code != exit_done) return code;

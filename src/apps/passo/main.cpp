@@ -20,6 +20,7 @@ constexpr const char* examples = R"(Examples:
   passo run part.ngc -m router.toml --picture part.png        and a picture of the path, coloured by speed
   passo run part.ngc -m router.toml --trace part.vcd          every step of every motor, for GTKWave
   passo run part.ngc -m router.toml --json | jq .time_s       for scripts
+  passo jog -m router.toml X+10 Y-3                           axes moved by hand
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
   passo canon part.ngc                                        what it means, as canonical calls
@@ -69,6 +70,23 @@ void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
 }
 
+CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("jog", "move axes of the virtual machine by hand, and say where they rest");
+  command.add_option("MOVES", arguments.moves, "X+10 Y-3: by so much; X+: as far as the travel goes")->required();
+  add_machine(command, arguments.machine);
+  command.add_option("-F,--feed", arguments.feed, "along the way, mm/min")->capture_default_str();
+  command.add_option("--lease", arguments.lease, "SECONDS: not renewed for so long, the machine brakes")
+      ->capture_default_str();
+  command.add_option("--held", arguments.held, "SECONDS: how long the button is held; without it to the end");
+  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.footer(
+      "Examples:\n  passo jog -m router.toml X+10 -F 600          10 mm to the right\n"
+      "  passo jog -m router.toml X-3 Y+4              straight to both\n"
+      "  passo jog -m router.toml Z+                   up to the end of the travel\n"
+      "  passo jog -m router.toml X- --held 1.5        let go after 1.5 s: it rests a lease later");
+  return command;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app(description, "passo");
   app.footer(examples);
@@ -90,11 +108,17 @@ int parse_and_run(int argc, char** argv) {
       ->capture_default_str();
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
+  run_command.add_option("--touch", run_arguments.touches,
+                         "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(
       "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
-      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20");
+      "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20\n"
+      "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2");
+
+  JogArguments jog_arguments;
+  CLI::App& jog_command = add_jog(app, jog_arguments);
 
   CheckArguments check_arguments;
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");
@@ -144,6 +168,7 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(error) == 0 ? exit_done : exit_bad_program;
   }
   if (run_command.parsed()) return run(run_arguments);
+  if (jog_command.parsed()) return jog(jog_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);

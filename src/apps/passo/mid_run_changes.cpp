@@ -41,14 +41,15 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
     } else if (const auto both = pair_of(text, ':')) {
       changes.changes_.push_back({.at = Seconds(both->first), .pause = Seconds(both->second)});
     } else {
-      refuse("'" + text + "': expected --hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
+      fail(exit_bad_program,
+           "'" + text + "': expected --hold-at SECONDS, or SECONDS:SECONDS to go on after the second time");
       return std::nullopt;
     }
   }
   for (const std::string& text : overrides) {
     const auto both = pair_of(text, '@');
     if (!both || both->first < least_percent || both->first > most_percent) {
-      refuse("'" + text + "': expected --override PERCENT@SECONDS, with 1 to 200 percent");
+      fail(exit_bad_program, "'" + text + "': expected --override PERCENT@SECONDS, with 1 to 200 percent");
       return std::nullopt;
     }
     changes.changes_.push_back({.at = Seconds(both->second), .factor = both->first / 100});

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "program_input.hpp"
 #include "run_outputs.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,11 +18,6 @@ namespace {
 
 constexpr double kg_m2_per_g_cm2 = 1e-7;
 constexpr double henries_per_millihenry = 1e-3;
-
-int fail(ExitCode code, const std::string& message) {
-  fmt::print(stderr, "passo: error: {}\n", message);
-  return code;
-}
 
 // The whole text, finite or not: what a value may be is judged where its meaning is known.
 bool read_number(std::string_view text, double& value) {

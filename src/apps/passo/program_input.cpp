@@ -92,9 +92,9 @@ void show(const Diagnostics& diagnostics) {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-int refuse(const std::string& words) {
-  std::fprintf(stderr, "passo: error: %s\n", words.c_str());
-  return exit_bad_program;
+int fail(ExitCode code, const std::string& message) {
+  std::fprintf(stderr, "passo: error: %s\n", message.c_str());
+  return code;
 }
 
 }  // namespace passo

@@ -27,8 +27,8 @@ std::string parameter_file(const ProgramArguments& arguments, const InterpreterO
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);
 
-// Says on standard error what is wrong with the command line; the exit code that goes with it.
-int refuse(const std::string& words);
+// Says on standard error why the command ends here; the exit code that was given.
+int fail(ExitCode code, const std::string& message);
 
 bool is_terminal(int descriptor);
 

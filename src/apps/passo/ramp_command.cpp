@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "commands.hpp"
+#include "program_input.hpp"
 #include "ramp_scene.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,11 +17,6 @@
 
 namespace passo {
 namespace {
-
-int fail(ExitCode code, const std::string& message) {
-  fmt::print(stderr, "passo: error: {}\n", message);
-  return code;
-}
 
 // --- what was asked for ---------------------------------------------------------------------------------------------
 

@@ -1,4 +1,5 @@
 // passo run: check the program, run it on the virtual machine, and write what was asked for.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -11,9 +12,12 @@
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "run_outputs.hpp"
+#include "touch_option.hpp"
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
+#include "passo/geometry/euclid.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -52,6 +56,21 @@ std::vector<Axis> axes_of(const MachineDescription& machine) {
   return axes;
 }
 
+std::vector<double> along(const MachineDescription& machine, const Point& place) {
+  std::vector<double> values;
+  for (const AxisDescription& axis : machine.axes) values.push_back(place[axis.axis]);
+  return values;
+}
+
+void count(const ProbeOutcome& outcome, const MachineDescription& machine, ProbeSummary& probes) {
+  ++probes.moves;
+  if (outcome.touched) ++probes.touched;
+  probes.last_touched = outcome.touched;
+  probes.last_contact = along(machine, outcome.contact);
+  probes.last_rest = along(machine, outcome.rest);
+  probes.farthest_overrun = std::max(probes.farthest_overrun, Mm(length_of(outcome.rest - outcome.contact)));
+}
+
 RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& arguments, const MachineDescription& machine,
                 RunOutputs& outputs, MidRunChanges& changes) {
   SummaryBuilder builder(axes_of(machine));
@@ -59,6 +78,8 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
     const auto* move = std::get_if<PlannedMove>(&item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
   });
+  ProbeSummary probes;
+  job.drive().probe().watch([&](const ProbeOutcome& outcome) { count(outcome, machine, probes); });
   outputs.watch(job);
   changes.begin(job.drive());
   {
@@ -73,24 +94,29 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   summary.machine = machine.name;
   add_board(summary, job, machine);
   summary.holds = changes.holds();
+  if (probes.moves > 0) summary.probes = probes;
   return summary;
 }
 
-int fail(const std::string& message) {
-  std::fprintf(stderr, "passo: error: %s\n", message.c_str());
-  return exit_failed;
+// Why a run ended before its program did, and where.
+std::string stopped_words(const Job& job, const RunSummary& summary) {
+  std::string words = job.drive().stopped_by_probe() ? "the probe was touched in a move that is no probe move; "
+                                                     : "the program cannot go on; ";
+  words += "the machine rests at";
+  for (const AxisSummary& axis : summary.axes) words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.position);
+  return words + " (machine coordinates), and nothing was written";
 }
 
 // The names of the files tell their kinds: a wrong one is a mistake of the command line.
 bool names_are_good(const RunArguments& arguments) {
   for (const std::string& path : arguments.pictures) {
     if (is_picture_name(path)) continue;
-    fail(path + ": a picture's name ends in .svg or .png");
+    fail(exit_bad_program, path + ": a picture's name ends in .svg or .png");
     return false;
   }
   for (const std::string& path : arguments.traces) {
     if (is_trace_name(path)) continue;
-    fail(path + ": a trace's name ends in .vcd or .csv");
+    fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
     return false;
   }
   return true;
@@ -107,6 +133,8 @@ int run(const RunArguments& arguments) {
   show(diagnostics);
   if (!machine) return exit_bad_machine;
 
+  const std::optional<std::vector<TouchBox>> boxes = read_touch_options(arguments.touches, *machine);
+  if (!boxes) return exit_bad_program;
   std::optional<ProgramReader> program = open_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
@@ -121,26 +149,27 @@ int run(const RunArguments& arguments) {
   const std::string tools = check.tools_change ? tool_table_file(arguments.program, *options) : std::string();
   Result<RunOutputs, OutputError> outputs =
       RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
-  if (!outputs) return fail(outputs.error().message);
+  if (!outputs) return fail(exit_failed, outputs.error().message);
 
   Diagnostics late;
   Job job(std::move(*program), *machine, *options, late);
+  for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
   const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes);
-  if (const auto error = job.link().error()) return fail("the board: " + std::string(message_of(*error)));
-  if (late.any_error()) {
+  if (const auto error = job.link().error()) return fail(exit_failed, "the board: " + std::string(message_of(*error)));
+  if (late.any_error() || job.drive().stopped_by_probe()) {
     show(late);
-    return exit_bad_program;
+    return fail(exit_failed, stopped_words(job, summary));
   }
   const Status<OutputError> written =
       outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);
-  if (!written) return fail(written.error().message);
+  if (!written) return fail(exit_failed, written.error().message);
 
   if (arguments.json) {
     std::fputs(to_json(summary).c_str(), stdout);
   } else if (!arguments.quiet) {
     std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
   }
-  return std::fflush(stdout) == 0 ? exit_done : fail("cannot write to standard output");
+  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
 }
 
 }  // namespace passo

@@ -2,9 +2,10 @@
 // asked without knowing the value.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
+
+#include "kit/require.hpp"
 
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/expression.hpp"
@@ -12,11 +13,7 @@
 namespace passo {
 namespace {
 
-void require(bool condition, const char* what, const std::string& text) {
-  if (condition) return;
-  std::fprintf(stderr, "%s: %s\n", what, text.c_str());
-  std::abort();
-}
+using test::require;
 
 // #1 … #9 and some names have a value, others none.
 class SomeParameters final : public ParameterValues {

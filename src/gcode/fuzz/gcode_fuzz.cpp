@@ -1,11 +1,10 @@
 // Any bytes as a program: no crash, every place inside its line, parse(print(b)) == b, values finite or refused.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include "../tests/block_equality.hpp"
+#include "kit/require.hpp"
 
 #include "passo/gcode/block_parser.hpp"
 #include "passo/gcode/expression.hpp"
@@ -14,11 +13,7 @@
 namespace passo {
 namespace {
 
-void require(bool condition, const char* what, std::string_view line) {
-  if (condition) return;
-  std::fprintf(stderr, "%s: %.*s\n", what, static_cast<int>(line.size()), line.data());
-  std::abort();
-}
+using test::require;
 
 // Some parameters exist, some do not.
 class SomeParameters final : public ParameterValues {

@@ -4,9 +4,9 @@
 // The first byte chooses: bit 0 the dialect, bit 1 inches, bit 2 block delete, bit 3 whether it is explained.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
+
+#include "kit/require.hpp"
 
 #include "passo/interpreter/canon.hpp"
 #include "passo/interpreter/explain.hpp"
@@ -17,11 +17,7 @@ namespace {
 
 constexpr int most_operations = 3000;
 
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
+using test::require;
 
 void check_diagnostics(const Diagnostics& diagnostics) {
   for (const Diagnostic& finding : diagnostics.all()) {

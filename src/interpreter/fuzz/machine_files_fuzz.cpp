@@ -4,10 +4,9 @@
 // The first byte chooses the kind of file.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
+#include "kit/require.hpp"
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -18,11 +17,7 @@
 namespace passo {
 namespace {
 
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
+using test::require;
 
 // The readers take paths; this one is of a file in memory.
 class FileInMemory {

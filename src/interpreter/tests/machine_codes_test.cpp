@@ -65,16 +65,45 @@ TEST(Probing, a_preview_stops_before_the_end_as_rs274_does) {
   EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"1.000000 0.990000\")\n"));
 }
 
-TEST(Probing, on_a_machine_without_a_probe_nothing_is_touched) {
+TEST(Probing, on_a_machine_is_touched_at_its_end_as_long_as_nobody_knows_better) {
   InterpreterOptions options;
   options.on_machine = true;
-  const Interpreted may = interpret_text("G21 F100\nG38.3 X10\n(debug,#5061 #5070 #5420)\nM2\n", options);
-  EXPECT_THAT(may.calls(), HasSubstr("MESSAGE(\"10.000000 0.000000 10.000000\")\n"));
-  EXPECT_FALSE(may.diagnostics.any_error());
-  const Interpreted must = interpret_text("G21 F100\nG38.4 X10\nG0 X11\nM2\n", options);
-  ASSERT_EQ(must.diagnostics.errors(), 1U);
-  EXPECT_EQ(must.diagnostics.all().front().code, "gcode.probe-untouched");
-  EXPECT_EQ(must.diagnostics.all().front().place.line, 2U);
+  const Interpreted result = interpret_text("G21 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nM2\n", options);
+  EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"10.000000 1.000000 10.000000\")\n"));
+  EXPECT_FALSE(result.diagnostics.any_error());
+}
+
+TEST(Probing, goes_on_from_where_the_machine_rests_with_what_it_found) {
+  ProbeOutcome outcome;
+  outcome.touched = true;
+  outcome.contact[Axis::x] = 6;
+  outcome.rest[Axis::x] = 6.25;
+  InterpreterOptions options;
+  options.probe = &outcome;
+  const Interpreted result =
+      interpret_text("G21 G10 L2 P1 X1 F100\nG38.2 X10\n(debug,#5061 #5070 #5420)\nG91 G0 X1\nM2\n", options);
+  EXPECT_THAT(result.calls(), HasSubstr("MESSAGE(\"5.000000 1.000000 5.250000\")\n"));
+  EXPECT_THAT(result.calls(), HasSubstr("STRAIGHT_TRAVERSE(6.2500,"));
+}
+
+TEST(Probing, that_failed_ends_the_program_at_its_line) {
+  ProbeOutcome outcome;
+  InterpreterOptions options;
+  options.probe = &outcome;
+  for (const char* must : {"G38.2", "G38.4"}) {
+    const Interpreted untouched = interpret_text("G21 F100\n" + std::string(must) + " X10\nG0 X11\nM2\n", options);
+    ASSERT_EQ(untouched.diagnostics.errors(), 1U);
+    EXPECT_EQ(untouched.diagnostics.all().front().code, "gcode.probe-untouched");
+    EXPECT_EQ(untouched.diagnostics.all().front().place.line, 2U);
+    EXPECT_TRUE(untouched.all<operation::StraightTraverse>().empty()) << "nothing of the program comes behind";
+  }
+  EXPECT_FALSE(interpret_text("G21 F100\nG38.3 X10\nG0 X11\nM2\n", options).diagnostics.any_error());
+  outcome.refused = true;
+  for (const char* any : {"G38.2", "G38.3", "G38.4", "G38.5"}) {
+    const Interpreted refused = interpret_text("G21 F100\n" + std::string(any) + " X10\nM2\n", options);
+    ASSERT_EQ(refused.diagnostics.errors(), 1U);
+    EXPECT_EQ(refused.diagnostics.all().front().code, "gcode.probe-before");
+  }
 }
 
 TEST(Debug, messages_are_shown_or_not_by_5599) {

@@ -99,6 +99,39 @@ TEST(VirtualMachine, events_without_steps_take_time_and_are_not_shown) {
   EXPECT_EQ(machine.counts().events, 101);
 }
 
+TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
+  VirtualMachine machine(1, clock);
+  TouchBody far;
+  far.motors[0] = {.low = 500, .high = 600};
+  TouchBody body;
+  body.motors[0] = {.low = 120, .high = 130};
+  machine.add_body(far);
+  machine.add_body(body);
+  InProcessLink link(machine, 1);
+  link.send(every_event(20, 100));
+  link.watch_probe(ProbeUntil::touched);
+  EXPECT_FALSE(link.probe_report().touched);
+  link.send(every_event(200, 100));
+  while (link.busy() && !link.probe_report().happened) link.wait();
+  EXPECT_TRUE(link.probe_report().happened);
+  EXPECT_EQ(link.probe_report().steps[0], 100);
+  EXPECT_EQ(machine.counts().motors[0].position, 120) << "told at once";
+  EXPECT_TRUE(link.busy());
+  link.drain();
+  EXPECT_EQ(machine.counts().motors[0].position, 220);
+  EXPECT_EQ(link.probe_report().steps[0], 100) << "kept";
+  EXPECT_FALSE(link.probe_report().touched);
+  EXPECT_FALSE(link.error());
+  link.watch_probe(ProbeUntil::released);
+  link.send(every_event(95, 100, true));
+  link.drain();
+  EXPECT_EQ(link.probe_report().steps[0], 0) << "it waits for the change to free, which was not yet";
+  link.send(every_event(10, 100, true));
+  link.drain();
+  EXPECT_TRUE(link.probe_report().happened);
+  EXPECT_EQ(link.probe_report().steps[0], -101);
+}
+
 TEST(VirtualMachine, time_goes_on_past_32_bits) {
   VirtualMachine machine(1, clock);
   InProcessLink link(machine, 1);

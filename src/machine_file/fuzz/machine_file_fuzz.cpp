@@ -1,20 +1,16 @@
 // Any bytes as a machine file (TOML): refused with places inside their lines, or a description that is whole and sound.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string_view>
+
+#include "kit/require.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
 namespace {
 
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
+using test::require;
 
 void check_description(const MachineDescription& machine) {
   require(!machine.axes.empty() && machine.axes.size() <= most_motors, "no axis, or too many");

@@ -5,13 +5,15 @@
 #include <cmath>
 #include <functional>
 
+#include "planner_kit.hpp"
 #include "random_program.hpp"
-
-#include "passo/trajectory/motion_text.hpp"
 
 namespace passo {
 namespace {
 
+using test::line;
+using test::plan;
+using test::total_time;
 using test::xyz;
 using Limit = std::function<double(double)>;
 
@@ -47,24 +49,6 @@ double shouldered(double v) {
   return v < 40 ? 3000 : 3000 * std::pow(40 / v, 1.3);
 }
 
-std::vector<MotionItem> plan(const std::vector<PathItem>& path, const MotionLimits& limits,
-                             std::size_t most_queued = Planner::most_queued_cells) {
-  test::ListSource<PathItem> source(path);
-  Planner planner(source, limits, most_queued);
-  return test::drain(planner);
-}
-
-double total_time(const std::vector<MotionItem>& motion) {
-  double sum = 0;
-  for (const MotionItem& item : motion) {
-    if (const auto* move = std::get_if<PlannedMove>(&item)) sum += move->duration().value();
-  }
-  return sum;
-}
-
-Segment line(const Point& start, const Point& end, double speed) {
-  return {.curve = Curve::line(start, end), .speed = MmPerSecond(speed), .tolerance = Mm(0.01), .source = {}};
-}
 double time_of_line(double length, double speed, const MotionLimits& limits) {
   return total_time(plan({line(xyz(0, 0), xyz(length, 0), speed)}, limits));
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/good_path.hpp"
 #include "passo/controller/motion_drive.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -28,18 +29,35 @@ struct ProgramCheck {
   Seconds nominal_time{0};  // at the programmed speeds, without ramps: good for progress only
   std::uint64_t moves = 0;
   bool tools_change = false;  // the program sets some in the tool table
+  bool probes = false;        // and what comes behind was checked as if probe moves were touched at their ends
 };
 
 // Interprets the whole program and builds its path; what is wrong is in `diagnostics`.
+//
+// What a probe will find is not known yet. Probe moves are taken to be touched at their ends; so the path may be
+// another in the run, and behind the first probe move what is wrong with it is told as a warning. Errors in how the
+// program is written remain errors. A loop that only a probe can end is not followed for ever.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics);
 
 class Job {
  public:
-  // `diagnostics` gets what the second pass still finds (nothing, after a good check). With a line the board is at its
-  // other end, and what it holds always ends at rest.
-  Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-      Diagnostics& diagnostics, const std::optional<LineOptions>& line = std::nullopt);
+  // Who tells what probe moves find: the board; or nobody, and they are touched at their ends, as in the checking pass.
+  enum class Probing : std::uint8_t { by_board, nominal };
+
+  struct Options {
+    Probing probing = Probing::by_board;
+    // With a line the board is at its other end, and what it holds always ends at rest.
+    std::optional<LineOptions> line = {};
+  };
+
+  // `diagnostics` gets what the second pass still finds: nothing after a good check, if nothing was probed. An error
+  // there ends the job, at rest before the move that is wrong.
+  Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& interpretation,
+      Diagnostics& diagnostics, const Options& options);
+  Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& interpretation,
+      Diagnostics& diagnostics)
+      : Job(std::move(program), machine, interpretation, diagnostics, Options()) {}
 
   // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
   // has an error.
@@ -47,6 +65,7 @@ class Job {
 
   // To hold, resume, change and stop it in mid-run.
   MotionDrive& drive() { return drive_; }
+  const MotionDrive& drive() const { return drive_; }
 
   // Who wants to watch, before the first advance().
   Tap<PathItem>& path() { return watched_path_; }
@@ -68,10 +87,12 @@ class Job {
 
   PathOptions path_options_;
   MotionLimits limits_;
+  ProbeOutcome probe_outcome_;
 
   // The street.
   Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
+  GoodPath good_path_;        // as long as nothing is wrong
   Tap<PathItem> watched_path_;
   PathSmoother smoother_;   // corners -> curves within the tolerance
   VirtualMachine machine_;  // what is at the other end of the wire

@@ -5,6 +5,9 @@
 // after the time that is committed. Without go_live() the drive reads ahead as far as the board's queue goes. Live,
 // it commits at most the horizon and what one pull adds, two moves and what is waited for: 15 ms with the defaults.
 //
+// In a probe move the drive commits little more than it must, whether live or not. When the board tells of the contact
+// it brakes on the path behind that, and drops the rest of the move.
+//
 // Virtual time passes only while the board plays: at rest it stands still, but in wait(). See docs/decisions/0017.
 #pragma once
 
@@ -13,6 +16,7 @@
 #include <optional>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/probe_move.hpp"
 #include "passo/controller/refiller.hpp"
 #include "passo/controller/rewindable_path.hpp"
 #include "passo/controller/tap.hpp"
@@ -34,6 +38,8 @@ struct BoardLine {
   BoardPort* port = nullptr;  // none: the machine itself
   LineCare care = {};
 };
+// In a probe move: the tool goes on so long into what it touched, before it brakes.
+inline constexpr LiveOptions probing_options{.horizon = Seconds(0.004), .longest_move = Seconds(0.001)};
 
 class MotionDrive {
  public:
@@ -55,6 +61,12 @@ class MotionDrive {
   bool use_tails(const TailOptions& options);
   // Of tails; none is used without use_tails().
   const Refiller* refiller() const { return refiller_ ? &*refiller_ : nullptr; }
+
+  // Who wants to know what probe moves find, before the first advance(); and whether a probe that is touched in another
+  // move stops the drive.
+  ProbeMove& probe() { return probe_; }
+  // That happened.
+  bool stopped_by_probe() const { return stopped_by_probe_; }
 
   // Goes on a little: sends one board segment, or lets the board play one. False when it has ended.
   [[nodiscard]] bool advance();
@@ -84,6 +96,11 @@ class MotionDrive {
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
   bool advance_with_tails();
   void send(const BoardItem& item);
+  void commit_by(const LiveOptions& options);
+  void look_at_probe();
+  void begin_probe(const Action& action);
+  void end_probe(const Action& action);
+  void rest_in_feed_hold();
   void rest_in_hold();
   bool end();
 
@@ -97,11 +114,18 @@ class MotionDrive {
   InProcessLink link_;  // board segments -> wire
   StepOptions steps_;
   std::optional<Refiller> refiller_;
+  ProbeMove probe_;
 
   BoardItem item_;
   State state_ = State::running;
   bool stopping_ = false;
-  Seconds horizon_{std::numeric_limits<double>::infinity()};
+  bool contact_seen_ = false;  // of what the board watches for now
+  bool probe_brakes_ = false;  // after a contact, until the path is at rest
+  bool stopped_by_probe_ = false;
+  std::optional<Point> end_of_probe_;  // of the motion that is committed, in a probe move
+  LiveOptions live_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
+                    .longest_move = Seconds(std::numeric_limits<double>::infinity())};
+  Seconds horizon_ = live_.horizon;
   Seconds planned_{0};  // time of all motion given by the planner
   Seconds rested_;      // time of the machine that was no motion of this drive
 };

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace passo {
@@ -49,6 +50,10 @@ class Diagnostics {
   explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}
 
   void add(Diagnostic diagnostic);
+  // From now on errors may come otherwise, for this reason, and are kept as warnings; not those that are certain. An
+  // empty reason: no longer.
+  void doubt_errors(std::string reason) { doubt_ = std::move(reason); }
+  void add_certain(Diagnostic diagnostic);
   // What to write as the rule of a diagnostic that comes without one; the stage that knows gives it.
   using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
@@ -61,6 +66,7 @@ class Diagnostics {
  private:
   std::size_t limit_;
   RuleOf rule_of_ = nullptr;
+  std::string doubt_;
   std::size_t errors_ = 0;
   std::vector<Diagnostic> all_;
 };

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -43,6 +44,8 @@ class InProcessLink final : public Link {
   void drain() override;
   bool busy() const override { return sent_ != executed_; }
   void wait() override;
+  void watch_probe(ProbeUntil until) override;
+  const ProbeReport& probe_report() const override { return probe_report_; }
   std::optional<LinkError> error() const override { return error_; }
 
   std::uint64_t frames_sent() const override { return frames_sent_; }
@@ -75,6 +78,7 @@ class InProcessLink final : public Link {
   void take(const Credit& credit);
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
+  void take(const Captured& captured);
   void note_taken(std::uint8_t sequence);
   void repeat();
   template <class Message, class... More>
@@ -94,10 +98,13 @@ class InProcessLink final : public Link {
   ItemNumber taken_ = 0;     // of the last one that the board told to have
   ItemNumber executed_ = 0;  // of the last item that it told to be done
   int free_ = 0;             // room that it had when it told so
-  bool news_ = false;        // since wait() began
-  std::deque<Frame> kept_;   // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};         // when the board last said anything
-  Seconds moved_on_{0};      // when it last took something, or we asked or sent
+  ProbeUntil probe_until_ = ProbeUntil::off;
+  ProbeReport probe_report_;
+  std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
+  bool news_ = false;                                   // since wait() began
+  std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};                                    // when the board last said anything
+  Seconds moved_on_{0};                                 // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;

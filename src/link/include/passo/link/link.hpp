@@ -10,6 +10,7 @@
 #include <string_view>
 #include <variant>
 
+#include "passo/link/probe.hpp"
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
@@ -55,8 +56,12 @@ class Link {
   virtual void drain() = 0;
   // Whether something that was sent is, as far as we know, not done.
   virtual bool busy() const = 0;
-  // Waits until the board has told something new: it has done one more item, or taken what was sent.
+  // Waits until the board has told something new: it has done one more item, taken what was sent, or
+  // seen what its probe is watched for.
   virtual void wait() = 0;
+  // From now on, at rest: asks how the probe is, and counts the motors' steps until what is waited for.
+  virtual void watch_probe(ProbeUntil until) = 0;
+  virtual const ProbeReport& probe_report() const = 0;
   virtual std::optional<LinkError> error() const = 0;
 
   virtual std::uint64_t frames_sent() const = 0;

@@ -2,8 +2,9 @@
 // timer.
 //
 // Place on the street: the end. Time is counted in ticks and passes only while the board plays; at rest it stands
-// still. The same bytes give the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6
-// ns an event of a three-axis machine; without observers there is nothing to pay for them.
+// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it. The same bytes give
+// the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6 ns an event of a three-axis
+// machine; without observers there is nothing to pay for them.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 #include "passo/link/board_port.hpp"
 #include "passo/machine/machine_counts.hpp"
 #include "passo/machine/machine_observer.hpp"
+#include "passo/machine/touch_body.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -31,6 +33,8 @@ class VirtualMachine final : public BoardPort {
 
   // The observer outlives the machine's last run().
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
+
+  void add_body(const TouchBody& body);
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
@@ -61,6 +65,7 @@ class VirtualMachine final : public BoardPort {
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
     void send(std::uint8_t byte) { to_host.push_back(byte); }
+    bool is_in_a_body() const;
 
     std::int64_t now = 0;
     std::array<Motor, max_motors> motors;
@@ -68,13 +73,17 @@ class VirtualMachine final : public BoardPort {
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
     std::vector<MachineObserver*> observers;
+    std::vector<TouchBody> bodies;
     std::vector<std::uint8_t> to_host;
   };
+
+  void look_at_bodies();
 
   Hardware hardware_;
   Board<Hardware, items_held> board_;
   Hertz clock_;
   std::uint8_t motor_count_;
+  bool touched_ = false;  // as the board was told
   std::int64_t next_event_ = 0;
   bool waits_ = false;  // for the next event, which is due then
   std::int64_t events_ = 0;

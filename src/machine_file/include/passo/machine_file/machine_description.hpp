@@ -61,11 +61,16 @@ struct ToolDescription {
   Mm diameter{0};          // 0: not told
 };
 
+struct ProbeDescription {
+  bool guards = false;  // touched in a move that is no probe move, it stops the machine
+};
+
 struct MachineDescription {
   std::string name;
   Mm path_tolerance{0.01};
   BoardDescription board;
   ToolDescription tool;
+  ProbeDescription probe;
   std::vector<AxisDescription> axes;  // in the order of the board's motors
 };
 

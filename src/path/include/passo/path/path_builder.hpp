@@ -21,6 +21,7 @@
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
+#include "passo/interpreter/probe_outcome.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
@@ -38,7 +39,9 @@ struct PathOptions {
   Mm tolerance{0.01};           // of junctions, where the program gives none (G64 P)
   double spindle_limit = 0;     // fastest spindle, revolutions a minute; 0: no spindle speed is refused
   Point start;                  // machine position at the start
-  std::string file;             // names the program in diagnostics
+  // What the machine has found in its last probe move, which is where the path goes on; null: it came to its end.
+  const ProbeOutcome* probe = nullptr;
+  std::string file;  // names the program in diagnostics
 };
 
 class PathBuilder final : public Source<PathItem> {
@@ -58,7 +61,8 @@ class PathBuilder final : public Source<PathItem> {
   // Each says whether it wrote an item.
   bool take(const Operation& operation, PathItem& item);
   bool take_line(const Point& work_end, bool rapid, PathItem& item);
-  bool take_probe(const Point& work_end, PathItem& item);
+  bool take_probe(const operation::StraightProbe& probe, PathItem& item);
+  bool take_probe_step(PathItem& item);
   bool take_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_chord(PathItem& item);
@@ -99,6 +103,10 @@ class PathBuilder final : public Source<PathItem> {
   // A spline, of which chords are still to come.
   std::unique_ptr<SplineChords> spline_;
   Mm spline_tolerance_{0};
+  // A probe move is three items; and then the path goes on from where the machine came to rest.
+  enum class ProbeStep : std::uint8_t { none, move, end, rest };
+  ProbeStep probe_step_ = ProbeStep::none;
+  Point probe_end_;  // work coordinates
 
   Operation operation_;  // the one in hand
   std::array<OperationKind, 4> tap_;

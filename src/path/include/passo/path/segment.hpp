@@ -31,11 +31,23 @@ struct OutputState {
 };
 
 struct Action {
-  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end, feed_hold };
+  enum class Kind : std::uint8_t {
+    dwell,
+    outputs,
+    program_stop,
+    optional_stop,
+    tool_change,
+    program_end,
+    feed_hold,
+    probe_begin,  // behind it comes the probe move, and
+    probe_end,    // then this: no stage reads further before the machine is there
+  };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after it
   std::int32_t tool = 0;
+  bool probe_toward = true;  // a probe move: until touched, else until free
+  Point place{};             // of a probe move: its beginning, or its end; machine coordinates
   OperationSource source{};
 };
 

@@ -50,6 +50,16 @@ struct HoldSummary {
   std::optional<Seconds> resumed = {};  // none: the run ended there
 };
 
+// What probe moves found. Places on each axis, machine coordinates.
+struct ProbeSummary {
+  std::uint64_t moves = 0;
+  std::uint64_t touched = 0;
+  bool last_touched = false;
+  std::vector<double> last_contact = {};  // to the step; without contact, the end of the move
+  std::vector<double> last_rest = {};     // where the machine came to rest after it
+  Mm farthest_overrun{0};                 // of all: from contact to rest
+};
+
 struct RunSummary {
   std::string program;
   std::string machine;
@@ -68,6 +78,7 @@ struct RunSummary {
   std::vector<AxisSummary> axes;
   std::optional<BoardSummary> board;  // none: nothing was sent to a board
   std::vector<HoldSummary> holds;
+  std::optional<ProbeSummary> probes;  // none: no probe move
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };

@@ -48,6 +48,8 @@ class Planner final : public Source<MotionItem> {
   // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
   void hold();
   void resume();
+  // At rest in a hold: drops what is left of the path up to the next action, which comes next after resume().
+  void drop_to_action();
 
   // How the path would come to rest behind the last move given if it were held now. Nothing changes by it. False where
   // the planner cannot tell: with a limit of jerk.

@@ -1,0 +1,72 @@
+// Probing as a user sees it: docs/manual/probing.md shows what the program prints.
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+using testing::HasSubstr;
+
+const std::string source_dir = PASSO_SOURCE_DIR;
+const std::string router = " -m " + source_dir + "/examples/machines/router.toml ";
+
+class Probe : public passo::test::CommandLine {
+ protected:
+  Outcome run_text(const std::string& text, const std::string& options) const {
+    return passo("run " + write("p.ngc", text) + router + options);
+  }
+};
+
+TEST_F(Probe, finds_the_corner_as_the_manual_shows) {
+  const std::string manual = read(source_dir + "/docs/manual/probing.md");
+  const std::string block = " --touch X42.3:90,Y31.75:70,Z-50:-11.2 ";
+  ASSERT_THAT(manual, HasSubstr(block));
+  const Outcome outcome =
+      passo("run " + source_dir + "/examples/probe-corner.ngc" + router + block + "--parameters " + path("corner.var"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  ASSERT_THAT(outcome.out, HasSubstr("\nProbe, mm\n"));
+  EXPECT_THAT(manual, HasSubstr(outcome.out.substr(outcome.out.find("Probe, mm"))));
+  const std::string offsets = "5221\t42.300000\n5222\t31.750000\n5223\t-11.200000\n";
+  EXPECT_THAT(read(path("corner.var")), HasSubstr(offsets));
+  EXPECT_THAT(manual, HasSubstr(offsets));
+}
+
+TEST_F(Probe, tells_what_it_found_in_the_json) {
+  const Outcome outcome = run_text("G21 G90 F600\nG38.2 Z-20\nM2\n", "--json --touch Z:-1.5");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto probes = nlohmann::json::parse(outcome.out)["probes"];
+  EXPECT_EQ(probes["touched"], 1);
+  EXPECT_DOUBLE_EQ(probes["last_contact_mm"]["Z"], -1.5);
+  EXPECT_LT(probes["last_rest_mm"]["Z"], -1.5);
+  EXPECT_LT(probes["farthest_overrun_mm"], 0.17 + 2.0 / 640) << "as the manual promises";
+}
+
+TEST_F(Probe, that_finds_nothing_ends_the_run_with_1_and_leaves_no_file) {
+  const Outcome outcome = run_text("G21 G90 F600\nG38.2 Z-3\nM2\n", "--touch Z:-5 --report " + path("r.json"));
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("p.ngc:2:1: error: G38.2 came to its end"));
+  EXPECT_THAT(outcome.err, HasSubstr("rests at X0.000 Y0.000 Z-3.000"));
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Probe, with_a_hold_and_an_override_finds_the_same) {
+  const Outcome outcome =
+      run_text("G21 G90 F600\nG38.2 Z-20\nM2\n", "--json --touch Z:-1.5 --hold-at 0.1:1 --override 150@0.05");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["holds"].size(), 1U);
+  EXPECT_DOUBLE_EQ(json["probes"]["last_contact_mm"]["Z"], -1.5);
+}
+
+TEST_F(Probe, refuses_what_is_no_box_of_the_machine) {
+  for (const char* wrong : {"Z", "Z-1.5", "A:3", "Z:x", "Z2:1", "X1:2,", "3:4", "Znan:"}) {
+    const Outcome outcome = run_text("M2\n", "--touch " + std::string(wrong));
+    EXPECT_EQ(outcome.code, 2) << wrong;
+    EXPECT_THAT(outcome.err, HasSubstr("expected --touch")) << wrong;
+  }
+}
+
+}  // namespace
