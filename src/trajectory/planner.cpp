@@ -78,16 +78,24 @@ class Planner::Implementation {
     return true;
   }
 
-  void limit_moves_to(Seconds duration) { longest_move_ = duration; }
+  void limit_moves_to(Seconds duration) {
+    if (jerk_limited_) return jerk_limited_->limit_moves_to(duration);
+    longest_move_ = duration;
+  }
 
   void set_feed_override(double factor) {
+    if (jerk_limited_) return jerk_limited_->set_feed_override(factor);
     override_ = factor;
     for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
     decided_ = 0;
   }
 
-  void hold() { holding_ = true; }
+  void hold() {
+    if (jerk_limited_) return jerk_limited_->hold();
+    holding_ = true;
+  }
   void resume() {
+    if (jerk_limited_) return jerk_limited_->resume();
     holding_ = false;
     decided_ = 0;
     if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();

@@ -23,6 +23,12 @@ MachineDescription example_machine(const std::string& name) {
   return machine.value_or(MachineDescription());
 }
 
+// Full acceleration after 20 ms.
+MachineDescription with_jerk_limits(MachineDescription machine) {
+  for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
+  return machine;
+}
+
 ProofOptions proof_options(const MachineDescription& machine) {
   ProofOptions options;
   for (const AxisDescription& axis : machine.axes) {
