@@ -32,8 +32,11 @@ MachineDescription with_jerk_limits(MachineDescription machine) {
 ProofOptions proof_options(const MachineDescription& machine) {
   ProofOptions options;
   for (const AxisDescription& axis : machine.axes) {
-    options.axes.push_back(
-        {.axis = axis.axis, .step = axis.step(), .velocity = axis.velocity, .acceleration = axis.acceleration});
+    options.axes.push_back({.axis = axis.axis,
+                            .step = axis.step(),
+                            .velocity = axis.velocity,
+                            .acceleration = axis.acceleration,
+                            .jerk = axis.jerk});
   }
   options.tick_rate = machine.board.clock;
   return options;
@@ -144,10 +147,9 @@ Ending run(const std::string& program, const MachineDescription& machine, test::
   return ending;
 }
 
-void expect_nothing_lost(const std::string& program, const std::string& machine_name, int runs) {
-  SCOPED_TRACE(machine_name);
+void expect_nothing_lost(const std::string& program, const MachineDescription& machine, int runs) {
+  SCOPED_TRACE(machine.name);
   test::Random random;
-  const MachineDescription machine = example_machine(machine_name);
   const Ending undisturbed = run(program, machine, nullptr);
   EXPECT_TRUE(undisturbed.proof.good()) << to_text(undisturbed.proof);
   int holds = 0;
@@ -170,16 +172,23 @@ void expect_nothing_lost(const std::string& program, const std::string& machine_
 constexpr std::array<const char*, 4> machines = {"bench", "router", "pantograph", "forty-eight"};
 
 TEST(MidRun, holds_and_overrides_lose_nothing_on_lines) {
-  for (const char* machine : machines) expect_nothing_lost(lines(), machine, 2);
+  for (const char* machine : machines) expect_nothing_lost(lines(), example_machine(machine), 2);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_on_arcs) {
-  for (const char* machine : machines) expect_nothing_lost(arcs(), machine, 1);
+  for (const char* machine : machines) expect_nothing_lost(arcs(), example_machine(machine), 1);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_on_dense_paths) {
-  for (const char* machine : machines) expect_nothing_lost(dense(), machine, 1);
+  for (const char* machine : machines) expect_nothing_lost(dense(), example_machine(machine), 1);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_in_cycles) {
-  for (const char* machine : machines) expect_nothing_lost(cycles(), machine, 2);
+  for (const char* machine : machines) expect_nothing_lost(cycles(), example_machine(machine), 2);
+}
+
+TEST(MidRun, holds_and_overrides_lose_nothing_where_the_jerk_is_limited) {
+  for (const char* name : {"bench", "forty-eight"}) {
+    const MachineDescription machine = with_jerk_limits(example_machine(name));
+    for (const std::string& program : {lines(), arcs(), dense(), cycles()}) expect_nothing_lost(program, machine, 1);
+  }
 }
 
 // The steps of all motors, as the virtual machine made them.
@@ -229,8 +238,10 @@ Reaction reaction_to_hold(const std::string& program, const MachineDescription& 
 TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
   test::Random random;
   const LiveOptions live;
-  for (const char* name : machines) {
-    const MachineDescription machine = example_machine(name);
+  for (std::size_t n = 0; n < 2 * machines.size(); ++n) {
+    const char* name = machines[n / 2];
+    const bool jerk = n % 2 == 1;
+    const MachineDescription machine = jerk ? with_jerk_limits(example_machine(name)) : example_machine(name);
     double most_committed = 0;
     double most_seen = 0;
     double most_beyond = 0;
@@ -247,8 +258,8 @@ TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
       }
     }
     std::printf(
-        "%-12s committed at most %.1f ms, slower after at most %.1f ms, at most %.1f ms beyond what was committed\n",
-        name, most_committed * 1e3, most_seen * 1e3, most_beyond * 1e3);
+        "%-12s%s committed at most %.1f ms, slower after at most %.1f ms, at most %.1f ms beyond what was committed\n",
+        name, jerk ? " with jerk" : "", most_committed * 1e3, most_seen * 1e3, most_beyond * 1e3);
   }
 }
 
