@@ -12,13 +12,15 @@ Seconds time_of(const MotionItem& item) {
   return action != nullptr ? action->dwell : std::get<PlannedMove>(item).duration();
 }
 
-BoardOutputs board_outputs(const OutputState& state) {
+constexpr double no_feed = 0.01;
+
+BoardOutputs board_outputs(const OutputState& state, double spindle_factor) {
   unsigned switches = 0;
   if (state.spindle != SpindleDirection::off) switches |= OutputSwitch::spindle_on;
   if (state.spindle == SpindleDirection::counterclockwise) switches |= OutputSwitch::spindle_reverse;
   if (state.mist) switches |= OutputSwitch::mist_on;
   if (state.flood) switches |= OutputSwitch::flood_on;
-  const double rpm = std::clamp(std::round(state.revolutions_per_minute), 0.0, 65535.0);
+  const double rpm = std::clamp(std::round(state.revolutions_per_minute * spindle_factor), 0.0, 65535.0);
   return {.switches = static_cast<std::uint8_t>(switches), .spindle_rpm = static_cast<std::uint16_t>(rpm)};
 }
 
@@ -34,7 +36,15 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       watched_board_(step_generator_),
       link_(machine, steps.motor_count),
       rested_(now()) {
-  watched_motion_.watch([this](const MotionItem& item) { planned_ += time_of(item); });
+  watched_motion_.watch([this](const MotionItem& item) { watch(item); });
+}
+
+void MotionDrive::watch(const MotionItem& item) {
+  planned_ += time_of(item);
+  const auto* move = std::get_if<PlannedMove>(&item);
+  if (move == nullptr || move->segment.heeds.spindle_override == heeds_spindle_override_) return;
+  heeds_spindle_override_ = move->segment.heeds.spindle_override;
+  set_outputs(outputs_);
 }
 
 void MotionDrive::go_live(const LiveOptions& options) {
@@ -59,9 +69,22 @@ bool MotionDrive::advance() {
 void MotionDrive::send(const BoardItem& item) {
   if (const auto* segment = std::get_if<BoardSegment>(&item)) return link_.send(*segment);
   const auto& action = std::get<Action>(item);
-  if (action.kind != Action::Kind::feed_hold) return link_.send(board_outputs(action.outputs));
-  // One that was resumed before it came to rest is none.
-  if (state_ == State::holding) rest_in_hold();
+  if (action.kind == Action::Kind::feed_hold) {
+    // One that was resumed before it came to rest is none.
+    if (hold_asked_ || stopping_ || feed_override_ < no_feed || adaptive_feed_ < no_feed) rest_in_hold();
+    return;
+  }
+  heeds_spindle_override_ = action.heeds.spindle_override;
+  on_board_.reset();
+  set_outputs(action.outputs);
+}
+
+void MotionDrive::set_outputs(const OutputState& outputs) {
+  outputs_ = outputs;
+  const BoardOutputs wanted = board_outputs(outputs, heeds_spindle_override_ ? spindle_override_ : 1);
+  if (on_board_ && on_board_->switches == wanted.switches && on_board_->spindle_rpm == wanted.spindle_rpm) return;
+  on_board_ = wanted;
+  link_.send(wanted);
 }
 
 void MotionDrive::rest_in_hold() {
@@ -81,22 +104,42 @@ bool MotionDrive::end() {
 }
 
 void MotionDrive::hold() {
-  if (state_ != State::running) return;
+  if (state_ == State::ended || hold_asked_ || stopping_) return;
+  hold_asked_ = true;
   planner_.hold();
-  state_ = State::holding;
+  if (state_ == State::running) state_ = State::holding;
 }
 
 void MotionDrive::resume() {
-  if (stopping_ || (state_ != State::holding && state_ != State::held)) return;
+  if (stopping_ || state_ == State::ended || !hold_asked_) return;
+  hold_asked_ = false;
   planner_.resume();
   state_ = State::running;
+}
+
+void MotionDrive::set_feed_override(double factor) {
+  feed_override_ = factor;
+  planner_.set_feed_override(factor);
+  if (state_ == State::held && !hold_asked_ && !stopping_) state_ = State::running;
+}
+
+void MotionDrive::set_adaptive_feed(double factor) {
+  adaptive_feed_ = factor;
+  planner_.set_adaptive_feed(factor);
+  if (state_ == State::held && !hold_asked_ && !stopping_) state_ = State::running;
+}
+
+void MotionDrive::set_spindle_override(double factor) {
+  spindle_override_ = factor;
+  if (state_ != State::ended) set_outputs(outputs_);
 }
 
 void MotionDrive::stop() {
   if (state_ == State::ended) return;
   stopping_ = true;
   if (state_ == State::held) return rest_in_hold();
-  hold();
+  planner_.stop();
+  state_ = State::holding;
 }
 
 void MotionDrive::wait(Seconds time) {

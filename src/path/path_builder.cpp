@@ -60,11 +60,9 @@ template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
               operation::SetRotation, operation::SetToolOffset, operation::ReloadTools, operation::SelectPlane,
-              operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-              operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
-              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::SetAdaptiveFeed,
-              operation::SetFeedHold, operation::Comment, operation::Message, operation::Print, operation::Log,
-              operation::Reset, operation::SetFeedReference>;
+              operation::SelectTool, operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
+              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::Comment, operation::Message,
+              operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {
@@ -162,7 +160,8 @@ void PathBuilder::switch_off() {
 bool PathBuilder::take(const Operation& operation, PathItem& item) {
   if (frame_.follow(operation)) return false;
   const auto act = [&](Action::Kind kind, Seconds dwell = Seconds(0), std::int32_t tool = 0) {
-    item = Action{.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .source = operation.source};
+    item = Action{
+        .kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .heeds = heeds(), .source = operation.source};
     return true;
   };
   const auto set_output = [&](auto& output, auto value) {
@@ -184,6 +183,13 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
           [&](const operation::SetMergeTolerance& merge) { return set_merge_tolerance(merge.tolerance), false; },
+          [&](const operation::SetFeedOverride& set) { return heeds_.feed_override = set.on, false; },
+          [&](const operation::SetAdaptiveFeed& set) { return heeds_.adaptive_feed = set.on, false; },
+          [&](const operation::SetFeedHold& set) { return heeds_.feed_hold = set.on, false; },
+          [&](const operation::SetSpeedOverride& set) {
+            if (set.spindle == 0) heeds_.spindle_override = set.on;
+            return false;
+          },
           [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
           [&](const operation::OrientSpindle&) { return lacks(Lack::orientation), false; },
           [&](const operation::AwaitSpindle&) { return false; },  // told with what it waits for
@@ -365,6 +371,7 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .tolerance = tolerance_,
                  .merge = merge_,
                  .work_zero = frame_.machine_from_work(Point()),
+                 .heeds = heeds(),
                  .source = operation_.source};
   return true;
 }
@@ -433,9 +440,20 @@ OutputState PathBuilder::outputs() const {
   return state;
 }
 
-Action PathBuilder::outputs_action() const {
+// A thread is not stretched, and not stopped in.
+Heeds PathBuilder::heeds() const {
+  if (!synchronised_pitch_) return heeds_;
   return {
-      .kind = Action::Kind::outputs, .dwell = Seconds(0), .outputs = outputs(), .tool = 0, .source = outputs_source_};
+      .feed_override = false, .spindle_override = heeds_.spindle_override, .adaptive_feed = false, .feed_hold = false};
+}
+
+Action PathBuilder::outputs_action() const {
+  return {.kind = Action::Kind::outputs,
+          .dwell = Seconds(0),
+          .outputs = outputs(),
+          .tool = 0,
+          .heeds = heeds(),
+          .source = outputs_source_};
 }
 
 void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected, char letter) {

@@ -57,6 +57,20 @@ std::string name_of(const Action& action) {
 
 }  // namespace
 
+namespace {
+
+// What is not as a program begins.
+std::string to_text(const Heeds& heeds) {
+  std::string text;
+  if (!heeds.feed_override) text += " no feed override";
+  if (!heeds.spindle_override) text += " no spindle override";
+  if (heeds.adaptive_feed) text += " adaptive feed";
+  if (!heeds.feed_hold) text += " no feed hold";
+  return text;
+}
+
+}  // namespace
+
 std::string to_text(const Segment& segment) {
   const Curve& curve = segment.curve;
   std::string text = fmt::format("line {}: {} {} to {}", segment.source.line, segment.rapid ? "rapid" : "feed",
@@ -72,7 +86,7 @@ std::string to_text(const Segment& segment) {
   if (std::isfinite(segment.speed.value())) text += " speed " + number(segment.speed.value());
   text += fmt::format(" {}", name_of(segment.mode));
   if (segment.mode == PathMode::continuous) text += " " + number(segment.tolerance.value());
-  return text + "\n";
+  return text + to_text(segment.heeds) + "\n";
 }
 
 std::string to_text(const Action& action) {

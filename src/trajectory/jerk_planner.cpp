@@ -29,28 +29,27 @@ JerkPlanner::JerkPlanner(Source<PathItem>& path, const MotionLimits& limits, std
       path_(path),
       most_queued_(most_queued),
       window_(std::make_unique<JerkWindow>(axes_, path_, most_queued)) {
-  window_->begin_at({}, override_);
+  window_->begin_at({}, wishes_.feeds);
 }
 
-void JerkPlanner::set_feed_override(double factor) {
-  if (factor == override_) return;
-  fastest_override_ = std::max(fastest_override_, factor);
-  override_ = factor;
-  window_->set_feed_override(factor);
-  unsuited_ = true;
+void JerkPlanner::wish(const MidRunWishes& wishes) {
+  unsuited_ = unsuited_ || wishes.feeds != wishes_.feeds;
+  wishes_ = wishes;
+  fastest_ = {.override = std::max(fastest_.override, wishes.feeds.override),
+              .adaptive = std::max(fastest_.adaptive, wishes.feeds.adaptive)};
+  window_->set_feeds(wishes.feeds);
 }
 
-void JerkPlanner::hold() {
-  holding_ = unsuited_ = true;
-}
-
-void JerkPlanner::resume() {
-  holding_ = false;
+// Whether what is wished keeps the motion from going on where it is.
+bool JerkPlanner::stands() {
+  const Segment* segment = path_.at(0);
+  return segment == nullptr ? wishes_.stands_before(path_.action()) : wishes_.stands_on(*segment);
 }
 
 bool JerkPlanner::next(MotionItem& item) {
-  if (unsuited_) adapt();
-  if (holding_ && now_.speed == 0) {
+  const bool stands = wishes_.any() && this->stands();
+  if (stands || unsuited_) adapt(stands);
+  if (stands && now_.speed == 0) {
     item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
     return true;
   }
@@ -65,7 +64,7 @@ bool JerkPlanner::next(MotionItem& item) {
   if (!action) return false;
   outputs_ = action->outputs;
   item = *action;
-  window_->begin_at({}, override_);
+  window_->begin_at({}, wishes_.feeds);
   return true;
 }
 
@@ -76,7 +75,7 @@ bool JerkPlanner::produce(PlannedMove& move) {
   }
   if (change_ && given_pieces_ == change_->pieces().size()) {
     change_.reset();
-    if (!unsuited_) fastest_override_ = override_;
+    if (!unsuited_) fastest_ = wishes_.feeds;
   }
   if (!change_) return window_->next(move);
   move.segment = *path_.at(0);
@@ -93,6 +92,7 @@ bool JerkPlanner::produce(PlannedMove& move) {
 
 // To the longest time that a move may take.
 void JerkPlanner::shorten(PlannedMove& move) {
+  if (move.duration() <= longest_move_ * (1 + smallest_part)) return;
   const Seconds small = longest_move_ * smallest_part;
   Seconds left = longest_move_;
   for (std::size_t i = 0; i < move.phase_count; ++i) {
@@ -135,26 +135,24 @@ void JerkPlanner::take_note(const PlannedMove& move) {
 }
 
 // At rest the plan begins anew; in motion a change leads to what is wanted, as soon as there is one.
-void JerkPlanner::adapt() {
-  if (now_.speed > 0) {
-    if (holding_) {
-      stop_sooner();
-    } else if (go_over()) {
-      unsuited_ = false;
-    }
-    return;
+void JerkPlanner::adapt(bool stands) {
+  if (stands) {
+    unsuited_ = true;
+    if (now_.speed > 0) stop_sooner();
+  } else if (now_.speed > 0) {
+    unsuited_ = !go_over();
+  } else {
+    rest_.reset();
+    change_.reset();
+    window_->begin_at({.s = now_.s}, wishes_.feeds);
+    fastest_ = wishes_.feeds;
+    unsuited_ = false;
   }
-  if (holding_) return;
-  rest_.reset();
-  change_.reset();
-  window_->begin_at({.s = now_.s}, override_);
-  fastest_override_ = override_;
-  unsuited_ = false;
 }
 
 void JerkPlanner::stop_sooner() {
   const bool stopping = change_ && change_->exit() == 0;
-  std::optional<SpeedChange> stop = SpeedChange::plan(path_, now_, 0, axes_, fastest_override_);
+  std::optional<SpeedChange> stop = SpeedChange::plan(path_, now_, {.axes = axes_, .feeds = fastest_, .exit = 0});
   if (!stop) return;
   if (stopping) {
     double left = rest_ ? rest_->duration().value() : 0;
@@ -168,16 +166,16 @@ void JerkPlanner::stop_sooner() {
   given_pieces_ = passed_segments_ = 0;
 }
 
-// Over to a plan with the override of now. False where none was found: what was planned goes on.
+// Over to a plan with the feeds of now. False where none was found: what was planned goes on.
 bool JerkPlanner::go_over() {
   const Segment& segment = *path_.at(0);
-  const double feed = segment.speed.value() * (segment.rapid ? 1 : override_);
+  const double feed = segment.speed.value() * wishes_.feeds.planned(segment);
   auto window = std::make_unique<JerkWindow>(axes_, path_, most_queued_);
   for (const double part : tried_speeds) {
     std::optional<SpeedChange> change =
-        SpeedChange::plan(path_, now_, part * std::min(feed, now_.speed), axes_, fastest_override_);
+        SpeedChange::plan(path_, now_, {.axes = axes_, .feeds = fastest_, .exit = part * std::min(feed, now_.speed)});
     if (!change) continue;
-    window->begin_at({.segment = change->segment(), .s = change->s(), .speed = change->exit()}, override_);
+    window->begin_at({.segment = change->segment(), .s = change->s(), .speed = change->exit()}, wishes_.feeds);
     if (!window->can_go_on(sight * change->braking_way())) continue;
     rest_.reset();
     change_ = std::move(change);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "feed_factors.hpp"
 #include "jerk_window.hpp"
 #include "path_ahead.hpp"
 #include "speed_change.hpp"
@@ -26,12 +27,11 @@ class JerkPlanner final : public Source<MotionItem> {
 
   // As Planner's.
   void limit_moves_to(Seconds duration) { longest_move_ = duration; }
-  void set_feed_override(double factor);
-  void hold();
-  void resume();
+  void wish(const MidRunWishes& wishes);
 
  private:
-  void adapt();
+  bool stands();
+  void adapt(bool stands);
   void stop_sooner();
   bool go_over();
   bool produce(PlannedMove& move);
@@ -51,10 +51,9 @@ class JerkPlanner final : public Source<MotionItem> {
   std::size_t passed_segments_ = 0;    // since it began
 
   Seconds longest_move_{std::numeric_limits<double>::infinity()};
-  double override_ = 1;
-  double fastest_override_ = 1;  // what is planned was planned with
-  bool holding_ = false;
-  bool unsuited_ = false;  // the plan, to what is wanted now
+  MidRunWishes wishes_;
+  FeedFactors fastest_;    // that is planned was planned with
+  bool unsuited_ = false;  // the plan, to what is wished
 };
 
 }  // namespace passo

@@ -21,11 +21,11 @@ JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, st
       most_queued_(std::max<std::size_t>(most_queued, 2 * first_window)),
       shapes_(axes.size()) {}
 
-void JerkWindow::begin_at(const Start& start, double feed_override) {
+void JerkWindow::begin_at(const Start& start, const FeedFactors& feeds) {
   profile_.drop(profile_.size());
   if (start.speed > 0) profile_.begin_in_motion(start.speed);
   start_ = start;
-  override_ = feed_override;
+  feeds_ = feeds;
   cut_ = start.segment;
   started_ = cutting_ = closed_ = false;
   length_ = 0;
@@ -96,7 +96,7 @@ void JerkWindow::pull() {
   cutter_.begin(*segment, {.from = started_ ? 0 : start_.s,
                            .entry_squared = estimate_,
                            .exit_squared = exit,
-                           .feed_factor = segment->rapid ? 1 : override_});
+                           .feed_factor = feeds_.planned(*segment)});
   started_ = cutting_ = true;
 }
 

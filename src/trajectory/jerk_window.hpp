@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "feed_factors.hpp"
 #include "jerk_profile.hpp"
 #include "path_ahead.hpp"
 
@@ -25,9 +26,9 @@ class JerkWindow {
     double s = 0;
     double speed = 0;
   };
-  void begin_at(const Start& start, double feed_override);
+  void begin_at(const Start& start, const FeedFactors& feeds);
   // Of cells to come.
-  void set_feed_override(double factor) { override_ = factor; }
+  void set_feeds(const FeedFactors& feeds) { feeds_ = feeds; }
   // Whether it can go on from a start in motion, with a rest in sight: not nearer than `way`.
   [[nodiscard]] bool can_go_on(double way);
 
@@ -47,7 +48,7 @@ class JerkWindow {
   std::size_t most_queued_;
 
   Start start_;
-  double override_ = 1;
+  FeedFactors feeds_;
   std::size_t cut_ = 0;  // segments of the path whose cells are all in the profile
   bool started_ = false;
   bool cutting_ = false;

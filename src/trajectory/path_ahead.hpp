@@ -24,6 +24,8 @@ class PathAhead {
   // The first is played.
   void pop() { segments_.pop_front(); }
 
+  // What ends the segments, as far as it was pulled; nothing at the end of the path.
+  const Action* action() const { return action_ ? &*action_ : nullptr; }
   // What is behind the last segment, when all are played; nothing at the end of the path.
   std::optional<Action> take_action() {
     if (action_) ended_ = false;

@@ -9,6 +9,7 @@
 
 #include "cell.hpp"
 #include "cell_queue.hpp"
+#include "feed_factors.hpp"
 #include "jerk_planner.hpp"
 #include "rest.hpp"
 #include "speed_profile.hpp"
@@ -62,10 +63,12 @@ class Planner::Implementation {
 
   bool next(MotionItem& item) {
     if (jerk_limited_) return jerk_limited_->next(item);
-    if (holding_) {
+    if (wishes_.any() && stands()) {
+      braking_ = true;
       brake(item);
       return true;
     }
+    if (std::exchange(braking_, false)) go_on();
     while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
     if (!cells_.empty()) {
       give_move(item);
@@ -83,25 +86,30 @@ class Planner::Implementation {
     longest_move_ = duration;
   }
 
-  void set_feed_override(double factor) {
-    if (jerk_limited_) return jerk_limited_->set_feed_override(factor);
-    override_ = factor;
+  const MidRunWishes& wishes() const { return wishes_; }
+  void wish(const MidRunWishes& wishes) {
+    if (jerk_limited_) jerk_limited_->wish(wishes);
+    const bool other_feeds = wishes.feeds != wishes_.feeds;
+    wishes_ = wishes;
+    if (!other_feeds || jerk_limited_) return;
     for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
     decided_ = 0;
   }
 
-  void hold() {
-    if (jerk_limited_) return jerk_limited_->hold();
-    holding_ = true;
+ private:
+  // Whether what is wished keeps the motion from going on where it is.
+  bool stands() {
+    while (segments_.empty() && !closed_) pull();
+    return segments_.empty() ? wishes_.stands_before(action_ ? &*action_ : nullptr)
+                             : wishes_.stands_on(segments_.front());
   }
-  void resume() {
-    if (jerk_limited_) return jerk_limited_->resume();
-    holding_ = false;
+
+  // After braking.
+  void go_on() {
     decided_ = 0;
     if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
   }
 
- private:
   // Each pass over the queue is paid for by as many new cells as it found undecided, which makes planning amortised
   // linear.
   void look_ahead() {
@@ -143,7 +151,8 @@ class Planner::Implementation {
 
   void set_caps(std::size_t i) {
     CellQueue::Entry& entry = cells_[i];
-    entry.top_squared = std::min(entry.cell.top_squared, entry.cell.feed_squared * override_ * override_);
+    entry.top_squared =
+        std::min(entry.cell.top_squared, entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds)));
     entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
@@ -364,8 +373,8 @@ class Planner::Implementation {
   CellCutter::Piece piece_;
 
   // What may change in mid-run.
-  double override_ = 1;
-  bool holding_ = false;
+  MidRunWishes wishes_;
+  bool braking_ = false;
   Seconds longest_move_{std::numeric_limits<double>::infinity()};
   OutputState outputs_;  // after the last action
   CellCutter::Piece piece_at_hand_;
@@ -385,13 +394,29 @@ void Planner::limit_moves_to(Seconds duration) {
   implementation_->limit_moves_to(duration);
 }
 void Planner::set_feed_override(double factor) {
-  implementation_->set_feed_override(factor);
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.override = factor;
+  implementation_->wish(wishes);
+}
+void Planner::set_adaptive_feed(double factor) {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.adaptive = factor;
+  implementation_->wish(wishes);
 }
 void Planner::hold() {
-  implementation_->hold();
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.hold = true;
+  implementation_->wish(wishes);
 }
 void Planner::resume() {
-  implementation_->resume();
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.hold = false;
+  implementation_->wish(wishes);
+}
+void Planner::stop() {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.stop = true;
+  implementation_->wish(wishes);
 }
 
 }  // namespace passo

@@ -49,20 +49,19 @@ Phase rest_of(const Phase& phase, double time, double start) {
 
 }  // namespace
 
-std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, double exit,
-                                             const std::vector<LimitedAxis>& axes, double feed_factor) {
+std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
   const Segment* first = path.at(0);
   if (first == nullptr) return std::nullopt;
-  const Strength most = strength_at(*first, state.s, axes);
+  const Strength most = strength_at(*first, state.s, request.axes);
   Strength strength = most;
   SpeedChange change;
   for (int trial = 0; trial < most_trials; ++trial) {
-    if (!change.shape(state, exit, strength)) return std::nullopt;
+    if (!change.shape(state, request.exit, strength)) return std::nullopt;
     const Laid laid = change.lay(path, state.s);
     if (laid == Laid::blocked) return std::nullopt;
     Excess worst{.force = 1.03, .jolt = 1.03};  // another strength ends elsewhere
     if (laid == Laid::whole) {
-      worst = change.excess(path, axes, feed_factor);
+      worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
       if (worst.force <= 1 && worst.jolt <= 1) {
         change.braking_way_ = change.exit_ * (change.exit_ / most.acceleration + most.acceleration / most.jerk) / 2;
@@ -163,8 +162,7 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, double s) {
   return end - way_ > least ? Laid::whole : Laid::near_an_end;
 }
 
-SpeedChange::Excess SpeedChange::excess(PathAhead& path, const std::vector<LimitedAxis>& axes,
-                                        double feed_factor) const {
+SpeedChange::Excess SpeedChange::excess(PathAhead& path, const Request& request) const {
   Excess worst;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
@@ -175,19 +173,20 @@ SpeedChange::Excess SpeedChange::excess(PathAhead& path, const std::vector<Limit
     const double looks = std::ceil(way * segment.curve.curvature() / turn_a_look);
     const bool straight = segment.curve.shape() == Curve::Shape::line;  // all of it is at most where it ends or turns
     const int count = straight ? 1 : static_cast<int>(std::clamp<double>(looks, fewest_looks, most_looks));
-    for (int k = 0; k <= count; ++k) look_at(piece, segment, axes, time * k / count, worst);
+    for (int k = 0; k <= count; ++k) look_at(piece, segment, request.axes, time * k / count, worst);
     // Fastest where it stops speeding up.
     const double turn = phase.jerk.value() < 0 ? phase.acceleration.value() / -phase.jerk.value() : -1;
-    if (turn > 0 && turn < time) look_at(piece, segment, axes, turn, worst);
+    if (turn > 0 && turn < time) look_at(piece, segment, request.axes, turn, worst);
     const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
                                           turn > 0 && turn < time ? phase.velocity_at(Seconds(turn)).value() : 0});
-    worst.speed = std::max(worst.speed, fastest_here / (segment.speed.value() * feed_factor) * (1 - rounding));
+    worst.speed =
+        std::max(worst.speed, fastest_here / (segment.speed.value() * request.feeds.planned(segment)) * (1 - rounding));
     if (!piece.ends_segment) continue;
     // What the profile passes slowly, since the path's bend jumps there, is passed slowly here too.
     const Segment& after = *path.at(piece.segment + 1);
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
     const double speed = phase.velocity_at(phase.duration).value();
-    for (const LimitedAxis& axis : axes) {
+    for (const LimitedAxis& axis : request.axes) {
       const double seen = std::abs(jump.values[axis.index]) * speed * speed;
       worst.force = std::max(worst.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
     }

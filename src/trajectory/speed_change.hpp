@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "feed_factors.hpp"
 #include "jerk_cell.hpp"
 #include "path_ahead.hpp"
 
@@ -36,10 +37,13 @@ class SpeedChange {
     Phase phase;
   };
 
-  // The change from `state` to the speed `exit`; nothing where the limits do not allow it. Feeds are kept to, times
-  // `feed_factor`. An exit above what the speed would be if the acceleration just went to nothing is lowered to that.
-  static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, double exit,
-                                         const std::vector<LimitedAxis>& axes, double feed_factor);
+  struct Request {
+    const std::vector<LimitedAxis>& axes;
+    FeedFactors feeds;  // on the feeds that are kept to
+    double exit = 0;    // speed; above what it would be if the acceleration just went to nothing: that
+  };
+  // The change from `state` on; nothing where the limits do not allow it.
+  static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   double exit() const { return exit_; }
@@ -69,7 +73,7 @@ class SpeedChange {
     near_an_end,  // of a segment, so near that what is left of that is nothing to go on in
   };
   Laid lay(PathAhead& path, double s);
-  Excess excess(PathAhead& path, const std::vector<LimitedAxis>& axes, double feed_factor) const;
+  Excess excess(PathAhead& path, const Request& request) const;
   static void look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time,
                       Excess& worst);
 

@@ -311,5 +311,111 @@ TEST(MidRun, a_drive_at_rest_is_held_at_once_and_goes_on) {
   EXPECT_EQ(drive.state(), State::ended);
 }
 
+// What M48 to M53 say of changes in mid-run.
+class Switched {
+ public:
+  explicit Switched(const std::string& program, bool jerk = false)
+      : machine_(jerk ? with_jerk_limits(example_machine("router")) : example_machine("router")),
+        job_(ProgramReader::from_text("t", program), machine_, InterpreterOptions(), diagnostics_) {
+    job_.drive().go_live({});
+  }
+  MotionDrive& drive() { return job_.drive(); }
+  const VirtualMachine& machine() { return job_.machine(); }
+  // To the time, or to the end.
+  void run_to(double time = 1e9) {
+    while (drive().now().value() < time && drive().state() != State::held && job_.advance()) {
+    }
+  }
+  double time() { return drive().now().value(); }
+  double x() { return static_cast<double>(job_.machine().counts().motors[0].position) / machine_.axes[0].steps_per_unit; }
+
+ private:
+  MachineDescription machine_;
+  Diagnostics diagnostics_;
+  Job job_;
+};
+
+TEST(MidRunSwitches, feed_overrides_count_between_m50_and_m50_p0_only) {
+  for (const bool jerk : {false, true}) {
+    Switched free("G21 G1 X20 F600\nM2\n", jerk);
+    free.drive().set_feed_override(0.5);
+    free.run_to();
+    EXPECT_NEAR(free.time(), 4, 0.1);
+    for (const char* off : {"M50 P0", "M49"}) {
+      Switched fixed("G21 " + std::string(off) + "\nG1 X20 F600\nM2\n", jerk);
+      fixed.drive().set_feed_override(0.5);
+      fixed.run_to();
+      EXPECT_NEAR(fixed.time(), 2, 0.1);
+    }
+    Switched both("G21 M49\nG1 X20 F600\nM48\nX40\nM2\n", jerk);
+    both.drive().set_feed_override(0.5);
+    both.run_to();
+    EXPECT_NEAR(both.time(), 6, 0.2);
+  }
+}
+
+TEST(MidRunSwitches, adaptive_feed_counts_with_m52_only) {
+  for (const bool on : {false, true}) {
+    Switched run("G21 M52 P" + std::string(on ? "1" : "0") + "\nG1 X20 F600\nM2\n");
+    run.drive().set_adaptive_feed(0.25);
+    run.run_to();
+    EXPECT_NEAR(run.time(), on ? 8 : 2, 0.1);
+  }
+}
+
+TEST(MidRunSwitches, a_feed_of_nothing_stands_until_there_is_more) {
+  for (const bool jerk : {false, true}) {
+    Switched run("G21 G1 X20 F600\nM2\n", jerk);
+    run.run_to(1);
+    run.drive().set_feed_override(0);
+    run.run_to();
+    EXPECT_EQ(run.drive().state(), State::held);
+    EXPECT_LT(run.x(), 11.5);
+    run.drive().wait(Seconds(1));
+    run.drive().set_feed_override(1);
+    run.run_to();
+    EXPECT_EQ(run.drive().state(), State::ended);
+    EXPECT_NEAR(run.x(), 20, 1e-9);
+    EXPECT_NEAR(run.time(), 3.1, 0.1);
+  }
+}
+
+TEST(MidRunSwitches, a_hold_waits_for_the_end_of_m53_p0) {
+  for (const bool jerk : {false, true}) {
+    Switched run("G21 M53 P0\nG1 X10 F600\nM53 P1\nX20\nM2\n", jerk);
+    run.run_to(0.3);
+    run.drive().hold();
+    run.run_to();
+    EXPECT_EQ(run.drive().state(), State::held);
+    EXPECT_GT(run.x(), 10);
+    EXPECT_LT(run.x(), 10.5);
+    run.drive().resume();
+    run.run_to();
+    EXPECT_NEAR(run.x(), 20, 1e-9);
+  }
+}
+
+TEST(MidRunSwitches, a_stop_waits_for_nothing) {
+  Switched run("G21 M53 P0\nG1 X10 F600\nM2\n");
+  run.run_to(0.3);
+  run.drive().stop();
+  run.run_to();
+  EXPECT_EQ(run.drive().state(), State::ended);
+  EXPECT_LT(run.x(), 5);
+}
+
+TEST(MidRunSwitches, a_spindle_override_counts_behind_what_is_committed_and_not_after_m51_p0) {
+  Switched run("G21 S1000 M3\nG1 X10 F600\nM51 P0\nX20\nM2\n");
+  run.run_to(0.3);
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 1000);
+  run.drive().set_spindle_override(1.2);
+  run.run_to(0.5);
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 1200);
+  run.run_to(1.5);
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 1000);
+  run.run_to();
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 0);
+}
+
 }  // namespace
 }  // namespace passo

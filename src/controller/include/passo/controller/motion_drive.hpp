@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "passo/base/source.hpp"
 #include "passo/controller/tap.hpp"
@@ -30,8 +31,8 @@ class MotionDrive {
  public:
   enum class State : std::uint8_t {
     running,
-    holding,  // brakes for a hold, after what is committed
-    held,     // at rest on the path; advance() does nothing until resume()
+    holding,  // brakes for a hold, after what is committed and where the program heeds holds
+    held,     // at rest on the path, by a hold or a feed of nothing; advance() does nothing until that ends
     ended,    // the path is done, was stopped, or the link has an error
   };
 
@@ -44,11 +45,16 @@ class MotionDrive {
   // Goes on a little: sends one board segment, or lets the board play one. False when it has ended.
   [[nodiscard]] bool advance();
 
-  // Rest on the path, as soon as the limits allow behind what is committed.
+  // Rest on the path, as soon as the limits and the program (M53) allow behind what is committed.
   void hold();
   void resume();
-  // Feeds times `factor`, 0.01 to 2; rapids stay as they are.
-  void set_feed_override(double factor) { planner_.set_feed_override(factor); }
+  bool hold_asked() const { return hold_asked_; }
+  // Feeds times both factors, 0 to 2 by the operator and 0 to 1 by the machine, where the program heeds them (M48 to
+  // M50, M52); rapids stay as they are. Below a hundredth it is held until there is more.
+  void set_feed_override(double factor);
+  void set_adaptive_feed(double factor);
+  // The spindle's speed times `factor`, 0 to 2, where the program heeds it (M48, M49, M51), behind what is committed.
+  void set_spindle_override(double factor);
   // A hold that ends the drive: the rest of the path is dropped, the outputs are switched off.
   void stop();
   // Lets time pass while it is held.
@@ -67,7 +73,9 @@ class MotionDrive {
 
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
+  void watch(const MotionItem& item);
   void send(const BoardItem& item);
+  void set_outputs(const OutputState& outputs);
   void rest_in_hold();
   bool end();
 
@@ -81,7 +89,14 @@ class MotionDrive {
 
   BoardItem item_;
   State state_ = State::running;
+  bool hold_asked_ = false;
   bool stopping_ = false;
+  double feed_override_ = 1;
+  double adaptive_feed_ = 1;
+  double spindle_override_ = 1;
+  OutputState outputs_;                   // as the program has them
+  bool heeds_spindle_override_ = true;    // where it is
+  std::optional<BoardOutputs> on_board_;  // what was sent
   Seconds horizon_{std::numeric_limits<double>::infinity()};
   Seconds planned_{0};  // time of all motion given by the planner
   Seconds rested_;      // time of the machine that was no motion of this drive

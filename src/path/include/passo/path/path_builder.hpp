@@ -75,6 +75,7 @@ class PathBuilder final : public Source<PathItem> {
   enum class Lack : std::uint8_t { orientation, outputs, inputs, user_codes };
   void lacks(Lack what);
   void refuse_surface_speed(const operation::SetSpindleMode& mode);
+  Heeds heeds() const;
   OutputState outputs() const;
   Action outputs_action() const;
 
@@ -111,6 +112,7 @@ class PathBuilder final : public Source<PathItem> {
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
   Mm tolerance_{0};
+  Heeds heeds_;
   bool gives_tolerance_ = false;  // the program, with G64 P
   Mm merge_{0};
 

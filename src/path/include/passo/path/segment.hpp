@@ -10,6 +10,15 @@
 
 namespace passo {
 
+// Which changes in mid-run count on a stretch of the program (M48 to M53).
+struct Heeds {
+  bool feed_override = true;
+  bool spindle_override = true;
+  bool adaptive_feed = false;  // the machine's own factor on feeds
+  bool feed_hold = true;
+  friend bool operator==(const Heeds&, const Heeds&) = default;
+};
+
 struct Segment {
   Curve curve;
   MmPerSecond speed{0};  // programmed, along s; for a rapid: no limit but the axes' own (infinity)
@@ -18,6 +27,7 @@ struct Segment {
   Mm tolerance{0};                       // how far the junction to the next segment may leave the path
   Mm merge{0};                           // how far lines may leave the path to be one line; a part of the tolerance
   Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
+  Heeds heeds{};
   OperationSource source{};
 };
 
@@ -36,6 +46,7 @@ struct Action {
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after it
   std::int32_t tool = 0;
+  Heeds heeds{};
   OperationSource source{};
 };
 

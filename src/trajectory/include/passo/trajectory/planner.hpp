@@ -42,11 +42,16 @@ class Planner final : public Source<MotionItem> {
 
   // From now on a move ends after this time at the latest.
   void limit_moves_to(Seconds duration);
-  // Feeds are multiplied by `factor`, 0.01 to 2; rapids stay as they are.
+  // Feeds are multiplied by both factors, 0 to 2 and 0 to 1, where their segments heed them; rapids stay as they are.
+  // Where that makes less than a hundredth, the motion stands as in a hold, until it is raised.
   void set_feed_override(double factor);
-  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
+  void set_adaptive_feed(double factor);
+  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume(). Waits
+  // where the segment does not heed it.
   void hold();
   void resume();
+  // A hold wherever it is, and for good.
+  void stop();
 
  private:
   class Implementation;
