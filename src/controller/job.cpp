@@ -49,6 +49,12 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       smoother_(watched_path_),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
       drive_(smoother_, limits_, step_options(machine), machine_) {
+  const SpindleDescription& spindle = machine.spindle;
+  machine_.fit_spindle({.counts_per_turn = spindle.counts_per_turn,
+                        .run_up = spindle.run_up.value(),
+                        .droop = spindle.droop,
+                        .ripple = spindle.ripple,
+                        .ripple_rate = spindle.ripple_rate.value()});
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
 }
 

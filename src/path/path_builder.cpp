@@ -121,20 +121,34 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
 PathBuilder::~PathBuilder() = default;
 
 bool PathBuilder::next(PathItem& item) {
-  if (held_) {
-    item = *std::exchange(held_, std::nullopt);
+  if (!held_.empty()) {
+    item = held_.front();
+    held_.pop_front();
     return true;
   }
   bool has_item = take_chord(item) || take_spline_chord(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
-  if (outputs() == handed_on_) return has_item;
-
-  // The outputs change before the item in hand; at the end of the operations there is none.
-  if (has_item) held_ = item;
-  item = outputs_action();
+  // What comes before the item in hand; at the end of the operations there is none.
+  const bool switches = outputs() != handed_on_;
+  if (switches) in_step_ = false;
+  const bool awaits = has_item && must_await_index(item);
+  if (!switches && !awaits) return has_item;
+  if (has_item) held_.push_back(item);
+  Action await = outputs_action();
+  await.kind = Action::Kind::await_index;
+  if (switches && awaits) held_.push_front(await);
+  item = switches ? outputs_action() : await;
   handed_on_ = outputs();
   return true;
+}
+
+// One thread after the other without a move between goes on in step.
+bool PathBuilder::must_await_index(const PathItem& item) {
+  const auto* segment = std::get_if<Segment>(&item);
+  const bool was = in_step_;
+  in_step_ = segment != nullptr && segment->lock == SpindleLock::place;
+  return in_step_ && !was;
 }
 
 // Some operations stand for several; those come first.
@@ -372,6 +386,8 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .merge = merge_,
                  .work_zero = frame_.machine_from_work(Point()),
                  .heeds = heeds(),
+                 .lock = rapid ? SpindleLock::none : lock(),
+                 .pitch = Mm(synchronised_pitch_ ? synchronised_pitch_->value() : feed_rate_.rate),
                  .source = operation_.source};
   return true;
 }
@@ -445,6 +461,12 @@ Heeds PathBuilder::heeds() const {
   if (!synchronised_pitch_) return heeds_;
   return {
       .feed_override = false, .spindle_override = heeds_.spindle_override, .adaptive_feed = false, .feed_hold = false};
+}
+
+// A tap is in step by its speed alone: it begins while the spindle turns and ends where that is reversed.
+SpindleLock PathBuilder::lock() const {
+  if (synchronised_pitch_) return tap_step_ == tap_.size() ? SpindleLock::place : SpindleLock::speed;
+  return feed_mode_ == FeedMode::units_per_revolution ? SpindleLock::speed : SpindleLock::none;
 }
 
 Action PathBuilder::outputs_action() const {

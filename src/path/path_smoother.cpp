@@ -108,6 +108,9 @@ Segment PathSmoother::Implementation::segment_of(const TubeSpline::Span& span) c
     segment.rapid = segment.rapid && piece(i).segment.rapid;
     const Heeds& heeds = piece(i).segment.heeds;
     segment.heeds.feed_override = segment.heeds.feed_override && heeds.feed_override;
+    if (piece(i).segment.lock != segment.lock || piece(i).segment.pitch != segment.pitch) {
+      segment.lock = SpindleLock::none;
+    }
     segment.heeds.feed_hold = segment.heeds.feed_hold && heeds.feed_hold;
   }
   const Mm length(span.to.knot.s - span.from.knot.s);

@@ -50,6 +50,7 @@ std::string name_of(const Action& action) {
     case Action::Kind::optional_stop: return "optional stop";
     case Action::Kind::tool_change: return fmt::format("tool change {}", action.tool);
     case Action::Kind::feed_hold: return "feed hold";
+    case Action::Kind::await_index: return "await the spindle's index";
     case Action::Kind::program_end: break;
   }
   return "program end";
@@ -86,6 +87,8 @@ std::string to_text(const Segment& segment) {
   if (std::isfinite(segment.speed.value())) text += " speed " + number(segment.speed.value());
   text += fmt::format(" {}", name_of(segment.mode));
   if (segment.mode == PathMode::continuous) text += " " + number(segment.tolerance.value());
+  if (segment.lock == SpindleLock::place) text += " in step, " + number(segment.pitch.value()) + " a turn";
+  if (segment.lock == SpindleLock::speed) text += " with the spindle, " + number(segment.pitch.value()) + " a turn";
   return text + to_text(segment.heeds) + "\n";
 }
 

@@ -32,6 +32,7 @@ std::string text_of(const Action& action) {
     case Action::Kind::tool_change: return fmt::format("tool change {}\n", action.tool);
     case Action::Kind::program_end: return "program end\n";
     case Action::Kind::feed_hold: return "feed hold\n";
+    case Action::Kind::await_index: return "await the spindle's index\n";
     case Action::Kind::outputs: break;
   }
   const OutputState& outputs = action.outputs;

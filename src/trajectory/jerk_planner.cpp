@@ -36,7 +36,8 @@ void JerkPlanner::wish(const MidRunWishes& wishes) {
   unsuited_ = unsuited_ || wishes.feeds != wishes_.feeds;
   wishes_ = wishes;
   fastest_ = {.override = std::max(fastest_.override, wishes.feeds.override),
-              .adaptive = std::max(fastest_.adaptive, wishes.feeds.adaptive)};
+              .adaptive = std::max(fastest_.adaptive, wishes.feeds.adaptive),
+              .spindle = std::max(fastest_.spindle, wishes.feeds.spindle)};
   window_->set_feeds(wishes.feeds);
 }
 

@@ -152,7 +152,7 @@ class Planner::Implementation {
   void set_caps(std::size_t i) {
     CellQueue::Entry& entry = cells_[i];
     entry.top_squared =
-        std::min(entry.cell.top_squared, entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds)));
+        std::min(entry.cell.top_squared, entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock)));
     entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
@@ -229,6 +229,14 @@ class Planner::Implementation {
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
       const Cell& cell = cells_[0].cell;
       const double exit = planned_exit();
+      // The feed was lowered: down to it at once, and not where the cell ends.
+      const double too_fast = speed_squared_ - cells_[0].top_squared;
+      const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
+      if (too_fast > rounding * speed_squared_ && slowing > smallest_cell && slowing + smallest_cell < cell.length) {
+        add_phase(cell.start, slowing, speed_squared_, cells_[0].top_squared, move);
+        complete = go({slowing, cells_[0].top_squared}, move);
+        continue;
+      }
       if (cell.straight) {
         add_phases({.start = cell.start,
                     .length = cell.length,
@@ -401,6 +409,11 @@ void Planner::set_feed_override(double factor) {
 void Planner::set_adaptive_feed(double factor) {
   MidRunWishes wishes = implementation_->wishes();
   wishes.feeds.adaptive = factor;
+  implementation_->wish(wishes);
+}
+void Planner::set_spindle_ratio(double ratio) {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.spindle = ratio;
   implementation_->wish(wishes);
 }
 void Planner::hold() {

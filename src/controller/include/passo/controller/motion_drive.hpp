@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/spindle_follower.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/link/in_process_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
@@ -25,6 +26,7 @@ namespace passo {
 struct LiveOptions {
   Seconds horizon{0.05};        // nothing is added while as much is committed
   Seconds longest_move{0.005};  // the planner's moves end after this time
+  friend bool operator==(const LiveOptions&, const LiveOptions&) = default;
 };
 
 class MotionDrive {
@@ -73,14 +75,20 @@ class MotionDrive {
 
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
+  void look_at(const PathItem& item);
   void watch(const MotionItem& item);
   void send(const BoardItem& item);
   void set_outputs(const OutputState& outputs);
+  void await_index(const OutputState& outputs);
+  void follow_spindle();
+  void commit_ahead(const LiveOptions& options);
+  void let_pass(Seconds time);
   void rest_in_hold();
   bool end();
 
   Hertz tick_rate_;
   VirtualMachine& machine_;
+  Tap<PathItem> watched_path_;
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
@@ -97,7 +105,10 @@ class MotionDrive {
   OutputState outputs_;                   // as the program has them
   bool heeds_spindle_override_ = true;    // where it is
   std::optional<BoardOutputs> on_board_;  // what was sent
-  Seconds horizon_{std::numeric_limits<double>::infinity()};
+  LiveOptions live_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
+                    .longest_move = Seconds(std::numeric_limits<double>::infinity())};
+  LiveOptions ahead_ = live_;  // less while a spindle is followed
+  SpindleFollower follower_;
   Seconds planned_{0};  // time of all motion given by the planner
   Seconds rested_;      // time of the machine that was no motion of this drive
 };

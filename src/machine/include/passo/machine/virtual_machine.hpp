@@ -15,6 +15,7 @@
 #include "passo/link/board_port.hpp"
 #include "passo/machine/machine_counts.hpp"
 #include "passo/machine/machine_observer.hpp"
+#include "passo/machine/virtual_spindle.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -35,6 +36,11 @@ class VirtualMachine final : public BoardPort {
 
   // Lets time pass at rest; only while the board has nothing to play.
   void wait(Ticks time);
+
+  // At the start. Without it the spindle does as commanded, and has no encoder.
+  void fit_spindle(const SpindleModel& model) { hardware_.spindle = VirtualSpindle(model); }
+  // Its encoder, as it stands now.
+  const VirtualSpindle& spindle() const { return hardware_.spindle; }
 
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
@@ -59,6 +65,8 @@ class VirtualMachine final : public BoardPort {
     std::uint8_t last_directions = 0;  // of each motor's last step
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
+    double seconds_a_tick = 0;
+    VirtualSpindle spindle;
     std::vector<MachineObserver*> observers;
     std::vector<std::uint8_t> to_host;
   };

@@ -19,6 +19,9 @@ struct Heeds {
   friend bool operator==(const Heeds&, const Heeds&) = default;
 };
 
+// How a feed follows the spindle: its speed alone (G95), or its place from an index pulse on (G33).
+enum class SpindleLock : std::uint8_t { none, speed, place };
+
 struct Segment {
   Curve curve;
   MmPerSecond speed{0};  // programmed, along s; for a rapid: no limit but the axes' own (infinity)
@@ -28,6 +31,8 @@ struct Segment {
   Mm merge{0};                           // how far lines may leave the path to be one line; a part of the tolerance
   Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
   Heeds heeds{};
+  SpindleLock lock = SpindleLock::none;
+  Mm pitch{0};  // of a lock: a turn. `speed` is as the commanded speed of the spindle has it
   OperationSource source{};
 };
 
@@ -41,7 +46,7 @@ struct OutputState {
 };
 
 struct Action {
-  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end, feed_hold };
+  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end, feed_hold, await_index };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after it

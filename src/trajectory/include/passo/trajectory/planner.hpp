@@ -46,6 +46,8 @@ class Planner final : public Source<MotionItem> {
   // Where that makes less than a hundredth, the motion stands as in a hold, until it is raised.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
+  // The speed of segments with a SpindleLock, a multiple of what they say: the spindle is not as fast as commanded.
+  void set_spindle_ratio(double ratio);
   // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume(). Waits
   // where the segment does not heed it.
   void hold();
