@@ -221,7 +221,7 @@ void MotionDrive::await_index(const OutputState& outputs) {
 // What was pulled last is followed by what is pulled next.
 void MotionDrive::follow_spindle() {
   follower_.read(machine_.spindle().read(now()));
-  planner_.set_spindle_ratio(follower_.ratio(committed()));
+  if (const auto ratio = follower_.ratio(committed())) planner_.set_spindle_ratio(*ratio);
 }
 
 void MotionDrive::wait(Seconds time) {

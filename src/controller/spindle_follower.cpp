@@ -16,7 +16,18 @@ constexpr double eagerness = 15;
 // From this part of the spindle's speed on the tool's place counts.
 constexpr double up_to_speed = 0.95;
 
+// With jerk: changes that are worth it, while it speeds up and then.
+constexpr double coarse = 0.05;
+constexpr double fine = 0.002;
+
 }  // namespace
+
+SpindleFollower::SpindleFollower(const MotionLimits& limits) : limits_(limits) {
+  for (const Axis axis : all_axes) {
+    const double jerk = limits.jerk[axis].value();
+    if (jerk > 0) patience_ = std::max(patience_, limits.acceleration[axis].value() / jerk);
+  }
+}
 
 void SpindleFollower::begin(const SpindleReading& index) {
   index_ = index.turns;
@@ -70,7 +81,16 @@ double SpindleFollower::lag_of(const PlannedMove& move) const {
   return v * time / 2 / move.segment.pitch.value();
 }
 
-double SpindleFollower::ratio(Seconds committed) const {
+std::optional<double> SpindleFollower::ratio(Seconds committed) {
+  const double time = readings_.empty() ? 0 : readings_.back().time.value();
+  const double wanted = wanted_ratio(committed);
+  const bool same = std::abs(wanted - ratio_) < (in_place_ ? fine : coarse) * ratio_;
+  if (patience_ > 0 && (same || time < changed_at_ + patience_)) return std::nullopt;
+  changed_at_ = time;
+  return ratio_ = wanted;
+}
+
+double SpindleFollower::wanted_ratio(Seconds committed) const {
   const double speed = turns_a_second();
   if (!(speed > 0) || !(programmed_ > 0)) return 1;
   double wanted = speed;

@@ -50,7 +50,9 @@ std::optional<Seconds> VirtualSpindle::next_index(Seconds after) const {
   if (target_ == 0) return std::nullopt;
   const double from = turns_at(after);
   const double aim = target_ > 0 ? std::floor(from) + 1 : std::ceil(from) - 1;
-  const auto beyond = [&](double time) { return target_ > 0 ? turns_at(Seconds(time)) >= aim : turns_at(Seconds(time)) <= aim; };
+  const auto beyond = [&](double time) {
+    return target_ > 0 ? turns_at(Seconds(time)) >= aim : turns_at(Seconds(time)) <= aim;
+  };
   double low = after.value();
   double step = 0.1 / std::abs(target_);
   double high = low + step;

@@ -38,10 +38,11 @@ std::string describe_tool(const ToolDescription& tool) {
 
 std::string describe_spindle(const SpindleDescription& spindle) {
   if (spindle.counts_per_turn == 0) return "";
-  return fmt::format("spindle         encoder of {} counts a turn; virtual: {:g} s to 1000 rpm, droop {:g} %, ripple {:g} % at "
-                     "{:g} Hz\n",
-                     spindle.counts_per_turn, spindle.run_up.value(), spindle.droop * 100, spindle.ripple * 100,
-                     spindle.ripple_rate.value());
+  return fmt::format(
+      "spindle         encoder of {} counts a turn; virtual: {:g} s to 1000 rpm, droop {:g} %, ripple {:g} % at "
+      "{:g} Hz\n",
+      spindle.counts_per_turn, spindle.run_up.value(), spindle.droop * 100, spindle.ripple * 100,
+      spindle.ripple_rate.value());
 }
 
 }  // namespace

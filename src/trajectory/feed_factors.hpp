@@ -33,8 +33,11 @@ struct MidRunWishes {
   bool hold = false;  // where the program heeds it
   bool stop = false;  // wherever it is
 
-  bool any() const { return hold || stop || feeds.override * feeds.adaptive * feeds.spindle < least_feed_factor || feeds.override < least_feed_factor ||
-           feeds.adaptive < least_feed_factor || feeds.spindle < least_feed_factor; }
+  bool any() const {
+    return hold || stop || feeds.override * feeds.adaptive * feeds.spindle < least_feed_factor ||
+           feeds.override < least_feed_factor || feeds.adaptive < least_feed_factor ||
+           feeds.spindle < least_feed_factor;
+  }
   bool stands_before(const Action* action) const {
     return stop || (hold && (action == nullptr || action->heeds.feed_hold));
   }

@@ -152,7 +152,8 @@ class Planner::Implementation {
   void set_caps(std::size_t i) {
     CellQueue::Entry& entry = cells_[i];
     entry.top_squared =
-        std::min(entry.cell.top_squared, entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock)));
+        std::min(entry.cell.top_squared,
+                 entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock)));
     entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }

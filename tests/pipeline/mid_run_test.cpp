@@ -327,7 +327,9 @@ class Switched {
     }
   }
   double time() { return drive().now().value(); }
-  double x() { return static_cast<double>(job_.machine().counts().motors[0].position) / machine_.axes[0].steps_per_unit; }
+  double x() {
+    return static_cast<double>(job_.machine().counts().motors[0].position) / machine_.axes[0].steps_per_unit;
+  }
 
  private:
   MachineDescription machine_;

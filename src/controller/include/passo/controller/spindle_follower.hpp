@@ -10,6 +10,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include "passo/machine/virtual_spindle.hpp"
 #include "passo/trajectory/motion_limits.hpp"
@@ -19,7 +20,7 @@ namespace passo {
 
 class SpindleFollower {
  public:
-  explicit SpindleFollower(const MotionLimits& limits) : limits_(limits) {}
+  explicit SpindleFollower(const MotionLimits& limits);
 
   // The spindle is at its index, and the next locked move begins.
   void begin(const SpindleReading& index);
@@ -30,7 +31,8 @@ class SpindleFollower {
   // Of the move that was committed last.
   SpindleLock lock() const { return lock_; }
   // The multiple of the programmed speed that follows the spindle; `committed`: how long after the reading it counts.
-  double ratio(Seconds committed) const;
+  // Nothing where it is to stay: a change of speed under a limit of jerk is not to be changed before it is made.
+  std::optional<double> ratio(Seconds committed);
 
   // Below it a spindle is not followed.
   static constexpr double least_ratio = 0.02;
@@ -38,9 +40,13 @@ class SpindleFollower {
 
  private:
   double turns_a_second() const;
+  double wanted_ratio(Seconds committed) const;
   double lag_of(const PlannedMove& move) const;
 
   MotionLimits limits_;
+  double patience_ = 0;  // seconds between two changes
+  double changed_at_ = -1;
+  double ratio_ = 1;
   std::deque<SpindleReading> readings_;  // of the last few hundredths of a second
   SpindleLock lock_ = SpindleLock::none;
   double programmed_ = 0;  // turns a second

@@ -41,7 +41,7 @@ class VirtualSpindle {
   std::optional<Seconds> next_index(Seconds after) const;
 
  private:
-  double speed_at(double time) const;          // turns a second since the last command, without the ripple
+  double speed_at(double time) const;  // turns a second since the last command, without the ripple
   double way(double from_speed, double rise, double from, double to) const;
 
   SpindleModel model_;

@@ -109,7 +109,7 @@ class PathBuilder final : public Source<PathItem> {
   std::size_t tap_step_ = tap_.size();
   std::deque<PathItem> held_;  // wait while what comes before them is handed on
   bool in_step_ = false;       // with the spindle, since its index
-  Point position_;                // machine
+  Point position_;             // machine
 
   FeedMode feed_mode_ = FeedMode::units_per_minute;
   operation::SetFeedRate feed_rate_;

@@ -46,7 +46,16 @@ struct OutputState {
 };
 
 struct Action {
-  enum class Kind : std::uint8_t { dwell, outputs, program_stop, optional_stop, tool_change, program_end, feed_hold, await_index };
+  enum class Kind : std::uint8_t {
+    dwell,
+    outputs,
+    program_stop,
+    optional_stop,
+    tool_change,
+    program_end,
+    feed_hold,
+    await_index
+  };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
   OutputState outputs{};  // for every kind: the state after it
