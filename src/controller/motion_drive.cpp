@@ -123,7 +123,8 @@ void MotionDrive::send(const BoardItem& item) {
   const auto& action = std::get<Action>(item);
   if (action.kind == Action::Kind::feed_hold) {
     // One that was resumed before it came to rest is none.
-    if (hold_asked_ || stopping_ || feed_override_ < no_feed || adaptive_feed_ < no_feed) rest_in_hold();
+    const double feed = std::min({feed_override_, adaptive_feed_, feed_override_ * adaptive_feed_});
+    if (hold_asked_ || stopping_ || feed < no_feed) rest_in_hold();
     return;
   }
   if (action.kind == Action::Kind::await_index) return await_index(action.outputs);
