@@ -89,7 +89,7 @@ void MotionDrive::watch(const MotionItem& item) {
   }
   if (move == nullptr || move->segment.heeds.spindle_override == heeds_spindle_override_) return;
   heeds_spindle_override_ = move->segment.heeds.spindle_override;
-  set_outputs(outputs_);
+  if (outputs_.spindle != SpindleDirection::off) set_outputs(outputs_);
 }
 
 void MotionDrive::go_live(const LiveOptions& options) {
@@ -185,7 +185,7 @@ void MotionDrive::set_adaptive_feed(double factor) {
 
 void MotionDrive::set_spindle_override(double factor) {
   spindle_override_ = factor;
-  if (state_ != State::ended) set_outputs(outputs_);
+  if (state_ != State::ended && outputs_.spindle != SpindleDirection::off) set_outputs(outputs_);
 }
 
 void MotionDrive::stop() {
