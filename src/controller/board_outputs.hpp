@@ -6,6 +6,7 @@
 
 namespace passo {
 
-BoardOutputs board_outputs(const OutputState& state);
+// The spindle at so much of its speed.
+BoardOutputs board_outputs(const OutputState& state, double spindle_factor = 1);
 
 }  // namespace passo

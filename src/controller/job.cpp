@@ -93,6 +93,12 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       drive_(smoother_, limits_, step_options(machine), machine_, board_line()) {
   if (line_) [[maybe_unused]]
     const bool used = drive_.use_tails({});
+  const SpindleDescription& spindle = machine.spindle;
+  machine_.fit_spindle({.counts_per_turn = spindle.counts_per_turn,
+                        .run_up = spindle.run_up.value(),
+                        .droop = spindle.droop,
+                        .ripple = spindle.ripple,
+                        .ripple_rate = spindle.ripple_rate.value()});
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
   drive_.probe().tell(probe_outcome_);
   if (machine.probe.guards && options.probing == Probing::by_board) {

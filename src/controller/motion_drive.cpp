@@ -1,5 +1,6 @@
 #include "passo/controller/motion_drive.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -15,13 +16,41 @@ Seconds time_of(const MotionItem& item) {
   return action != nullptr ? action->dwell : std::get<PlannedMove>(item).duration();
 }
 
+constexpr double no_feed = 0.01;
+
+// Where nothing hurries.
+constexpr Seconds longest_wait{1000};
+
+// Following a spindle: how far ahead is committed.
+constexpr double moves_a_horizon = 5;
+Seconds horizon_of(SpindleLock lock) {
+  switch (lock) {
+    case SpindleLock::place: return Seconds(0.01);
+    case SpindleLock::speed: return Seconds(0.05);
+    case SpindleLock::none: break;
+  }
+  return Seconds(std::numeric_limits<double>::infinity());
+}
+
+LiveOptions with_horizon(const LiveOptions& live, SpindleLock lock) {
+  const Seconds horizon = horizon_of(lock);
+  return {.horizon = std::min(live.horizon, horizon),
+          .longest_move = std::min(live.longest_move, horizon / moves_a_horizon)};
+}
+
+// A spindle is at speed when a turn takes as long as it should, or hardly less than the one before.
+constexpr double near_speed = 0.1;
+constexpr double steady = 0.02;
+constexpr int most_turns = 1000;
+
 }  // namespace
 
 MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
                          VirtualMachine& machine, const BoardLine& line)
     : tick_rate_(steps.clock.tick_rate),
       machine_(machine),
-      path_(path),
+      watched_path_(path),
+      path_(watched_path_),
       planner_(path_, limits),
       watched_motion_(planner_),
       step_generator_(watched_motion_, steps),
@@ -29,24 +58,54 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       link_(line.port != nullptr ? *line.port : machine, steps.motor_count, line.care),
       steps_(steps),
       probe_(link_, steps),
+      follower_(limits),
       rested_(now()) {
-  watched_motion_.watch([this](const MotionItem& item) {
-    planned_ += time_of(item);
-    if (refiller_) refiller_->watch(item);
-    const auto* move = std::get_if<PlannedMove>(&item);
-    if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
-  });
+  watched_path_.watch([this](const PathItem& item) { look_at(item); });
+  watched_motion_.watch([this](const MotionItem& item) { watch(item); });
+}
+
+// Where something follows the spindle nothing is read far ahead from there on.
+void MotionDrive::look_at(const PathItem& item) {
+  const auto* segment = std::get_if<Segment>(&item);
+  if (segment == nullptr || segment->lock == SpindleLock::none || !machine_.spindle().has_encoder()) return;
+  live_ = with_horizon(live_, SpindleLock::speed);
+  if (ahead_.horizon > live_.horizon) commit_ahead(live_);
+}
+
+void MotionDrive::watch(const MotionItem& item) {
+  planned_ += time_of(item);
+  if (refiller_) refiller_->watch(item);
+  const auto* move = std::get_if<PlannedMove>(&item);
+  if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
+  if (machine_.spindle().has_encoder()) {
+    // What is committed is blind to what the spindle does.
+    if (move != nullptr) {
+      follower_.watch(*move);
+      commit_ahead(with_horizon(commits(), follower_.lock()));
+    } else if (std::get<Action>(item).kind == Action::Kind::await_index) {
+      commit_ahead(with_horizon(commits(), SpindleLock::place));
+    }
+  }
+  if (move == nullptr || move->segment.heeds.spindle_override == heeds_spindle_override_) return;
+  heeds_spindle_override_ = move->segment.heeds.spindle_override;
+  if (outputs_.spindle != SpindleDirection::off) set_outputs(outputs_);
 }
 
 void MotionDrive::go_live(const LiveOptions& options) {
   live_ = options;
-  commit_by(options);
+  commit_ahead(options);
 }
 
-void MotionDrive::commit_by(const LiveOptions& options) {
-  horizon_ = options.horizon;
+// Without a spindle to follow.
+LiveOptions MotionDrive::commits() const {
+  return probe_.is_running() ? probing_options : live_;
+}
+
+void MotionDrive::commit_ahead(const LiveOptions& options) {
+  if (options == ahead_) return;
+  ahead_ = options;
   planner_.limit_moves_to(options.longest_move);
-  step_generator_.limit_waiting_to(options.longest_move);
+  step_generator_.limit_waiting_to(std::min(options.longest_move, longest_wait));
 }
 
 bool MotionDrive::use_tails(const TailOptions& options) {
@@ -63,10 +122,7 @@ bool MotionDrive::advance_with_tails() {
   switch (refiller_->advance()) {
     case Refiller::Turn::goes_on: return true;
     case Refiller::Turn::ended: state_ = State::ended; break;
-    // One that was resumed before it came to rest is none.
-    case Refiller::Turn::rests_in_hold:
-      if (state_ == State::holding) rest_in_hold();
-      break;
+    case Refiller::Turn::rests_in_hold: rest_in_feed_hold(); break;
   }
   return state_ != State::ended;
 }
@@ -75,8 +131,9 @@ bool MotionDrive::advance() {
   if (state_ == State::ended) return false;
   if (state_ == State::held) return true;
   look_at_probe();
+  if (follower_.lock() != SpindleLock::none) follow_spindle();
   if (refiller_) return advance_with_tails();
-  if (committed() >= horizon_ && link_.busy()) {
+  if (committed() >= ahead_.horizon && link_.busy()) {
     link_.wait();
   } else if (watched_board_.next(item_)) {
     send(item_);
@@ -93,8 +150,20 @@ void MotionDrive::send(const BoardItem& item) {
     case Action::Kind::probe_begin: return begin_probe(action);
     case Action::Kind::probe_end: return end_probe(action);
     case Action::Kind::feed_hold: return rest_in_feed_hold();
-    default: return link_.send(board_outputs(action.outputs));
+    case Action::Kind::await_index: return await_index(action.outputs);
+    default: break;
   }
+  heeds_spindle_override_ = action.heeds.spindle_override;
+  on_board_.reset();
+  set_outputs(action.outputs);
+}
+
+void MotionDrive::set_outputs(const OutputState& outputs) {
+  outputs_ = outputs;
+  const BoardOutputs wanted = board_outputs(outputs, heeds_spindle_override_ ? spindle_override_ : 1);
+  if (on_board_ && on_board_->switches == wanted.switches && on_board_->spindle_rpm == wanted.spindle_rpm) return;
+  on_board_ = wanted;
+  link_.send(wanted);
 }
 
 void MotionDrive::look_at_probe() {
@@ -102,7 +171,7 @@ void MotionDrive::look_at_probe() {
   contact_seen_ = true;
   if (probe_.is_running()) {
     probe_brakes_ = true;
-    planner_.hold();
+    planner_.stop();  // whatever M53 says
   } else {
     stopped_by_probe_ = true;
     stop();
@@ -114,25 +183,32 @@ void MotionDrive::begin_probe(const Action& action) {
   probe_.begin(action);
   contact_seen_ = false;
   end_of_probe_.reset();
-  commit_by(probing_options);
+  commit_ahead(probing_options);
 }
 
 void MotionDrive::end_probe(const Action& action) {
   probe_.end(end_of_probe_.value_or(action.place));
-  commit_by(live_);
+  commit_ahead(live_);
   contact_seen_ = false;
   // The contact may have come when the path was at its end already.
-  if (std::exchange(probe_brakes_, false) && state_ == State::running) planner_.resume();
+  if (std::exchange(probe_brakes_, false)) let_planner_go_on();
+}
+
+// Unless something else keeps it.
+void MotionDrive::let_planner_go_on() {
+  if (stopping_) return;
+  planner_.resume();
+  if (hold_asked_) planner_.hold();
 }
 
 void MotionDrive::rest_in_feed_hold() {
-  if (probe_brakes_) {
-    probe_brakes_ = false;
+  if (std::exchange(probe_brakes_, false)) {
     planner_.drop_to_action();
-    if (state_ == State::running) planner_.resume();
+    let_planner_go_on();
   }
   // One that was resumed before it came to rest is none.
-  if (state_ == State::holding) rest_in_hold();
+  const double feed = std::min({feed_override_, adaptive_feed_, feed_override_ * adaptive_feed_});
+  if (hold_asked_ || stopping_ || feed < no_feed) rest_in_hold();
 }
 
 void MotionDrive::rest_in_hold() {
@@ -152,26 +228,79 @@ bool MotionDrive::end() {
 }
 
 void MotionDrive::hold() {
-  if (state_ != State::running) return;
+  if (state_ == State::ended || hold_asked_ || stopping_) return;
+  hold_asked_ = true;
   planner_.hold();
-  state_ = State::holding;
+  if (state_ == State::running) state_ = State::holding;
 }
 
 void MotionDrive::resume() {
-  if (stopping_ || (state_ != State::holding && state_ != State::held)) return;
+  if (stopping_ || state_ == State::ended || !hold_asked_) return;
+  hold_asked_ = false;
   if (!probe_brakes_) planner_.resume();
   state_ = State::running;
+}
+
+void MotionDrive::set_feed_override(double factor) {
+  feed_override_ = factor;
+  planner_.set_feed_override(factor);
+  if (state_ == State::held && !hold_asked_ && !stopping_) state_ = State::running;
+}
+
+void MotionDrive::set_adaptive_feed(double factor) {
+  adaptive_feed_ = factor;
+  planner_.set_adaptive_feed(factor);
+  if (state_ == State::held && !hold_asked_ && !stopping_) state_ = State::running;
+}
+
+void MotionDrive::set_spindle_override(double factor) {
+  spindle_override_ = factor;
+  if (state_ != State::ended && outputs_.spindle != SpindleDirection::off) set_outputs(outputs_);
 }
 
 void MotionDrive::stop() {
   if (state_ == State::ended) return;
   stopping_ = true;
   if (state_ == State::held) return rest_in_hold();
-  hold();
+  planner_.stop();
+  state_ = State::holding;
+}
+
+// At rest: until the spindle is at speed, and then until its index comes by.
+void MotionDrive::await_index(const OutputState& outputs) {
+  const VirtualSpindle& spindle = machine_.spindle();
+  if (!spindle.has_encoder()) return;
+  link_.drain();
+  double before = 0;
+  for (int i = 0; i < most_turns; ++i) {
+    const Seconds from = now();
+    const std::optional<Seconds> index = spindle.next_index(from);
+    if (!index) return;
+    // By two readings, so that the speed is known when the motion begins.
+    let_pass((*index - from) / 2);
+    follower_.read(spindle.read(now()));
+    let_pass(*index - now());
+    const double turn = (now() - from).value();
+    const double wanted = seconds_per_minute / outputs.revolutions_per_minute;
+    const bool at_speed = std::abs(turn - wanted) < near_speed * wanted || std::abs(turn - before) < steady * turn;
+    before = turn;
+    if (i > 0 && at_speed) break;
+  }
+  follower_.begin(spindle.read(now()));
+}
+
+// What was pulled last is followed by what is pulled next.
+void MotionDrive::follow_spindle() {
+  follower_.read(machine_.spindle().read(now()));
+  if (const auto ratio = follower_.ratio(committed())) planner_.set_spindle_ratio(*ratio);
 }
 
 void MotionDrive::wait(Seconds time) {
   assert(state_ == State::held);
+  let_pass(time);
+}
+
+void MotionDrive::let_pass(Seconds time) {
   const Ticks ticks{std::llround(tick_rate_ * time)};
   machine_.wait(ticks);
   rested_ += in_seconds(ticks);

@@ -12,7 +12,9 @@ VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock)
                          .clock = static_cast<std::uint32_t>(std::llround(clock.value())),
                          .about = {.name = "virtual machine"}}),
       clock_(clock),
-      motor_count_(motors) {}
+      motor_count_(motors) {
+  hardware_.seconds_a_tick = 1 / clock.value();
+}
 
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
   if (board_.idle()) waits_ = false;  // it may have been stopped before its event
@@ -92,6 +94,10 @@ void VirtualMachine::Hardware::step(std::uint8_t stepped, std::uint8_t direction
 
 void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   outputs_now = wanted;
+  const bool reverse = (wanted.switches & OutputSwitch::spindle_reverse) != 0;
+  const bool on = (wanted.switches & OutputSwitch::spindle_on) != 0;
+  const double rpm = on ? wanted.spindle_rpm : 0;
+  spindle.command(Seconds(static_cast<double>(now) * seconds_a_tick), reverse ? -rpm : rpm);
   ++output_changes;
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
 }

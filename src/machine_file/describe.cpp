@@ -36,6 +36,15 @@ std::string describe_tool(const ToolDescription& tool) {
   return line + "\n";
 }
 
+std::string describe_spindle(const SpindleDescription& spindle) {
+  if (spindle.counts_per_turn == 0) return "";
+  return fmt::format(
+      "spindle         encoder of {} counts a turn; virtual: {:g} s to 1000 rpm, droop {:g} %, ripple {:g} % at "
+      "{:g} Hz\n",
+      spindle.counts_per_turn, spindle.run_up.value(), spindle.droop * 100, spindle.ripple * 100,
+      spindle.ripple_rate.value());
+}
+
 }  // namespace
 
 std::string describe(const MachineDescription& machine) {
@@ -46,6 +55,7 @@ std::string describe(const MachineDescription& machine) {
       fmt::format("board           clock {:.9g} Hz, {:.1f} to {:g} events/s, step pulse {:g} us\n", board.clock.value(),
                   board.lowest_event_rate().value(), board.highest_event_rate.value(), board.step_pulse.value() * 1e6);
   out += describe_tool(machine.tool);
+  out += describe_spindle(machine.spindle);
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) out += describe_axis(machine.axes[motor], motor);
   return out;
 }

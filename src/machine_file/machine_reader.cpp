@@ -21,6 +21,12 @@ constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey diameter_key{"diameter_mm", 0, 1000, "3"};
 
+constexpr NumberKey counts_key{"encoder_counts_per_turn", 4, 1e6, "4096"};
+constexpr NumberKey run_up_key{"run_up_s", 0, 1000, "0.5"};
+constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
+constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
+constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
+
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
@@ -77,6 +83,7 @@ class MachineReader {
   void read_board(const TomlEntry& entry);
   void read_tool(const TomlEntry& entry);
   void read_probe(const TomlEntry& entry);
+  void read_spindle(const TomlEntry& entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
@@ -104,11 +111,13 @@ MachineDescription MachineReader::read() {
   const TomlEntry* board = top.table("board", "a table [board] with the board's clock", Need::required);
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
+  const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
   const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
   if (tool != nullptr) read_tool(*tool);
   if (probe != nullptr) read_probe(*probe);
+  if (spindle != nullptr) read_spindle(*spindle);
   if (axes != nullptr) read_axes(*axes);
   return std::move(machine_);
 }
@@ -162,6 +171,19 @@ void MachineReader::read_tool(const TomlEntry& entry) {
 void MachineReader::read_probe(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "probe", entry.place, reporter_);
   machine_.probe.guards = reader.flag("guards").value_or(false);
+  finish(reader);
+}
+
+void MachineReader::read_spindle(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "spindle", entry.place, reporter_);
+  SpindleDescription& spindle = machine_.spindle;
+  if (const auto counts = reader.whole_number(counts_key, Need::optional)) {
+    spindle.counts_per_turn = static_cast<int>(*counts);
+  }
+  if (const auto time = reader.number(run_up_key, Need::optional)) spindle.run_up = Seconds(*time);
+  if (const auto droop = reader.number(droop_key, Need::optional)) spindle.droop = *droop / 100;
+  if (const auto ripple = reader.number(ripple_key, Need::optional)) spindle.ripple = *ripple / 100;
+  if (const auto rate = reader.number(ripple_rate_key, Need::optional)) spindle.ripple_rate = Hertz(*rate);
   finish(reader);
 }
 

@@ -15,7 +15,8 @@ constexpr double least_length = 0.99;
 
 bool are_alike(const Segment& before, const Segment& after) {
   return before.speed == after.speed && before.rapid == after.rapid && before.tolerance == after.tolerance &&
-         before.merge == after.merge && before.mode != PathMode::exact_stop && before.work_zero == after.work_zero;
+         before.merge == after.merge && before.mode != PathMode::exact_stop && before.work_zero == after.work_zero &&
+         before.heeds == after.heeds && before.lock == after.lock && before.pitch == after.pitch;
 }
 
 bool is_line(const PathItem& item) {

@@ -60,11 +60,9 @@ template <class What>
 concept OfOthers =
     is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
               operation::SetRotation, operation::SetToolOffset, operation::ReloadTools, operation::SelectPlane,
-              operation::SetFeedOverride, operation::SetSpeedOverride, operation::SelectTool,
-              operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
-              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::SetAdaptiveFeed,
-              operation::SetFeedHold, operation::Comment, operation::Message, operation::Print, operation::Log,
-              operation::Reset, operation::SetFeedReference>;
+              operation::SelectTool, operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
+              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::Comment, operation::Message,
+              operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {
   switch (direction) {
@@ -123,20 +121,34 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
 PathBuilder::~PathBuilder() = default;
 
 bool PathBuilder::next(PathItem& item) {
-  if (held_) {
-    item = *std::exchange(held_, std::nullopt);
+  if (!held_.empty()) {
+    item = held_.front();
+    held_.pop_front();
     return true;
   }
   bool has_item = take_chord(item) || take_spline_chord(item) || take_probe_step(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
-  if (outputs() == handed_on_) return has_item;
-
-  // The outputs change before the item in hand; at the end of the operations there is none.
-  if (has_item) held_ = item;
-  item = outputs_action();
+  // What comes before the item in hand; at the end of the operations there is none.
+  const bool switches = outputs() != handed_on_;
+  if (switches) in_step_ = false;
+  const bool awaits = has_item && must_await_index(item);
+  if (!switches && !awaits) return has_item;
+  if (has_item) held_.push_back(item);
+  Action await = outputs_action();
+  await.kind = Action::Kind::await_index;
+  if (switches && awaits) held_.push_front(await);
+  item = switches ? outputs_action() : await;
   handed_on_ = outputs();
   return true;
+}
+
+// One thread after the other without a move between goes on in step.
+bool PathBuilder::must_await_index(const PathItem& item) {
+  const auto* segment = std::get_if<Segment>(&item);
+  const bool was = in_step_;
+  in_step_ = segment != nullptr && segment->lock == SpindleLock::place;
+  return in_step_ && !was;
 }
 
 // Some operations stand for several; those come first.
@@ -162,7 +174,8 @@ void PathBuilder::switch_off() {
 bool PathBuilder::take(const Operation& operation, PathItem& item) {
   if (frame_.follow(operation)) return false;
   const auto act = [&](Action::Kind kind, Seconds dwell = Seconds(0), std::int32_t tool = 0) {
-    item = Action{.kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .source = operation.source};
+    item = Action{
+        .kind = kind, .dwell = dwell, .outputs = outputs(), .tool = tool, .heeds = heeds(), .source = operation.source};
     return true;
   };
   const auto set_output = [&](auto& output, auto value) {
@@ -184,6 +197,13 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
           [&](const operation::SetMergeTolerance& merge) { return set_merge_tolerance(merge.tolerance), false; },
+          [&](const operation::SetFeedOverride& set) { return heeds_.feed_override = set.on, false; },
+          [&](const operation::SetAdaptiveFeed& set) { return heeds_.adaptive_feed = set.on, false; },
+          [&](const operation::SetFeedHold& set) { return heeds_.feed_hold = set.on, false; },
+          [&](const operation::SetSpeedOverride& set) {
+            if (set.spindle == 0) heeds_.spindle_override = set.on;
+            return false;
+          },
           [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
           [&](const operation::OrientSpindle&) { return lacks(Lack::orientation), false; },
           [&](const operation::AwaitSpindle&) { return false; },  // told with what it waits for
@@ -389,6 +409,9 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
                  .tolerance = tolerance_,
                  .merge = merge_,
                  .work_zero = frame_.machine_from_work(Point()),
+                 .heeds = heeds(),
+                 .lock = rapid ? SpindleLock::none : lock(),
+                 .pitch = Mm(synchronised_pitch_ ? synchronised_pitch_->value() : feed_rate_.rate),
                  .source = operation_.source};
   return true;
 }
@@ -457,9 +480,26 @@ OutputState PathBuilder::outputs() const {
   return state;
 }
 
-Action PathBuilder::outputs_action() const {
+// A thread is not stretched, and not stopped in.
+Heeds PathBuilder::heeds() const {
+  if (!synchronised_pitch_) return heeds_;
   return {
-      .kind = Action::Kind::outputs, .dwell = Seconds(0), .outputs = outputs(), .tool = 0, .source = outputs_source_};
+      .feed_override = false, .spindle_override = heeds_.spindle_override, .adaptive_feed = false, .feed_hold = false};
+}
+
+// A tap is in step by its speed alone: it begins while the spindle turns and ends where that is reversed.
+SpindleLock PathBuilder::lock() const {
+  if (synchronised_pitch_) return tap_step_ == tap_.size() ? SpindleLock::place : SpindleLock::speed;
+  return feed_mode_ == FeedMode::units_per_revolution ? SpindleLock::speed : SpindleLock::none;
+}
+
+Action PathBuilder::outputs_action() const {
+  return {.kind = Action::Kind::outputs,
+          .dwell = Seconds(0),
+          .outputs = outputs(),
+          .tool = 0,
+          .heeds = heeds(),
+          .source = outputs_source_};
 }
 
 void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected, char letter) {

@@ -106,6 +106,12 @@ Segment PathSmoother::Implementation::segment_of(const TubeSpline::Span& span) c
     if (i > span.from.knot.piece && piece(i).start >= span.to.knot.s) break;
     segment.speed = std::min(segment.speed, piece(i).segment.speed);
     segment.rapid = segment.rapid && piece(i).segment.rapid;
+    const Heeds& heeds = piece(i).segment.heeds;
+    segment.heeds.feed_override = segment.heeds.feed_override && heeds.feed_override;
+    if (piece(i).segment.lock != segment.lock || piece(i).segment.pitch != segment.pitch) {
+      segment.lock = SpindleLock::none;
+    }
+    segment.heeds.feed_hold = segment.heeds.feed_hold && heeds.feed_hold;
   }
   const Mm length(span.to.knot.s - span.from.knot.s);
   segment.curve = Curve::cubic(span.from.place, span.from.tangent, span.to.place, span.to.tangent, length);

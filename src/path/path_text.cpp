@@ -52,9 +52,24 @@ std::string name_of(const Action& action) {
     case Action::Kind::feed_hold: return "feed hold";
     case Action::Kind::probe_begin: return action.probe_toward ? "probe until touched" : "probe until free";
     case Action::Kind::probe_end: return "probe move ends";
+    case Action::Kind::await_index: return "await the spindle's index";
     case Action::Kind::program_end: break;
   }
   return "program end";
+}
+
+}  // namespace
+
+namespace {
+
+// What is not as a program begins.
+std::string to_text(const Heeds& heeds) {
+  std::string text;
+  if (!heeds.feed_override) text += " no feed override";
+  if (!heeds.spindle_override) text += " no spindle override";
+  if (heeds.adaptive_feed) text += " adaptive feed";
+  if (!heeds.feed_hold) text += " no feed hold";
+  return text;
 }
 
 }  // namespace
@@ -74,7 +89,9 @@ std::string to_text(const Segment& segment) {
   if (std::isfinite(segment.speed.value())) text += " speed " + number(segment.speed.value());
   text += fmt::format(" {}", name_of(segment.mode));
   if (segment.mode == PathMode::continuous) text += " " + number(segment.tolerance.value());
-  return text + "\n";
+  if (segment.lock == SpindleLock::place) text += " in step, " + number(segment.pitch.value()) + " a turn";
+  if (segment.lock == SpindleLock::speed) text += " with the spindle, " + number(segment.pitch.value()) + " a turn";
+  return text + to_text(segment.heeds) + "\n";
 }
 
 std::string to_text(const Action& action) {

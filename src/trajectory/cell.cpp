@@ -142,7 +142,12 @@ void CellCutter::cut(const Segment& segment, double from, double to, Piece& piec
   const Curve& curve = segment.curve;
   const double h = to - from;
   const Point slope_in = curve.tangent(Mm(from));
-  piece.cell = {.start = from, .end = to, .length = h, .feed_squared = squared(segment.speed.value())};
+  piece.cell = {.start = from,
+                .end = to,
+                .length = h,
+                .feed_squared = squared(segment.speed.value()),
+                .heeds = segment.heeds,
+                .lock = segment.lock};
   piece.demand_count = 0;
   piece.falling_count = 0;
 

@@ -56,6 +56,8 @@ struct Cell {
   double feed_squared = 0;  // as programmed; infinite for a rapid
   double acceleration = 0;  // of a straight cell: along the path, either way; its speed may also rise and fall within
   bool straight = false;
+  Heeds heeds = {};
+  SpindleLock lock = SpindleLock::none;
 };
 
 // Cuts segments into cells. The straight ones are whole segments and make no demands but their acceleration; lines on

@@ -40,13 +40,14 @@ JerkCutter::Derivatives JerkCutter::derivatives(const Curve& curve, double s) {
       .first = curve.tangent(Mm(s)), .second = curve.second_derivative(Mm(s)), .third = curve.third_derivative(Mm(s))};
 }
 
-void JerkCutter::begin(const Segment& segment, double entry_squared, double exit_squared) {
+void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   segment_ = &segment;
-  at_ = 0;
+  at_ = from_ = cut.from;
   const Curve& curve = segment.curve;
   length_ = curve.length().value();
   const Point steepest = curve.steepest();
-  top_ = std::min(segment.speed.value(), fastest);
+  speed_ = std::min(segment.speed.value() * cut.feed_factor, fastest);
+  top_ = speed_;
   acceleration_ = strongest;
   jerk_ = sharpest;
   for (const LimitedAxis& axis : axes_) {
@@ -56,10 +57,11 @@ void JerkCutter::begin(const Segment& segment, double entry_squared, double exit
     acceleration_ = std::min(acceleration_, axis.acceleration / part);
     jerk_ = std::min(jerk_, axis.jerk / part);
   }
-  entry_ = std::min(entry_squared, top_ * top_);
-  exit_ = std::min(exit_squared, top_ * top_);
+  entry_ = std::min(cut.entry_squared, top_ * top_);
+  exit_ = std::min(cut.exit_squared, top_ * top_);
   tick_ = std::max(acceleration_ / jerk_ / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
-  longest_ = length_;
+  const double left = length_ - from_;
+  longest_ = left;
   double turn = 0;
   if (curve.shape() == Curve::Shape::arc) {
     turn = std::abs(curve.arc_data().sweep);
@@ -67,15 +69,15 @@ void JerkCutter::begin(const Segment& segment, double entry_squared, double exit
     turn = length_ * curve.curvature();
   }
   if (turn > turn_a_cell) longest_ = length_ * turn_a_cell / turn;
-  shortest_ = length_ / most_cells;
+  shortest_ = left / most_cells;
   if (entry_ == 0 || exit_ == 0) {
-    longest_ = std::min(longest_, length_ / fewest_from_rest);
+    longest_ = std::min(longest_, left / fewest_from_rest);
     // The way of two ticks from rest.
     const double way = std::min(8.0 / 6 * jerk_ * tick_, 2 * acceleration_) * tick_ * tick_;
     shortest_ = std::max(shortest_, way);
   }
   shortest_ = std::min(shortest_, longest_);
-  here_ = derivatives(curve, 0);
+  here_ = derivatives(curve, from_);
 }
 
 double JerkCutter::speed_estimate(double s) const {
@@ -83,7 +85,7 @@ double JerkCutter::speed_estimate(double s) const {
     const double by_acceleration = std::sqrt(squared + 2 * acceleration_ * way);
     return std::min(by_acceleration, std::sqrt(squared) + std::cbrt(jerk_ * way * way * 4.5));
   };
-  return std::min({top_, from(entry_, s), from(exit_, std::max(length_ - s, 0.0))});
+  return std::min({top_, from(entry_, s - from_), from(exit_, std::max(length_ - s, 0.0))});
 }
 
 bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
@@ -106,7 +108,7 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
           .jerk = jerk_,
           .straight = straight,
           .ends_segment = to == length_};
-  double top = std::min(segment_->speed.value(), fastest);
+  double top = speed_;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const std::size_t i = axes_[k].index;
     shapes[k] = {.slope_in = here_.first.values[i],

@@ -52,8 +52,15 @@ class JerkCutter {
  public:
   explicit JerkCutter(const std::vector<LimitedAxis>& axes) : axes_(axes) {}
 
-  // The squares of the speeds at which the segment may be entered and left at most: cells are shorter where it is slow.
-  void begin(const Segment& segment, double entry_squared, double exit_squared);
+  // What is cut of a segment, and at which speeds it may be entered and left at most: cells are shorter where it is
+  // slow.
+  struct Cut {
+    double from = 0;  // s
+    double entry_squared = 0;
+    double exit_squared = 0;
+    double feed_factor = 1;  // on the segment's speed
+  };
+  void begin(const Segment& segment, const Cut& cut);
   // Next cell; `shapes` takes one for each axis.
   bool next(JerkCell& cell, AxisShape* shapes);
 
@@ -72,8 +79,10 @@ class JerkCutter {
 
   const std::vector<LimitedAxis>& axes_;
   const Segment* segment_ = nullptr;
+  double from_ = 0;
   double at_ = 0;
   double length_ = 0;
+  double speed_ = 0;  // programmed
   double top_ = 0;
   double acceleration_ = 0;
   double jerk_ = 0;

@@ -1,124 +1,198 @@
 #include "jerk_planner.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <utility>
-
-#include "rest.hpp"
 
 namespace passo {
 namespace {
 
-constexpr std::size_t first_window = 200;
-constexpr std::size_t phases_a_cell = 2;
+// mm/s: what is left of a speed at rest by rounding.
+constexpr double at_rest = 1e-6;
+
+// Of the longest time of a move: a part that is smaller is not cut off.
+constexpr double smallest_part = 0.02;
+
+// Of the time to rest: by so much sooner it must be to be worth another change.
+constexpr double worth = 0.98;
+
+// Parts of the speed wanted, from which a plan that goes on is looked for.
+constexpr std::array<double, 6> tried_speeds = {1, 0.9, 0.75, 0.55, 0.35, 0.15};
+
+// A plan that goes on must see so many times the way that braking takes.
+constexpr double sight = 1.5;
 
 }  // namespace
 
 JerkPlanner::JerkPlanner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
-    : path_(path),
-      axes_(axes_with_limits(limits)),
-      cutter_(axes_),
-      profile_(axes_),
-      most_queued_(std::max<std::size_t>(most_queued, 2 * first_window)),
-      shapes_(axes_.size()) {}
+    : axes_(axes_with_limits(limits)),
+      path_(path),
+      most_queued_(most_queued),
+      window_(std::make_unique<JerkWindow>(axes_, path_, most_queued)) {
+  window_->begin_at({}, wishes_.feeds);
+}
 
-bool JerkPlanner::next(MotionItem& item) {
-  while (given_ == decided_ && !(profile_.size() == given_ && closed_)) look_ahead();
-  if (given_ < decided_) {
-    give_move(item);
-    return true;
-  }
-  if (!action_) return false;
-  item = *std::exchange(action_, std::nullopt);
-  profile_.drop(given_);
-  given_ = decided_ = 0;
-  closed_ = path_ended_ = false;
-  begins_at_rest_ = true;
-  return true;
+void JerkPlanner::wish(const MidRunWishes& wishes) {
+  unsuited_ = unsuited_ || wishes.feeds != wishes_.feeds;
+  wishes_ = wishes;
+  fastest_ = {.override = std::max(fastest_.override, wishes.feeds.override),
+              .adaptive = std::max(fastest_.adaptive, wishes.feeds.adaptive),
+              .spindle = std::max(fastest_.spindle, wishes.feeds.spindle)};
+  window_->set_feeds(wishes.feeds);
 }
 
 void JerkPlanner::drop_to_action() {
-  do {
-    segments_.clear();
-  } while (fetch());
-  profile_.drop(profile_.size());
-  given_ = decided_ = cut_ = 0;
-  cutting_ = false;
-  closed_ = begins_at_rest_ = true;
-  estimate_ = 0;
+  while (path_.at(0) != nullptr) path_.pop();
+  rest_.reset();
+  change_.reset();
+  now_ = {};
+  window_->begin_at({}, wishes_.feeds);
 }
 
-void JerkPlanner::look_ahead() {
-  profile_.drop(given_);
-  given_ = decided_ = 0;
-  const std::size_t wanted =
-      std::max<std::size_t>(profile_.fell_back() ? profile_.size() : 2 * profile_.size(), first_window);
-  while (!closed_ && profile_.size() < wanted && profile_.size() < most_queued_) pull();
-  if (profile_.size() == 0) return;
-  decided_ = profile_.plan(closed_);
-  if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
+// Whether what is wished keeps the motion from going on where it is.
+bool JerkPlanner::stands() {
+  const Segment* segment = path_.at(0);
+  return segment == nullptr ? wishes_.stands_before(path_.action()) : wishes_.stands_on(*segment);
 }
 
-// One more segment of the path; false where there is none before the action or the end.
-bool JerkPlanner::fetch() {
-  while (!path_ended_) {
-    if (!path_.next(pulled_)) {
-      path_ended_ = true;
-    } else if (const auto* action = std::get_if<Action>(&pulled_)) {
-      action_ = *action;
-      path_ended_ = true;
-    } else if (auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
-      segments_.push_back(segment);
-      return true;
-    }
+bool JerkPlanner::next(MotionItem& item) {
+  const bool stands = wishes_.any() && this->stands();
+  if (stands || unsuited_) adapt(stands);
+  if (stands && now_.speed == 0) {
+    item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
+    return true;
   }
-  return false;
-}
-
-// One more cell. A segment is cut when the one after it is known.
-void JerkPlanner::pull() {
-  if (cutting_ && cutter_.next(cell_, shapes_.data())) {
-    profile_.push(cell_, shapes_.data(), begins_at_rest_);
-    begins_at_rest_ = false;
-    estimate_ = std::min(estimate_ + 2 * cell_.acceleration * cell_.length, cell_.top_squared);
-    return;
-  }
-  if (cutting_) {
-    cutting_ = false;
-    ++cut_;
-  }
-  while (segments_.size() < cut_ + 2 && fetch()) {
-  }
-  if (segments_.size() == cut_) {
-    closed_ = true;
-    return;
-  }
-  const Segment& segment = segments_[cut_];
-  begins_at_rest_ = cut_ == 0 || rests_between(segments_[cut_ - 1], segment);
-  const bool ends_at_rest = segments_.size() == cut_ + 1 || rests_between(segment, segments_[cut_ + 1]);
-  const double exit = ends_at_rest ? 0 : cutter_.joint_cap(segment, segments_[cut_ + 1]);
-  estimate_ = begins_at_rest_ ? 0 : std::min(estimate_, cutter_.joint_cap(segments_[cut_ - 1], segment));
-  cutter_.begin(segment, estimate_, exit);
-  cutting_ = true;
-}
-
-void JerkPlanner::give_move(MotionItem& item) {
   auto* move = std::get_if<PlannedMove>(&item);
   if (move == nullptr) move = &item.emplace<PlannedMove>();
-  move->segment = segments_.front();
-  move->phase_count = 0;
-  bool ended = false;
-  while (given_ < decided_ && !ended && move->phase_count + phases_a_cell <= PlannedMove::most_phases) {
-    profile_.add_phases(given_, *move);
-    const JerkCell& cell = profile_.cell(given_);
-    ended = cell.ends_segment;
-    move->to = Mm(ended ? move->segment.curve.length().value() : cell.start + cell.length);
-    ++given_;
+  if (produce(*move)) {
+    shorten(*move);
+    take_note(*move);
+    return true;
   }
-  if (ended) {
-    segments_.pop_front();
-    --cut_;
+  const std::optional<Action> action = path_.take_action();
+  if (!action) return false;
+  outputs_ = action->outputs;
+  item = *action;
+  window_->begin_at({}, wishes_.feeds);
+  return true;
+}
+
+bool JerkPlanner::produce(PlannedMove& move) {
+  if (rest_) {
+    move = *std::exchange(rest_, std::nullopt);
+    return true;
   }
+  if (change_ && given_pieces_ == change_->pieces().size()) {
+    change_.reset();
+    if (!unsuited_) fastest_ = wishes_.feeds;
+  }
+  if (!change_) return window_->next(move);
+  move.segment = *path_.at(0);
+  move.phase_count = 0;
+  while (given_pieces_ < change_->pieces().size() && move.phase_count < PlannedMove::most_phases) {
+    const SpeedChange::Piece& piece = change_->pieces()[given_pieces_];
+    if (piece.segment != passed_segments_) break;
+    move.add(piece.phase);
+    move.to = piece.ends_segment ? move.segment.curve.length() : piece.phase.position_at(piece.phase.duration);
+    ++given_pieces_;
+  }
+  return true;
+}
+
+// To the longest time that a move may take.
+void JerkPlanner::shorten(PlannedMove& move) {
+  if (move.duration() <= longest_move_ * (1 + smallest_part)) return;
+  const Seconds small = longest_move_ * smallest_part;
+  Seconds left = longest_move_;
+  for (std::size_t i = 0; i < move.phase_count; ++i) {
+    Phase& phase = move.phases[i];
+    if (phase.duration <= left + small && (i == 0 || left > small)) {
+      left = std::max(left - phase.duration, Seconds(0));
+      continue;
+    }
+    PlannedMove& rest = rest_.emplace(move);
+    rest.phase_count = 0;
+    if (left <= small) {  // between two phases
+      for (std::size_t k = i; k < move.phase_count; ++k) rest.add(move.phases[k]);
+      move.phase_count = i;
+    } else {
+      rest.add({.duration = phase.duration - left,
+                .start = phase.position_at(left),
+                .velocity = phase.velocity_at(left),
+                .acceleration = phase.acceleration + phase.jerk * left,
+                .jerk = phase.jerk});
+      for (std::size_t k = i + 1; k < move.phase_count; ++k) rest.add(move.phases[k]);
+      phase.duration = left;
+      move.phase_count = i + 1;
+    }
+    move.to = rest.from();
+    return;
+  }
+}
+
+void JerkPlanner::take_note(const PlannedMove& move) {
+  const Phase& last = move.phases[move.phase_count - 1];
+  now_ = {.s = move.to.value(),
+          .speed = last.velocity_at(last.duration).value(),
+          .acceleration = (last.acceleration + last.jerk * last.duration).value()};
+  if (!rest_ && now_.speed < at_rest) now_.speed = now_.acceleration = 0;
+  if (move.to < move.segment.curve.length()) return;
+  now_.s = 0;
+  path_.pop();
+  window_->segment_passed();
+  ++passed_segments_;
+}
+
+// At rest the plan begins anew; in motion a change leads to what is wanted, as soon as there is one.
+void JerkPlanner::adapt(bool stands) {
+  if (stands) {
+    unsuited_ = true;
+    if (now_.speed > 0) stop_sooner();
+  } else if (now_.speed > 0) {
+    unsuited_ = !go_over();
+  } else {
+    rest_.reset();
+    change_.reset();
+    window_->begin_at({.s = now_.s}, wishes_.feeds);
+    fastest_ = wishes_.feeds;
+    unsuited_ = false;
+  }
+}
+
+void JerkPlanner::stop_sooner() {
+  const bool stopping = change_ && change_->exit() == 0;
+  std::optional<SpeedChange> stop = SpeedChange::plan(path_, now_, {.axes = axes_, .feeds = fastest_, .exit = 0});
+  if (!stop) return;
+  if (stopping) {
+    double left = rest_ ? rest_->duration().value() : 0;
+    for (std::size_t i = given_pieces_; i < change_->pieces().size(); ++i) {
+      left += change_->pieces()[i].phase.duration.value();
+    }
+    if (stop->duration() > worth * left) return;
+  }
+  rest_.reset();
+  change_ = std::move(stop);
+  given_pieces_ = passed_segments_ = 0;
+}
+
+// Over to a plan with the feeds of now. False where none was found: what was planned goes on.
+bool JerkPlanner::go_over() {
+  const Segment& segment = *path_.at(0);
+  const double feed = segment.speed.value() * wishes_.feeds.planned(segment);
+  auto window = std::make_unique<JerkWindow>(axes_, path_, most_queued_);
+  for (const double part : tried_speeds) {
+    std::optional<SpeedChange> change =
+        SpeedChange::plan(path_, now_, {.axes = axes_, .feeds = fastest_, .exit = part * std::min(feed, now_.speed)});
+    if (!change) continue;
+    window->begin_at({.segment = change->segment(), .s = change->s(), .speed = change->exit()}, wishes_.feeds);
+    if (!window->can_go_on(sight * change->braking_way())) continue;
+    rest_.reset();
+    change_ = std::move(change);
+    given_pieces_ = passed_segments_ = 0;
+    window_ = std::move(window);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace passo

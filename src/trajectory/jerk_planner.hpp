@@ -1,11 +1,18 @@
 // JerkPlanner: what Planner does where an axis has a limit of jerk: the acceleration changes continuously, and goes on
 // through joints of segments. Private to trajectory/.
+//
+// In mid-run the motion leaves its plan (JerkWindow) by a SpeedChange, to rest for a hold, else to a speed from which a
+// new plan goes on; what is planned stays until both are found. At rest everything may change.
 #pragma once
 
-#include <deque>
+#include <limits>
+#include <memory>
 #include <optional>
 
-#include "jerk_profile.hpp"
+#include "feed_factors.hpp"
+#include "jerk_window.hpp"
+#include "path_ahead.hpp"
+#include "speed_change.hpp"
 
 #include "passo/base/source.hpp"
 #include "passo/trajectory/phase.hpp"
@@ -20,31 +27,35 @@ class JerkPlanner final : public Source<MotionItem> {
   // At rest: what is left of the path up to the next action is dropped.
   void drop_to_action();
 
+  // As Planner's.
+  void limit_moves_to(Seconds duration) { longest_move_ = duration; }
+  void wish(const MidRunWishes& wishes);
+
  private:
-  bool fetch();
-  void pull();
-  void look_ahead();
-  void give_move(MotionItem& item);
+  bool stands();
+  void adapt(bool stands);
+  void stop_sooner();
+  bool go_over();
+  bool produce(PlannedMove& move);
+  void shorten(PlannedMove& move);
+  void take_note(const PlannedMove& move);
 
-  Source<PathItem>& path_;
   std::vector<LimitedAxis> axes_;
-  JerkCutter cutter_;
-  JerkProfile profile_;
+  PathAhead path_;
   std::size_t most_queued_;
+  std::unique_ptr<JerkWindow> window_;
 
-  std::deque<Segment> segments_;  // whose cells are in the profile, or are being cut, and then the one that follows
-  std::size_t cut_ = 0;           // of them
-  bool cutting_ = false;
-  bool begins_at_rest_ = true;  // the next cell
-  double estimate_ = 0;         // squared: how fast the next cell may be entered
-  bool path_ended_ = false;     // no more segments before the action or the end
-  bool closed_ = false;
-  std::size_t decided_ = 0;  // cells at the front that nothing to come can change
-  std::size_t given_ = 0;    // of them
-  std::optional<Action> action_;
-  PathItem pulled_;
-  JerkCell cell_;
-  std::vector<AxisShape> shapes_;
+  PathState now_;  // at the end of what was given
+  OutputState outputs_;
+  std::optional<PlannedMove> rest_;    // of a move that was too long
+  std::optional<SpeedChange> change_;  // on the way to the window's start
+  std::size_t given_pieces_ = 0;       // of it
+  std::size_t passed_segments_ = 0;    // since it began
+
+  Seconds longest_move_{std::numeric_limits<double>::infinity()};
+  MidRunWishes wishes_;
+  FeedFactors fastest_;    // that is planned was planned with
+  bool unsuited_ = false;  // the plan, to what is wished
 };
 
 }  // namespace passo

@@ -51,6 +51,13 @@ void JerkProfile::push(const JerkCell& cell, const AxisShape* shapes, bool at_re
   entry_share_.push_back(planned_jerk);
 }
 
+void JerkProfile::begin_in_motion(double speed) {
+  start_ = {.speed = speed, .acceleration = 0};
+  x_.assign(2, speed * speed);
+  frozen_ = 1;
+  planned_ = 0;
+}
+
 double JerkProfile::duration(std::size_t i) const {
   const double sum = std::sqrt(x_[i]) + std::sqrt(x_[i + 1]);
   return sum > 0 ? 2 * cells_[i].length / sum : 0;

@@ -34,6 +34,8 @@ class JerkProfile {
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
 
+  // An empty one begins at that speed, without acceleration.
+  void begin_in_motion(double speed);
   // One more cell; `at_rest`: it begins at rest.
   void push(const JerkCell& cell, const AxisShape* shapes, bool at_rest);
   // Plans all cells to rest at the end. Returns how many at the front are decided: all where the window is `closed`

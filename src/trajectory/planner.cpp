@@ -9,6 +9,7 @@
 
 #include "cell.hpp"
 #include "cell_queue.hpp"
+#include "feed_factors.hpp"
 #include "jerk_planner.hpp"
 #include "rest.hpp"
 #include "speed_profile.hpp"
@@ -63,10 +64,12 @@ class Planner::Implementation {
 
   bool next(MotionItem& item) {
     if (jerk_limited_) return jerk_limited_->next(item);
-    if (holding_) {
+    if (wishes_.any() && stands()) {
+      braking_ = true;
       brake(item);
       return true;
     }
+    if (std::exchange(braking_, false)) go_on();
     while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
     if (!cells_.empty()) {
       give_move(item);
@@ -79,20 +82,21 @@ class Planner::Implementation {
     return true;
   }
 
-  void limit_moves_to(Seconds duration) { longest_move_ = duration; }
+  void limit_moves_to(Seconds duration) {
+    longest_move_ = duration;
+    if (jerk_limited_) jerk_limited_->limit_moves_to(duration);
+  }
 
-  void set_feed_override(double factor) {
-    override_ = factor;
+  const MidRunWishes& wishes() const { return wishes_; }
+  void wish(const MidRunWishes& wishes) {
+    if (jerk_limited_) jerk_limited_->wish(wishes);
+    const bool other_feeds = wishes.feeds != wishes_.feeds;
+    wishes_ = wishes;
+    if (!other_feeds || jerk_limited_) return;
     for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
     decided_ = 0;
   }
 
-  void hold() { holding_ = true; }
-  void resume() {
-    holding_ = false;
-    decided_ = 0;
-    if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
-  }
   void drop_to_action() {
     if (jerk_limited_) return jerk_limited_->drop_to_action();
     const auto drop = [this] {
@@ -133,10 +137,27 @@ class Planner::Implementation {
     decided_ = 0;
     speed_squared_ = 0;
     action_.reset();
-    if (jerk_limited_) jerk_limited_.emplace(path_, limits_, most_queued_);
+    if (jerk_limited_) {
+      jerk_limited_.emplace(path_, limits_, most_queued_);
+      jerk_limited_->limit_moves_to(longest_move_);
+      jerk_limited_->wish(wishes_);
+    }
   }
 
  private:
+  // Whether what is wished keeps the motion from going on where it is.
+  bool stands() {
+    while (segments_.empty() && !closed_) pull();
+    return segments_.empty() ? wishes_.stands_before(action_ ? &*action_ : nullptr)
+                             : wishes_.stands_on(segments_.front());
+  }
+
+  // After braking.
+  void go_on() {
+    decided_ = 0;
+    if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
+  }
+
   // Each pass over the queue is paid for by as many new cells as it found undecided, which makes planning amortised
   // linear.
   void look_ahead() {
@@ -178,7 +199,9 @@ class Planner::Implementation {
 
   void set_caps(std::size_t i) {
     CellQueue::Entry& entry = cells_[i];
-    entry.top_squared = std::min(entry.cell.top_squared, entry.cell.feed_squared * override_ * override_);
+    entry.top_squared =
+        std::min(entry.cell.top_squared,
+                 entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock)));
     entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
@@ -255,6 +278,14 @@ class Planner::Implementation {
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
       const Cell& cell = cells_[0].cell;
       const double exit = planned_exit(0, speed_squared_);
+      // The feed was lowered: down to it at once, and not where the cell ends.
+      const double too_fast = speed_squared_ - cells_[0].top_squared;
+      const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
+      if (too_fast > rounding * speed_squared_ && slowing > smallest_cell && slowing + smallest_cell < cell.length) {
+        add_phase(cell.start, slowing, speed_squared_, cells_[0].top_squared, move);
+        complete = go({slowing, cells_[0].top_squared}, move);
+        continue;
+      }
       if (cell.straight) {
         add_phases({.start = cell.start,
                     .length = cell.length,
@@ -402,8 +433,8 @@ class Planner::Implementation {
   CellCutter::Piece piece_;
 
   // What may change in mid-run.
-  double override_ = 1;
-  bool holding_ = false;
+  MidRunWishes wishes_;
+  bool braking_ = false;
   Seconds longest_move_{std::numeric_limits<double>::infinity()};
   OutputState outputs_;  // after the last action
   CellCutter::Piece piece_at_hand_;
@@ -423,13 +454,34 @@ void Planner::limit_moves_to(Seconds duration) {
   implementation_->limit_moves_to(duration);
 }
 void Planner::set_feed_override(double factor) {
-  implementation_->set_feed_override(factor);
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.override = factor;
+  implementation_->wish(wishes);
+}
+void Planner::set_adaptive_feed(double factor) {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.adaptive = factor;
+  implementation_->wish(wishes);
+}
+void Planner::set_spindle_ratio(double ratio) {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.spindle = ratio;
+  implementation_->wish(wishes);
 }
 void Planner::hold() {
-  implementation_->hold();
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.hold = true;
+  implementation_->wish(wishes);
 }
 void Planner::resume() {
-  implementation_->resume();
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.hold = wishes.stop = false;
+  implementation_->wish(wishes);
+}
+void Planner::stop() {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.stop = true;
+  implementation_->wish(wishes);
 }
 bool Planner::braking_plan(std::vector<PlannedMove>& plan) const {
   return implementation_->braking_plan(plan);

@@ -62,6 +62,19 @@ TEST(Jog, that_is_not_renewed_brakes_at_the_end_of_its_lease_at_the_latest) {
   expect_at(router, machine, jog.place());
 }
 
+// With jerk the deceleration rises and falls for 20 ms each; the lease ends where braking begins all the same.
+TEST(Jog, brakes_at_the_end_of_its_lease_where_the_jerk_is_limited) {
+  MachineDescription router = example_machine("router");
+  for (AxisDescription& axis : router.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
+  VirtualMachine machine = machine_of(router);
+  Jog jog(router, machine, Point(), {.direction = test::xyz(-1, 0), .speed = MmPerSecond(40)});
+  while (jog.advance()) {
+  }
+  EXPECT_LE(jog.drive().now().value(), 0.2 + 40.0 / 800 + 0.02 + 2e-3);
+  EXPECT_GE(jog.drive().now().value(), 0.2 - 0.02);
+  expect_at(router, machine, jog.place());
+}
+
 TEST(Jog, with_random_renewals_never_outlives_its_lease_nor_leaves_the_travel) {
   test::Random random;
   for (const char* name : {"bench", "router", "pantograph", "forty-eight"}) {

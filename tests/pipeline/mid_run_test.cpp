@@ -23,11 +23,20 @@ MachineDescription example_machine(const std::string& name) {
   return machine.value_or(MachineDescription());
 }
 
+// Full acceleration after 20 ms.
+MachineDescription with_jerk_limits(MachineDescription machine) {
+  for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
+  return machine;
+}
+
 ProofOptions proof_options(const MachineDescription& machine) {
   ProofOptions options;
   for (const AxisDescription& axis : machine.axes) {
-    options.axes.push_back(
-        {.axis = axis.axis, .step = axis.step(), .velocity = axis.velocity, .acceleration = axis.acceleration});
+    options.axes.push_back({.axis = axis.axis,
+                            .step = axis.step(),
+                            .velocity = axis.velocity,
+                            .acceleration = axis.acceleration,
+                            .jerk = axis.jerk});
   }
   options.tick_rate = machine.board.clock;
   return options;
@@ -138,10 +147,9 @@ Ending run(const std::string& program, const MachineDescription& machine, test::
   return ending;
 }
 
-void expect_nothing_lost(const std::string& program, const std::string& machine_name, int runs) {
-  SCOPED_TRACE(machine_name);
+void expect_nothing_lost(const std::string& program, const MachineDescription& machine, int runs) {
+  SCOPED_TRACE(machine.name);
   test::Random random;
-  const MachineDescription machine = example_machine(machine_name);
   const Ending undisturbed = run(program, machine, nullptr);
   EXPECT_TRUE(undisturbed.proof.good()) << to_text(undisturbed.proof);
   int holds = 0;
@@ -164,16 +172,23 @@ void expect_nothing_lost(const std::string& program, const std::string& machine_
 constexpr std::array<const char*, 4> machines = {"bench", "router", "pantograph", "forty-eight"};
 
 TEST(MidRun, holds_and_overrides_lose_nothing_on_lines) {
-  for (const char* machine : machines) expect_nothing_lost(lines(), machine, 2);
+  for (const char* machine : machines) expect_nothing_lost(lines(), example_machine(machine), 2);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_on_arcs) {
-  for (const char* machine : machines) expect_nothing_lost(arcs(), machine, 1);
+  for (const char* machine : machines) expect_nothing_lost(arcs(), example_machine(machine), 1);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_on_dense_paths) {
-  for (const char* machine : machines) expect_nothing_lost(dense(), machine, 1);
+  for (const char* machine : machines) expect_nothing_lost(dense(), example_machine(machine), 1);
 }
 TEST(MidRun, holds_and_overrides_lose_nothing_in_cycles) {
-  for (const char* machine : machines) expect_nothing_lost(cycles(), machine, 2);
+  for (const char* machine : machines) expect_nothing_lost(cycles(), example_machine(machine), 2);
+}
+
+TEST(MidRun, holds_and_overrides_lose_nothing_where_the_jerk_is_limited) {
+  for (const char* name : {"bench", "forty-eight"}) {
+    const MachineDescription machine = with_jerk_limits(example_machine(name));
+    for (const std::string& program : {lines(), arcs(), dense(), cycles()}) expect_nothing_lost(program, machine, 1);
+  }
 }
 
 // The steps of all motors, as the virtual machine made them.
@@ -223,8 +238,10 @@ Reaction reaction_to_hold(const std::string& program, const MachineDescription& 
 TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
   test::Random random;
   const LiveOptions live;
-  for (const char* name : machines) {
-    const MachineDescription machine = example_machine(name);
+  for (std::size_t n = 0; n < 2 * machines.size(); ++n) {
+    const char* name = machines[n / 2];
+    const bool jerk = n % 2 == 1;
+    const MachineDescription machine = jerk ? with_jerk_limits(example_machine(name)) : example_machine(name);
     double most_committed = 0;
     double most_seen = 0;
     double most_beyond = 0;
@@ -241,8 +258,8 @@ TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
       }
     }
     std::printf(
-        "%-12s committed at most %.1f ms, slower after at most %.1f ms, at most %.1f ms beyond what was committed\n",
-        name, most_committed * 1e3, most_seen * 1e3, most_beyond * 1e3);
+        "%-12s%s committed at most %.1f ms, slower after at most %.1f ms, at most %.1f ms beyond what was committed\n",
+        name, jerk ? " with jerk" : "", most_committed * 1e3, most_seen * 1e3, most_beyond * 1e3);
   }
 }
 
@@ -292,6 +309,114 @@ TEST(MidRun, a_drive_at_rest_is_held_at_once_and_goes_on) {
   while (job.advance()) {
   }
   EXPECT_EQ(drive.state(), State::ended);
+}
+
+// What M48 to M53 say of changes in mid-run.
+class Switched {
+ public:
+  explicit Switched(const std::string& program, bool jerk = false)
+      : machine_(jerk ? with_jerk_limits(example_machine("router")) : example_machine("router")),
+        job_(ProgramReader::from_text("t", program), machine_, InterpreterOptions(), diagnostics_) {
+    job_.drive().go_live({});
+  }
+  MotionDrive& drive() { return job_.drive(); }
+  const VirtualMachine& machine() { return job_.machine(); }
+  // To the time, or to the end.
+  void run_to(double time = 1e9) {
+    while (drive().now().value() < time && drive().state() != State::held && job_.advance()) {
+    }
+  }
+  double time() { return drive().now().value(); }
+  double x() {
+    return static_cast<double>(job_.machine().counts().motors[0].position) / machine_.axes[0].steps_per_unit;
+  }
+
+ private:
+  MachineDescription machine_;
+  Diagnostics diagnostics_;
+  Job job_;
+};
+
+TEST(MidRunSwitches, feed_overrides_count_between_m50_and_m50_p0_only) {
+  for (const bool jerk : {false, true}) {
+    Switched free("G21 G1 X20 F600\nM2\n", jerk);
+    free.drive().set_feed_override(0.5);
+    free.run_to();
+    EXPECT_NEAR(free.time(), 4, 0.1);
+    for (const char* off : {"M50 P0", "M49"}) {
+      Switched fixed("G21 " + std::string(off) + "\nG1 X20 F600\nM2\n", jerk);
+      fixed.drive().set_feed_override(0.5);
+      fixed.run_to();
+      EXPECT_NEAR(fixed.time(), 2, 0.1);
+    }
+    Switched both("G21 M49\nG1 X20 F600\nM48\nX40\nM2\n", jerk);
+    both.drive().set_feed_override(0.5);
+    both.run_to();
+    EXPECT_NEAR(both.time(), 6, 0.2);
+  }
+}
+
+TEST(MidRunSwitches, adaptive_feed_counts_with_m52_only) {
+  for (const bool on : {false, true}) {
+    Switched run("G21 M52 P" + std::string(on ? "1" : "0") + "\nG1 X20 F600\nM2\n");
+    run.drive().set_adaptive_feed(0.25);
+    run.run_to();
+    EXPECT_NEAR(run.time(), on ? 8 : 2, 0.1);
+  }
+}
+
+TEST(MidRunSwitches, a_feed_of_nothing_stands_until_there_is_more) {
+  for (const bool jerk : {false, true}) {
+    Switched run("G21 G1 X20 F600\nM2\n", jerk);
+    run.run_to(1);
+    run.drive().set_feed_override(0);
+    run.run_to();
+    EXPECT_EQ(run.drive().state(), State::held);
+    EXPECT_LT(run.x(), 11.5);
+    run.drive().wait(Seconds(1));
+    run.drive().set_feed_override(1);
+    run.run_to();
+    EXPECT_EQ(run.drive().state(), State::ended);
+    EXPECT_NEAR(run.x(), 20, 1e-9);
+    EXPECT_NEAR(run.time(), 3.1, 0.1);
+  }
+}
+
+TEST(MidRunSwitches, a_hold_waits_for_the_end_of_m53_p0) {
+  for (const bool jerk : {false, true}) {
+    Switched run("G21 M53 P0\nG1 X10 F600\nM53 P1\nX20\nM2\n", jerk);
+    run.run_to(0.3);
+    run.drive().hold();
+    run.run_to();
+    EXPECT_EQ(run.drive().state(), State::held);
+    EXPECT_GT(run.x(), 10);
+    EXPECT_LT(run.x(), 10.5);
+    run.drive().resume();
+    run.run_to();
+    EXPECT_NEAR(run.x(), 20, 1e-9);
+  }
+}
+
+TEST(MidRunSwitches, a_stop_waits_for_nothing) {
+  Switched run("G21 M53 P0\nG1 X10 F600\nM2\n");
+  run.run_to(0.3);
+  run.drive().stop();
+  run.run_to();
+  EXPECT_EQ(run.drive().state(), State::ended);
+  EXPECT_LT(run.x(), 5);
+}
+
+TEST(MidRunSwitches, a_spindle_override_counts_behind_what_is_committed_and_not_after_m51_p0) {
+  Switched run("G21 S1000 M3\nG1 X10 F600\nM51 P0\nX20\nM2\n");
+  run.run_to(0.3);
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 1000);
+  run.drive().set_spindle_override(1.2);
+  run.run_to(0.5);
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 1200);
+  run.run_to(1.5);
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 1000);
+  run.run_to();
+  EXPECT_EQ(run.machine().counts().outputs.spindle_rpm, 0);
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 namespace passo {
 namespace {
 
-constexpr double least_percent = 1;
 constexpr double most_percent = 200;
 // A time beyond it is a slip of the pen, and would not fit a clock of ticks.
 constexpr double most_seconds = 1e6;
@@ -48,8 +47,8 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
   }
   for (const std::string& text : overrides) {
     const auto both = pair_of(text, '@');
-    if (!both || both->first < least_percent || both->first > most_percent) {
-      fail(exit_bad_program, "'" + text + "': expected --override PERCENT@SECONDS, with 1 to 200 percent");
+    if (!both || both->first > most_percent) {
+      fail(exit_bad_program, "'" + text + "': expected --override PERCENT@SECONDS, with 0 to 200 percent");
       return std::nullopt;
     }
     changes.changes_.push_back({.at = Seconds(both->second), .factor = both->first / 100});
@@ -64,15 +63,21 @@ void MidRunChanges::begin(MotionDrive& drive) const {
 }
 
 void MidRunChanges::act(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description) {
-  if (drive.state() == MotionDrive::State::held) rest(drive, machine, description);
+  if (drive.state() == MotionDrive::State::held) {
+    if (drive.hold_asked()) {
+      rest(drive, machine, description);
+    } else {
+      wait_for_feed(drive);
+    }
+  }
   for (; next_ < changes_.size() && changes_[next_].at <= drive.now(); ++next_) {
     const Change& change = changes_[next_];
-    if (change.factor > 0) {
-      drive.set_feed_override(change.factor);
+    if (change.factor) {
+      drive.set_feed_override(*change.factor);
       continue;
     }
     // One after the other.
-    if (drive.state() != MotionDrive::State::running) return;
+    if (drive.hold_asked()) return;
     drive.hold();
     pause_ = change.pause;
     holds_.push_back({.asked = drive.now(), .reaction = drive.committed()});
@@ -92,6 +97,12 @@ void MidRunChanges::rest(MotionDrive& drive, VirtualMachine& machine, const Mach
   drive.wait(*pause_);
   hold.resumed = drive.now();
   drive.resume();
+}
+
+// Until the next change; where none comes, for good.
+void MidRunChanges::wait_for_feed(MotionDrive& drive) {
+  if (next_ == changes_.size()) return drive.stop();
+  drive.wait(std::max(changes_[next_].at - drive.now(), Seconds(0)));
 }
 
 std::vector<HoldSummary> MidRunChanges::holds() const {

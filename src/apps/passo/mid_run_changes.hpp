@@ -31,9 +31,10 @@ class MidRunChanges {
  private:
   struct Change {
     Seconds at{0};
-    double factor = 0;                  // of the feed; 0: a hold
+    std::optional<double> factor = {};  // of the feed; none: a hold
     std::optional<Seconds> pause = {};  // of a hold, until it goes on
   };
+  void wait_for_feed(MotionDrive& drive);
   void rest(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description);
 
   std::vector<Change> changes_;  // by time

@@ -58,7 +58,7 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   // All keys there are, as the program itself lists them to those who guess.
   std::string keys;
   for (const char* table :
-       {"", "[board]\n", "[tool]\n", "[probe]\n", "[axis.X]\n", "[axis.A]\n", "[axis.X.torque]\n"}) {
+       {"", "[board]\n", "[tool]\n", "[probe]\n", "[spindle]\n", "[axis.X]\n", "[axis.A]\n", "[axis.X.torque]\n"}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_machine(std::string(table) + "qqqqqqqqqqqqqqqqqqqqqqqqqqqqqq = 1\n", "m.toml", diagnostics));
     for (const Diagnostic& diagnostic : diagnostics.all()) {

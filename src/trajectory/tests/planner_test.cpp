@@ -173,5 +173,23 @@ TEST(Planner, an_empty_path_is_no_motion) {
   EXPECT_TRUE(plan({}, equal_limits(1, 1)).empty());
 }
 
+// A line is one cell: that it is as slow at its end is not enough.
+TEST(Planner, a_lowered_override_slows_a_line_at_once) {
+  ListSource<PathItem> source({line(xyz(0, 0), xyz(200, 0), 50)});
+  Planner planner(source, equal_limits(100, 500));
+  planner.limit_moves_to(Seconds(0.01));
+  MotionItem item;
+  double time = 0;
+  double speed = 0;
+  while (time < 1.2 && planner.next(item)) {
+    if (time < 1) planner.set_feed_override(time < 0.5 ? 1 : 0.4);
+    const auto& move = std::get<PlannedMove>(item);
+    expect_within_limits(move, equal_limits(100, 500));
+    time += move.duration().value();
+    speed = exit_speed(move);
+  }
+  EXPECT_NEAR(speed, 20, 1e-6);
+}
+
 }  // namespace
 }  // namespace passo::test

@@ -19,6 +19,7 @@
 #include "passo/controller/probe_move.hpp"
 #include "passo/controller/refiller.hpp"
 #include "passo/controller/rewindable_path.hpp"
+#include "passo/controller/spindle_follower.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/link/in_process_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
@@ -31,6 +32,7 @@ namespace passo {
 struct LiveOptions {
   Seconds horizon{0.05};        // nothing is added while as much is committed
   Seconds longest_move{0.005};  // the planner's moves end after this time
+  friend bool operator==(const LiveOptions&, const LiveOptions&) = default;
 };
 
 // How a drive reaches its board: directly, or by a line that takes care.
@@ -45,8 +47,8 @@ class MotionDrive {
  public:
   enum class State : std::uint8_t {
     running,
-    holding,  // brakes for a hold, after what is committed
-    held,     // at rest on the path; advance() does nothing until resume()
+    holding,  // brakes for a hold, after what is committed and where the program heeds holds
+    held,     // at rest on the path, by a hold or a feed of nothing; advance() does nothing until that ends
     ended,    // the path is done, was stopped, or the link has an error
   };
 
@@ -71,11 +73,16 @@ class MotionDrive {
   // Goes on a little: sends one board segment, or lets the board play one. False when it has ended.
   [[nodiscard]] bool advance();
 
-  // Rest on the path, as soon as the limits allow behind what is committed.
+  // Rest on the path, as soon as the limits and the program (M53) allow behind what is committed.
   void hold();
   void resume();
-  // Feeds times `factor`, 0.01 to 2; rapids stay as they are.
-  void set_feed_override(double factor) { planner_.set_feed_override(factor); }
+  bool hold_asked() const { return hold_asked_; }
+  // Feeds times both factors, 0 to 2 by the operator and 0 to 1 by the machine, where the program heeds them (M48 to
+  // M50, M52); rapids stay as they are. Below a hundredth it is held until there is more.
+  void set_feed_override(double factor);
+  void set_adaptive_feed(double factor);
+  // The spindle's speed times `factor`, 0 to 2, where the program heeds it (M48, M49, M51), behind what is committed.
+  void set_spindle_override(double factor);
   // A hold that ends the drive: the rest of the path is dropped, the outputs are switched off.
   void stop();
   // Lets time pass while it is held.
@@ -95,17 +102,26 @@ class MotionDrive {
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
   bool advance_with_tails();
+  void look_at(const PathItem& item);
+  void watch(const MotionItem& item);
   void send(const BoardItem& item);
-  void commit_by(const LiveOptions& options);
+  void set_outputs(const OutputState& outputs);
+  void await_index(const OutputState& outputs);
+  void follow_spindle();
+  LiveOptions commits() const;
+  void commit_ahead(const LiveOptions& options);
+  void let_pass(Seconds time);
   void look_at_probe();
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
+  void let_planner_go_on();
   void rest_in_feed_hold();
   void rest_in_hold();
   bool end();
 
   Hertz tick_rate_;
   VirtualMachine& machine_;
+  Tap<PathItem> watched_path_;
   RewindablePath path_;
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;
@@ -118,14 +134,22 @@ class MotionDrive {
 
   BoardItem item_;
   State state_ = State::running;
+  bool hold_asked_ = false;
   bool stopping_ = false;
   bool contact_seen_ = false;  // of what the board watches for now
   bool probe_brakes_ = false;  // after a contact, until the path is at rest
   bool stopped_by_probe_ = false;
   std::optional<Point> end_of_probe_;  // of the motion that is committed, in a probe move
+  double feed_override_ = 1;
+  double adaptive_feed_ = 1;
+  double spindle_override_ = 1;
+  OutputState outputs_;                   // as the program has them
+  bool heeds_spindle_override_ = true;    // where it is
+  std::optional<BoardOutputs> on_board_;  // what was sent
   LiveOptions live_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
                     .longest_move = Seconds(std::numeric_limits<double>::infinity())};
-  Seconds horizon_ = live_.horizon;
+  LiveOptions ahead_ = live_;  // less while a spindle is followed
+  SpindleFollower follower_;
   Seconds planned_{0};  // time of all motion given by the planner
   Seconds rested_;      // time of the machine that was no motion of this drive
 };

@@ -17,6 +17,7 @@
 #include "passo/machine/machine_counts.hpp"
 #include "passo/machine/machine_observer.hpp"
 #include "passo/machine/touch_body.hpp"
+#include "passo/machine/virtual_spindle.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -48,6 +49,11 @@ class VirtualMachine final : public BoardPort {
   // The board's program; what its pins say, and what happens to it.
   auto& board() { return board_; }
 
+  // At the start. Without it the spindle does as commanded, and has no encoder.
+  void fit_spindle(const SpindleModel& model) { hardware_.spindle = VirtualSpindle(model); }
+  // Its encoder, as it stands now.
+  const VirtualSpindle& spindle() const { return hardware_.spindle; }
+
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
 
@@ -72,6 +78,8 @@ class VirtualMachine final : public BoardPort {
     std::uint8_t last_directions = 0;  // of each motor's last step
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
+    double seconds_a_tick = 0;
+    VirtualSpindle spindle;
     std::vector<MachineObserver*> observers;
     std::vector<TouchBody> bodies;
     std::vector<std::uint8_t> to_host;

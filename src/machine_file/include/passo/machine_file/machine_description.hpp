@@ -65,12 +65,22 @@ struct ProbeDescription {
   bool guards = false;  // touched in a move that is no probe move, it stops the machine
 };
 
+// What threads and feeds a revolution follow. The virtual machine's spindle also has a life of its own.
+struct SpindleDescription {
+  int counts_per_turn = 0;  // of its encoder; 0: none, and nothing follows it
+  Seconds run_up{0};        // from rest to 1000 turns a minute
+  double droop = 0;         // part of the speed that is missing under load
+  double ripple = 0;        // part of the speed by which it goes up and down
+  Hertz ripple_rate{1};
+};
+
 struct MachineDescription {
   std::string name;
   Mm path_tolerance{0.01};
   BoardDescription board;
   ToolDescription tool;
   ProbeDescription probe;
+  SpindleDescription spindle;
   std::vector<AxisDescription> axes;  // in the order of the board's motors
 };
 

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,8 +80,11 @@ class PathBuilder final : public Source<PathItem> {
   enum class Lack : std::uint8_t { orientation, outputs, inputs, user_codes };
   void lacks(Lack what);
   void refuse_surface_speed(const operation::SetSpindleMode& mode);
+  Heeds heeds() const;
+  SpindleLock lock() const;
   OutputState outputs() const;
   Action outputs_action() const;
+  bool must_await_index(const PathItem& item);
 
   void check_travel(const Curve& curve);
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
@@ -111,14 +115,16 @@ class PathBuilder final : public Source<PathItem> {
   Operation operation_;  // the one in hand
   std::array<OperationKind, 4> tap_;
   std::size_t tap_step_ = tap_.size();
-  std::optional<PathItem> held_;  // waits while the outputs before it are handed on
-  Point position_;                // machine
+  std::deque<PathItem> held_;  // wait while what comes before them is handed on
+  bool in_step_ = false;       // with the spindle, since its index
+  Point position_;             // machine
 
   FeedMode feed_mode_ = FeedMode::units_per_minute;
   operation::SetFeedRate feed_rate_;
   std::optional<Mm> synchronised_pitch_;
   PathMode path_mode_ = PathMode::continuous;
   Mm tolerance_{0};
+  Heeds heeds_;
   bool gives_tolerance_ = false;  // the program, with G64 P
   Mm merge_{0};
 

@@ -10,6 +10,18 @@
 
 namespace passo {
 
+// Which changes in mid-run count on a stretch of the program (M48 to M53).
+struct Heeds {
+  bool feed_override = true;
+  bool spindle_override = true;
+  bool adaptive_feed = false;  // the machine's own factor on feeds
+  bool feed_hold = true;
+  friend bool operator==(const Heeds&, const Heeds&) = default;
+};
+
+// How a feed follows the spindle: its speed alone (G95), or its place from an index pulse on (G33).
+enum class SpindleLock : std::uint8_t { none, speed, place };
+
 struct Segment {
   Curve curve;
   MmPerSecond speed{0};  // programmed, along s; for a rapid: no limit but the axes' own (infinity)
@@ -18,6 +30,9 @@ struct Segment {
   Mm tolerance{0};                       // how far the junction to the next segment may leave the path
   Mm merge{0};                           // how far lines may leave the path to be one line; a part of the tolerance
   Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
+  Heeds heeds{};
+  SpindleLock lock = SpindleLock::none;
+  Mm pitch{0};  // of a lock: a turn. `speed` is as the commanded speed of the spindle has it
   OperationSource source{};
 };
 
@@ -41,6 +56,7 @@ struct Action {
     feed_hold,
     probe_begin,  // behind it comes the probe move, and
     probe_end,    // then this: no stage reads further before the machine is there
+    await_index,
   };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
@@ -48,6 +64,7 @@ struct Action {
   std::int32_t tool = 0;
   bool probe_toward = true;  // a probe move: until touched, else until free
   Point place{};             // of a probe move: its beginning, or its end; machine coordinates
+  Heeds heeds{};
   OperationSource source{};
 };
 

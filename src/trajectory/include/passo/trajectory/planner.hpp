@@ -43,11 +43,18 @@ class Planner final : public Source<MotionItem> {
 
   // From now on a move ends after this time at the latest.
   void limit_moves_to(Seconds duration);
-  // Feeds are multiplied by `factor`, 0.01 to 2; rapids stay as they are.
+  // Feeds are multiplied by both factors, 0 to 2 and 0 to 1, where their segments heed them; rapids stay as they are.
+  // Where that makes less than a hundredth, the motion stands as in a hold, until it is raised.
   void set_feed_override(double factor);
-  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
+  void set_adaptive_feed(double factor);
+  // The speed of segments with a SpindleLock, a multiple of what they say: the spindle is not as fast as commanded.
+  void set_spindle_ratio(double ratio);
+  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume(). Waits
+  // where the segment does not heed it.
   void hold();
   void resume();
+  // A hold wherever it is, whatever its segments heed, until resume().
+  void stop();
   // At rest in a hold: drops what is left of the path up to the next action, which comes next after resume().
   void drop_to_action();
 

@@ -1,0 +1,60 @@
+// SpindleFollower: how fast a feed must be that follows the spindle, from what the spindle's encoder says.
+//
+// The motion behind what is committed is planned for the speed that the spindle has, and where the lock is one of
+// place, a little faster or slower until the tool is where the spindle's angle wants it:
+//
+//     turns wanted = turns of the spindle since its index - lag
+//
+// at the time when the committed motion ends. The lag is what speeding up to the programmed speed costs: the same
+// in each pass, so that all passes of a thread lie in one groove.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "passo/machine/virtual_spindle.hpp"
+#include "passo/trajectory/motion_limits.hpp"
+#include "passo/trajectory/phase.hpp"
+
+namespace passo {
+
+class SpindleFollower {
+ public:
+  explicit SpindleFollower(const MotionLimits& limits);
+
+  // The spindle is at its index, and the next locked move begins.
+  void begin(const SpindleReading& index);
+  // A move was committed.
+  void watch(const PlannedMove& move);
+  // A new reading.
+  void read(const SpindleReading& reading);
+  // Of the move that was committed last.
+  SpindleLock lock() const { return lock_; }
+  // The multiple of the programmed speed that follows the spindle; `committed`: how long after the reading it counts.
+  // Nothing where it is to stay: a change of speed under a limit of jerk is not to be changed before it is made.
+  std::optional<double> ratio(Seconds committed);
+
+  // Below it a spindle is not followed.
+  static constexpr double least_ratio = 0.02;
+  static constexpr double most_ratio = 2;
+
+ private:
+  double turns_a_second() const;
+  double wanted_ratio(Seconds committed) const;
+  double lag_of(const PlannedMove& move) const;
+
+  MotionLimits limits_;
+  double patience_ = 0;  // seconds between two changes
+  double changed_at_ = -1;
+  double ratio_ = 1;
+  std::deque<SpindleReading> readings_;  // of the last few hundredths of a second
+  SpindleLock lock_ = SpindleLock::none;
+  double programmed_ = 0;  // turns a second
+  double reached_ = 0;     // turns a second, at the end of what is committed
+  double index_ = 0;       // turns of the spindle there
+  double lag_ = -1;        // turns; below 0: not known yet
+  double followed_ = 0;    // turns, by what is committed
+  bool in_place_ = false;  // has once been as fast as the spindle
+};
+
+}  // namespace passo

@@ -1,0 +1,104 @@
+#include "passo/controller/spindle_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+// The speed is measured over so long: less is rough, for the encoder counts, more is late.
+constexpr double measured_over = 0.03;
+
+// What is missing is made up for at this rate, in 1/s: slow against the time from a reading to its effect.
+constexpr double eagerness = 15;
+
+// From this part of the spindle's speed on the tool's place counts.
+constexpr double up_to_speed = 0.95;
+
+// With jerk: changes that are worth it, while it speeds up and then.
+constexpr double coarse = 0.05;
+constexpr double fine = 0.002;
+
+}  // namespace
+
+SpindleFollower::SpindleFollower(const MotionLimits& limits) : limits_(limits) {
+  for (const Axis axis : all_axes) {
+    const double jerk = limits.jerk[axis].value();
+    if (jerk > 0) patience_ = std::max(patience_, limits.acceleration[axis].value() / jerk);
+  }
+}
+
+void SpindleFollower::begin(const SpindleReading& index) {
+  index_ = index.turns;
+  lag_ = -1;
+  followed_ = reached_ = 0;
+  in_place_ = false;
+  read(index);
+}
+
+void SpindleFollower::watch(const PlannedMove& move) {
+  lock_ = move.segment.lock;
+  if (lock_ == SpindleLock::none) return;
+  const double pitch = move.segment.pitch.value();
+  programmed_ = move.segment.speed.value() / pitch;
+  if (lag_ < 0) lag_ = lag_of(move);
+  followed_ += (move.to - move.from()).value() / pitch;
+  const Phase& last = *(move.end() - 1);
+  reached_ = last.velocity_at(last.duration).value() / pitch;
+  in_place_ = in_place_ || reached_ >= up_to_speed * turns_a_second();
+}
+
+void SpindleFollower::read(const SpindleReading& reading) {
+  if (!readings_.empty() && reading.time <= readings_.back().time) return;
+  readings_.push_back(reading);
+  while (readings_.size() > 2 && (reading.time - readings_[1].time).value() >= measured_over) readings_.pop_front();
+}
+
+double SpindleFollower::turns_a_second() const {
+  if (readings_.size() < 2) return 0;
+  const SpindleReading& from = readings_.front();
+  const SpindleReading& to = readings_.back();
+  return std::abs(to.turns - from.turns) / (to.time - from.time).value();
+}
+
+// At an even acceleration, or with jerk at an even mean one, half of the way is lost.
+double SpindleFollower::lag_of(const PlannedMove& move) const {
+  const Point direction = move.segment.curve.tangent(move.from());
+  double acceleration = strongest;
+  double jerk = std::numeric_limits<double>::infinity();
+  for (const Axis axis : all_axes) {
+    const double part = std::abs(direction[axis]);
+    if (!(part > 0)) continue;
+    if (limits_.acceleration[axis].value() > 0) {
+      acceleration = std::min(acceleration, limits_.acceleration[axis].value() / part);
+    }
+    if (limits_.jerk[axis].value() > 0) jerk = std::min(jerk, limits_.jerk[axis].value() / part);
+  }
+  const double v = move.segment.speed.value();
+  const bool has_full = v * jerk >= acceleration * acceleration;
+  const double time = has_full ? v / acceleration + acceleration / jerk : 2 * std::sqrt(v / jerk);
+  return v * time / 2 / move.segment.pitch.value();
+}
+
+std::optional<double> SpindleFollower::ratio(Seconds committed) {
+  const double time = readings_.empty() ? 0 : readings_.back().time.value();
+  const double wanted = wanted_ratio(committed);
+  const bool same = std::abs(wanted - ratio_) < (in_place_ ? fine : coarse) * ratio_;
+  if (patience_ > 0 && (same || time < changed_at_ + patience_)) return std::nullopt;
+  changed_at_ = time;
+  return ratio_ = wanted;
+}
+
+double SpindleFollower::wanted_ratio(Seconds committed) const {
+  const double speed = turns_a_second();
+  if (!(speed > 0) || !(programmed_ > 0)) return 1;
+  double wanted = speed;
+  if (lock_ == SpindleLock::place && in_place_) {
+    const double turned = std::abs(readings_.back().turns - index_) + speed * committed.value();
+    wanted += eagerness * (turned - lag_ - followed_);
+  }
+  return std::clamp(wanted / programmed_, least_ratio, most_ratio);
+}
+
+}  // namespace passo

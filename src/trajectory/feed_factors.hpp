@@ -1,0 +1,49 @@
+// FeedFactors: what multiplies the programmed feeds in mid-run. Private to trajectory/.
+#pragma once
+
+#include <algorithm>
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+// Below it a feed is none, and the motion stands.
+inline constexpr double least_feed_factor = 0.01;
+
+struct FeedFactors {
+  double override = 1;
+  double adaptive = 1;
+  double spindle = 1;  // of feeds that follow it
+
+  // What was chosen for feeds; a slow spindle does not make the motion stand.
+  double chosen(const Heeds& heeds) const {
+    return (heeds.feed_override ? override : 1) * (heeds.adaptive_feed ? adaptive : 1);
+  }
+  // As it is planned with: where nothing moves, what follows is planned for the slowest feed.
+  double planned(const Heeds& heeds, SpindleLock lock) const {
+    return std::max(chosen(heeds) * (lock != SpindleLock::none ? spindle : 1), least_feed_factor);
+  }
+  double planned(const Segment& segment) const { return segment.rapid ? 1 : planned(segment.heeds, segment.lock); }
+  friend bool operator==(const FeedFactors&, const FeedFactors&) = default;
+};
+
+// What was asked for in mid-run; any(): something that may keep the motion from going on.
+struct MidRunWishes {
+  FeedFactors feeds;
+  bool hold = false;  // where the program heeds it
+  bool stop = false;  // wherever it is
+
+  bool any() const {
+    const double least = std::min({feeds.override, feeds.adaptive, feeds.override * feeds.adaptive});
+    return hold || stop || least < least_feed_factor;
+  }
+  bool stands_before(const Action* action) const {
+    return stop || (hold && (action == nullptr || action->heeds.feed_hold));
+  }
+  bool stands_on(const Segment& segment) const {
+    const bool no_feed = !segment.rapid && feeds.chosen(segment.heeds) < least_feed_factor;
+    return stop || (hold && segment.heeds.feed_hold) || no_feed;
+  }
+};
+
+}  // namespace passo

@@ -1,0 +1,103 @@
+#include "jerk_window.hpp"
+
+#include <algorithm>
+
+#include "rest.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::size_t first_window = 200;
+constexpr std::size_t phases_a_cell = 2;
+constexpr std::size_t fewest_in_motion = 32;  // cells from which a start in motion is planned
+
+}  // namespace
+
+JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, std::size_t most_queued)
+    : axes_(axes),
+      path_(path),
+      cutter_(axes),
+      profile_(axes),
+      most_queued_(std::max<std::size_t>(most_queued, 2 * first_window)),
+      shapes_(axes.size()) {}
+
+void JerkWindow::begin_at(const Start& start, const FeedFactors& feeds) {
+  profile_.drop(profile_.size());
+  if (start.speed > 0) profile_.begin_in_motion(start.speed);
+  start_ = start;
+  feeds_ = feeds;
+  cut_ = start.segment;
+  started_ = cutting_ = closed_ = false;
+  length_ = 0;
+  given_ = decided_ = 0;
+}
+
+bool JerkWindow::can_go_on(double way) {
+  while (!closed_ && profile_.size() < most_queued_ && (length_ < way || profile_.size() < fewest_in_motion)) pull();
+  if (profile_.size() == 0) return false;
+  decided_ = profile_.plan(closed_);
+  return !profile_.fell_back();
+}
+
+bool JerkWindow::next(PlannedMove& move) {
+  while (given_ == decided_ && !(profile_.size() == given_ && closed_)) look_ahead();
+  if (given_ == decided_) return false;
+  move.segment = *path_.at(0);
+  move.phase_count = 0;
+  bool ended = false;
+  while (given_ < decided_ && !ended && move.phase_count + phases_a_cell <= PlannedMove::most_phases) {
+    profile_.add_phases(given_, move);
+    const JerkCell& cell = profile_.cell(given_);
+    ended = cell.ends_segment;
+    move.to = Mm(ended ? move.segment.curve.length().value() : cell.start + cell.length);
+    ++given_;
+  }
+  return true;
+}
+
+void JerkWindow::look_ahead() {
+  profile_.drop(given_);
+  given_ = decided_ = 0;
+  const std::size_t wanted =
+      std::max<std::size_t>(profile_.fell_back() ? profile_.size() : 2 * profile_.size(), first_window);
+  while (!closed_ && profile_.size() < wanted && profile_.size() < most_queued_) pull();
+  if (profile_.size() == 0) return;
+  decided_ = profile_.plan(closed_);
+  if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
+}
+
+// One more cell. A segment is cut when the one after it is known.
+void JerkWindow::pull() {
+  if (cutting_ && cutter_.next(cell_, shapes_.data())) {
+    profile_.push(cell_, shapes_.data(), begins_at_rest_);
+    begins_at_rest_ = false;
+    estimate_ = std::min(estimate_ + 2 * cell_.acceleration * cell_.length, cell_.top_squared);
+    length_ += cell_.length;
+    return;
+  }
+  if (cutting_) ++cut_;
+  cutting_ = false;
+  const Segment* segment = path_.at(cut_);
+  if (segment == nullptr) {
+    closed_ = true;
+    return;
+  }
+  const Segment* after = path_.at(cut_ + 1);
+  const bool ends_at_rest = after == nullptr || rests_between(*segment, *after);
+  const double exit = ends_at_rest ? 0 : cutter_.joint_cap(*segment, *after);
+  if (!started_) {
+    begins_at_rest_ = start_.speed == 0;
+    estimate_ = start_.speed * start_.speed;
+  } else {
+    const Segment& before = *path_.at(cut_ - 1);
+    begins_at_rest_ = rests_between(before, *segment);
+    estimate_ = begins_at_rest_ ? 0 : std::min(estimate_, cutter_.joint_cap(before, *segment));
+  }
+  cutter_.begin(*segment, {.from = started_ ? 0 : start_.s,
+                           .entry_squared = estimate_,
+                           .exit_squared = exit,
+                           .feed_factor = feeds_.planned(*segment)});
+  started_ = cutting_ = true;
+}
+
+}  // namespace passo

@@ -1,0 +1,219 @@
+#include "speed_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rest.hpp"
+
+namespace passo {
+namespace {
+
+constexpr int most_trials = 30;
+constexpr double weakest = 0.02;      // of what the limits allow where it begins: less is not worth it
+constexpr double looked_at = 0.99;    // of the limits, on curves: places between those looked at have the rest
+constexpr double rounding = 1e-6;     // of a limit
+constexpr double turn_a_look = 0.02;  // radians
+constexpr int fewest_looks = 8;       // a piece
+constexpr int most_looks = 200;
+constexpr double smallest_way = 1e-11;  // mm, that is a phase
+constexpr double smallest_rest = 0.02;  // mm, of a segment behind the end of a change,
+constexpr double smallest_part = 0.2;   // or this part of it: what is left is cut like a segment
+constexpr double smallest_time = 1e-13;
+constexpr double most_unseen_jump = 4;  // of what is unseen: as the profile accepts it
+
+// When the phase is at s, in its time.
+double time_at(const Phase& phase, double s) {
+  double low = 0;
+  double high = phase.duration.value();
+  double time = (low + high) / 2;
+  for (int i = 0; i < 100 && low < high; ++i) {
+    const double missing = s - phase.position_at(Seconds(time)).value();
+    (missing > 0 ? low : high) = time;
+    const double newton = time + missing / phase.velocity_at(Seconds(time)).value();
+    const double next = newton > low && newton < high ? newton : (low + high) / 2;
+    if (std::abs(next - time) <= smallest_time / 1000) break;
+    time = next;
+  }
+  return time;
+}
+
+// What is left of the phase behind that time.
+Phase rest_of(const Phase& phase, double time, double start) {
+  const Seconds t(time);
+  return {.duration = phase.duration - t,
+          .start = Mm(start),
+          .velocity = phase.velocity_at(t),
+          .acceleration = phase.acceleration + phase.jerk * t,
+          .jerk = phase.jerk};
+}
+
+}  // namespace
+
+std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
+  const Segment* first = path.at(0);
+  if (first == nullptr) return std::nullopt;
+  const Strength most = strength_at(*first, state.s, request.axes);
+  Strength strength = most;
+  SpeedChange change;
+  for (int trial = 0; trial < most_trials; ++trial) {
+    if (!change.shape(state, request.exit, strength)) return std::nullopt;
+    const Laid laid = change.lay(path, state.s);
+    if (laid == Laid::blocked) return std::nullopt;
+    Excess worst{.force = 1.03, .jolt = 1.03};  // another strength ends elsewhere
+    if (laid == Laid::whole) {
+      worst = change.excess(path, request);
+      if (worst.speed > 1) return std::nullopt;
+      if (worst.force <= 1 && worst.jolt <= 1) {
+        change.braking_way_ = change.exit_ * (change.exit_ / most.acceleration + most.acceleration / most.jerk) / 2;
+        return change;
+      }
+    }
+    if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, 0.7, 0.97);
+    if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, 0.7, 0.97);
+    if (strength.acceleration < weakest * most.acceleration || strength.jerk < weakest * most.jerk) break;
+  }
+  return std::nullopt;
+}
+
+SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, double s, const std::vector<LimitedAxis>& axes) {
+  const Point slope = segment.curve.tangent(Mm(s));
+  Strength strength{.acceleration = strongest, .jerk = sharpest};
+  for (const LimitedAxis& axis : axes) {
+    const double part = std::abs(slope.values[axis.index]);
+    if (!(part > 0)) continue;
+    strength.acceleration = std::min(strength.acceleration, axis.acceleration / part);
+    strength.jerk = std::min(strength.jerk, axis.jerk / part);
+  }
+  return strength;
+}
+
+void SpeedChange::add(double duration, double jerk) {
+  if (!(duration > smallest_time)) return;
+  const Phase phase{.duration = Seconds(duration),
+                    .start = Mm(way_),
+                    .velocity = MmPerSecond(speed_),
+                    .acceleration = MmPerSecond2(acceleration_),
+                    .jerk = MmPerSecond3(jerk)};
+  phases_.push_back(phase);
+  way_ = phase.position_at(phase.duration).value();
+  speed_ = phase.velocity_at(phase.duration).value();
+  acceleration_ += jerk * duration;
+  duration_ += duration;
+}
+
+// With p the strongest braking: down to -p, there, and back to 0. False where the speed cannot but fall below 0.
+bool SpeedChange::shape(const PathState& state, double exit, const Strength& strength) {
+  const double v = state.speed;
+  const double a = state.acceleration;
+  const double j = strength.jerk;
+  phases_.clear();
+  speed_ = v;
+  acceleration_ = a;
+  way_ = duration_ = 0;
+  const double eased = v + a * std::abs(a) / (2 * j);
+  if (eased <= exit || eased <= 0) {
+    exit_ = eased;
+    if (!(eased > 0)) return false;
+    add(std::abs(a) / j, a > 0 ? -j : j);
+    return true;
+  }
+  exit_ = exit;
+  const double sharpest_peak = std::sqrt(j * (v - exit) + a * a / 2);
+  const double p = std::min(sharpest_peak, strength.acceleration);
+  const bool too_strong = a < -p;  // already
+  const double to_peak = std::abs(a + p) / j;
+  const double lost = too_strong ? (a * a - p * p) / (2 * j) : (p * p - a * a) / (2 * j);
+  add(to_peak, too_strong ? j : -j);
+  acceleration_ = to_peak > smallest_time ? -p : a;
+  add((v - lost - p * p / (2 * j) - exit) / p, 0);
+  add(p / j, j);
+  return true;
+}
+
+// Cuts the phases where segments end.
+SpeedChange::Laid SpeedChange::lay(PathAhead& path, double s) {
+  pieces_.clear();
+  segment_ = 0;
+  double base = -s;  // where the segment begins, counted as the phases are
+  const Segment* segment = path.at(0);
+  double end = base + segment->curve.length().value();
+  for (Phase phase : phases_) {
+    while (phase.position_at(phase.duration).value() > end + smallest_way) {
+      const double time = time_at(phase, end);
+      Phase before = phase;
+      before.duration = Seconds(time);
+      before.start = phase.start - Mm(base);
+      if (time > smallest_time) pieces_.push_back({.segment = segment_, .phase = before});
+      if (pieces_.empty() || pieces_.back().segment != segment_) return Laid::blocked;
+      pieces_.back().ends_segment = true;
+      phase = rest_of(phase, time, end);
+      const Segment* after = path.at(++segment_);
+      if (after == nullptr || rests_between(*segment, *after)) return Laid::blocked;
+      segment = after;
+      base = end;
+      end = base + segment->curve.length().value();
+    }
+    if (!(phase.duration.value() > smallest_time)) continue;
+    phase.start = phase.start - Mm(base);
+    pieces_.push_back({.segment = segment_, .phase = phase});
+  }
+  s_ = way_ - base;
+  const double least = std::min(smallest_rest, smallest_part * segment->curve.length().value());
+  return end - way_ > least ? Laid::whole : Laid::near_an_end;
+}
+
+SpeedChange::Excess SpeedChange::excess(PathAhead& path, const Request& request) const {
+  Excess worst;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    const Segment& segment = *path.at(piece.segment);
+    const Phase& phase = piece.phase;
+    const double time = phase.duration.value();
+    const double way = phase.position_at(phase.duration).value() - phase.start.value();
+    const double looks = std::ceil(way * segment.curve.curvature() / turn_a_look);
+    const bool straight = segment.curve.shape() == Curve::Shape::line;  // all of it is at most where it ends or turns
+    const int count = straight ? 1 : static_cast<int>(std::clamp<double>(looks, fewest_looks, most_looks));
+    for (int k = 0; k <= count; ++k) look_at(piece, segment, request.axes, time * k / count, worst);
+    // Fastest where it stops speeding up.
+    const double turn = phase.jerk.value() < 0 ? phase.acceleration.value() / -phase.jerk.value() : -1;
+    if (turn > 0 && turn < time) look_at(piece, segment, request.axes, turn, worst);
+    const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
+                                          turn > 0 && turn < time ? phase.velocity_at(Seconds(turn)).value() : 0});
+    worst.speed =
+        std::max(worst.speed, fastest_here / (segment.speed.value() * request.feeds.planned(segment)) * (1 - rounding));
+    if (!piece.ends_segment) continue;
+    // What the profile passes slowly, since the path's bend jumps there, is passed slowly here too.
+    const Segment& after = *path.at(piece.segment + 1);
+    const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
+    const double speed = phase.velocity_at(phase.duration).value();
+    for (const LimitedAxis& axis : request.axes) {
+      const double seen = std::abs(jump.values[axis.index]) * speed * speed;
+      worst.force = std::max(worst.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
+    }
+  }
+  return worst;
+}
+
+void SpeedChange::look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time,
+                          Excess& worst) {
+  const Phase& phase = piece.phase;
+  const Seconds t(time);
+  const Mm s = std::clamp(phase.position_at(t), Mm(0), segment.curve.length());
+  const double v = phase.velocity_at(t).value();
+  const double a = (phase.acceleration + phase.jerk * t).value();
+  const double j = phase.jerk.value();
+  const Point first = segment.curve.tangent(s);
+  const Point second = segment.curve.second_derivative(s);
+  const Point third = segment.curve.third_derivative(s);
+  const double share = segment.curve.shape() == Curve::Shape::line ? 1 + rounding : looked_at;
+  for (const LimitedAxis& axis : axes) {
+    const double q1 = first.values[axis.index];
+    const double q2 = second.values[axis.index];
+    const double q3 = third.values[axis.index];
+    worst.speed = std::max(worst.speed, std::abs(q1 * v) / axis.velocity * (1 - rounding));
+    worst.force = std::max(worst.force, std::abs(q1 * a + q2 * v * v) / (axis.acceleration * share));
+    worst.jolt = std::max(worst.jolt, std::abs(q1 * j + 3 * q2 * v * a + q3 * v * v * v) / (axis.jerk * share));
+  }
+}
+
+}  // namespace passo

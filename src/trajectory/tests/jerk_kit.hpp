@@ -1,0 +1,202 @@
+// What the tests of planning with limits of jerk share: programs, and an oracle by formulas of its own.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "planner_kit.hpp"
+#include "random_program.hpp"
+
+#include "passo/trajectory/motion_text.hpp"
+#include "passo/trajectory/planner.hpp"
+
+namespace passo::test {
+inline MotionLimits jerk_limits(double velocity, double acceleration, double jerk) {
+  MotionLimits limits;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.velocity[axis] = MmPerSecond(velocity);
+    limits.acceleration[axis] = MmPerSecond2(acceleration);
+    limits.jerk[axis] = MmPerSecond3(jerk);
+  }
+  return limits;
+}
+
+inline Segment segment_of(const Curve& curve, double speed) {
+  return {.curve = curve,
+          .speed = MmPerSecond(speed),
+          .rapid = false,
+          .mode = PathMode::continuous,
+          .tolerance = Mm(0.01),
+          .source = {}};
+}
+
+// Place and derivatives of an axis by s, from the formulas.
+struct Derivatives {
+  double place = 0;
+  double first = 0;
+  double second = 0;
+  double third = 0;
+};
+inline Derivatives derivatives(const Curve& curve, Axis axis, double s) {
+  const double length = curve.length().value();
+  const double from = curve.start()[axis];
+  const double to = curve.end()[axis];
+  if (curve.shape() == Curve::Shape::cubic) {
+    const double a = curve.cubic_data().first[axis];
+    const double b = curve.cubic_data().second[axis];
+    const double c = curve.cubic_data().third[axis];
+    return {from + s * (a + s * (b + s * c)), a + s * (2 * b + s * 3 * c), 2 * b + 6 * c * s, 6 * c};
+  }
+  if (curve.shape() == Curve::Shape::arc && (axis == curve.arc_data().first || axis == curve.arc_data().second)) {
+    const Curve::ArcData& arc = curve.arc_data();
+    const double turn = arc.sweep / length;
+    const double growth = (arc.end_radius - arc.start_radius) / length;
+    const double radius = arc.start_radius + growth * s;
+    const double angle = arc.start_angle + turn * s - (axis == arc.first ? 0 : std::numbers::pi / 2);
+    const double center = axis == arc.first ? arc.first_center : arc.second_center;
+    const double out = std::cos(angle);
+    const double on = -std::sin(angle) * turn;
+    return {center + radius * out, growth * out + radius * on, 2 * growth * on - radius * turn * turn * out,
+            -3 * growth * turn * turn * out - radius * turn * turn * on};
+  }
+  return {from + (to - from) * s / length, (to - from) / length, 0, 0};
+}
+
+struct AxisMotion {
+  double velocity = 0;
+  double acceleration = 0;
+  double jerk = 0;
+};
+inline AxisMotion motion_at(const Curve& curve, Axis axis, const Phase& phase, double t) {
+  const double j = phase.jerk.value();
+  const double a = phase.acceleration.value() + j * t;
+  const double v = phase.velocity.value() + t * (phase.acceleration.value() + j * t / 2);
+  const double s =
+      phase.start.value() + t * (phase.velocity.value() + t * (phase.acceleration.value() / 2 + j * t / 6));
+  const Derivatives q = derivatives(curve, axis, s);
+  return {q.first * v, q.first * a + q.second * v * v, q.first * j + 3 * q.second * v * a + q.third * v * v * v};
+}
+
+// The largest multiple of its limit that the jerk of an axis is.
+inline double largest_jerk(const std::vector<MotionItem>& motion, const MotionLimits& limits) {
+  double largest = 0;
+  for (const MotionItem& item : motion) {
+    const auto* move = std::get_if<PlannedMove>(&item);
+    if (move == nullptr) continue;
+    for (const Phase& phase : *move) {
+      for (const Axis axis : all_axes) {
+        const double limit = limits.jerk[axis].value();
+        for (int k = 0; limit > 0 && k <= 40; ++k) {
+          const AxisMotion here = motion_at(move->segment.curve, axis, phase, phase.duration.value() * k / 40.0);
+          largest = std::max(largest, std::abs(here.jerk) / limit);
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+// Looks at 40 places of each phase, and at what changes from each to the next.
+class JerkOracle {
+ public:
+  // `jerk`: the multiple of its limit that counts as kept.
+  explicit JerkOracle(const MotionLimits& limits, double jerk = 1) : limits_(limits), jerk_(jerk) {}
+
+  void check(const std::vector<MotionItem>& motion) {
+    for (const MotionItem& item : motion) {
+      const auto* move = std::get_if<PlannedMove>(&item);
+      if (move == nullptr) {
+        rest();
+        continue;
+      }
+      SCOPED_TRACE(passo::to_text(*move));
+      ASSERT_GE(move->phase_count, 1U);
+      double at = move->from().value();
+      for (const Phase& phase : *move) {
+        ASSERT_GT(phase.duration.value(), 0);
+        ASSERT_NEAR(phase.start.value(), at, 1e-10);
+        at = phase.position_at(phase.duration).value();
+        check_phase(move->segment, phase);
+        if (testing::Test::HasFatalFailure()) return;
+      }
+      ASSERT_NEAR(move->to.value(), at, 1e-10);
+    }
+    rest();
+  }
+
+ private:
+  void rest() {
+    for (const Axis axis : all_axes) {
+      ASSERT_NEAR(before_[axis].velocity, 0, 1e-9);
+      ASSERT_NEAR(before_[axis].acceleration, 0, 1e-9);
+    }
+  }
+
+  void check_phase(const Segment& segment, const Phase& phase) {
+    for (const Axis axis : all_axes) {
+      const double v = limits_.velocity[axis].value();
+      const double a = limits_.acceleration[axis].value();
+      const double j = limits_.jerk[axis].value();
+      const AxisMotion begin = motion_at(segment.curve, axis, phase, 0);
+      if (v > 0) {
+        ASSERT_NEAR(begin.velocity, before_[axis].velocity, 1e-6 * v);
+      }
+      if (j > 0) {
+        ASSERT_NEAR(begin.acceleration, before_[axis].acceleration, 1e-3 * a);
+      }
+      for (int k = 0; k <= 40; ++k) {
+        const AxisMotion here = motion_at(segment.curve, axis, phase, phase.duration.value() * k / 40.0);
+        if (v > 0) {
+          ASSERT_LE(std::abs(here.velocity), v * tolerated);
+        }
+        if (a > 0) {
+          ASSERT_LE(std::abs(here.acceleration), a * tolerated);
+        }
+        if (j > 0) {
+          ASSERT_LE(std::abs(here.jerk), j * tolerated * jerk_);
+        }
+      }
+      before_[axis] = motion_at(segment.curve, axis, phase, phase.duration.value());
+    }
+    for (int k = 0; k <= 40; ++k) {
+      const double speed = phase.velocity_at(phase.duration * (k / 40.0)).value();
+      ASSERT_GE(speed, -1e-9);
+      ASSERT_LE(speed, segment.speed.value() * tolerated);
+    }
+  }
+
+  static constexpr double tolerated = 1.0005;
+  const MotionLimits limits_;
+  const double jerk_;
+  PerAxis<AxisMotion> before_;
+};
+
+inline void expect_within_limits(const std::vector<MotionItem>& motion, const MotionLimits& limits) {
+  JerkOracle(limits).check(motion);
+}
+
+// Pieces of a uniform cubic B-spline: their tangents and second derivatives go on from one to the next.
+inline std::vector<PathItem> smooth_chain(Random& random, int pieces) {
+  std::vector<Point> control{xyz(0, 0)};
+  double direction = 0;
+  double size = std::exp(random.between(-4, 2));
+  const double wildness = random.between(0.01, 1.2);
+  while (control.size() < static_cast<std::size_t>(pieces) + 3) {
+    direction += random.between(-wildness, wildness);
+    const Point step = xyz(std::cos(direction), std::sin(direction), random.between(-0.3, 0.3)) * size;
+    control.push_back(control.back() + step * random.between(0.3, 1 / 1.05));
+  }
+  std::vector<PathItem> path;
+  const double speed = std::exp(random.between(1, 6));
+  const auto place = [&](std::size_t i) { return (control[i] + control[i + 1] * 4 + control[i + 2]) * (1.0 / 6); };
+  const auto tangent = [&](std::size_t i) { return (control[i + 2] - control[i]) * (0.5 / size); };
+  for (std::size_t i = 0; i + 3 < control.size(); ++i) {
+    path.emplace_back(segment_of(Curve::cubic(place(i), tangent(i), place(i + 1), tangent(i + 1), Mm(size)), speed));
+  }
+  return path;
+}
+
+}  // namespace passo::test

@@ -1,0 +1,257 @@
+// Hold, resume and override where the jerk is limited: at any time, within all limits, without a jump.
+#include <limits>
+
+#include "jerk_kit.hpp"
+
+namespace passo::test {
+namespace {
+
+// Plans live and looks at all that is given.
+class LivePlan {
+ public:
+  LivePlan(const std::vector<PathItem>& path, const MotionLimits& limits, Seconds longest = Seconds(0.005))
+      : source_(path), planner_(source_, limits), limits_(limits), longest_(longest) {
+    planner_.limit_moves_to(longest);
+  }
+  Planner& planner() { return planner_; }
+
+  // One move or action. False at the end.
+  bool go_on() {
+    if (!planner_.next(item_)) return false;
+    held_ = false;
+    if (auto* move = std::get_if<PlannedMove>(&item_)) {
+      EXPECT_LE(move->duration().value(), longest_.value() * 1.1);
+      time_ += move->duration();
+      speed_ = exit_speed(*move);
+      // What was planned under an override may be faster than the feed of now.
+      move->segment.speed = move->segment.speed * fastest_;
+      motion_.push_back(item_);
+    } else if (std::get<Action>(item_).kind == Action::Kind::feed_hold) {
+      held_ = true;
+    } else {
+      motion_.push_back(item_);
+    }
+    return true;
+  }
+  bool go_on_until(Seconds time) {
+    while (time_ < time) {
+      if (!go_on()) return false;
+    }
+    return true;
+  }
+  void set_feed_override(double factor) {
+    planner_.set_feed_override(factor);
+    fastest_ = std::max(fastest_, factor);
+  }
+  bool held() const { return held_; }
+  double time() const { return time_.value(); }
+  double speed() const { return speed_; }
+  void expect_good(double jerk = 1) { JerkOracle(limits_, jerk).check(motion_); }
+  Point place() const {
+    const auto& move = std::get<PlannedMove>(motion_.back());
+    return move.segment.curve.at(move.to);
+  }
+
+ private:
+  ListSource<PathItem> source_;
+  Planner planner_;
+  MotionLimits limits_;
+  Seconds longest_;
+  MotionItem item_;
+  std::vector<MotionItem> motion_;
+  Seconds time_{0};
+  double speed_ = 0;
+  double fastest_ = 1;
+  bool held_ = false;
+};
+
+// From a speed to rest: v/a + a/j.
+TEST(JerkLimitedHold, on_a_line_comes_to_rest_as_early_as_the_limits_allow) {
+  LivePlan plan({line(xyz(0, 0), xyz(100, 0), 50)}, jerk_limits(100, 500, 25'000));
+  ASSERT_TRUE(plan.go_on_until(Seconds(1)));
+  EXPECT_NEAR(plan.speed(), 50, 0.01);
+  const double at = plan.time();
+  plan.planner().hold();
+  while (!plan.held()) ASSERT_TRUE(plan.go_on());
+  EXPECT_NEAR(plan.time() - at, 50.0 / 500 + 500.0 / 25'000, 1e-4);
+  plan.planner().resume();
+  while (plan.go_on()) {
+  }
+  EXPECT_NEAR(plan.place()[Axis::x], 100, 1e-9);
+  plan.expect_good();
+}
+
+// While the acceleration is still at its most: it must go to nothing first, for 20 ms.
+TEST(JerkLimitedHold, while_speeding_up_turns_the_acceleration_round_without_a_jump) {
+  LivePlan plan({line(xyz(0, 0), xyz(100, 0), 80)}, jerk_limits(100, 500, 25'000));
+  ASSERT_TRUE(plan.go_on_until(Seconds(0.1)));
+  const double speed = plan.speed();
+  const double at = plan.time();
+  plan.planner().hold();
+  while (!plan.held()) ASSERT_TRUE(plan.go_on());
+  // To no acceleration (a/j), at the speed v + a²/2j; from there as ever.
+  EXPECT_NEAR(plan.time() - at, 0.02 + (speed + 5) / 500 + 0.02, 2e-3);
+  plan.planner().resume();
+  while (plan.go_on()) {
+  }
+  plan.expect_good();
+}
+
+TEST(JerkLimitedHold, on_a_circle_takes_little_longer_than_on_a_line) {
+  const Curve circle = Curve::arc(xyz(0, 0), xyz(0, 0), Axis::x, Axis::y, 20, 0, 6.283185307179586);
+  LivePlan plan({segment_of(circle, 60)}, jerk_limits(100, 500, 25'000));
+  ASSERT_TRUE(plan.go_on_until(Seconds(0.6)));
+  const double at = plan.time();
+  plan.planner().hold();
+  while (!plan.held()) ASSERT_TRUE(plan.go_on());
+  EXPECT_LE(plan.time() - at, 1.5 * (60.0 / 500 + 0.02));
+  plan.planner().resume();
+  while (plan.go_on()) {
+  }
+  plan.expect_good();
+}
+
+TEST(JerkLimitedHold, that_is_resumed_while_braking_speeds_up_again_without_a_rest) {
+  LivePlan plan({line(xyz(0, 0), xyz(100, 0), 80)}, jerk_limits(100, 500, 25'000));
+  ASSERT_TRUE(plan.go_on_until(Seconds(0.5)));
+  plan.planner().hold();
+  ASSERT_TRUE(plan.go_on_until(Seconds(0.57)));
+  EXPECT_LT(plan.speed(), 65);
+  plan.planner().resume();
+  const double from = plan.time();
+  while (plan.time() < from + 0.2) {
+    ASSERT_TRUE(plan.go_on());
+    EXPECT_GT(plan.speed(), 30);
+    EXPECT_FALSE(plan.held());
+  }
+  EXPECT_NEAR(plan.speed(), 80, 0.1);
+  while (plan.go_on()) {
+  }
+  plan.expect_good();
+}
+
+TEST(JerkLimitedOverride, counts_at_once_both_ways) {
+  LivePlan plan({line(xyz(0, 0), xyz(300, 0), 40)}, jerk_limits(100, 500, 25'000));
+  for (const double factor : {0.5, 2.0, 0.01, 1.0, 0.3}) {
+    plan.set_feed_override(factor);
+    const double from = plan.time();
+    ASSERT_TRUE(plan.go_on_until(Seconds(from + 80.0 / 500 + 0.1)));
+    EXPECT_NEAR(plan.speed(), 40 * factor, 0.01 + 0.001 * 40 * factor);
+  }
+  while (plan.go_on()) {
+  }
+  plan.expect_good();
+}
+
+TEST(JerkLimitedOverride, during_a_hold_counts_from_the_resume_on) {
+  LivePlan plan({line(xyz(0, 0), xyz(100, 0), 60)}, jerk_limits(100, 500, 25'000));
+  ASSERT_TRUE(plan.go_on_until(Seconds(0.4)));
+  plan.planner().hold();
+  ASSERT_TRUE(plan.go_on_until(Seconds(0.45)));
+  plan.set_feed_override(0.5);
+  while (!plan.held()) ASSERT_TRUE(plan.go_on());
+  plan.planner().resume();
+  ASSERT_TRUE(plan.go_on_until(Seconds(plan.time() + 0.3)));
+  EXPECT_NEAR(plan.speed(), 30, 0.05);
+  while (plan.go_on()) {
+  }
+  plan.expect_good();
+}
+
+class JerkLimitedMeddling : public testing::TestWithParam<int> {
+ protected:
+  // All of the path is played, in order, whatever was asked for in between.
+  void meddle(const std::vector<PathItem>& path, const MotionLimits& limits) {
+    const std::vector<MotionItem> undisturbed = test::plan(path, limits);
+    const double whole = total_time(undisturbed);
+    LivePlan plan(path, limits, Seconds(whole / (random_.chance(0.5) ? 300 : 2000)));
+    bool holding = false;
+    while (plan.go_on()) {
+      if (plan.held()) {
+        ASSERT_TRUE(holding);
+        ASSERT_EQ(plan.speed() < 1e-6, true);
+        ++rests_;
+        if (random_.chance(0.3)) plan.set_feed_override(random_.between(0.05, 2));
+        plan.planner().resume();
+        holding = false;
+        continue;
+      }
+      if (!holding && random_.chance(0.02)) {
+        plan.planner().hold();
+        ++holds_;
+        holding = true;
+      } else if (holding && random_.chance(0.03)) {
+        plan.planner().resume();
+        holding = false;
+      }
+      if (random_.chance(0.02)) plan.set_feed_override(random_.chance(0.3) ? 1 : random_.between(0.05, 2));
+    }
+    // The profile looks at three places of a cell, and where it finds no better, meddling makes it no worse.
+    plan.expect_good(std::max(1.005, largest_jerk(undisturbed, limits)));
+    for (auto item = path.rbegin(); item != path.rend(); ++item) {
+      const auto* segment = std::get_if<Segment>(&*item);
+      if (segment == nullptr) continue;
+      for (const Axis axis : all_axes) ASSERT_NEAR(plan.place()[axis], segment->curve.end()[axis], 1e-9);
+      break;
+    }
+  }
+  MotionLimits draw_limits() {
+    MotionLimits limits = jerk_limits(1, 1, 1);
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      limits.velocity[axis] = MmPerSecond(std::exp(random_.between(3, 6)));
+      limits.acceleration[axis] = MmPerSecond2(std::exp(random_.between(5, 8)));
+      limits.jerk[axis] = MmPerSecond3(std::exp(random_.between(8, 12)));
+    }
+    return limits;
+  }
+  void SetUp() override {
+    for (int n = 0; n < GetParam(); ++n) random_.between(0, 1);
+  }
+  Random random_;
+  int holds_ = 0;
+  int rests_ = 0;
+};
+
+TEST_P(JerkLimitedMeddling, keeps_every_axis_within_its_limits_on_smooth_chains) {
+  for (int n = 0; n < 3; ++n) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()) + ", path " + std::to_string(n));
+    const std::vector<PathItem> path = smooth_chain(random_, 50);
+    meddle(path, draw_limits());
+    if (HasFatalFailure()) return;
+  }
+  std::printf("%d holds, %d rests\n", holds_, rests_);
+}
+
+// As a job does it: lines and arcs, rounded within a hundredth of a millimetre.
+TEST_P(JerkLimitedMeddling, keeps_every_axis_within_its_limits_on_lines_arcs_and_blends) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  std::vector<PathItem> path;
+  Point at;
+  for (int i = 0; i < 40; ++i) {
+    const double speed = std::exp(random_.between(1, 4.5));
+    const Point way =
+        xyz(random_.between(-5, 5), random_.between(-5, 5), random_.chance(0.3) ? random_.between(-1, 1) : 0);
+    if (random_.chance(0.3)) {
+      const double sweep = random_.between(-6, 6);
+      const Point center = at + way;
+      const double radius = std::hypot(way[Axis::x], way[Axis::y]);
+      const double angle = std::atan2(-way[Axis::y], -way[Axis::x]) + sweep;
+      const Point end =
+          xyz(center[Axis::x] + radius * std::cos(angle), center[Axis::y] + radius * std::sin(angle), at[Axis::z]);
+      path.emplace_back(
+          segment_of(Curve::arc(at, end, Axis::x, Axis::y, center[Axis::x], center[Axis::y], sweep), speed));
+      at = end;
+    } else {
+      path.emplace_back(line(at, at + way, speed));
+      at = at + way;
+    }
+    if (random_.chance(0.05)) path.emplace_back(Action{.kind = Action::Kind::dwell});
+  }
+  meddle(smoothed(path), draw_limits());
+  std::printf("%d holds, %d rests\n", holds_, rests_);
+}
+
+INSTANTIATE_TEST_SUITE_P(Five, JerkLimitedMeddling, testing::Range(0, 5));
+
+}  // namespace
+}  // namespace passo::test

@@ -1,0 +1,146 @@
+// Threads and feeds a revolution follow the spindle as it turns, not as it was told to.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kit/stage_test.hpp"
+
+#include "passo/controller/job.hpp"
+
+namespace passo {
+namespace {
+
+MachineDescription lathe(const SpindleDescription& spindle, bool jerk = false) {
+  Diagnostics diagnostics;
+  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/router.toml", diagnostics);
+  EXPECT_TRUE(machine) << render(diagnostics, false);
+  MachineDescription lathe = machine.value_or(MachineDescription());
+  lathe.spindle = spindle;
+  if (jerk) {
+    for (AxisDescription& axis : lathe.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
+  }
+  return lathe;
+}
+
+constexpr SpindleDescription ideal{.counts_per_turn = 4096};
+constexpr SpindleDescription rippling{
+    .counts_per_turn = 4096, .run_up = Seconds(0.5), .droop = 0.03, .ripple = 0.05, .ripple_rate = Hertz(2)};
+
+// Each step of Z in one direction, and the angle of the spindle, known to the machine and not to the controller, at
+// that time.
+struct Cut {
+  double z = 0;
+  double turns = 0;
+};
+class Thread final : public MachineObserver {
+ public:
+  Thread(const MachineDescription& description, const VirtualMachine& machine)
+      : description_(description), machine_(machine) {}
+  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
+    const AxisDescription& z = description_.axes[2];
+    if ((stepped & 4U) == 0) return;
+    const bool down = ((directions & 4U) != 0) != z.inverted;
+    place_ += down ? -1 : 1;
+    if (down) {
+      const double seconds = static_cast<double>(time.count) / description_.board.clock.value();
+      cuts.push_back({place_ / z.steps_per_unit, machine_.spindle().turns_at(Seconds(seconds))});
+    }
+  }
+  std::vector<Cut> cuts;
+
+ private:
+  const MachineDescription& description_;
+  const VirtualMachine& machine_;
+  double place_ = 0;
+};
+
+struct Played {
+  std::vector<Cut> cuts;
+  double time = 0;
+};
+Played run(const std::string& program, const MachineDescription& machine) {
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+  Thread thread(machine, job.machine());
+  job.machine().add_observer(thread);
+  while (job.advance()) {
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  EXPECT_FALSE(job.link().error());
+  return {thread.cuts, job.drive().now().value()};
+}
+
+// Where on the circumference the groove is, for a cut: what is left of the turns when the thread's own are taken off.
+double groove(const Cut& cut, double pitch) {
+  return cut.turns + cut.z / pitch;
+}
+
+struct Spread {
+  double low = 1e9;
+  double high = -1e9;
+  void see(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double mm(double pitch) const { return (high - low) * pitch; }
+};
+// Of one thread, between two depths.
+Spread spread(const std::vector<Cut>& cuts, double pitch, double from, double to) {
+  Spread all;
+  for (const Cut& cut : cuts) {
+    if (cut.z <= from && cut.z >= to) all.see(groove(cut, pitch));
+  }
+  return all;
+}
+
+std::string thread_program(const std::string& rpm) {
+  return "G21 S" + rpm + " M3\nG33 Z-20 K1.5\nM5\nM2\n";
+}
+
+TEST(SpindleFollowing, a_thread_has_its_pitch_though_the_spindle_ripples_by_5_percent) {
+  for (const bool jerk : {false, true}) {
+    const double even = spread(run(thread_program("600"), lathe(ideal, jerk)).cuts, 1.5, -4, -19).mm(1.5);
+    const double uneven = spread(run(thread_program("600"), lathe(rippling, jerk)).cuts, 1.5, -4, -19).mm(1.5);
+    SpindleDescription blind = rippling;
+    blind.counts_per_turn = 0;
+    const double unfollowed = spread(run(thread_program("600"), lathe(blind, jerk)).cuts, 1.5, -4, -19).mm(1.5);
+    std::printf("%s: along 10 turns the groove wanders %.4f mm, without ripple %.4f mm, without encoder %.4f mm\n",
+                jerk ? "with jerk limit" : "without", uneven, even, unfollowed);
+    EXPECT_LT(even, 0.01);
+    EXPECT_LT(uneven, jerk ? 0.1 : 0.04);
+    EXPECT_GT(unfollowed, 0.4);
+  }
+}
+
+TEST(SpindleFollowing, several_passes_cut_the_same_groove) {
+  const std::string pass = "G0 X0 Z0\nG33 Z-12 K1.5\nG0 X2\nZ0\n";
+  std::string program = "G21 G61.1 S600 M3\n";
+  for (int i = 0; i < 5; ++i) program += pass + "G4 P0." + std::to_string(137 + 211 * i) + "\n";
+  const Played result = run(program + "M5\nM2\n", lathe(rippling));
+  // Each pass in turns; the groove is the same where that differs by whole ones.
+  Spread all;
+  std::vector<double> passes;
+  for (const Cut& cut : result.cuts) {
+    if (cut.z > -6 || cut.z < -6.01) continue;
+    passes.push_back(groove(cut, 1.5) - std::floor(groove(cut, 1.5)));
+    all.see(passes.back());
+  }
+  ASSERT_GE(passes.size(), 5U);
+  std::printf("5 passes lie within %.4f mm of each other\n", all.mm(1.5));
+  EXPECT_LT(all.mm(1.5), 0.04);
+}
+
+TEST(SpindleFollowing, a_feed_a_revolution_is_as_fast_as_the_spindle_turns) {
+  SpindleDescription slow{.counts_per_turn = 4096, .droop = 0.2};
+  const std::string program = "G21 G95 S600 M3\nG1 Z-20 F0.5\nM2\n";
+  EXPECT_NEAR(run(program, lathe(ideal)).time, 4, 0.1);
+  EXPECT_NEAR(run(program, lathe(slow)).time, 5, 0.15);
+}
+
+TEST(SpindleFollowing, a_machine_without_an_encoder_takes_the_speed_as_commanded) {
+  EXPECT_NEAR(run("G21 S600 M3\nG33 Z-15 K1.5\nM2\n", lathe({})).time, 1, 0.05);
+}
+
+}  // namespace
+}  // namespace passo
