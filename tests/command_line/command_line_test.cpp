@@ -112,7 +112,7 @@ TEST_F(CommandLine, a_hold_stops_for_good_or_for_as_long_as_was_said) {
 TEST_F(CommandLine, a_hold_or_an_override_that_makes_no_sense_is_refused) {
   for (const char* option :
        {"--hold-at inf", "--hold-at -1", "--hold-at nan", "--hold-at 1:inf", "--hold-at 1:1e300",
-        "--hold-at 1:", "--override 100", "--override 0@1", "--override 201@1", "--override 50@inf"}) {
+        "--hold-at 1:", "--override 100", "--override -1@1", "--override 201@1", "--override 50@inf"}) {
     const Outcome outcome = run_text("G21 G1 X1 F600\nM2\n", option);
     EXPECT_EQ(outcome.code, 2) << option;
     EXPECT_NE(outcome.err.find("expected --"), std::string::npos) << option << outcome.err;
