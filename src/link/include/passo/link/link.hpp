@@ -21,6 +21,7 @@ enum class LinkError : std::uint8_t {
   refused,         // it did not take what was sent
   was_reset,       // it has forgotten the session, and with it where the motors are
   stopped,         // it has stopped its motors at once
+  too_few_places,  // it cannot hold as many items as it takes to bring the machine to rest
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);
@@ -58,6 +59,8 @@ class Link {
   // Waits until the board has told something new: it has done one more item, or taken what was sent.
   virtual void wait() = 0;
   virtual std::optional<LinkError> error() const = 0;
+  // Whoever uses the link has found that it cannot go on.
+  virtual void fail(LinkError error) = 0;
 
   virtual std::uint64_t frames_sent() const = 0;
   virtual std::uint64_t bytes_sent() const = 0;
