@@ -50,14 +50,26 @@ void add_board(const RunSummary& summary, const BoardSummary& board, Json& json)
       {"end_s", board.end.value()}, {"events", board.events}, {"frames", board.frames}, {"bytes", board.bytes}};
 }
 
+Json places(const RunSummary& summary, const std::vector<double>& values) {
+  Json place = Json::object();
+  for (std::size_t i = 0; i < values.size(); ++i) place[key(summary.axes[i])] = values[i];
+  return place;
+}
+
+void add_tails(const RunSummary& summary, Json& json) {
+  for (const TailSummary& tail : summary.tails) {
+    json["tails"].push_back({{"rest_s", tail.rest.value()},
+                             {"position_mm", places(summary, tail.place)},
+                             {"resumed_s", tail.resumed.value()}});
+  }
+}
+
 void add_holds(const RunSummary& summary, Json& json) {
   for (const HoldSummary& hold : summary.holds) {
-    Json place = Json::object();
-    for (std::size_t i = 0; i < hold.place.size(); ++i) place[key(summary.axes[i])] = hold.place[i];
     json["holds"].push_back({{"asked_s", hold.asked.value()},
                              {"reaction_s", hold.reaction.value()},
                              {"rest_s", hold.rest.value()},
-                             {"position_mm", place},
+                             {"position_mm", places(summary, hold.place)},
                              {"resumed_s", hold.resumed ? Json(hold.resumed->value()) : Json()}});
   }
 }
@@ -71,6 +83,7 @@ std::string to_json(const RunSummary& summary) {
   add_motion(summary, json);
   if (summary.board) add_board(summary, *summary.board, json);
   add_holds(summary, json);
+  add_tails(summary, json);
   // A program's name need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

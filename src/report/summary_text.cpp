@@ -117,15 +117,28 @@ class Text {
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
   }
 
+  void places(const RunSummary& summary, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      out_ += fmt::format(" {}{}", letter_of(summary.axes[i].axis), place(values[i]));
+    }
+  }
+
   void holds(const RunSummary& summary) {
     heading("Holds", "s");
     for (const HoldSummary& hold : summary.holds) {
       out_ += fmt::format("  at {:.3f}: slower after {:.1f} ms, at rest at {:.3f} in", hold.asked.value(),
                           hold.reaction.value() * 1e3, hold.rest.value());
-      for (std::size_t i = 0; i < hold.place.size(); ++i) {
-        out_ += fmt::format(" {}{}", letter_of(summary.axes[i].axis), place(hold.place[i]));
-      }
+      places(summary, hold.place);
       out_ += hold.resumed ? fmt::format("; went on at {:.3f}\n", hold.resumed->value()) : "; ended there\n";
+    }
+  }
+
+  void tails(const RunSummary& summary) {
+    heading("Braked without the computer", "s");
+    for (const TailSummary& tail : summary.tails) {
+      out_ += fmt::format("  at rest at {:.3f} in", tail.rest.value());
+      places(summary, tail.place);
+      out_ += fmt::format("; went on at {:.3f}\n", tail.resumed.value());
     }
   }
 
@@ -171,6 +184,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   text.axes(summary);
   if (summary.board) text.board(*summary.board);
   if (!summary.holds.empty()) text.holds(summary);
+  if (!summary.tails.empty()) text.tails(summary);
   return text.take();
 }
 

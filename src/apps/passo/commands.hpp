@@ -45,6 +45,7 @@ struct RunArguments {
   std::uint64_t passes = 1;            // of a main program that ends with M99
   std::vector<std::string> holds;      // SECONDS or SECONDS:SECONDS
   std::vector<std::string> overrides;  // PERCENT@SECONDS
+  std::string cable_cut;               // SECONDS:SECONDS; empty: none
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };

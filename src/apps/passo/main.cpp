@@ -90,6 +90,8 @@ int parse_and_run(int argc, char** argv) {
       ->capture_default_str();
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
+  run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
+                         "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(

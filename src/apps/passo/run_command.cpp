@@ -61,10 +61,12 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   });
   outputs.watch(job);
   changes.begin(job.drive());
+  TailWatch tails;
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (changes.any()) changes.act(job.drive(), job.machine(), machine);
+      tails.look(job.drive(), job.machine(), machine);
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }
   }
@@ -73,6 +75,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   summary.machine = machine.name;
   add_board(summary, job, machine);
   summary.holds = changes.holds();
+  summary.tails = tails.tails();
   return summary;
 }
 
@@ -102,6 +105,8 @@ int run(const RunArguments& arguments) {
   if (!names_are_good(arguments)) return exit_bad_program;
   std::optional<MidRunChanges> changes = MidRunChanges::read(arguments.holds, arguments.overrides);
   if (!changes) return exit_bad_program;
+  std::optional<CableCut> cut;
+  if (!arguments.cable_cut.empty() && !(cut = read_cable_cut(arguments.cable_cut))) return exit_bad_program;
   Diagnostics diagnostics;
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
@@ -124,7 +129,14 @@ int run(const RunArguments& arguments) {
   if (!outputs) return fail(outputs.error().message);
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, *options, late);
+  Job job(std::move(*program), *machine, *options, late, cut ? std::optional(LineOptions{}) : std::nullopt);
+  if (cut) {
+    if (job.drive().refiller() == nullptr) {
+      fail("--cut-cable-at: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
+      return exit_bad_program;
+    }
+    job.line().cut(cut->at, cut->missing);
+  }
   const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes);
   if (const auto error = job.link().error()) return fail("the board: " + std::string(message_of(*error)));
   if (late.any_error()) {

@@ -50,6 +50,13 @@ struct HoldSummary {
   std::optional<Seconds> resumed = {};  // none: the run ended there
 };
 
+// A rest at the end of a braking tail, because nothing more had come from the computer. Times of the board.
+struct TailSummary {
+  Seconds rest{0};                 // when it stood
+  std::vector<double> place = {};  // as of a hold
+  Seconds resumed{0};
+};
+
 struct RunSummary {
   std::string program;
   std::string machine;
@@ -68,6 +75,7 @@ struct RunSummary {
   std::vector<AxisSummary> axes;
   std::optional<BoardSummary> board;  // none: nothing was sent to a board
   std::vector<HoldSummary> holds;
+  std::vector<TailSummary> tails;
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };
