@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <utility>
 
 #include "board_outputs.hpp"
@@ -33,7 +34,8 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       steps_(steps),
       options_(options),
       behind_(stages.link.executed()),
-      tail_size_(static_cast<std::size_t>(stages.link.room() / 4)) {
+      places_(stages.link.room()),
+      tail_size_(static_cast<std::size_t>(places_ / 4)) {
   stages.path.keep();
   stages.planner.limit_moves_to(options.longest_move);
   stages.generator.limit_waiting_to(options.longest_move);
@@ -46,6 +48,7 @@ Refiller::Turn Refiller::advance() {
   if (items_.empty() && !on_tail_ && !holds_ && !ended_ && ahead_ < options_.refill_at && room_for_motion() > 0)
     gather();
   if (!items_.empty() && send()) return Turn::goes_on;
+  if (!items_.empty() && refills_under_way_.empty() && stages_.link.room() == places_) return gather_less();
   const bool idle = items_.empty() && refills_under_way_.empty();
   if (idle && ended_) return Turn::ended;
   if (idle && std::exchange(holds_, false)) return Turn::rests_in_hold;
@@ -67,7 +70,9 @@ void Refiller::note_executed() {
   if (executed != under_way.front().last) return;
   const Refill played = std::move(under_way.front());
   under_way.pop_front();
-  if (on_tail_) take_up(played);
+  if (!on_tail_) return;
+  take_up(played);
+  ++recoveries_;
 }
 
 // The board rests at the end of a tail. All that was sent behind it came too late.
@@ -82,7 +87,23 @@ void Refiller::take_up(const Refill& refill) {
   stages_.path.rewind(refill.rest);
   stages_.planner.restart();
   stages_.generator.assume(*refill.rested);
-  ++recoveries_;
+}
+
+// What was gathered from rest does not fit, though all places are free: once more from there, with half of the motion.
+Refiller::Turn Refiller::gather_less() {
+  most_at_rest_ = motion_items_ / 2;
+  if (most_at_rest_ == 0) {
+    stages_.link.fail(LinkError::too_few_places);
+    return Turn::ended;
+  }
+  take_up(origin_);
+  return Turn::goes_on;
+}
+
+// Its generator goes on as the one at hand, with other motion.
+void Refiller::fork(Source<MotionItem>& motion, Refill& refill) const {
+  refill.rested = std::make_unique<StepGenerator>(motion, steps_);
+  refill.rested->assume(stages_.generator);
 }
 
 // Beside what the board holds, with its tail. A refill of next to nothing is not worth its tail, nor is one that leaves
@@ -100,7 +121,14 @@ std::size_t Refiller::room_for_motion() const {
 void Refiller::gather() {
   refill_ = {};
   Seconds time{0};
-  const std::size_t most = room_for_motion();
+  std::size_t most = room_for_motion();
+  if (refills_under_way_.empty()) {
+    most = std::min(most, most_at_rest_);
+    Braking none(plan_);
+    origin_.last = behind_;
+    origin_.rest = given_;
+    fork(none, origin_);
+  }
   // Where what was pulled comes to rest by itself, that is the end of the refill: it needs no tail.
   const auto wanted = [&] {
     const StepGenerator& generator = stages_.generator;
@@ -130,8 +158,7 @@ void Refiller::gather_tail() {
   assert(known);
   for (const PlannedMove& move : plan_) refill_.rest = stages_.path.behind(refill_.rest, move);
   Braking braking(plan_);
-  refill_.rested = std::make_unique<StepGenerator>(braking, steps_);
-  refill_.rested->assume(stages_.generator);
+  fork(braking, refill_);
   refill_.rested->loosen_to_one_in(options_.tail_looseness);
   while (refill_.rested->next(item_)) items_.emplace_back(std::get<BoardSegment>(item_));
 }
@@ -148,6 +175,7 @@ bool Refiller::send() {
   refill_.last = static_cast<ItemNumber>(refill_.first + items_.size() - 1);
   tail_items_ += items_.size() - motion_items_;
   ++refills_;
+  most_at_rest_ = std::numeric_limits<std::size_t>::max();
   refills_under_way_.push_back(std::move(refill_));
   items_.clear();
   return true;

@@ -122,6 +122,7 @@ bool InProcessLink::overdue() const {
 
 void InProcessLink::ask() {
   moved_on_ = port_.elapsed();
+  asked_behind_ = sent_;
   say(Ask{.motors = motors_}, std::uint8_t{0});
 }
 
@@ -176,7 +177,8 @@ void InProcessLink::take(const BoardStatus& status) {
   }
   if ((status.state & board_trusted) == 0) error_ = LinkError::stopped;
   take(Credit{.executed = status.executed, .taken = status.taken, .free = status.free});
-  repeat();
+  // What was sent before the question, and has not arrived before it, is lost.
+  if (later_by(asked_behind_, taken_) > 0) repeat();
 }
 
 // Each tells of a change, and is told once.

@@ -50,7 +50,7 @@ void add_board(const RunSummary& summary, const BoardSummary& board, Json& json)
       {"end_s", board.end.value()}, {"events", board.events}, {"frames", board.frames}, {"bytes", board.bytes}};
 }
 
-Json place(const RunSummary& summary, const std::vector<double>& values) {
+Json places(const RunSummary& summary, const std::vector<double>& values) {
   Json json = Json::object();
   for (std::size_t i = 0; i < values.size(); ++i) json[key(summary.axes[i])] = values[i];
   return json;
@@ -60,9 +60,17 @@ void add_probes(const RunSummary& summary, const ProbeSummary& probes, Json& jso
   json["probes"] = {{"moves", probes.moves},
                     {"touched", probes.touched},
                     {"last_touched", probes.last_touched},
-                    {"last_contact_mm", place(summary, probes.last_contact)},
-                    {"last_rest_mm", place(summary, probes.last_rest)},
+                    {"last_contact_mm", places(summary, probes.last_contact)},
+                    {"last_rest_mm", places(summary, probes.last_rest)},
                     {"farthest_overrun_mm", probes.farthest_overrun.value()}};
+}
+
+void add_tails(const RunSummary& summary, Json& json) {
+  for (const TailSummary& tail : summary.tails) {
+    json["tails"].push_back({{"rest_s", tail.rest.value()},
+                             {"position_mm", places(summary, tail.place)},
+                             {"resumed_s", tail.resumed.value()}});
+  }
 }
 
 void add_holds(const RunSummary& summary, Json& json) {
@@ -70,7 +78,7 @@ void add_holds(const RunSummary& summary, Json& json) {
     json["holds"].push_back({{"asked_s", hold.asked.value()},
                              {"reaction_s", hold.reaction.value()},
                              {"rest_s", hold.rest.value()},
-                             {"position_mm", place(summary, hold.place)},
+                             {"position_mm", places(summary, hold.place)},
                              {"resumed_s", hold.resumed ? Json(hold.resumed->value()) : Json()}});
   }
 }
@@ -85,6 +93,7 @@ std::string to_json(const RunSummary& summary) {
   if (summary.board) add_board(summary, *summary.board, json);
   add_holds(summary, json);
   if (summary.probes) add_probes(summary, *summary.probes, json);
+  add_tails(summary, json);
   // A program's name need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -138,6 +138,15 @@ class Text {
     out_ += " (machine)\n";
   }
 
+  void tails(const RunSummary& summary) {
+    heading("Braked without the computer", "s");
+    for (const TailSummary& tail : summary.tails) {
+      out_ += fmt::format("  at rest at {:.3f} in", tail.rest.value());
+      add_place(summary, tail.place);
+      out_ += fmt::format("; went on at {:.3f}\n", tail.resumed.value());
+    }
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -186,6 +195,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   if (summary.board) text.board(*summary.board);
   if (!summary.holds.empty()) text.holds(summary);
   if (summary.probes) text.probes(summary, *summary.probes);
+  if (!summary.tails.empty()) text.tails(summary);
   return text.take();
 }
 

@@ -57,8 +57,8 @@ bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, cons
   std::int64_t time = now;
   for (unsigned k = 0; k < timing.events; ++k) {
     time += interval;
-    const std::int64_t allowed = share_ == 0 ? exact : std::max(exact, interval / share_);
-    if (std::abs(time - events.time(k)) > allowed) return false;
+    const std::int64_t off = std::abs(time - events.time(k));
+    if (off > exact && (share_ == 0 || off > interval / share_)) return false;
     interval += timing.change;
   }
   const std::int64_t last = interval - timing.change;

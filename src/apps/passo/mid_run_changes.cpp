@@ -29,7 +29,35 @@ std::optional<std::pair<double, double>> pair_of(std::string_view text, char bet
   return std::pair(*first, *second);
 }
 
+std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description) {
+  std::vector<double> place;
+  const MachineCounts counts = machine.counts();
+  for (std::size_t m = 0; m < description.axes.size(); ++m) {
+    const AxisDescription& axis = description.axes[m];
+    const auto steps = static_cast<double>(counts.motors[m].position);
+    place.push_back((axis.inverted ? -steps : steps) / axis.steps_per_unit);
+  }
+  return place;
+}
+
 }  // namespace
+
+std::optional<CableCut> read_cable_cut(const std::string& text) {
+  const auto both = pair_of(text, ':');
+  if (both) return CableCut{.at = Seconds(both->first), .missing = Seconds(both->second)};
+  fail(exit_bad_program, "'" + text + "': expected --cut-cable-at SECONDS:SECONDS, when it is cut and after how long it is back");
+  return std::nullopt;
+}
+
+void TailWatch::look(const MotionDrive& drive, const VirtualMachine& machine, const MachineDescription& description) {
+  const Refiller* const refiller = drive.refiller();
+  if (refiller == nullptr || static_cast<std::size_t>(refiller->recoveries()) == tails_.size()) return;
+  std::int64_t last_step = 0;
+  for (const MotorCounts& motor : machine.counts().motors) last_step = std::max(last_step, motor.last_step.count);
+  tails_.push_back({.rest = Seconds(static_cast<double>(last_step) / description.board.clock.value()),
+                    .place = place_of(machine, description),
+                    .resumed = drive.now()});
+}
 
 std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>& holds,
                                                  const std::vector<std::string>& overrides) {
@@ -87,12 +115,7 @@ void MidRunChanges::act(MotionDrive& drive, VirtualMachine& machine, const Machi
 void MidRunChanges::rest(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description) {
   HoldSummary& hold = holds_.back();
   hold.rest = drive.now();
-  const MachineCounts counts = machine.counts();
-  for (std::size_t m = 0; m < description.axes.size(); ++m) {
-    const AxisDescription& axis = description.axes[m];
-    const auto steps = static_cast<double>(counts.motors[m].position);
-    hold.place.push_back((axis.inverted ? -steps : steps) / axis.steps_per_unit);
-  }
+  hold.place = place_of(machine, description);
   if (!pause_) return drive.stop();
   drive.wait(*pause_);
   hold.resumed = drive.now();

@@ -11,6 +11,25 @@
 
 namespace passo {
 
+// When a cable is cut, and for how long.
+struct CableCut {
+  Seconds at{0};
+  Seconds missing{0};
+};
+// Of "SECONDS:SECONDS"; nothing where it says something else, which is told on standard error.
+std::optional<CableCut> read_cable_cut(const std::string& text);
+
+// Watches a job for rests at the ends of braking tails.
+class TailWatch {
+ public:
+  // After each step of the drive.
+  void look(const MotionDrive& drive, const VirtualMachine& machine, const MachineDescription& description);
+  const std::vector<TailSummary>& tails() const { return tails_; }
+
+ private:
+  std::vector<TailSummary> tails_;
+};
+
 class MidRunChanges {
  public:
   // `holds`: "2.5" ends the run at rest from 2.5 s on; "2.5:1" goes on after a second of rest. `overrides`: "50@2.5" is

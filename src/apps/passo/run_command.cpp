@@ -82,10 +82,12 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   job.drive().probe().watch([&](const ProbeOutcome& outcome) { count(outcome, machine, probes); });
   outputs.watch(job);
   changes.begin(job.drive());
+  TailWatch tails;
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (changes.any()) changes.act(job.drive(), job.machine(), machine);
+      tails.look(job.drive(), job.machine(), machine);
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }
   }
@@ -95,6 +97,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   add_board(summary, job, machine);
   summary.holds = changes.holds();
   if (probes.moves > 0) summary.probes = probes;
+  summary.tails = tails.tails();
   return summary;
 }
 
@@ -128,6 +131,8 @@ int run(const RunArguments& arguments) {
   if (!names_are_good(arguments)) return exit_bad_program;
   std::optional<MidRunChanges> changes = MidRunChanges::read(arguments.holds, arguments.overrides);
   if (!changes) return exit_bad_program;
+  std::optional<CableCut> cut;
+  if (!arguments.cable_cut.empty() && !(cut = read_cable_cut(arguments.cable_cut))) return exit_bad_program;
   Diagnostics diagnostics;
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
@@ -152,8 +157,16 @@ int run(const RunArguments& arguments) {
   if (!outputs) return fail(exit_failed, outputs.error().message);
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, *options, late);
+  Job job(std::move(*program), *machine, *options, late,
+          {.line = cut ? std::optional(LineOptions{}) : std::nullopt});
   for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
+  if (cut) {
+    if (job.drive().refiller() == nullptr) {
+      return fail(exit_bad_program,
+                  "--cut-cable-at: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
+    }
+    job.line().cut(cut->at, cut->missing);
+  }
   const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes);
   if (const auto error = job.link().error()) return fail(exit_failed, "the board: " + std::string(message_of(*error)));
   if (late.any_error() || job.drive().stopped_by_probe()) {

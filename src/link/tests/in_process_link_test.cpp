@@ -188,8 +188,9 @@ TEST(InProcessLink, stops_at_the_first_item_that_the_board_refuses) {
 
 TEST(LinkError, has_a_sentence_for_each_reason) {
   std::vector<std::string_view> sentences;
-  for (const LinkError error : {LinkError::no_answer, LinkError::wrong_version, LinkError::too_few_motors,
-                                LinkError::refused, LinkError::was_reset, LinkError::stopped}) {
+  for (const LinkError error :
+       {LinkError::no_answer, LinkError::wrong_version, LinkError::too_few_motors, LinkError::refused,
+        LinkError::was_reset, LinkError::stopped, LinkError::too_few_places}) {
     sentences.push_back(message_of(error));
   }
   std::sort(sentences.begin(), sentences.end());

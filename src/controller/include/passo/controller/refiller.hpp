@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -30,7 +31,7 @@ struct TailOptions {
   Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
   // Events may be off by one part in so many of their interval: exact to the tick, the first milliseconds behind a rest
   // would take hundreds of segments a second more than a line can carry.
-  int looseness = 256;
+  int looseness = 64;
   int tail_looseness = 4;
 };
 
@@ -83,6 +84,8 @@ class Refiller {
   void gather();
   std::size_t room_for_motion() const;
   void gather_tail();
+  Turn gather_less();
+  void fork(Source<MotionItem>& motion, Refill& refill) const;
   bool send();
   Seconds time_of(const LinkItem& item) const;
 
@@ -93,6 +96,7 @@ class Refiller {
   std::deque<Motion> motion_;             // sent and not executed
   std::deque<Refill> refills_under_way_;  // the first is being played; of the others, nothing yet
   ItemNumber behind_ = 0;                 // the next refill goes behind this item
+  int places_;                            // that the board has for items, as far as we use them
   std::size_t tail_size_;                 // of the last refill: the next one will be alike
   Seconds ahead_{0};
   PathPlace given_;       // by the planner
@@ -102,6 +106,8 @@ class Refiller {
   std::vector<LinkItem> items_;
   std::size_t motion_items_ = 0;
   Refill refill_;
+  Refill origin_;  // from where it was gathered, if that was a rest
+  std::size_t most_at_rest_ = std::numeric_limits<std::size_t>::max();
   bool holds_ = false;  // behind it, the planner holds
   bool ended_ = false;  // behind it, the path has ended
 

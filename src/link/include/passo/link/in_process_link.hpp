@@ -47,6 +47,7 @@ class InProcessLink final : public Link {
   void watch_probe(ProbeUntil until) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
   std::optional<LinkError> error() const override { return error_; }
+  void fail(LinkError error) override { error_ = error_.value_or(error); }
 
   std::uint64_t frames_sent() const override { return frames_sent_; }
   std::uint64_t bytes_sent() const override { return bytes_sent_; }
@@ -94,17 +95,18 @@ class InProcessLink final : public Link {
   std::optional<HelloReply> board_;
   std::optional<BoardStatus> status_;
   std::optional<LinkError> error_;
-  ItemNumber sent_ = 0;      // number of the last frame sent
-  ItemNumber taken_ = 0;     // of the last one that the board told to have
-  ItemNumber executed_ = 0;  // of the last item that it told to be done
-  int free_ = 0;             // room that it had when it told so
+  ItemNumber sent_ = 0;          // number of the last frame sent
+  ItemNumber taken_ = 0;         // of the last one that the board told to have
+  ItemNumber executed_ = 0;      // of the last item that it told to be done
+  ItemNumber asked_behind_ = 0;  // the last one sent when the board was last asked
+  int free_ = 0;                 // room that it had when it told so
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
-  bool news_ = false;                                   // since wait() began
-  std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};                                    // when the board last said anything
-  Seconds moved_on_{0};                                 // when it last took something, or we asked or sent
+  bool news_ = false;            // since wait() began
+  std::deque<Frame> kept_;       // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};             // when the board last said anything
+  Seconds moved_on_{0};          // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;

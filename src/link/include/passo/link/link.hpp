@@ -22,6 +22,7 @@ enum class LinkError : std::uint8_t {
   refused,         // it did not take what was sent
   was_reset,       // it has forgotten the session, and with it where the motors are
   stopped,         // it has stopped its motors at once
+  too_few_places,  // it cannot hold as many items as it takes to bring the machine to rest
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);
@@ -63,6 +64,8 @@ class Link {
   virtual void watch_probe(ProbeUntil until) = 0;
   virtual const ProbeReport& probe_report() const = 0;
   virtual std::optional<LinkError> error() const = 0;
+  // Whoever uses the link has found that it cannot go on.
+  virtual void fail(LinkError error) = 0;
 
   virtual std::uint64_t frames_sent() const = 0;
   virtual std::uint64_t bytes_sent() const = 0;

@@ -60,6 +60,13 @@ struct ProbeSummary {
   Mm farthest_overrun{0};                 // of all: from contact to rest
 };
 
+// A rest at the end of a braking tail, because nothing more had come from the computer. Times of the board.
+struct TailSummary {
+  Seconds rest{0};                 // when it stood
+  std::vector<double> place = {};  // as of a hold
+  Seconds resumed{0};
+};
+
 struct RunSummary {
   std::string program;
   std::string machine;
@@ -79,6 +86,7 @@ struct RunSummary {
   std::optional<BoardSummary> board;  // none: nothing was sent to a board
   std::vector<HoldSummary> holds;
   std::optional<ProbeSummary> probes;  // none: no probe move
+  std::vector<TailSummary> tails;
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };

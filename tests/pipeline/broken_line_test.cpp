@@ -1,0 +1,268 @@
+// The line to the board breaks, loses, doubles, flips and swaps: the machine stays on the path and within its limits,
+// rests where nothing more comes, and ends where it would have ended.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kit/seed.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+
+namespace passo {
+namespace {
+
+const MachineDescription& router() {
+  static const MachineDescription machine = [] {
+    Diagnostics diagnostics;
+    return load_machine_file(PASSO_SOURCE_DIR "/examples/machines/router.toml", diagnostics).value();
+  }();
+  return machine;
+}
+
+const std::vector<std::string>& programs() {
+  static const std::vector<std::string> all = {
+      "G21 G90 G1 F4000\nX6\nY4\nX1 Y6 Z-1\nX0 Y0 Z0\nM2\n",
+      "G21 G90 G64 P.02 F3000 M3 S1000\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X4 Y3\nM8\nG4 P.05\nG0 X0 Y0 Z2\nM5 M9\nM2\n",
+      "G21 G90 F900\nG0 X3 Y3\nG81 Z-2 R1\nX6 Y2\nG80\nG61.1 G1 X8 Y8 F5000\nX4\nG64 Y1\nM2\n",
+      "G21 G90 F6000\nG1 X10\nX0\nX10 Y1\nX0 Y2\nM2\n",
+  };
+  return all;
+}
+
+// Every step of a run as the machine made it.
+class StepLog final : public MachineObserver {
+ public:
+  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
+    for (unsigned m = 0; m < motors; ++m) {
+      if ((stepped >> m & 1U) == 0) continue;
+      const bool down = (directions >> m & 1U) != 0;
+      place[m] += down ? -1 : 1;
+      steps[m].push_back({.tick = time.count, .down = down});
+    }
+    for (unsigned m = 0; m < motors; ++m) {
+      if ((stepped >> m & 1U) != 0) steps[m].back().place = place;
+    }
+  }
+
+  static constexpr unsigned motors = 3;
+  struct Step {
+    std::int64_t tick = 0;
+    bool down = false;
+    std::array<std::int64_t, motors> place{};  // of all motors behind it
+  };
+  std::array<std::int64_t, motors> place{};
+  std::array<std::vector<Step>, motors> steps;
+};
+
+struct Outcome {
+  std::array<std::vector<StepLog::Step>, StepLog::motors> steps;
+  std::vector<int> outputs;
+  std::uint64_t frames = 0;  // both ways
+  int recoveries = 0;
+};
+
+using Bytes = VirtualLine::Bytes;
+// Sees each frame with its number, and gives back what passes.
+using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
+
+Outcome run(const std::string& program, bool with_line, const Trouble& trouble = nullptr) {
+  Diagnostics diagnostics;
+  const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
+  // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
+  Job job(ProgramReader::from_text("t", program), router(), InterpreterOptions(), diagnostics, line);
+  StepLog log;
+  job.machine().add_observer(log);
+  Outcome outcome;
+  if (with_line) {
+    job.line().set_trouble([&](bool to_board, Bytes bytes) {
+      const std::uint64_t number = outcome.frames++;
+      return trouble ? trouble(job, number, to_board, std::move(bytes)) : bytes;
+    });
+  }
+  while (job.advance()) {
+  }
+  EXPECT_FALSE(diagnostics.any_error());
+  EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
+  outcome.steps = log.steps;
+  if (job.drive().refiller() != nullptr) outcome.recoveries = job.drive().refiller()->recoveries();
+  return outcome;
+}
+
+// The same steps in the same order as without trouble, each with the other motors where they were then.
+void expect_same_way(const Outcome& run, const Outcome& reference) {
+  constexpr std::int64_t beside = 3;  // steps of another motor: both come to rest at times
+  for (unsigned m = 0; m < StepLog::motors; ++m) {
+    ASSERT_EQ(run.steps[m].size(), reference.steps[m].size()) << "motor " << m;
+    for (std::size_t i = 0; i < run.steps[m].size(); ++i) {
+      ASSERT_EQ(run.steps[m][i].down, reference.steps[m][i].down) << "motor " << m << " step " << i;
+      for (unsigned other = 0; other < StepLog::motors; ++other) {
+        ASSERT_NEAR(static_cast<double>(run.steps[m][i].place[other]),
+                    static_cast<double>(reference.steps[m][i].place[other]), beside)
+            << "motor " << other << " at step " << i << " of motor " << m;
+      }
+    }
+  }
+}
+
+// Three places at equal times apart: where the acceleration is bounded, so is their second difference.
+void expect_within_limits(const Outcome& run) {
+  const double window = router().board.clock.value() * 0.008;
+  for (unsigned m = 0; m < StepLog::motors; ++m) {
+    const AxisDescription& axis = router().axes[m];
+    const auto& steps = run.steps[m];
+    if (steps.empty()) continue;
+    std::array<std::size_t, 3> at{};
+    const auto place = [&](std::size_t k, double tick) {
+      while (at[k] < steps.size() && static_cast<double>(steps[at[k]].tick) <= tick) ++at[k];
+      return at[k] == 0 ? 0.0 : static_cast<double>(steps[at[k] - 1].place[m]);
+    };
+    const double most = axis.acceleration.value() * std::fabs(axis.steps_per_unit) * 0.008 * 0.008;
+    const auto end = static_cast<double>(steps.back().tick);
+    for (double tick = static_cast<double>(steps.front().tick) - 2 * window; tick < end; tick += window / 8) {
+      const double bend = place(0, tick) - 2 * place(1, tick + window) + place(2, tick + 2 * window);
+      ASSERT_LE(std::fabs(bend), most * 1.02 + 4) << "motor " << m << " at tick " << tick;
+    }
+  }
+}
+
+void expect_as_if_nothing_had_been(const Outcome& outcome, const Outcome& reference) {
+  expect_same_way(outcome, reference);
+  expect_within_limits(outcome);
+}
+
+const Outcome& reference_of(std::size_t program) {
+  static std::map<std::size_t, Outcome> known;
+  const auto found = known.find(program);
+  return found != known.end() ? found->second : known.emplace(program, run(programs()[program], false)).first->second;
+}
+
+// Cuts at every `stride`-th frame from either side. Returns how many trials that were.
+int cut_at_frame_boundaries(std::size_t program, std::uint64_t stride, const std::vector<double>& lasting,
+                            int& recoveries) {
+  const Outcome whole = run(programs()[program], true);
+  expect_as_if_nothing_had_been(whole, reference_of(program));
+  int trials = 0;
+  for (const double seconds : lasting) {
+    for (std::uint64_t at = 0; at < whole.frames; at += stride) {
+      SCOPED_TRACE("program " + std::to_string(program) + ", cut before frame " + std::to_string(at) + " for " +
+                   std::to_string(seconds) + " s");
+      const Outcome cut = run(programs()[program], true, [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
+        if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
+        return bytes;
+      });
+      expect_as_if_nothing_had_been(cut, reference_of(program));
+      recoveries += cut.recoveries;
+      ++trials;
+      if (testing::Test::HasFatalFailure()) return trials;
+    }
+  }
+  return trials;
+}
+
+// Loses, doubles and flips bytes, loses and swaps frames.
+class RandomTrouble {
+ public:
+  explicit RandomTrouble(std::uint64_t seed) : random_(seed), rate_(between(0.0001, 0.001)) {}
+
+  Bytes operator()(bool to_board, const Bytes& bytes) {
+    Bytes passed;
+    if (!chance(4 * rate_)) {
+      for (const std::uint8_t byte : bytes) {
+        if (chance(rate_)) {
+          ++faults;
+          const double kind = between(0, 3);
+          if (kind < 1) continue;
+          if (kind < 2) passed.push_back(byte);
+          passed.push_back(kind < 2 ? byte
+                                    : static_cast<std::uint8_t>(byte ^ 1U << static_cast<unsigned>(between(0, 8))));
+          continue;
+        }
+        passed.push_back(byte);
+      }
+    } else {
+      ++faults;
+    }
+    Bytes& late = late_[to_board ? 0 : 1];
+    if (late.empty() && chance(4 * rate_)) {
+      ++faults;
+      late = std::move(passed);
+      return {};
+    }
+    passed.insert(passed.end(), late.begin(), late.end());
+    late.clear();
+    return passed;
+  }
+  int faults = 0;
+
+ private:
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  bool chance(double share) { return between(0, 1) < share; }
+
+  std::mt19937_64 random_;
+  double rate_;
+  std::array<Bytes, 2> late_;  // swapped with what comes next
+};
+
+void random_faults(int trials) {
+  const std::uint64_t seed = test::seed();
+  int faults = 0;
+  int recoveries = 0;
+  for (int i = 0; i < trials; ++i) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
+    const std::size_t program = static_cast<std::size_t>(i) % programs().size();
+    RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
+    const Outcome outcome = run(programs()[program], true, [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) {
+      return trouble(to_board, bytes);
+    });
+    expect_as_if_nothing_had_been(outcome, reference_of(program));
+    faults += trouble.faults;
+    recoveries += outcome.recoveries;
+    if (testing::Test::HasFatalFailure()) return;
+  }
+  EXPECT_GT(faults, trials);
+  std::printf("%d trials with %d faults, %d recoveries from a tail\n", trials, faults, recoveries);
+}
+
+TEST(BrokenLine, every_frame_boundary_in_part) {
+  int recoveries = 0;
+  const int trials = cut_at_frame_boundaries(1, 29, {0.5}, recoveries);
+  std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
+  EXPECT_GT(recoveries, trials / 2);
+}
+
+TEST(BrokenLine, random_faults_in_part) {
+  random_faults(40);
+}
+
+bool in_full() {
+  return std::getenv("PASSO_IN_FULL") != nullptr;
+}
+
+TEST(BrokenLineInFull, every_frame_boundary) {
+  if (!in_full()) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  int trials = 0;
+  int recoveries = 0;
+  for (std::size_t program = 0; program < programs().size(); ++program) {
+    trials += cut_at_frame_boundaries(program, 1, {0.05, 0.5}, recoveries);
+    if (HasFatalFailure()) return;
+  }
+  std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
+  EXPECT_GE(trials, 8000);
+}
+
+TEST(BrokenLineInFull, random_faults) {
+  if (!in_full()) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  random_faults(4000);
+}
+
+}  // namespace
+}  // namespace passo
