@@ -302,7 +302,7 @@ TEST_F(PathSmootherTest, random_paths_stay_in_the_tube_without_a_gap_or_a_bend) 
     drawn.merge_share = round % 2 == 0 ? 0.05 : 0;
     const std::vector<PathItem> path = drawn.draw(150);
     expect_good(path);
-    rests += test::rests_of(path);
+    rests += test::rests_of(test::by_length(path)).size();
     stopped += stops(segments_of(smooth(path)));
   }
   // The last resort is rare.
