@@ -145,14 +145,21 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least of a measure of places of the path that may be meant.
+  // The least of a measure of places of the path that may be meant: close to where it was last (where rotary axes turn
+  // hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
   template <class Measure>
   double search(const Measure& measure, double end) {
+    constexpr double close = 1e-3;
     constexpr double beyond = 0.5;
-    constexpr int samples = 20'000;
-    double low = -beyond;
-    double high = 0.0102 * since_rest + beyond;
     double best = measure(std::clamp(estimate(), 0.0, end));
+    best = search_between(measure, end, shift - close, shift + close, best);
+    return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
+  }
+
+ private:
+  template <class Measure>
+  double search_between(const Measure& measure, double end, double low, double high, double best) {
+    constexpr int samples = 20'000;
     for (int pass = 0; pass < 3 && best > 0; ++pass) {
       const double step = (high - low) / samples;
       double best_shift = shift;
