@@ -46,7 +46,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       interpreter_(std::move(program), options, diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
       watched_path_(path_builder_),
-      smoother_(watched_path_),
+      smoother_(watched_path_, smoothness(machine)),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
       drive_(smoother_, limits_, step_options(machine), machine_) {
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });

@@ -118,6 +118,8 @@ bool JerkProfile::lower_where_exceeded(int round) {
     const double gentler = std::clamp(1 / worst.jolt, most, least);
     const std::size_t from = i > reach ? i - reach : 0;
     const std::size_t to = std::min(i + 1 + reach, n);
+    changed_.from = std::min(changed_.from, from);
+    changed_.to = std::max(changed_.to, std::max(to, i + 1));
     for (std::size_t k = from; k <= to; ++k) {
       if (worst.jolt > accepted) share_[k] = std::max(share_[k] * gentler, least_share);
       if (worst.force > accepted || round % 4 == 3) cap_[k] = std::min(cap_[k], x_[k] * slower);

@@ -14,9 +14,10 @@
 
 namespace passo::test {
 
-inline std::vector<PathItem> smooth(const std::vector<PathItem>& path) {
+inline std::vector<PathItem> smooth(const std::vector<PathItem>& path,
+                                    Smoothness smoothness = Smoothness::least_bending) {
   ListSource<PathItem> source(path);
-  PathSmoother smoother(source);
+  PathSmoother smoother(source, smoothness);
   return drain(smoother);
 }
 
