@@ -95,6 +95,11 @@ class JerkProfile {
     double jolt = 0;
   };
   Excess excess(std::size_t i) const;
+  struct Inside {  // a phase
+    State state;
+    double way = 0;  // from its start
+  };
+  static Inside inside(const State& from, double jerk, double time);
   static double highest(const State& from, double jerk, double time);  // speed of a phase, but for its end
   bool lower_where_exceeded(int round);
   std::size_t go_on_as_planned();
