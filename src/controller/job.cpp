@@ -86,7 +86,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       path_builder_(interpreter_, path_options_, diagnostics),
       good_path_(path_builder_, diagnostics),
       watched_path_(good_path_),
-      smoother_(watched_path_),
+      smoother_(watched_path_, smoothness(machine)),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),

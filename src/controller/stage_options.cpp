@@ -1,5 +1,6 @@
 #include "passo/controller/stage_options.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace passo {
@@ -30,6 +31,12 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
 }
 
 }  // namespace
+
+Smoothness smoothness(const MachineDescription& machine) {
+  const bool limits_jerk =
+      std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
+  return limits_jerk ? Smoothness::slow_bending : Smoothness::least_bending;
+}
 
 MotionLimits motion_limits(const MachineDescription& machine) {
   MotionLimits limits;

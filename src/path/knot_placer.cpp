@@ -24,12 +24,14 @@ constexpr double cluster_share = 0.5;
 constexpr double cluster_tube = 0.5;
 
 // Where the knots lie, in widths from the node.
-constexpr std::array knots_from_node = {0.5, 1.0, 1.5};
-constexpr double last_knot_reaches = 1.25 * knots_from_node.back();  // so much room belongs to a node
-constexpr double share_of_room = 0.9;  // a knot nearer than this to the end of the room is left out
+constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
+constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6};
+constexpr double last_knot_reaches = 1.25;  // so much room belongs to a node, in the last knot's distance
+constexpr double share_of_room = 0.9;       // a knot nearer than this to the end of the room is left out
 
-// A gap so many times as wide as the knots' distance beside it stays exact.
-constexpr double exact_from = 1.5;
+// A gap so many times as wide as the knots' distance beside it stays exact: a shorter one bends less as part of the
+// stretches beside it.
+constexpr double exact_from = 3;
 constexpr std::size_t least_knots = 3;  // on each side of an exact piece
 // Shorter lines (mm) have no good direction after they are cut.
 constexpr double least_exact = 1e-6;
@@ -37,6 +39,10 @@ constexpr double least_exact = 1e-6;
 constexpr double unlimited = 1e9;
 
 }  // namespace
+
+KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
+    : reader_(reader),
+      knots_from_node_(smoothness == Smoothness::slow_bending ? knots_for_slow_bending : knots_for_least_bending) {}
 
 void KnotPlacer::begin() {
   junction_ = reader_.begin();
@@ -148,22 +154,23 @@ void KnotPlacer::fill_gap() {
   double room = 0;
   double next_room = 0;
   if (width > 0 && next_width > 0) {
-    room = std::min(last_knot_reaches * width, length / 2);
-    next_room = std::min(last_knot_reaches * next_width, length - room);
-    room = std::min(last_knot_reaches * width, length - next_room);
+    const double reaches = last_knot_reaches * knots_from_node_.back();
+    room = std::min(reaches * width, length / 2);
+    next_room = std::min(reaches * next_width, length - room);
+    room = std::min(reaches * width, length - next_room);
   } else if (width > 0) {
     room = share_of_room * length;
   } else if (next_width > 0) {
     next_room = share_of_room * length;
   }
-  const auto count = [](double w, double within) {
+  const auto count = [&](double w, double within) {
     return static_cast<std::size_t>(
-        std::ranges::count_if(knots_from_node, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
+        std::ranges::count_if(knots_from_node_, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
   };
   const std::size_t knots = count(width, room) + 1;  // with the node
   const std::size_t next_knots = count(next_width, next_room);
-  const auto offset = [&](std::size_t i) { return i == 0 ? 0 : knots_from_node[i - 1] * width; };
-  const auto next_offset = [&](std::size_t i) { return i == 0 ? 0 : knots_from_node[i - 1] * next_width; };
+  const auto offset = [&](std::size_t i) { return i == 0 ? 0 : knots_from_node_[i - 1] * width; };
+  const auto next_offset = [&](std::size_t i) { return i == 0 ? 0 : knots_from_node_[i - 1] * next_width; };
 
   const double first = from.s + offset(knots - 1);
   const double last = to.s - next_offset(next_knots);

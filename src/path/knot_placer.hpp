@@ -2,7 +2,7 @@
 //
 //       node            exact piece             node
 //   --+--+--O--+--+-----------------------+--+---O---+--+--
-//     knots at the node and at half its width, its width and one and a half
+//     knots at the node and at half its width, its width and one and a half (a little farther for slow bending)
 //
 // A junction, or several close to each other, is a node; its width w is how far around it the path is rounded: a
 // corner within the tolerance e needs w = 4 e / |change of the tangent|, a change of curvature
@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "run_reader.hpp"
+
+#include "passo/path/path_smoother.hpp"
 
 namespace passo {
 
@@ -36,7 +38,7 @@ class KnotPlacer {
  public:
   static constexpr int most_clustered = 64;
 
-  explicit KnotPlacer(RunReader& reader) : reader_(reader) {}
+  KnotPlacer(RunReader& reader, Smoothness smoothness);
 
   // A mark of the run in its order.
   enum class Mark { knot, end_of_stretch, exact_piece };
@@ -71,7 +73,8 @@ class KnotPlacer {
   void add_knot(double s);
 
   RunReader& reader_;
-  std::uint64_t junction_ = 0;  // after this piece; the next to belong to a node
+  std::array<double, 3> knots_from_node_;  // in widths
+  std::uint64_t junction_ = 0;             // after this piece; the next to belong to a node
   bool all_found_ = false;
   std::array<Node, 4> nodes_;  // the gap is between the second and the third
   std::size_t known_ = 0;

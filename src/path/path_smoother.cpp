@@ -18,7 +18,8 @@ constexpr double chord_share = 0.01;
 
 class PathSmoother::Implementation {
  public:
-  explicit Implementation(Source<PathItem>& path) : reader_(path), placer_(reader_), spline_(reader_) {}
+  Implementation(Source<PathItem>& path, Smoothness smoothness)
+      : reader_(path), placer_(reader_, smoothness), spline_(reader_, smoothness) {}
 
   bool next(PathItem& item);
 
@@ -43,7 +44,8 @@ class PathSmoother::Implementation {
   std::size_t chord_ = 0;
 };
 
-PathSmoother::PathSmoother(Source<PathItem>& path) : implementation_(std::make_unique<Implementation>(path)) {}
+PathSmoother::PathSmoother(Source<PathItem>& path, Smoothness smoothness)
+    : implementation_(std::make_unique<Implementation>(path, smoothness)) {}
 
 PathSmoother::~PathSmoother() = default;
 

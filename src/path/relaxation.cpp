@@ -110,17 +110,11 @@ double Relaxation::shorten(double share, double square, const Four& factors, Fou
   return share;
 }
 
+// As much of the step as is allowed.
 template <std::size_t axes>
-void Relaxation::relax(std::int64_t k) {
-  const std::size_t at = slot(k);
-  const Four& pull = factors_[at].pull;
-  std::array<double, axes> step;
+void Relaxation::take_step(std::size_t at, std::array<double, axes>& step) {
   double square = 0;
-  for (std::size_t i = 0; i < axes; ++i) {
-    const double* const bend = &axes_[i].bend[at - 1];
-    step[i] = -(pull[0] * bend[0] + pull[1] * bend[1] + pull[2] * bend[2]);
-    square += step[i] * step[i];
-  }
+  for (const double value : step) square += value * value;
   if (square < no_step * no_step) return;
   const double share = allowed_share<axes>(at, step, square);
   if (share == 0) return;
@@ -130,7 +124,33 @@ void Relaxation::relax(std::int64_t k) {
   move<axes>(at, step);
 }
 
-template void Relaxation::relax<3>(std::int64_t k);
-template void Relaxation::relax<axis_count>(std::int64_t k);
+template <std::size_t axes>
+void Relaxation::relax_bending(std::int64_t k) {
+  const std::size_t at = slot(k);
+  const Four& pull = factors_[at].pull;
+  std::array<double, axes> step;
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double* const bend = &axes_[i].bend[at - 1];
+    step[i] = -(pull[0] * bend[0] + pull[1] * bend[1] + pull[2] * bend[2]);
+  }
+  take_step<axes>(at, step);
+}
+
+template <std::size_t axes>
+void Relaxation::relax_change(std::int64_t k) {
+  const std::size_t at = slot(k);
+  const std::array<double, 5>& pull = factors_[at].change_pull;
+  std::array<double, axes> step;
+  for (std::size_t i = 0; i < axes; ++i) {
+    const double* const bend = &axes_[i].bend[at - 2];
+    step[i] = -(pull[0] * bend[0] + pull[1] * bend[1] + pull[2] * bend[2] + pull[3] * bend[3] + pull[4] * bend[4]);
+  }
+  take_step<axes>(at, step);
+}
+
+template void Relaxation::relax_bending<3>(std::int64_t k);
+template void Relaxation::relax_bending<axis_count>(std::int64_t k);
+template void Relaxation::relax_change<3>(std::int64_t k);
+template void Relaxation::relax_change<axis_count>(std::int64_t k);
 
 }  // namespace passo

@@ -20,12 +20,14 @@ class Relaxation {
  public:
   using Four = std::array<double, 4>;
   // What a move of a control by 1 does, at the knots k-1 to k+1 (the fourth is 0) and in the middles of the spans
-  // k-2 to k+1; and the step to least bending: minus the sum of `pull` times p'' at the knots.
+  // k-2 to k+1; and the step to least bending: minus the sum of `pull` times p'' at the knots; and alike, from k-2 to
+  // k+2, to the least change of bending.
   struct Factors {
     Four off{};
     Four bend{};
     Four middle{};
     Four pull{};
+    std::array<double, 5> change_pull{};
   };
 
   // Forgets everything; the next number is -1.
@@ -48,12 +50,14 @@ class Relaxation {
 
   // A step of control k. `axes`: of the first so many axes; the others must be at rest.
   template <std::size_t axes>
-  void relax(std::int64_t k);
+  void relax_bending(std::int64_t k);
+  template <std::size_t axes>
+  void relax_change(std::int64_t k);
   void move(std::int64_t k, const Point& step);
 
  private:
   // Not a power of two: the lanes would meet in the same lines of the processor's cache.
-  static constexpr std::size_t capacity = 555;
+  static constexpr std::size_t capacity = 811;
   using Lanes = std::array<double, capacity>;
   struct AxisLanes {
     Lanes control{};
@@ -62,6 +66,8 @@ class Relaxation {
     Lanes middle{};  // off, in the middles
   };
 
+  template <std::size_t axes>
+  void take_step(std::size_t at, std::array<double, axes>& step);
   std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - base_); }
   Point gather(Lanes AxisLanes::*lanes, std::int64_t k) const;
   void scatter(Lanes AxisLanes::*lanes, std::int64_t k, const Point& value);

@@ -57,10 +57,10 @@ void TubeSpline::close() {
   while (controls_ <= knots_) advance();
   // Nothing more comes: each sweep and each check goes on to the end.
   const std::int64_t begun = controls_ - 1 - reach_of_control;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 2); k <= knots_ - 3; ++k) relax(k);
+  for (int sweep = 0; sweep < sweeps_; ++sweep) {
+    for (std::int64_t k = std::max<std::int64_t>(begun - lag * sweep + 1, 2); k <= knots_ - 3; ++k) relax(k, sweep);
   }
-  const std::int64_t swept = begun - lag * sweeps - 1;
+  const std::int64_t swept = begun - lag * sweeps_ - 1;
   for (int round = 0; round < checks; ++round) {
     for (std::int64_t k = std::max<std::int64_t>(swept - lag * round + 1, 0); k <= knots_ - 2; ++k) check(k);
   }
@@ -77,15 +77,15 @@ void TubeSpline::advance() {
   ++controls_;
   if (is_free(ready)) find_steps(ready);
   std::int64_t k = ready;
-  for (int sweep = 0; sweep < sweeps && k >= 2; ++sweep, k -= lag) {
-    if (is_free(k)) relax(k);
+  for (int sweep = 0; sweep < sweeps_ && k >= 2; ++sweep, k -= lag) {
+    if (is_free(k)) relax(k, sweep);
   }
-  k = ready - lag * sweeps - 1;
+  k = ready - lag * sweeps_ - 1;
   for (int round = 0; round < checks && k >= 0; ++round, k -= lag) check(k);
 }
 
 bool TubeSpline::next(Span& span) {
-  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps - 1 - lag * (checks - 1);
+  const std::int64_t last_checked = controls_ - 1 - reach_of_control - lag * sweeps_ - 1 - lag * (checks - 1);
   const std::int64_t final = closed_ ? knots_ - 2 : last_checked - lag - 1;
   if (taken_ > final) return false;
   span.from = end_at(taken_);
@@ -197,6 +197,7 @@ void TubeSpline::find_steps(std::int64_t k) {
     sum += factors.pull[i] * factors.bend[i];
   }
   for (double& pull : factors.pull) pull /= sum;
+  if (sweeps_ > bending_sweeps) find_change_pull(k, factors);
 
   const auto part = [&](std::size_t i, double square) { return factors.off[i] / 2 - factors.bend[i] * square / 16; };
   for (std::size_t i = 0; i < 4; ++i) {
@@ -205,6 +206,21 @@ void TubeSpline::find_steps(std::int64_t k) {
     if (i < 3) factors.middle[i] += part(i, width * width);
   }
   relaxation_.set_factors(k, factors);
+}
+
+// The sum over the spans k-2 to k+1 of their width times |p'''|², where p''' is the difference of p'' at their ends
+// divided by the width: its derivative by control k, over its second derivative.
+void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) const {
+  const std::array<double, 5> bend = {0, factors.bend[0], factors.bend[1], factors.bend[2], 0};  // at knots k-2 to k+2
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double change = bend[i + 1] - bend[i];
+    const double weight = change / at(k - 2 + static_cast<std::int64_t>(i)).width;
+    factors.change_pull[i + 1] += weight;
+    factors.change_pull[i] -= weight;
+    sum += weight * change;
+  }
+  for (double& pull : factors.change_pull) pull /= sum;
 }
 
 // The control that a polynomial has: its blossom, here of the path's Taylor polynomial at a knot.
@@ -265,11 +281,11 @@ void TubeSpline::measure_middle(std::int64_t k) {
   relaxation_.set_middle_off(k, (offs + chord) * 0.5 - bends * (site.width * site.width / 16));
 }
 
-void TubeSpline::relax(std::int64_t k) {
-  if (wide_) {
-    relaxation_.relax<axis_count>(k);
+void TubeSpline::relax(std::int64_t k, int sweep) {
+  if (sweep >= bending_sweeps) {
+    wide_ ? relaxation_.relax_change<axis_count>(k) : relaxation_.relax_change<3>(k);
   } else {
-    relaxation_.relax<3>(k);
+    wide_ ? relaxation_.relax_bending<axis_count>(k) : relaxation_.relax_bending<3>(k);
   }
 }
 

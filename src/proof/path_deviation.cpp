@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace passo::proof {
 namespace {
@@ -76,14 +77,17 @@ PathDeviation::Match PathDeviation::match(const Point& point, double from, doubl
   return best;
 }
 
-// Near the last place. Where nothing there is within the tolerance, farther ahead.
+// Near the last place, and not behind the farthest one: a path that goes back beside itself would be followed the wrong
+// way. Where nothing there is within the tolerance, farther ahead, and behind.
 PathDeviation::Match PathDeviation::match_ahead(const Point& point, double step, double expected) const {
   const auto here =
       std::partition_point(chain_.begin(), chain_.end(), [&](const Programmed& one) { return one.end() < at_; });
   const double about = tolerances_about * (here != chain_.end() ? here->tolerance : exact);
+  const double behind = about + step;
+  const double ahead = about + steps_about * step;
   Match best;
-  for (const double wider : {1.0, 8.0, 64.0}) {
-    const Match found = match(point, at_ - about - step, at_ + wider * (about + steps_about * step), expected);
+  for (const auto& [from, wider] : {std::pair{farthest_, 1.0}, {farthest_, 8.0}, {at_, 1.0}, {at_, 8.0}, {at_, 64.0}}) {
+    const Match found = match(point, from - behind, from + wider * ahead, expected);
     if (best.segment == nullptr || found.distance < best.distance) best = found;
     if (best.segment != nullptr && best.distance <= best.segment->tolerance) break;
   }
@@ -108,6 +112,7 @@ void PathDeviation::walk(const ExactCurve& curve, double from, double to, Second
     }
     raise(found.distance, found.segment->tolerance, found.segment->line, time);
     at_ = found.at;
+    farthest_ = std::max(farthest_, at_);
     place_ = curve.place(s);
     if (i > 0) approach(curve, s - step, s, before, step);
   }
@@ -145,6 +150,7 @@ void PathDeviation::rest(Seconds time) {
   ++planned_stretch_;
   forget(at_, time);
   at_ = chain_.empty() ? length_ : chain_.front().begin;
+  farthest_ = at_;
 }
 
 void PathDeviation::finish(Seconds time) {

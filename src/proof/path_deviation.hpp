@@ -69,6 +69,7 @@ class PathDeviation {
   std::uint64_t planned_stretch_ = 0;
   double last_tolerance_ = 0;
   double at_ = 0;               // where the last planned point is on the programmed path
+  double farthest_ = 0;         // of those of the stretch
   std::optional<Point> place_;  // that point
 };
 

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double cells_a_ramp = 8;      // while the acceleration goes from 0 to its limit
-constexpr double cells_a_braking = 64;  // at least this fine against the time that braking takes
-constexpr double turn_a_cell = 0.1;     // radians
-constexpr double most_cells = 20'000;   // of a segment
-constexpr double fewest_from_rest = 8;  // of a segment that begins or ends at rest
+constexpr double cells_a_ramp = 12;      // while the acceleration goes from 0 to its limit
+constexpr double cells_a_braking = 128;  // at least this fine against the time that braking takes
+constexpr double turn_a_cell = 0.1;      // radians
+constexpr double most_cells = 20'000;    // of a segment
+constexpr double fewest_from_rest = 8;   // of a segment that begins or ends at rest
 
 double limit_or_infinity(double limit) {
   return limit > 0 ? limit : infinity;

@@ -11,7 +11,7 @@ namespace {
 constexpr double most_growth = 3;  // of x within a cell where more cannot be played
 constexpr double most_above_cap = 4;
 constexpr double least_share = 0.2;
-constexpr double looked_at = 0.99;  // curves are looked at in three places of a cell
+constexpr double looked_at = 0.99;  // curves are looked at in five places of a cell
 constexpr double unseen_change = 1e-6;
 constexpr double weak = 100;    // mm/s², for axes without a limit
 constexpr double accepted = 1;  // of a limit
@@ -57,6 +57,12 @@ double JerkProfile::highest(const State& from, double jerk, double time) {
   return turns ? from.speed - from.acceleration * from.acceleration / (2 * jerk) : from.speed;
 }
 
+JerkProfile::Inside JerkProfile::inside(const State& from, double jerk, double time) {
+  return {.state = {.speed = from.speed + time * (from.acceleration + time * jerk / 2),
+                    .acceleration = from.acceleration + time * jerk},
+          .way = time * (from.speed + time * (from.acceleration / 2 + time * jerk / 6))};
+}
+
 // The largest multiples of the limits.
 JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const Pair pair = pair_of(i);
@@ -77,14 +83,13 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
     return {std::max(acceleration, top / std::sqrt(cell.top_squared)), jerk};
   }
   const AxisShape* shape = shapes(i);
-  const double share =
-      pair.half * (from.speed + pair.half * (from.acceleration / 2 + pair.half * pair.first / 6)) / cell.length;
+  // The middle of the cell's time, and of its halves.
+  const Inside middle = inside(from, pair.first, pair.half);
+  const Inside early = inside(from, pair.first, pair.half / 2);
+  Inside late = inside(pair.middle, pair.second, pair.half / 2);
+  late.way += middle.way;
   worst.force = top * top / cell.top_squared;
   for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
-    const double third = shape->third_in + share * (shape->third_out - shape->third_in);
-    const double bend = shape->bend_in + share * (shape->bend_out - shape->bend_in);
-    const double slope = shape->slope_in + share * (shape->slope_out - shape->slope_in) -
-                         cell.length * cell.length * share * (1 - share) / 2 * third;
     const auto see = [&](double first, double second, double third_here, const State& at, double jerk) {
       const double v = at.speed;
       const double force = std::abs(first * at.acceleration + second * v * v) / (axes_[k].acceleration * looked_at);
@@ -93,9 +98,19 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
       worst.force = std::max(worst.force, force);
       worst.jolt = std::max(worst.jolt, jolt);
     };
+    const auto see_inside = [&](const Inside& place, double jerk) {
+      const double share = place.way / cell.length;
+      const double third = shape->third_in + share * (shape->third_out - shape->third_in);
+      const double bend = shape->bend_in + share * (shape->bend_out - shape->bend_in);
+      const double slope = shape->slope_in + share * (shape->slope_out - shape->slope_in) -
+                           cell.length * cell.length * share * (1 - share) / 2 * third;
+      see(slope, bend, third, place.state, jerk);
+    };
     see(shape->slope_in, shape->bend_in, shape->third_in, from, pair.first);
-    see(slope, bend, third, pair.middle, pair.first);
-    see(slope, bend, third, pair.middle, pair.second);
+    see_inside(early, pair.first);
+    see_inside(middle, pair.first);
+    see_inside(middle, pair.second);
+    see_inside(late, pair.second);
     see(shape->slope_out, shape->bend_out, shape->third_out, to, pair.second);
   }
   return worst;
@@ -118,6 +133,8 @@ bool JerkProfile::lower_where_exceeded(int round) {
     const double gentler = std::clamp(1 / worst.jolt, most, least);
     const std::size_t from = i > reach ? i - reach : 0;
     const std::size_t to = std::min(i + 1 + reach, n);
+    changed_.from = std::min(changed_.from, from);
+    changed_.to = std::max(changed_.to, std::max(to, i + 1));
     for (std::size_t k = from; k <= to; ++k) {
       if (worst.jolt > accepted) share_[k] = std::max(share_[k] * gentler, least_share);
       if (worst.force > accepted || round % 4 == 3) cap_[k] = std::min(cap_[k], x_[k] * slower);

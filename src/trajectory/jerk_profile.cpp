@@ -163,35 +163,43 @@ bool JerkProfile::step(std::size_t i, bool backwards, March& march) const {
 }
 
 void JerkProfile::go_forwards() {
-  March march{.x = cap_[0]};
-  std::size_t i = 0;
-  forwards_[0] = cap_[0];
-  if (frozen_ > 0) {
-    i = 1;
-    forwards_[1] = x_[1];
-    march = {.x = x_[1], .slope = slope(0), .half = duration(0) / 2};
+  const std::size_t n = cells_.size();
+  const std::size_t first = frozen_ > 0 ? 1 : 0;
+  std::size_t i = first;
+  if (changed_.all) {
+    forwards_[0] = {.x = cap_[0]};
+    if (frozen_ > 0) forwards_[1] = {.x = x_[1], .slope = slope(0), .half = duration(0) / 2};
+  } else {
+    i = std::max(first, changed_.from > 0 ? changed_.from - 1 : 0);
   }
-  for (; i < cells_.size(); ++i) {
+  for (; i < n; ++i) {
+    March march = forwards_[i];
     step(i, false, march);
-    forwards_[i + 1] = march.x;
+    if (!changed_.all && i >= changed_.to && march == forwards_[i + 1]) return;
+    forwards_[i + 1] = march;
   }
 }
 
-// Lowers x_ to what braking allows; the last node from which on nothing to come matters.
+// Lowers x_ to what braking allows; the last node from which on nothing to come matters. Only all of the window tells.
 std::size_t JerkProfile::go_backwards(bool closed) {
-  std::size_t decided = closed ? cells_.size() : 0;
-  March march{.x = cap_[cells_.size()]};
-  x_[cells_.size()] = std::min(march.x, forwards_[cells_.size()]);
+  const std::size_t n = cells_.size();
   const std::size_t first = frozen_ > 0 ? 1 : 0;
-  for (std::size_t i = cells_.size(); i-- > first;) {
+  std::size_t decided = closed ? n : 0;
+  std::size_t i = n;
+  if (changed_.all) {
+    backwards_[n] = {.x = cap_[n]};
+  } else {
+    i = std::min(n, changed_.to + 1);
+  }
+  while (i-- > first) {
+    March march = backwards_[i + 1];
     const bool free = step(i, true, march);
     if (free && decided == 0) decided = i;
-    if (i == first && frozen_ > 0) {
-      if (march.x < x_[i] * (1 - 1e-9)) return cannot_brake;
-      continue;
-    }
-    x_[i] = std::min(march.x, forwards_[i]);
+    if (!changed_.all && i + 1 <= changed_.from && march == backwards_[i]) break;
+    backwards_[i] = march;
+    if (i == first && frozen_ > 0 && march.x < x_[i] * (1 - 1e-9)) return cannot_brake;
   }
+  for (std::size_t k = frozen_ > 0 ? 2 : 0; k <= n; ++k) x_[k] = std::min(backwards_[k].x, forwards_[k].x);
   return decided;
 }
 
@@ -205,11 +213,21 @@ double JerkProfile::drop_at(std::size_t node) const {
   return std::max(-low, 0.0) * time;
 }
 
+// It follows from three nodes: where those are as they were, it is as it was.
+void JerkProfile::find_drops(std::size_t from) {
+  const auto is_same = [this](std::size_t k) { return x_[k] == uncut_[k]; };
+  for (std::size_t i = from; i < cells_.size(); ++i) {
+    const bool in_changed = changed_.all || (i >= changed_.from && i <= changed_.to);
+    if (in_changed || !is_same(i - 1) || !is_same(i) || !is_same(i + 1)) drops_[i] = x_[i] > 0 ? drop_at(i) : 0;
+  }
+  uncut_.assign(x_.begin(), x_.end());
+}
+
 void JerkProfile::cut_corners() {
   const std::size_t n = cells_.size();
   const std::size_t first = frozen_ > 0 ? 1 : 0;
-  for (std::size_t i = first + 1; i < n; ++i) drops_[i] = x_[i] > 0 ? drop_at(i) : 0;
-  std::vector<double>& y = forwards_;  // not needed any more
+  find_drops(first + 1);
+  std::vector<double>& y = raised_;
   std::size_t begin = first;
   hull_.clear();
   while (begin < n) {
@@ -258,6 +276,10 @@ void JerkProfile::prepare() {
   share_.push_back(planned_jerk);
   if (frozen_ == 0) cap_[0] = 0;
   forwards_.resize(n + 1);
+  backwards_.resize(n + 1);
+  raised_.resize(n + 1);
+  uncut_.resize(n + 1);
+  changed_ = {};
   x_.resize(n + 1, 0.0);
   drops_.resize(n + 1);
   place_.resize(n + 1);
@@ -323,6 +345,7 @@ std::size_t JerkProfile::plan(bool closed) {
     if (new_cells) decided = free;
     new_cells = false;
     cut_corners();
+    changed_ = {.all = false, .from = cells_.size(), .to = 0};
     good = !lower_where_exceeded(round);
     if (!good && frozen_ == 0 && round % rounds_a_refinement == rounds_a_refinement - 1) {
       refine();

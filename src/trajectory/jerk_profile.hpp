@@ -38,6 +38,8 @@ class JerkProfile {
   void begin_in_motion(double speed);
   // One more cell; `at_rest`: it begins at rest.
   void push(const JerkCell& cell, const AxisShape* shapes, bool at_rest);
+  // The square of the speed at which the last cell may be entered at most.
+  double last_cap() const { return entry_cap_.back(); }
   // Plans all cells to rest at the end. Returns how many at the front are decided: all where the window is `closed`
   // (the path does rest there).
   std::size_t plan(bool closed);
@@ -79,11 +81,13 @@ class JerkProfile {
     double x = 0;
     double slope = 0;  // of the cell before
     double half = 0;   // half its time
+    bool operator==(const March&) const = default;
   };
   bool step(std::size_t i, bool backwards, March& march) const;
   void go_forwards();
   std::size_t go_backwards(bool closed);
   void cut_corners();
+  void find_drops(std::size_t from);
   double drop_at(std::size_t node) const;
   State state(std::size_t node) const;
   Pair pair_of(std::size_t i) const;
@@ -93,6 +97,11 @@ class JerkProfile {
     double jolt = 0;
   };
   Excess excess(std::size_t i) const;
+  struct Inside {  // a phase
+    State state;
+    double way = 0;  // from its start
+  };
+  static Inside inside(const State& from, double jerk, double time);
   static double highest(const State& from, double jerk, double time);  // speed of a phase, but for its end
   bool lower_where_exceeded(int round);
   std::size_t go_on_as_planned();
@@ -111,7 +120,17 @@ class JerkProfile {
   // Of the nodes: one more than cells.
   std::vector<double> cap_;
   std::vector<double> share_;
-  std::vector<double> forwards_;
+  std::vector<March> forwards_;
+  std::vector<March> backwards_;
+  std::vector<double> raised_;  // x_ and the drops added up
+  std::vector<double> uncut_;   // x_ before its corners were cut
+  // The nodes at which a repair lowered something: only from there on the plan is made anew.
+  struct Changed {
+    bool all = true;
+    std::size_t from = 0;
+    std::size_t to = 0;
+  };
+  Changed changed_;
   std::vector<double> x_;
   std::vector<double> checked_;  // x_ when the limits were last checked
   std::vector<std::size_t> exceeded_;

@@ -71,7 +71,8 @@ void JerkWindow::pull() {
   if (cutting_ && cutter_.next(cell_, shapes_.data())) {
     profile_.push(cell_, shapes_.data(), begins_at_rest_);
     begins_at_rest_ = false;
-    estimate_ = std::min(estimate_ + 2 * cell_.acceleration * cell_.length, cell_.top_squared);
+    estimate_ =
+        std::min(std::min(estimate_, profile_.last_cap()) + 2 * cell_.acceleration * cell_.length, cell_.top_squared);
     length_ += cell_.length;
     return;
   }

@@ -29,8 +29,8 @@ class PathSmootherTest : public testing::Test {
   Segment& arc(double x, double y, double center_x, double center_y, double sweep) {
     return add(Curve::arc(position_, xyz(x, y), Axis::x, Axis::y, center_x, center_y, sweep));
   }
-  static void expect_good(const std::vector<PathItem>& path) {
-    const Faults faults = test::faults_of(path, smooth(path));
+  static void expect_good(const std::vector<PathItem>& path, Smoothness smoothness = Smoothness::least_bending) {
+    const Faults faults = test::faults_of(path, smooth(path, smoothness));
     EXPECT_LE(faults.excess, 1e-9) << faults.where;
     EXPECT_EQ(faults.gaps, 0U);
     EXPECT_LT(faults.tangent_jump, 1e-9);
@@ -247,6 +247,23 @@ TEST_F(PathSmootherTest, dense_programs_get_fewer_pieces_than_they_have_and_no_s
   EXPECT_EQ(stops(segments), 1U);
 }
 
+TEST_F(PathSmootherTest, slow_bending_keeps_to_the_tube_and_takes_a_third_off_the_change_of_the_bend_of_a_rough_path) {
+  for (int i = 1; i <= 2000; ++i) {
+    const double s = 0.2 * i;
+    go(s, std::round(50 * 3 * std::sin(0.3 * s)) / 50);
+  }
+  expect_good(path_, Smoothness::slow_bending);
+  const auto change_of_bend = [this](Smoothness smoothness) {
+    double sum = 0;
+    for (const Segment& segment : segments_of(smooth(path_, smoothness))) {
+      const double third = test::euclid(segment.curve.third_derivative(Mm(0)));
+      sum += third * third * segment.curve.length().value();
+    }
+    return sum;
+  };
+  EXPECT_LT(change_of_bend(Smoothness::slow_bending), 2.0 / 3 * change_of_bend(Smoothness::least_bending));
+}
+
 // Gives what it has in small portions, each through a smoother of a shorter program that ends the same way.
 TEST_F(PathSmootherTest, what_comes_out_depends_on_nothing_far_ahead) {
   for (int i = 1; i <= 3000; ++i) go(0.3 * i, std::round(10000 * std::sin(0.2 * i)) / 10000);
@@ -301,9 +318,10 @@ TEST_F(PathSmootherTest, random_paths_stay_in_the_tube_without_a_gap_or_a_bend) 
     drawn.rotary = round % 3 == 0;
     drawn.merge_share = round % 2 == 0 ? 0.05 : 0;
     const std::vector<PathItem> path = drawn.draw(150);
-    expect_good(path);
-    rests += test::rests_of(path);
-    stopped += stops(segments_of(smooth(path)));
+    const Smoothness smoothness = round % 5 < 2 ? Smoothness::slow_bending : Smoothness::least_bending;
+    expect_good(path, smoothness);
+    rests += test::rests_of(test::by_length(path)).size();
+    stopped += stops(segments_of(smooth(path, smoothness)));
   }
   // The last resort is rare.
   EXPECT_LE(stopped, rests + rests / 20);

@@ -14,9 +14,10 @@
 
 namespace passo::test {
 
-inline std::vector<PathItem> smooth(const std::vector<PathItem>& path) {
+inline std::vector<PathItem> smooth(const std::vector<PathItem>& path,
+                                    Smoothness smoothness = Smoothness::least_bending) {
   ListSource<PathItem> source(path);
-  PathSmoother smoother(source);
+  PathSmoother smoother(source, smoothness);
   return drain(smoother);
 }
 
@@ -52,6 +53,7 @@ class ByLength {
     const std::size_t i = index_at(s);
     return segments_[i].curve.at(Mm(s - (i > 0 ? ends_[i - 1] : 0)));
   }
+  double end_of(std::size_t i) const { return ends_[i]; }
   std::size_t size() const { return segments_.size(); }
   const Segment& operator[](std::size_t i) const { return segments_[i]; }
 
@@ -62,30 +64,44 @@ class ByLength {
 
 struct Faults {
   double excess = -1;       // of the deviation over the tolerance, at most
-  std::size_t gaps = 0;     // ends that are not the next start, bit for bit
+  std::size_t gaps = 0;     // ends that are not the next start, bit for bit; rests that are not met, in their order
   double tangent_jump = 0;  // where the path does not stop
   double bend_jump = 0;     // there, of d²P/ds², relative to 1/mm and to itself
   std::string where;        // the deviation is largest
 };
 
+// By how much the unit tangent changes at the junction after a segment.
+inline double turn_after(const ByLength& path, std::size_t k) {
+  const Point in = path[k].curve.tangent(path[k].curve.length());
+  const Point out = path[k + 1].curve.tangent(Mm(0));
+  return apart(in * (1 / euclid(in)), out * (1 / euclid(out)));
+}
+
 // How far the junction after a segment may be rounded; 0: it is a rest.
 inline double junction_tolerance(const ByLength& path, std::size_t k) {
   if (k + 1 == path.size() || path[k].mode == PathMode::exact_stop) return 0;
-  const Point in = path[k].curve.tangent(path[k].curve.length());
-  const Point out = path[k + 1].curve.tangent(Mm(0));
-  const double turn = apart(in * (1 / euclid(in)), out * (1 / euclid(out)));
+  const double turn = turn_after(path, k);
   if (turn > 1.9999) return 0;
   if (path[k].mode == PathMode::exact_path) return turn > 0.01 ? 0 : 0.001;
   return path[k].tolerance.value();
 }
 
-// The least tolerance that holds at s: of the junctions at both ends of the segment there that are no rests.
-inline double tolerance_at(const ByLength& path, double s) {
-  double least = 1e9;
-  const std::size_t i = path.index_at(s);
-  for (std::size_t k = i > 0 ? i - 1 : i; k <= i; ++k) {
-    const double tolerance = junction_tolerance(path, k);
-    if (tolerance > 0) least = std::min(least, tolerance);
+// The least tolerance that holds on each segment: of the junctions at its ends that are no rests. What is straight in
+// exact path mode but for rounding is no junction: there the ends are those of the whole line.
+inline std::vector<double> tolerances_of(const ByLength& path) {
+  constexpr double straight = 1e-6;
+  std::vector<double> least(path.size(), 1e9);
+  for (std::size_t first = 0; first < path.size();) {
+    std::size_t last = first;
+    while (last + 1 < path.size() && path[last].mode == PathMode::exact_path && turn_after(path, last) < straight) {
+      ++last;
+    }
+    double tolerance = 1e9;
+    for (const std::size_t k : {first - 1, last}) {  // 0 - 1: there is none
+      const double here = k < path.size() ? junction_tolerance(path, k) : 0;
+      if (here > 0) tolerance = std::min(tolerance, here);
+    }
+    for (; first <= last; ++first) least[first] = tolerance;
   }
   return least;
 }
@@ -103,16 +119,26 @@ inline ByLength by_length(const std::vector<PathItem>& items) {
   return ByLength(std::move(segments));
 }
 
-inline std::size_t rests_of(const std::vector<PathItem>& items) {
-  const ByLength path = by_length(items);
-  std::size_t rests = 0;
-  for (std::size_t k = 0; k < path.size(); ++k) rests += junction_tolerance(path, k) > 0 ? 0 : 1;
+struct Rest {
+  double s = 0;
+  Point place;
+  bool asked_for = true;  // else the path turns back, which merged lines before and after may change a little
+};
+
+inline std::vector<Rest> rests_of(const ByLength& path) {
+  std::vector<Rest> rests;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (junction_tolerance(path, k) > 0) continue;
+    const bool asked_for = k + 1 == path.size() || path[k].mode == PathMode::exact_stop;
+    rests.push_back({.s = path.end_of(k), .place = path[k].curve.end(), .asked_for = asked_for});
+  }
   return rests;
 }
 
 // Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
 // where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
-// were cut). `shift` is how far it was when last looked for.
+// were cut). `shift` is how far it was when last looked for. Where the path passes itself it may be that of another
+// place near by: so it counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
 struct LengthAlong {
   double since_rest = 0;
   double rest = 0;
@@ -120,14 +146,21 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least of a measure of places of the path that may be meant.
+  // The least of a measure of places of the path that may be meant: close to where it was last (where rotary axes turn
+  // hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
   template <class Measure>
   double search(const Measure& measure, double end) {
+    constexpr double close = 1e-3;
     constexpr double beyond = 0.5;
-    constexpr int samples = 20'000;
-    double low = -beyond;
-    double high = 0.0102 * since_rest + beyond;
     double best = measure(std::clamp(estimate(), 0.0, end));
+    best = search_between(measure, end, shift - close, shift + close, best);
+    return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
+  }
+
+ private:
+  template <class Measure>
+  double search_between(const Measure& measure, double end, double low, double high, double best) {
+    constexpr int samples = 20'000;
     for (int pass = 0; pass < 3 && best > 0; ++pass) {
       const double step = (high - low) / samples;
       double best_shift = shift;
@@ -150,6 +183,9 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
                         int samples = 40) {
   Faults faults;
   const ByLength path = by_length(programmed);
+  const std::vector<double> tolerances = tolerances_of(path);
+  const std::vector<Rest> rests = rests_of(path);
+  auto rest = rests.begin();  // the next
   LengthAlong s;
   const Segment* before = nullptr;
   for (const PathItem& item : smoothed) {
@@ -177,7 +213,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
     for (int i = 0; i <= samples; ++i) {
       const double along = length * i / samples;
       const Point place = curve.at(Mm(along));
-      const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerance_at(path, to); };
+      const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerances[path.index_at(to)]; };
       double excess = excess_at(std::min(s.estimate(), path.length()));
       if (excess > 0) excess = s.search(excess_at, path.length());
       s.since_rest += i < samples ? length / samples : 0;
@@ -186,10 +222,16 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       faults.where = "at " + std::to_string(s.estimate()) + " of\n" + to_text(*segment) + "beside\n" +
                      to_text(path[path.index_at(s.estimate())]);
     }
-    if (segment->mode == PathMode::exact_stop) {
-      s = {.since_rest = 0, .rest = s.estimate(), .shift = 0};
-    }
+    // Other stops are those of spans that were cut.
+    if (segment->mode != PathMode::exact_stop) continue;
+    const auto asked = std::find_if(rest, rests.end(), [](const Rest& any) { return any.asked_for; });
+    const auto met = std::find_if(rest, rests.end(), [&](const Rest& any) { return any.place == curve.end(); });
+    if (met > asked || met == rests.end()) continue;
+    s = {.since_rest = 0, .rest = met->s, .shift = 0};
+    rest = met + 1;
   }
+  faults.gaps +=
+      static_cast<std::size_t>(std::count_if(rest, rests.end(), [](const Rest& any) { return any.asked_for; }));
   return faults;
 }
 

@@ -6,12 +6,14 @@
 #include "passo/interpreter/interpreter.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
 
 PathOptions path_options(const MachineDescription& machine, const std::string& program);
+Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
 

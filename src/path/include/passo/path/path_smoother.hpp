@@ -8,9 +8,11 @@
 // Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes,
 // millimetres and degrees alike. Segments join bit for bit. Within a run dP/ds and d²P/ds² go on without a jump; the
 // segment at its end has the mode exact_stop. What comes out does not depend on how it is pulled. Memory is bounded:
-// 128 knots, of 64 segments each at most. Time: about a microsecond a segment. See docs/decisions/0013.
+// 256 knots, of 64 segments each at most. Time: about a microsecond a segment, half as much again where the bend is to
+// change slowly. See docs/decisions/0013.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "passo/base/source.hpp"
@@ -18,9 +20,13 @@
 
 namespace passo {
 
+// What the tolerance is used for. Least bending is best where the acceleration is limited, which is p'' v² in a bend.
+// Where the jerk is limited, which is p''' v³, the bend is to change slowly too.
+enum class Smoothness : std::uint8_t { least_bending, slow_bending };
+
 class PathSmoother final : public Source<PathItem> {
  public:
-  explicit PathSmoother(Source<PathItem>& path);
+  explicit PathSmoother(Source<PathItem>& path, Smoothness smoothness = Smoothness::least_bending);
   ~PathSmoother() override;
 
   [[nodiscard]] bool next(PathItem& item) override;
