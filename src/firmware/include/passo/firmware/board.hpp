@@ -1,13 +1,17 @@
 // Board: the program of the control board, without its hardware. Bytes come in, steps go out.
 //
-// Takes frames off the wire, keeps what they bring in a bounded queue, and plays it in order through the Player. Two
-// sides use it: receive() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event() to the
-// timer. On a chip the timer is an interrupt and receive() runs with it held back only where the board is idle.
+// Takes frames off the wire, keeps what they bring in a bounded queue, and plays it in order through a player. Two
+// sides use it: receive(), settle() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event()
+// to the timer. A chip's player runs ahead: it makes events of the segments before their time and has an interrupt of
+// its own that plays them; there only the main loop's side is used.
+//
+// A player is what Player is: ready(), load(), pass(), take_finished(), done().
 //
 // Hardware is a type with
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
+//   void breathe();                                   may be left out: called between two pieces of work
 //
 // Invariant: items are executed in the order of their sequence numbers, each once; none is taken after a gap. Time
 // passes only between events: outputs are switched at the event before them, and a segment follows another without
@@ -25,7 +29,7 @@
 
 namespace passo {
 
-template <class Hardware, size_t queue_capacity = 32>
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player>
 class Board {
   // Sequence numbers are bytes: more items under way could not be told apart.
   static_assert(queue_capacity < 128);
@@ -57,11 +61,25 @@ class Board {
   void on_event() {
     const uint8_t stepped = player_.play();
     if (stepped != 0) hardware_.step(stepped, player_.directions());
-    if (player_.done()) {
-      retire();
-      advance();
-    }
+    if (player_.done()) settle();
   }
+
+  // Gives the player what it can take, and takes leave of what it has finished. On a chip the main loop calls it.
+  void settle() {
+    do {
+      breathe();
+      for (uint8_t finished = player_.take_finished(); finished != 0; --finished) retire();
+      breathe();
+      if (begun_ == queue_.size() || !player_.ready()) return;
+      const Entry& entry = queue_.at(begun_++);
+      if (entry.is_segment) {
+        player_.load(entry.segment);
+      } else {
+        player_.pass();
+      }
+    } while (true);
+  }
+  SegmentPlayer& player() { return player_; }
 
  private:
   struct Entry {
@@ -87,7 +105,7 @@ class Board {
     motors_ = hello.version == protocol_version && hello.motors <= most_motors_ ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count steps and their fractions from the same start.
-    player_ = Player(motors_);
+    player_ = SegmentPlayer(motors_);
     expected_ = static_cast<uint8_t>(frame.sequence + 1);
     executed_ = reported_ = frame.sequence;
     complained_ = false;
@@ -100,10 +118,12 @@ class Board {
     if (missing > 127) return report();
     if (missing != 0) return complain(WireError::out_of_sequence);
     if (queue_.full()) return complain(WireError::queue_full);
-    Entry entry;
+    Entry& entry = queue_.space();
     entry.is_segment = frame.type == MessageType::segment;
     if (entry.is_segment) {
+      breathe();
       decode(frame, motors_, entry.segment);
+      breathe();
       const uint8_t used = entry.segment.directions | entry.segment.flips;
       if (entry.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
     } else {
@@ -111,22 +131,22 @@ class Board {
     }
     ++expected_;
     complained_ = false;
-    queue_.push(entry);
-    if (idle()) advance();
+    queue_.push();
+    settle();
   }
 
-  // Loads the next segment, and switches the outputs that come before it.
-  void advance() {
-    for (; !queue_.empty(); retire()) {
-      const Entry& entry = queue_.front();
-      if (entry.is_segment) return player_.load(entry.segment);
-      hardware_.outputs(entry.outputs);
-    }
-  }
-
+  // The oldest item is done. Outputs are switched here: at the event before them.
   void retire() {
+    const Entry& entry = queue_.front();
+    if (!entry.is_segment) hardware_.outputs(entry.outputs);
     queue_.pop();
+    --begun_;
     ++executed_;
+  }
+
+  // Between two pieces of work: hardware with a small buffer looks at its line.
+  void breathe() {
+    if constexpr (requires { hardware_.breathe(); }) hardware_.breathe();
   }
 
   // Once for each gap: all that comes after a lost frame is out of sequence, and the host knows it from the first word.
@@ -145,8 +165,9 @@ class Board {
 
   Hardware& hardware_;
   Decoder decoder_;
-  Player player_{0};
+  SegmentPlayer player_{0};
   Ring<Entry, queue_capacity> queue_;  // its front is what is being played
+  uint8_t begun_ = 0;                  // items at its front that the player has
   uint8_t most_motors_;
   uint8_t motors_ = 0;  // agreed upon with the host
   uint32_t clock_;

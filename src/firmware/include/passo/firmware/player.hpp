@@ -12,11 +12,22 @@ class Player {
  public:
   explicit Player(uint8_t motors) : motors_(motors) {}
 
-  // Takes the next segment. Only when done().
+  // Can take the next item.
+  bool ready() const { return done(); }
+  // Takes the next segment. Only when ready().
   void load(const BoardSegment& segment) {
     segment_ = segment;
     left_ = segment.events;
   }
+  // Takes an item that is not its own to play: it is finished when all that came before it is. Only when ready().
+  void pass() { ++finished_; }
+  // Items that were finished since the last call.
+  uint8_t take_finished() {
+    const uint8_t finished = finished_;
+    finished_ = 0;
+    return finished;
+  }
+
   bool done() const { return left_ == 0; }
   uint8_t directions() const { return segment_.directions; }
 
@@ -38,7 +49,7 @@ class Player {
       accumulators_[motor] = after;
       if (after < before) carries = static_cast<uint8_t>(carries | 1U << motor);
     }
-    --left_;
+    if (--left_ == 0) ++finished_;
     return carries ^ segment_.flips;
   }
 
@@ -49,6 +60,7 @@ class Player {
   BoardSegment segment_;
   uint8_t motors_;
   uint8_t left_ = 0;
+  uint8_t finished_ = 0;  // items
   // Half a step and half a tick: what is truncated below is rounding above.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
   uint16_t tick_fraction_ = 0x8000;

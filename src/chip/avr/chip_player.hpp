@@ -1,0 +1,232 @@
+// ChipPlayer: what Player is on the host. Makes events of segments ahead of time, for the step timer's interrupt.
+//
+// The main loop calls refill() again and again. Events are made until the ring is full or two milliseconds are ahead,
+// whichever is less: what is in the ring will be played, so a slow motion must not have seconds in it. A segment counts
+// as begun once it is loaded.
+//
+// Invariant: same steps at the same ticks as Player's, from the first event after a rest on. There is one object.
+#pragma once
+
+#include "event_ring.hpp"
+#include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/wire/board_segment.hpp"
+#include "registers.hpp"
+#include "serial_line.hpp"
+#include "step_interrupt.hpp"
+
+namespace passo::chip {
+
+class ChipPlayer {
+ public:
+  // What has no pins stands still: the board refuses a host that has more motors.
+  explicit ChipPlayer(uint8_t /*motors*/) {
+    for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
+    expansion.time = 0x8000;
+  }
+
+  // Once, before anything moves.
+  static void prepare() {
+    for (uint8_t i = 0; i < ring_entries; ++i) {
+      const uint16_t next = ring_address + sizeof(EventEntry) * ((i + 1) & ring_mask);
+      entry(i).next_page = static_cast<uint8_t>(next >> 8);
+    }
+    // Free running at the full clock: the interrupt tells when to come back.
+    Tccr1a::write(0);
+    Tccr1b::write(1);
+    fetch_first(0);
+  }
+
+  // Can take the next item.
+  bool ready() const { return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun; }
+  // Nothing is played and nothing waits to be.
+  bool done() const { return left_ == 0 && running == 0 && waiting() == 0; }
+
+  void load(const BoardSegment& segment) {
+    for (uint8_t m = 0; m < pins.motors; ++m) expansion.increments[m] = segment.increments[m];
+    expansion.interval = segment.interval;
+    expansion.change = segment.change;
+    expansion.flips = motor_pins.steps[segment.flips];
+    turns_ = motor_pins.directions[segment.directions ^ directions_];
+    SerialLine::breathe();
+    directions_ = segment.directions;
+    if (running == 0 && waiting() == 0) start_clock();
+    left_ = segment.events;
+    ends_[begun_++ & ends_mask] = static_cast<uint16_t>(made_ + left_);
+  }
+  // An item that takes no time: it is finished with the event before it.
+  void pass() { ends_[begun_++ & ends_mask] = made_; }
+
+  // Items that were finished since the last call.
+  uint8_t take_finished() {
+    if (finished_ == begun_) return 0;
+    const uint16_t played = static_cast<uint16_t>(made_ - waiting());
+    uint8_t count = 0;
+    while (finished_ != begun_ && static_cast<int16_t>(played - ends_[finished_ & ends_mask]) >= 0) {
+      ++finished_;
+      ++count;
+    }
+    return count;
+  }
+
+  // Some events, and a start of the timer where it stands still.
+  void refill() {
+    for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
+    }
+    if (running == 0 && waiting() != 0 && halted == 0) start();
+  }
+
+  // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
+  uint8_t slips() const { return slips_; }
+
+ private:
+  static constexpr const PinMap<3>& pins = uno_cnc_shield;
+  static constexpr char port = 'D';
+  static constexpr MotorPinSets<pins.motors> motor_pins = motor_pin_sets(pins, port);
+  static constexpr uint8_t ends_mask = 7;
+  static constexpr uint8_t most_begun = 8;
+  // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
+  // comes so often that it sees every byte.
+  static constexpr uint8_t most_at_once = 64;
+  static constexpr uint8_t few_at_once = 4;
+  static constexpr uint16_t often = 300;
+  static constexpr uint8_t most_pieces = 8;
+  // From the load of a segment at rest to the moment from which its first interval counts.
+  static constexpr uint16_t start_ticks = 6000;
+  // An alarm nearer than this may be missed.
+  static constexpr uint16_t least_lead = 150;
+
+  // The entry that the interrupt has in its registers, or the one behind the last event.
+  static uint8_t fetched() {
+    uint16_t next;
+    asm volatile("movw %0, r2" : "=r"(next));
+    return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & ring_mask);
+  }
+  uint8_t waiting() const { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
+
+  // Puts an entry into the interrupt's registers. Only while it does not run.
+  static void fetch_first(uint8_t index) {
+    const uint16_t next = ring_address + sizeof(EventEntry) * ((index + 1) & ring_mask);
+    asm volatile("movw r2, %0\n\tmov r5, %1" ::"r"(next), "r"(entry(index).toggles));
+  }
+  static void set_alarm(uint8_t index) {
+    Ocr1ah::write(entry(index).time_high);
+    Ocr1al::write(entry(index).time_low);
+  }
+  static uint16_t now() {
+    const uint8_t low = Tcnt1l::read();
+    return static_cast<uint16_t>(low | Tcnt1h::read() << 8);
+  }
+
+  void start_clock() {
+    const uint16_t fraction = static_cast<uint16_t>(expansion.time);
+    expansion.time = static_cast<uint32_t>(now() + start_ticks) << 16 | fraction;
+    fresh_ = true;
+  }
+
+  // How many events two milliseconds have, in powers of two: 32,768 ticks.
+  uint8_t most_ahead() const {
+    uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
+    uint8_t most = ring_entries - 2;
+    if (high >= 1) most = 64;
+    for (; high > 1; high >>= 1) most >>= 1;
+    return most < 2 ? uint8_t{2} : most;
+  }
+
+  // False where there was nothing to do.
+  bool make_events() {
+    const uint8_t ahead = waiting();
+    const uint8_t most = most_ahead();
+    if (ahead >= most) return false;
+    const bool line_is_watched = running != 0 && fetched() != started_at_ && static_cast<uint16_t>(expansion.interval >> 16) < often;
+    const uint8_t at_once = line_is_watched ? most_at_once : few_at_once;
+    uint8_t count = left_ < at_once ? left_ : at_once;
+    const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
+    if (count > to_end) count = to_end;
+    const uint8_t room = static_cast<uint8_t>(most - ahead);
+    if (count > room) {
+      // Worth the way only if there is room for many, or if few are ahead.
+      if (ahead >= most / 2) return false;
+      count = room;
+    }
+    if (turns_ != 0 && !queue_turn()) return false;
+
+    if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
+    const uint8_t first = head_;
+    const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
+    entry(behind).toggles = pins.flag_special | pins.flag_stop;
+    expansion.address = ring_address + sizeof(EventEntry) * first;
+    SerialLine::breathe();
+    expand(count);
+    SerialLine::breathe();
+    left_ = static_cast<uint8_t>(left_ - count);
+    made_ = static_cast<uint16_t>(made_ + count);
+    head_ = behind;
+    const uint8_t plain = static_cast<uint8_t>(entry(first).toggles & ~(pins.flag_special | pins.flag_stop));
+    // From here on the interrupt may come to it.
+    entry(first).toggles = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
+    turning_ = false;
+    return true;
+  }
+
+  bool queue_turn() {
+    const uint8_t head = static_cast<uint8_t>((turns_head_ + 1) & (turns_address + turns_mask));
+    if (head == turns_tail) return false;
+    *reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_) = turns_;
+    turns_head_ = head;
+    turns_ = 0;
+    turning_ = true;
+    return true;
+  }
+
+  void start() {
+    const uint8_t first = fetched();
+    if (!fresh_) catch_up(first);
+    fresh_ = false;
+    fetch_first(first);
+    started_at_ = first;
+    const uint8_t toggles = entry(first).toggles;
+    if ((toggles & pins.flag_special) != 0) turn_now(toggles);
+    set_alarm(first);
+    Tifr1::write(compare_match_a);
+    running = 1;
+    Timsk1::write(compare_match_a);
+  }
+  void turn_now(uint8_t toggles) {
+    const uint8_t tail = turns_tail;
+    Register<0x29>::write(*reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail));
+    turns_tail = static_cast<uint8_t>((tail + 1) & (turns_address + turns_mask));
+    asm volatile("mov r5, %0" ::"r"(static_cast<uint8_t>(toggles & ~pins.flag_special)));
+  }
+
+  // Where the interrupt stopped before an event that now is late: that one and all behind it come later still.
+  void catch_up(uint8_t first) {
+    const uint16_t due = static_cast<uint16_t>(entry(first).time_high << 8 | entry(first).time_low);
+    const uint16_t ahead = static_cast<uint16_t>(due - now());
+    if (ahead > least_lead && ahead <= gap_) return;  // in time after all
+    ++slips_;
+    const uint16_t later = static_cast<uint16_t>(now() + start_ticks - due);
+    for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
+      const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);
+      entry(i).time_high = static_cast<uint8_t>(time >> 8);
+      entry(i).time_low = static_cast<uint8_t>(time);
+    }
+    expansion.time += static_cast<uint32_t>(later) << 16;
+  }
+
+  uint8_t head_ = 0;        // entry behind the last event
+  uint8_t left_ = 0;        // events of the loaded segment that are not made yet
+  uint8_t turns_ = 0;       // direction pins to turn over before its first event
+  bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
+  uint8_t directions_ = 0;
+  uint8_t turns_head_ = turns_address & 0xff;
+  uint8_t started_at_ = 0;  // entry with which the interrupt began
+  bool fresh_ = false;      // the clock was set for what is in the ring
+  uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
+  uint8_t slips_ = 0;
+  uint16_t made_ = 0;       // events, ever
+  uint8_t begun_ = 0;       // items, ever
+  uint8_t finished_ = 0;
+  uint16_t ends_[most_begun] = {};  // of the items begun: `made_` with their last event
+};
+
+}  // namespace passo::chip

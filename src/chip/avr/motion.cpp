@@ -1,0 +1,62 @@
+// The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
+#include "chip_player.hpp"
+#include "passo/firmware/board.hpp"
+#include "serial_line.hpp"
+
+#ifndef PASSO_BAUD
+#define PASSO_BAUD 500000
+#endif
+
+namespace passo::chip {
+namespace {
+
+constexpr uint32_t clock = 16'000'000;
+constexpr uint8_t queue_capacity = 16;
+
+struct Hardware {
+  void step(uint8_t, uint8_t) {}
+  void outputs(const BoardOutputs&) {}
+  void send(uint8_t byte) { line.send(byte); }
+  void breathe() { SerialLine::breathe(); }
+
+  SerialLine line;
+};
+
+Hardware hardware;
+Board<Hardware, queue_capacity, ChipPlayer> board(hardware, uno_cnc_shield.motors, clock);
+
+void set_pins() {
+  Register<0x2a>::write(uno_cnc_shield.steps_on('D') | uno_cnc_shield.directions_on('D'));
+}
+
+// The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.
+[[gnu::noinline]] void receive() {
+  board.receive(hardware.line.take());
+}
+
+// Once around the loop.
+[[gnu::noinline]] void turn() {
+  hardware.line.poll();
+  // Several: while many events are made, many bytes come.
+  for (uint8_t most = 8; most != 0 && hardware.line.has_byte(); --most) {
+    receive();
+    SerialLine::breathe();
+  }
+  board.player().refill();
+  SerialLine::breathe();
+  board.settle();
+  SerialLine::breathe();
+  if (board.owes_report() && hardware.line.can_send()) board.report();
+}
+
+}  // namespace
+}  // namespace passo::chip
+
+extern "C" int main() {
+  using namespace passo::chip;
+  set_pins();
+  ChipPlayer::prepare();
+  SerialLine::open(clock, PASSO_BAUD);
+  asm volatile("sei");
+  for (;;) turn();
+}

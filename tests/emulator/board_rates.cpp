@@ -1,0 +1,51 @@
+// board_rates: sweeps event rates on the emulated boards and prints what the firmware makes of them, as the table in
+// docs/boards.md. Numbers as arguments are intervals in ticks to try instead.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "emulator/streamed_run.hpp"
+#include "passo/chip/uno_cnc_shield.hpp"
+
+namespace {
+
+using namespace passo;
+
+void sweep(const BoardUnderTest& board, const char* name, const std::vector<std::uint32_t>& intervals) {
+  for (const std::uint32_t interval : intervals) {
+    BoardBench bench(board);
+    std::mt19937_64 random(1);
+    const auto motors = static_cast<std::uint8_t>(board.motors.size());
+    const std::vector<BoardSegment> stream = random_stream(random, motors,
+                                                           {.shortest_interval = interval,
+                                                            .longest_interval = interval + interval / 8,
+                                                            .shortest_segment = 120,
+                                                            .longest_segment = 255,
+                                                            .segments = 100});
+    const EdgeCheck check = bench.play(stream);
+    const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
+    std::printf("| %s | %zu | %u | %.1f | %.1f | %s | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
+                board.baud / 1000, 16000.0 / interval, static_cast<double>(check.events) / check.seconds / 1000,
+                check.exact() ? "yes" : "no", number(check.spread()), number(check.shortest_pulse),
+                number(check.shortest_setup), number(check.overruns));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::uint32_t> intervals;
+  for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
+  if (intervals.empty()) intervals = {400, 200, 160, 145, 130, 114, 107, 100, 95, 90, 85, 80};
+  try {
+    std::puts("| board | motors | kbaud | kHz at the most | in the mean | every edge | error, cycles | pulse | set-up | "
+              "bytes lost |");
+    std::puts("|---|---:|---:|---:|---:|---|---:|---:|---:|---:|");
+    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno", intervals);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "board_rates: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
