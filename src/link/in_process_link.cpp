@@ -6,16 +6,20 @@
 
 namespace passo {
 
-InProcessLink::InProcessLink(BoardPort& port, std::uint8_t motors) : port_(port), motors_(motors) {
+InProcessLink::InProcessLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
+    : port_(port), motors_(motors), care_(care), heard_(port.elapsed()) {
+  decoder_.set_motors(motors);
   say_hello();
+  if (care_.session != 0 && !error_) name_session();
 }
 
 void InProcessLink::say_hello() {
-  std::uint8_t frame[largest_frame];
-  put_on_wire(frame, encode(Hello{.motors = motors_}, last_sent_, frame));
-  while (!board_ && listen()) {
+  while (!board_ && !error_) {
+    say(Hello{.motors = motors_}, std::uint8_t{0});
+    if (!hear() && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
   }
   if (error_) return;
+  free_ = board_->capacity;
   if (board_->version != protocol_version) {
     error_ = LinkError::wrong_version;
   } else if (board_->motors < motors_) {
@@ -23,17 +27,37 @@ void InProcessLink::say_hello() {
   }
 }
 
+void InProcessLink::name_session() {
+  while (!error_ && !(status_ && status_->session == care_.session)) {
+    say(Session{.number = care_.session}, std::uint8_t{0});
+    ask();
+    if (!hear() && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
+  }
+}
+
 void InProcessLink::send(const BoardSegment& segment) {
   assert(segment.events > 0 && std::abs(segment.change) <= largest_change);
-  if (!wait_for_credit()) return;
-  std::uint8_t frame[largest_frame];
-  put_on_wire(frame, encode(segment, motors_, ++last_sent_, frame));
+  wait_for_room();
+  send_counted(segment, motors_);
 }
 
 void InProcessLink::send(const BoardOutputs& outputs) {
-  if (!wait_for_credit()) return;
-  std::uint8_t frame[largest_frame];
-  put_on_wire(frame, encode(outputs, ++last_sent_, frame));
+  wait_for_room();
+  send_counted(outputs);
+}
+
+ItemNumber InProcessLink::replace(ItemNumber after, std::span<const LinkItem> items) {
+  assert(!items.empty() && room() >= static_cast<int>(items.size()));
+  send_counted(Replace{.after = after, .count = static_cast<std::uint8_t>(items.size())});
+  const auto first = static_cast<ItemNumber>(sent_ + 1);
+  for (const LinkItem& item : items) {
+    if (const auto* segment = std::get_if<BoardSegment>(&item)) {
+      send_counted(*segment, motors_);
+    } else {
+      send_counted(std::get<BoardOutputs>(item));
+    }
+  }
+  return first;
 }
 
 void InProcessLink::drain() {
@@ -42,39 +66,146 @@ void InProcessLink::drain() {
 }
 
 void InProcessLink::wait() {
-  const std::uint8_t before = last_executed_;
-  while (!error_ && busy() && last_executed_ == before && listen()) {
+  news_ = false;
+  while (!error_ && !news_ && listen()) {
   }
 }
 
-bool InProcessLink::wait_for_credit() {
-  while (!error_ && under_way() >= board_->capacity && listen()) {
+void InProcessLink::wait_for_room() {
+  while (!error_ && room() <= 0 && listen()) {
   }
-  return !error_;
 }
 
-// Hears what the board has to say; where that is nothing, lets it go on until it does. False when it stays silent.
+// Waits for what the board has to say, for as long as it may take. False when it is no use to wait any longer.
 bool InProcessLink::listen() {
-  std::span<const std::uint8_t> bytes = port_.replies();
-  if (bytes.empty() && port_.run()) bytes = port_.replies();
-  if (bytes.empty()) error_ = LinkError::no_answer;
-  for (const std::uint8_t byte : bytes) {
-    if (decoder_.feed(byte) == Decoded::frame) take(decoder_.frame());
+  const bool heard = hear();
+  if (error_) return false;
+  if (!may_lose()) {
+    if (!heard) error_ = LinkError::no_answer;
+  } else if (port_.elapsed() - heard_ > care_.patience) {
+    error_ = LinkError::no_answer;
+  } else if (!heard || overdue()) {
+    ask();
   }
   return !error_;
+}
+
+bool InProcessLink::hear() {
+  std::span<const std::uint8_t> bytes = port_.replies();
+  if (bytes.empty() && port_.run(care_.answer_within)) bytes = port_.replies();
+  for (const std::uint8_t byte : bytes) {
+    if (decoder_.feed(byte) != Decoded::frame) continue;
+    heard_ = port_.elapsed();
+    take(decoder_.frame());
+  }
+  return !bytes.empty();
+}
+
+// It takes too long until the board has what was sent.
+bool InProcessLink::overdue() const {
+  return !kept_.empty() && port_.elapsed() - moved_on_ > care_.answer_within;
+}
+
+void InProcessLink::ask() {
+  moved_on_ = port_.elapsed();
+  say(Ask{.motors = motors_}, std::uint8_t{0});
 }
 
 void InProcessLink::take(const WireFrame& frame) {
   switch (frame.type) {
-    case MessageType::hello_reply: decode(frame, board_.emplace()); break;
+    case MessageType::hello_reply: return decode(frame, board_.emplace());
     case MessageType::credit: {
       Credit credit;
       decode(frame, credit);
-      last_executed_ = credit.executed;
-      break;
+      return take(credit);
     }
+    case MessageType::status: {
+      BoardStatus status;
+      decode(frame, motors_, status);
+      return take(status);
+    }
+    case MessageType::error: {
+      ErrorReport error;
+      decode(frame, error);
+      return take(error);
+    }
+    case MessageType::fault: error_ = LinkError::stopped; break;
+    case MessageType::captured:
+    case MessageType::about: break;
     default: error_ = LinkError::refused; break;
   }
+}
+
+// One that was overtaken by a later one tells nothing.
+void InProcessLink::take(const Credit& credit) {
+  const int more = later_by(credit.executed, executed_);
+  if (more < 0 || later_by(credit.executed, sent_) > 0) return;
+  const ItemNumber before = taken_;
+  note_taken(credit.taken);
+  if (static_cast<std::uint8_t>(taken_) != credit.taken) return;
+  if (more == 0 && taken_ == before && credit.free <= free_) return;
+  executed_ = credit.executed;
+  free_ = credit.free;
+  news_ = true;
+}
+
+void InProcessLink::take(const BoardStatus& status) {
+  status_ = status;
+  if (care_.session == 0 || status.session != care_.session) {
+    // Before the board has heard of the session it is no wonder.
+    if (care_.session != 0 && sent_ != 0) error_ = LinkError::was_reset;
+    return;
+  }
+  if ((status.state & board_trusted) == 0) error_ = LinkError::stopped;
+  take(Credit{.executed = status.executed, .taken = status.taken, .free = status.free});
+  repeat();
+}
+
+void InProcessLink::take(const ErrorReport& error) {
+  switch (error.reason) {
+    case WireError::bad_frame:
+    case WireError::out_of_sequence:
+    case WireError::queue_full:
+      if (!may_lose()) break;
+      note_taken(static_cast<std::uint8_t>(error.expected - 1));
+      return repeat();
+    case WireError::too_late: return;  // what is executed will tell
+    default: break;
+  }
+  error_ = LinkError::refused;
+}
+
+// `sequence`: the low byte of a number between the last one known to be taken and the last one sent; else it is old.
+void InProcessLink::note_taken(std::uint8_t sequence) {
+  const auto more = static_cast<std::uint8_t>(sequence - static_cast<std::uint8_t>(taken_));
+  if (more == 0 || more > later_by(sent_, taken_)) return;
+  taken_ = static_cast<ItemNumber>(taken_ + more);
+  moved_on_ = port_.elapsed();
+  news_ = true;
+  while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
+}
+
+// All that the board does not have, in order.
+void InProcessLink::repeat() {
+  if (error_) return;
+  for (const Frame& frame : kept_) put_on_wire(frame.bytes, frame.size);
+  frames_repeated_ += kept_.size();
+}
+
+template <class Message, class... More>
+void InProcessLink::say(const Message& message, More... more) {
+  std::uint8_t frame[largest_frame];
+  put_on_wire(frame, encode(message, more..., frame));
+}
+
+template <class Message, class... More>
+void InProcessLink::send_counted(const Message& message, More... more) {
+  if (error_) return;
+  Frame frame{.number = ++sent_};
+  frame.size = encode(message, more..., static_cast<std::uint8_t>(sent_), frame.bytes);
+  if (may_lose()) kept_.push_back(frame);
+  moved_on_ = port_.elapsed();
+  put_on_wire(frame.bytes, frame.size);
 }
 
 void InProcessLink::put_on_wire(const std::uint8_t* frame, std::uint8_t size) {

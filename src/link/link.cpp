@@ -5,9 +5,12 @@ namespace passo {
 std::string_view message_of(LinkError error) {
   switch (error) {
     case LinkError::no_answer: return "the board does not answer";
-    case LinkError::wrong_version: return "the board speaks another version of the protocol";
+    case LinkError::wrong_version:
+      return "the board speaks another version of the protocol: its firmware and passo must be of one version";
     case LinkError::too_few_motors: return "the board has fewer motors than the machine has axes";
     case LinkError::refused: return "the board refused what was sent to it";
+    case LinkError::was_reset: return "the board was reset, and does not know any more where the motors are";
+    case LinkError::stopped: return "the board has stopped its motors at once, and where they are is not certain";
   }
   return "the link to the board failed";
 }

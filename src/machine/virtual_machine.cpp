@@ -8,23 +8,38 @@
 namespace passo {
 
 VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock)
-    : board_(hardware_, motors, static_cast<std::uint32_t>(std::llround(clock.value()))), motor_count_(motors) {}
+    : board_(hardware_, {.motors = motors,
+                         .clock = static_cast<std::uint32_t>(std::llround(clock.value())),
+                         .about = {.name = "virtual machine"}}),
+      clock_(clock),
+      motor_count_(motors) {}
 
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
+  if (board_.idle()) waits_ = false;  // it may have been stopped before its event
   for (const std::uint8_t byte : bytes) board_.receive(byte);
   if (board_.owes_report()) board_.report();
 }
 
-bool VirtualMachine::run() {
+bool VirtualMachine::run(Seconds most) {
+  const double ticks = clock_ * most;
+  const bool bounded = ticks < 9e18;
+  const std::int64_t end = bounded ? hardware_.now + std::llround(ticks) : INT64_MAX;
   while (hardware_.to_host.empty() && !board_.idle()) {
-    const std::int64_t interval = board_.ticks_to_next_event();
-    shortest_event_interval_ = std::min(shortest_event_interval_, interval);
-    hardware_.now += interval;
+    if (!waits_) {
+      const std::int64_t interval = board_.ticks_to_next_event();
+      shortest_event_interval_ = std::min(shortest_event_interval_, interval);
+      next_event_ = hardware_.now + interval;
+    }
+    waits_ = next_event_ > end;
+    if (waits_) break;
+    hardware_.now = next_event_;
     ++events_;
     board_.on_event();
     if (board_.owes_report()) board_.report();
   }
-  return !hardware_.to_host.empty();
+  if (!hardware_.to_host.empty()) return true;
+  if (bounded) hardware_.now = end;
+  return false;
 }
 
 void VirtualMachine::wait(Ticks time) {

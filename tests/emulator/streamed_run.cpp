@@ -67,7 +67,7 @@ void BoardBench::hear(std::uint8_t byte) {
   } else if (frame.type == MessageType::credit) {
     Credit credit;
     decode(frame, credit);
-    last_executed_ = credit.executed;
+    last_executed_ = static_cast<std::uint8_t>(credit.executed);
   } else {
     ++complaints_;
   }

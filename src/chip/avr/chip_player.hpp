@@ -4,7 +4,8 @@
 // whichever is less: what is in the ring will be played, so a slow motion must not have seconds in it. A segment counts
 // as begun once it is loaded.
 //
-// Invariant: same steps at the same ticks as Player's, from the first event after a rest on. There is one object.
+// Invariant: same steps at the same ticks as Player's, from the first event after a rest on. There is one, and all of it is static: what
+// lies at a fixed address costs half of what lies behind a pointer.
 #pragma once
 
 #include "event_ring.hpp"
@@ -18,10 +19,29 @@ namespace passo::chip {
 
 class ChipPlayer {
  public:
-  // What has no pins stands still: the board refuses a host that has more motors.
-  explicit ChipPlayer(uint8_t /*motors*/) {
+  explicit ChipPlayer(uint8_t /*motors*/) {}
+
+  // At once, whatever it played is broken off. Motors without pins stand still: the board refuses a host with more.
+  static void restart(uint8_t /*motors*/) {
+    Timsk1::write(0);
+    running = 0;
+    head_ = fetched();
+    entry(head_).toggles = pins.flag_special | pins.flag_stop;
+    turns_head_ = turns_tail;
+    turns_ = left_ = 0;
+    turning_ = fresh_ = false;
+    made_ = 0;
+    begun_ = finished_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
+    for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
     expansion.time = 0x8000;
+    // Where the pins are; a turn that was queued may not have been made.
+    directions_ = 0;
+    for (uint8_t m = 0; m < pins.motors; ++m) {
+      if ((Register<0x2b>::read() & pins.motor[m].direction.mask()) != 0) {
+        directions_ = static_cast<uint8_t>(directions_ | 1U << m);
+      }
+    }
   }
 
   // Once, before anything moves.
@@ -37,11 +57,11 @@ class ChipPlayer {
   }
 
   // Can take the next item.
-  bool ready() const { return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun; }
+  static bool ready() { return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun; }
   // Nothing is played and nothing waits to be.
-  bool done() const { return left_ == 0 && running == 0 && waiting() == 0; }
+  static bool done() { return left_ == 0 && running == 0 && waiting() == 0; }
 
-  void load(const BoardSegment& segment) {
+  static void load(const BoardSegment& segment) {
     for (uint8_t m = 0; m < pins.motors; ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
@@ -51,38 +71,85 @@ class ChipPlayer {
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
     left_ = segment.events;
-    ends_[begun_++ & ends_mask] = static_cast<uint16_t>(made_ + left_);
+    remember(segment);
   }
   // An item that takes no time: it is finished with the event before it.
-  void pass() { ends_[begun_++ & ends_mask] = made_; }
+  static void pass() {
+    Item& item = items_[begun_++ & items_mask];
+    item.end = made_;
+    item.events = 0;
+  }
 
-  // Items that were finished since the last call.
-  uint8_t take_finished() {
-    if (finished_ == begun_) return 0;
-    const uint16_t played = static_cast<uint16_t>(made_ - waiting());
-    uint8_t count = 0;
-    while (finished_ != begun_ && static_cast<int16_t>(played - ends_[finished_ & ends_mask]) >= 0) {
-      ++finished_;
-      ++count;
+  [[gnu::noinline]] static void remember(const BoardSegment& segment) {
+    Item& item = items_[begun_++ & items_mask];
+    item.end = static_cast<uint16_t>(made_ + left_);
+    item.events = segment.events;
+    item.directions = segment.directions;
+    item.flips = segment.flips;
+    for (uint8_t m = 0; m < pins.motors; ++m) item.increments[m] = segment.increments[m];
+  }
+
+  // The oldest item that it has is done.
+  static bool finished() { return finished_ != begun_ && left_of_oldest() <= 0; }
+  static void forget() {
+    const Item& item = items_[finished_ & items_mask];
+    if (item.events != 0) {
+      for (uint8_t m = 0; m < pins.motors; ++m) {
+        at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
+      }
     }
+    ++finished_;
+  }
+  // Of the oldest item: the events played, and the steps that a motor has made in them, down or up.
+  static uint8_t played() {
+    const uint8_t events = items_[finished_ & items_mask].events;
+    const int16_t left = left_of_oldest();
+    return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
+  }
+  [[gnu::noinline]] static int16_t steps(uint8_t motor) {
+    const Item& item = items_[finished_ & items_mask];
+    const uint8_t bit = static_cast<uint8_t>(1U << motor);
+    const uint8_t events = played();
+    int16_t steps = carries(at_start_[motor], item.increments[motor], events);
+    SerialLine::breathe();
+    if ((item.flips & bit) != 0) steps = static_cast<int16_t>(events - steps);
+    return (item.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
+  }
+
+  // Additions of `increment` to `accumulator` that overflow. A 16 by 8 bit product, for which LLVM calls one of 32 bits.
+  static uint8_t carries(uint16_t accumulator, uint16_t increment, uint8_t events) {
+    uint8_t count;
+    asm volatile(
+        "mul %A2, %3\n\t"
+        "add %A1, r0\n\t"
+        "adc %B1, r1\n\t"
+        "clr %0\n\t"
+        "adc %0, %0\n\t"
+        "mul %B2, %3\n\t"
+        "add %B1, r0\n\t"
+        "adc %0, r1\n\t"
+        "clr r1"
+        : "=&r"(count), "+r"(accumulator)
+        : "r"(increment), "r"(events)
+        : "r0");
     return count;
   }
 
   // Some events, and a start of the timer where it stands still.
-  void refill() {
+  static void refill() {
     for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
   }
 
   // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
-  uint8_t slips() const { return slips_; }
+  static uint8_t slips() { return slips_; }
 
  private:
   static constexpr const PinMap<3>& pins = uno_cnc_shield;
   static constexpr char port = 'D';
   static constexpr MotorPinSets<pins.motors> motor_pins = motor_pin_sets(pins, port);
-  static constexpr uint8_t ends_mask = 7;
+  static constexpr uint8_t items_mask = 7;
   static constexpr uint8_t most_begun = 8;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
@@ -95,13 +162,26 @@ class ChipPlayer {
   // An alarm nearer than this may be missed.
   static constexpr uint16_t least_lead = 150;
 
+  // What it has begun and not finished.
+  struct Item {
+    uint16_t end;  // `made_` with its last event
+    uint8_t events;
+    uint8_t directions;
+    uint8_t flips;
+    uint16_t increments[pins.motors];
+  };
+
   // The entry that the interrupt has in its registers, or the one behind the last event.
   static uint8_t fetched() {
     uint16_t next;
     asm volatile("movw %0, r2" : "=r"(next));
     return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & ring_mask);
   }
-  uint8_t waiting() const { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
+  // Events of the oldest item, and of none before it, that are not played yet.
+  static int16_t left_of_oldest() {
+    return static_cast<int16_t>(items_[finished_ & items_mask].end - static_cast<uint16_t>(made_ - waiting()));
+  }
+  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
 
   // Puts an entry into the interrupt's registers. Only while it does not run.
   static void fetch_first(uint8_t index) {
@@ -117,14 +197,14 @@ class ChipPlayer {
     return static_cast<uint16_t>(low | Tcnt1h::read() << 8);
   }
 
-  void start_clock() {
+  static void start_clock() {
     const uint16_t fraction = static_cast<uint16_t>(expansion.time);
     expansion.time = static_cast<uint32_t>(now() + start_ticks) << 16 | fraction;
     fresh_ = true;
   }
 
   // How many events two milliseconds have, in powers of two: 32,768 ticks.
-  uint8_t most_ahead() const {
+  static uint8_t most_ahead() {
     uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
     uint8_t most = ring_entries - 2;
     if (high >= 1) most = 64;
@@ -133,7 +213,7 @@ class ChipPlayer {
   }
 
   // False where there was nothing to do.
-  bool make_events() {
+  static bool make_events() {
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead();
     if (ahead >= most) return false;
@@ -168,7 +248,7 @@ class ChipPlayer {
     return true;
   }
 
-  bool queue_turn() {
+  static bool queue_turn() {
     const uint8_t head = static_cast<uint8_t>((turns_head_ + 1) & (turns_address + turns_mask));
     if (head == turns_tail) return false;
     *reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_) = turns_;
@@ -178,7 +258,7 @@ class ChipPlayer {
     return true;
   }
 
-  void start() {
+  static void start() {
     const uint8_t first = fetched();
     if (!fresh_) catch_up(first);
     fresh_ = false;
@@ -191,7 +271,7 @@ class ChipPlayer {
     running = 1;
     Timsk1::write(compare_match_a);
   }
-  void turn_now(uint8_t toggles) {
+  static void turn_now(uint8_t toggles) {
     const uint8_t tail = turns_tail;
     Register<0x29>::write(*reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail));
     turns_tail = static_cast<uint8_t>((tail + 1) & (turns_address + turns_mask));
@@ -199,7 +279,7 @@ class ChipPlayer {
   }
 
   // Where the interrupt stopped before an event that now is late: that one and all behind it come later still.
-  void catch_up(uint8_t first) {
+  static void catch_up(uint8_t first) {
     const uint16_t due = static_cast<uint16_t>(entry(first).time_high << 8 | entry(first).time_low);
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     if (ahead > least_lead && ahead <= gap_) return;  // in time after all
@@ -213,20 +293,22 @@ class ChipPlayer {
     expansion.time += static_cast<uint32_t>(later) << 16;
   }
 
-  uint8_t head_ = 0;        // entry behind the last event
-  uint8_t left_ = 0;        // events of the loaded segment that are not made yet
-  uint8_t turns_ = 0;       // direction pins to turn over before its first event
-  bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
-  uint8_t directions_ = 0;
-  uint8_t turns_head_ = turns_address & 0xff;
-  uint8_t started_at_ = 0;  // entry with which the interrupt began
-  bool fresh_ = false;      // the clock was set for what is in the ring
-  uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
-  uint8_t slips_ = 0;
-  uint16_t made_ = 0;       // events, ever
-  uint8_t begun_ = 0;       // items, ever
-  uint8_t finished_ = 0;
-  uint16_t ends_[most_begun] = {};  // of the items begun: `made_` with their last event
+  static inline uint8_t head_ = 0;        // entry behind the last event
+  static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
+  static inline uint8_t turns_ = 0;       // direction pins to turn over before its first event
+  static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
+  static inline uint8_t directions_ = 0;
+  static inline uint8_t turns_head_ = turns_address & 0xff;
+  static inline uint8_t started_at_ = 0;  // entry with which the interrupt began
+  static inline bool fresh_ = false;      // the clock was set for what is in the ring
+  static inline uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
+  static inline uint8_t slips_ = 0;
+  static inline uint16_t made_ = 0;       // events, ever
+  static inline uint8_t begun_ = 0;       // items, ever
+  static inline uint8_t finished_ = 0;
+
+  static inline Item items_[most_begun];
+  static inline uint16_t at_start_[pins.motors] = {};  // the accumulators before the oldest item
 };
 
 }  // namespace passo::chip

@@ -23,7 +23,12 @@ struct Hardware {
 };
 
 Hardware hardware;
-Board<Hardware, queue_capacity, ChipPlayer> board(hardware, uno_cnc_shield.motors, clock);
+constexpr BoardIdentity identity = {
+    .motors = uno_cnc_shield.motors,
+    .clock = clock,
+    .reset = ResetCause::power_on,
+    .about = {.firmware = 100, .highest_event_rate = 125'000, .baud = 500'000, .name = "uno cnc3"}};
+Board<Hardware, queue_capacity, ChipPlayer> board(hardware, identity);
 
 void set_pins() {
   Register<0x2a>::write(uno_cnc_shield.steps_on('D') | uno_cnc_shield.directions_on('D'));
@@ -56,6 +61,7 @@ extern "C" int main() {
   using namespace passo::chip;
   set_pins();
   ChipPlayer::prepare();
+  board.player().restart(0);
   SerialLine::open(clock, PASSO_BAUD);
   asm volatile("sei");
   for (;;) turn();

@@ -74,8 +74,8 @@ class SerialLine {
                  : "r24", "r25", "r30", "r31", "memory");
   }
 
-  static constexpr uint8_t out_mask = 31;
-  static constexpr uint8_t longest = 13;  // a hello's reply
+  static constexpr uint8_t out_mask = 63;
+  static constexpr uint8_t longest = 32;  // about, or a status with three motors
 
   uint8_t taken_ = 0;
   uint8_t out_[out_mask + 1] = {};

@@ -19,7 +19,7 @@ class ScriptedBoard final : public BoardPort {
       if (decoder_.feed(byte) == Decoded::frame) take(decoder_.frame());
     }
   }
-  bool run() override {
+  bool run(Seconds) override {
     ++runs;
     if (queue.empty() || stuck) return !to_host_.empty();
     executed.push_back(queue.front());
@@ -27,10 +27,13 @@ class ScriptedBoard final : public BoardPort {
     if (refusing) {
       say(ErrorReport{.reason = WireError::bad_value});
     } else {
-      say(Credit{.executed = executed.back(), .free = static_cast<std::uint8_t>(identity.capacity - queue.size())});
+      say(Credit{.executed = executed.back(),
+                 .taken = last_,
+                 .free = static_cast<std::uint8_t>(identity.capacity - queue.size())});
     }
     return true;
   }
+  Seconds elapsed() const override { return Seconds(0); }
   std::span<const std::uint8_t> replies() override {
     taken_.clear();
     taken_.swap(to_host_);
@@ -41,8 +44,8 @@ class ScriptedBoard final : public BoardPort {
   bool silent = false;    // does not answer a hello
   bool stuck = false;     // plays nothing
   bool refusing = false;  // complains of what it plays
-  std::deque<std::uint8_t> queue;
-  std::vector<std::uint8_t> executed;
+  std::deque<std::uint16_t> queue;
+  std::vector<std::uint16_t> executed;
   std::vector<BoardSegment> segments;
   std::vector<BoardOutputs> outputs;
   std::size_t most_queued = 0;
@@ -63,7 +66,8 @@ class ScriptedBoard final : public BoardPort {
     }
     if (frame.type == MessageType::segment) decode(frame, motors_, segments.emplace_back());
     if (frame.type == MessageType::outputs) decode(frame, outputs.emplace_back());
-    queue.push_back(frame.sequence);
+    last_ = frame.sequence;
+    queue.push_back(++number_);
     most_queued = std::max(most_queued, queue.size());
   }
   template <class Message>
@@ -75,6 +79,8 @@ class ScriptedBoard final : public BoardPort {
 
   Decoder decoder_;
   std::uint8_t motors_ = 0;
+  std::uint8_t last_ = 0;     // sequence number
+  std::uint16_t number_ = 0;  // of the last item
   std::vector<std::uint8_t> to_host_;
   std::vector<std::uint8_t> taken_;
 };
@@ -110,7 +116,7 @@ TEST(InProcessLink, carries_every_item_in_order) {
   EXPECT_EQ(board.outputs[9].spindle_rpm, 900);
   ASSERT_EQ(board.executed.size(), 1010U);
   for (std::size_t i = 0; i < board.executed.size(); ++i) {
-    ASSERT_EQ(board.executed[i], static_cast<std::uint8_t>(i + 1));
+    ASSERT_EQ(board.executed[i], i + 1);
   }
 }
 
@@ -163,7 +169,7 @@ TEST(InProcessLink, tells_when_the_board_comes_to_a_halt_with_items_under_way) {
 
 TEST(InProcessLink, does_not_go_on_with_a_board_that_does_not_suit) {
   ScriptedBoard other_version;
-  other_version.identity.version = 2;
+  other_version.identity.version = 1;
   EXPECT_EQ(InProcessLink(other_version, 3).error(), LinkError::wrong_version);
   ScriptedBoard small;
   small.identity.motors = 2;
@@ -182,8 +188,8 @@ TEST(InProcessLink, stops_at_the_first_item_that_the_board_refuses) {
 
 TEST(LinkError, has_a_sentence_for_each_reason) {
   std::vector<std::string_view> sentences;
-  for (const LinkError error :
-       {LinkError::no_answer, LinkError::wrong_version, LinkError::too_few_motors, LinkError::refused}) {
+  for (const LinkError error : {LinkError::no_answer, LinkError::wrong_version, LinkError::too_few_motors,
+                                LinkError::refused, LinkError::was_reset, LinkError::stopped}) {
     sentences.push_back(message_of(error));
   }
   std::sort(sentences.begin(), sentences.end());

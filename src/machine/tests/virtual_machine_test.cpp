@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <random>
 #include <string>
 #include <tuple>
@@ -15,6 +16,7 @@ namespace passo {
 namespace {
 
 constexpr Hertz clock{16e6};
+constexpr Seconds forever{std::numeric_limits<double>::infinity()};
 
 // Motor 0 steps at every event, up or down.
 BoardSegment every_event(std::uint8_t events, std::uint32_t ticks, bool down = false) {
@@ -44,7 +46,7 @@ class Recorder final : public MachineObserver {
 
 TEST(VirtualMachine, stands_still_until_it_is_told_to_move) {
   VirtualMachine machine(3, clock);
-  EXPECT_FALSE(machine.run());
+  EXPECT_FALSE(machine.run(forever));
   const MachineCounts counts = machine.counts();
   EXPECT_EQ(counts.motor_count, 3);
   EXPECT_EQ(counts.time.count, 0);

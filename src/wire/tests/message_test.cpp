@@ -1,5 +1,9 @@
 #include "passo/wire/message.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
 #include "random_messages.hpp"
 
 #include "passo/wire/decoder.hpp"
@@ -65,8 +69,9 @@ TEST(Message, all_others_keep_every_field_too) {
   EXPECT_EQ(reply.clock, 0xF4240A5U);
 
   Credit credit;
-  decode(carried(frame, encode(Credit{.executed = 0xA5, .free = 31}, 4, frame)), credit);
-  EXPECT_EQ(credit.executed, 0xA5);
+  decode(carried(frame, encode(Credit{.executed = 0x12A5, .taken = 0xA6, .free = 31}, 4, frame)), credit);
+  EXPECT_EQ(credit.executed, 0x12A5);
+  EXPECT_EQ(credit.taken, 0xA6);
   EXPECT_EQ(credit.free, 31);
 
   ErrorReport error;
@@ -74,6 +79,54 @@ TEST(Message, all_others_keep_every_field_too) {
   decode(carried(frame, encode(sent, 5, frame)), error);
   EXPECT_EQ(error.reason, WireError::out_of_sequence);
   EXPECT_EQ(error.expected, 0xA5);
+}
+
+TEST(Message, what_version_2_brings_keeps_every_field) {
+  const std::uint64_t seed = test::seed();
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
+  RandomMessages random(seed);
+  for (int i = 0; i < 2000; ++i) {
+    std::uint8_t frame[largest_frame];
+    const auto motors = static_cast<std::uint8_t>(1 + i % max_motors);
+    const BoardStatus status = random.status();
+    BoardStatus heard;
+    decode(carried(frame, encode(status, motors, 1, frame), motors), motors, heard);
+    ASSERT_EQ(std::tie(heard.session, heard.executed, heard.taken, heard.free, heard.event, heard.state),
+              std::tie(status.session, status.executed, status.taken, status.free, status.event, status.state));
+    ASSERT_EQ(std::tie(heard.reset, heard.motors, heard.inputs), std::tie(status.reset, status.motors, status.inputs));
+    for (unsigned m = 0; m < max_motors; ++m) ASSERT_EQ(heard.positions[m], m < motors ? status.positions[m] : 0);
+
+    const Captured captured = random.captured();
+    Captured seen;
+    decode(carried(frame, encode(captured, motors, 2, frame), motors), motors, seen);
+    ASSERT_EQ(std::tie(seen.input, seen.item, seen.event), std::tie(captured.input, captured.item, captured.event));
+    for (unsigned m = 0; m < max_motors; ++m) ASSERT_EQ(seen.positions[m], m < motors ? captured.positions[m] : 0);
+
+    const About about = random.about();
+    About read;
+    decode(carried(frame, encode(about, 3, frame)), read);
+    ASSERT_EQ(std::tie(read.firmware, read.highest_event_rate, read.baud),
+              std::tie(about.firmware, about.highest_event_rate, about.baud));
+    ASSERT_TRUE(std::equal(std::begin(about.name), std::end(about.name), std::begin(read.name)));
+
+    const Replace replace{.after = random.word(), .count = random.byte()};
+    Replace told;
+    decode(carried(frame, encode(replace, 4, frame)), told);
+    ASSERT_EQ(std::tie(told.after, told.count), std::tie(replace.after, replace.count));
+
+    const Fault fault{.reason = FaultReason::limit, .event = random.byte(), .executed = random.word()};
+    Fault known;
+    decode(carried(frame, encode(fault, 5, frame)), known);
+    ASSERT_EQ(std::tie(known.reason, known.event, known.executed), std::tie(fault.reason, fault.event, fault.executed));
+
+    Session session;
+    decode(carried(frame, encode(Session{.number = replace.after}, 6, frame)), session);
+    ASSERT_EQ(session.number, replace.after);
+    Ask ask;
+    decode(carried(frame, encode(Ask{.motors = motors, .question = Question::about}, 7, frame)), ask);
+    ASSERT_EQ(std::tie(ask.version, ask.motors), std::tie(protocol_version, motors));
+    ASSERT_EQ(ask.question, Question::about);
+  }
 }
 
 TEST(Message, carries_its_sequence_number_even_where_that_is_a_sync_byte) {

@@ -43,12 +43,39 @@ class RandomMessages {
     return segment;
   }
 
+  std::int32_t position() { return static_cast<std::int32_t>(static_cast<std::uint32_t>(word()) << 16 | word()); }
+  BoardStatus status() {
+    BoardStatus status{.session = word(),
+                       .executed = word(),
+                       .taken = byte(),
+                       .free = byte(),
+                       .event = byte(),
+                       .state = byte(),
+                       .reset = static_cast<ResetCause>(byte()),
+                       .motors = byte(),
+                       .inputs = word()};
+    for (std::int32_t& place : status.positions) place = position();
+    return status;
+  }
+  Captured captured() {
+    Captured captured{.input = word(), .item = byte(), .event = byte()};
+    for (std::int32_t& place : captured.positions) place = position();
+    return captured;
+  }
+  About about() {
+    About about{.firmware = word(),
+                .highest_event_rate = static_cast<std::uint32_t>(position()),
+                .baud = static_cast<std::uint32_t>(position())};
+    for (char& letter : about.name) letter = static_cast<char>(byte());
+    return about;
+  }
+
   // A frame of any kind.
   Bytes frame(std::uint8_t motors) {
     std::array<std::uint8_t, largest_frame> frame{};
     std::uint8_t size = 0;
     const std::uint8_t sequence = byte();
-    switch (below(8)) {
+    switch (below(16)) {
       case 0: size = encode(Hello{.version = byte(), .motors = byte()}, sequence, frame.data()); break;
       case 1: size = encode(BoardOutputs{.switches = byte(), .spindle_rpm = word()}, sequence, frame.data()); break;
       case 2: {
@@ -59,12 +86,31 @@ class RandomMessages {
         size = encode(reply, sequence, frame.data());
         break;
       }
-      case 3: size = encode(Credit{.executed = byte(), .free = byte()}, sequence, frame.data()); break;
+      case 3: {
+        const Credit credit{.executed = word(), .taken = byte(), .free = byte()};
+        size = encode(credit, sequence, frame.data());
+        break;
+      }
       case 4: {
         const ErrorReport error{.reason = static_cast<WireError>(byte()), .expected = byte()};
         size = encode(error, sequence, frame.data());
         break;
       }
+      case 5: size = encode(Session{.number = word()}, sequence, frame.data()); break;
+      case 6: size = encode(Replace{.after = word(), .count = byte()}, sequence, frame.data()); break;
+      case 7: {
+        const Ask ask{.version = byte(), .motors = byte(), .question = static_cast<Question>(byte())};
+        size = encode(ask, sequence, frame.data());
+        break;
+      }
+      case 8: size = encode(status(), motors, sequence, frame.data()); break;
+      case 9: size = encode(captured(), motors, sequence, frame.data()); break;
+      case 10: {
+        const Fault fault{.reason = static_cast<FaultReason>(byte()), .event = byte(), .executed = word()};
+        size = encode(fault, sequence, frame.data());
+        break;
+      }
+      case 11: size = encode(about(), sequence, frame.data()); break;
       default: size = encode(segment(motors), motors, sequence, frame.data()); break;
     }
     return {frame.begin(), frame.begin() + size};

@@ -26,15 +26,34 @@ std::vector<std::string> example_session() {
   const auto line = [&](std::uint8_t size) { lines.push_back(hex(frame, size)); };
   line(encode(Hello{.motors = 2}, 0, frame));
   line(encode(HelloReply{.motors = 4, .capacity = 32, .clock = 16'000'000}, 0, frame));
+  line(encode(Session{.number = 0x1234}, 0, frame));
+  line(encode(Ask{.motors = 2, .question = Question::about}, 0, frame));
+  line(encode(About{.firmware = 100, .highest_event_rate = 140'000, .baud = 1'000'000, .name = "uno cnc3"}, 1, frame));
   line(encode(BoardOutputs{.switches = spindle_on | flood_on, .spindle_rpm = 12000}, 1, frame));
-  // 200 events, the first after 160.5 ticks and each next one a 256th of a tick sooner: X down at every event, Y up at
-  // 0x4BA5/65536 of them.
+  line(encode(Credit{.executed = 1, .taken = 1, .free = 32}, 2, frame));
+  // Behind item 1: 200 events, the first after 160.5 ticks and each next one a 256th of a tick sooner: X down at every
+  // event, Y up at 0x4BA5/65536 of them. Then a tail that brings both to rest.
   const BoardSegment segment{
       .events = 200, .directions = 1, .flips = 1, .interval = 0x00A08000, .change = -256, .increments = {0, 0x4BA5}};
-  line(encode(segment, 2, 2, frame));
-  line(encode(Credit{.executed = 1, .free = 31}, 1, frame));
-  line(encode(Credit{.executed = 2, .free = 32}, 2, frame));
-  line(encode(ErrorReport{.reason = WireError::out_of_sequence, .expected = 3}, 3, frame));
+  const BoardSegment tail{
+      .events = 50, .directions = 1, .flips = 1, .interval = 0x009FB800, .change = 0x40000, .increments = {0, 0x4BA5}};
+  line(encode(Replace{.after = 1, .count = 2}, 2, frame));
+  line(encode(segment, 2, 3, frame));
+  line(encode(tail, 2, 4, frame));
+  line(encode(Credit{.executed = 1, .taken = 4, .free = 30}, 3, frame));
+  line(encode(ErrorReport{.reason = WireError::out_of_sequence, .expected = 5}, 4, frame));
+  line(encode(Credit{.executed = 3, .taken = 4, .free = 31}, 5, frame));
+  line(encode(Credit{.executed = 4, .taken = 4, .free = 32}, 6, frame));
+  line(encode(Ask{.motors = 2}, 0, frame));
+  const BoardStatus status{.session = 0x1234,
+                           .executed = 4,
+                           .taken = 4,
+                           .free = 32,
+                           .state = board_trusted,
+                           .motors = 2,
+                           .inputs = input_probe,
+                           .positions = {-250, 74}};
+  line(encode(status, 2, 7, frame));
   return lines;
 }
 

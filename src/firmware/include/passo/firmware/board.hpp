@@ -1,11 +1,9 @@
 // Board: the program of the control board, without its hardware. Bytes come in, steps go out.
 //
-// Takes frames off the wire, keeps what they bring in a bounded queue, and plays it in order through a player. Two
-// sides use it: receive(), settle() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event()
-// to the timer. A chip's player runs ahead: it makes events of the segments before their time and has an interrupt of
-// its own that plays them; there only the main loop's side is used.
-//
-// A player is what Player is: ready(), load(), pass(), take_finished(), done().
+// Takes frames off the wire, keeps what they bring in a PlayList, and plays it in order through a player. Two sides use
+// it: receive(), settle() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event() to the
+// timer. A chip's player runs ahead: it makes the events of several items before their time, and an interrupt of its own
+// plays them; there only the main loop's side is used. A player is what Player is to this file.
 //
 // Hardware is a type with
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
@@ -13,31 +11,35 @@
 //   void send(uint8_t byte);                          to the host
 //   void breathe();                                   may be left out: called between two pieces of work
 //
-// Invariant: items are executed in the order of their sequence numbers, each once; none is taken after a gap. Time
-// passes only between events: outputs are switched at the event before them, and a segment follows another without
-// delay. An empty queue is no fault: what was sent ends at rest, and the board is idle there.
-// Portable: integers, no heap, no virtual call.
+// Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
+// executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
+// and a segment follows another without delay. An empty list is no fault: what was sent ends at rest, and the board is
+// idle there. Positions are counted from when the board was switched on, at the end of each segment: an event has
+// nothing to do for them. Portable: integers, no heap, no virtual call.
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
 
-#include "passo/base/ring.hpp"
+#include "passo/firmware/play_list.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
 
+// What a board knows of itself.
+struct BoardIdentity {
+  uint8_t motors = 0;  // the most that it can turn
+  uint32_t clock = 0;  // ticks a second
+  ResetCause reset = ResetCause::power_on;
+  About about = {};
+};
+
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player>
 class Board {
-  // Sequence numbers are bytes: more items under way could not be told apart.
-  static_assert(queue_capacity < 128);
-
  public:
-  // `motors`: the most that this board can turn. `clock`: its ticks a second.
-  Board(Hardware& hardware, uint8_t motors, uint32_t clock)
-      : hardware_(hardware), most_motors_(motors), clock_(clock) {}
+  Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}
 
   // The main loop's side. One byte off the wire.
   void receive(uint8_t byte) {
@@ -47,11 +49,29 @@ class Board {
       case Decoded::refused: complain(WireError::bad_frame); break;
     }
   }
-  // Items were executed that the host has not been told of.
-  bool owes_report() const { return reported_ != executed_; }
+  // Items were executed or replaced that the host has not been told of.
+  bool owes_report() const { return owes_report_; }
   void report() {
-    reported_ = executed_;
-    send(Credit{.executed = reported_, .free = static_cast<uint8_t>(queue_capacity - queue_.size())});
+    owes_report_ = false;
+    send(Credit{.executed = executed_, .taken = taken(), .free = list_.free()});
+  }
+  // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
+  void set_inputs(uint16_t inputs, uint16_t captured = 0) {
+    inputs_ = inputs;
+    if (captured == 0 || motors_ == 0) return;
+    Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = player_.played()};
+    for (uint8_t motor = 0; motor < motors_; ++motor) message.positions[motor] = position(motor);
+    send_for_motors(message, motors_);
+  }
+  // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
+  void stop_at_once(FaultReason reason) {
+    const Fault fault{.reason = reason, .event = player_.played(), .executed = executed_};
+    if (begun_ != 0) count_steps();
+    player_.restart(motors_);
+    begun_ = 0;
+    list_.clear();
+    trusted_ = false;
+    send(fault);
   }
 
   // The timer's side. Nothing to play: no event will come.
@@ -64,16 +84,19 @@ class Board {
     if (player_.done()) settle();
   }
 
-  // Gives the player what it can take, and takes leave of what it has finished. On a chip the main loop calls it.
+  // Takes leave of what the player has finished, and gives it what it can take. On a chip the main loop calls it.
   void settle() {
     do {
       breathe();
-      for (uint8_t finished = player_.take_finished(); finished != 0; --finished) retire();
-      breathe();
-      if (begun_ == queue_.size() || !player_.ready()) return;
-      const Entry& entry = queue_.at(begun_++);
-      if (entry.is_segment) {
-        player_.load(entry.segment);
+      while (player_.finished()) {
+        retire();
+        player_.forget();
+        breathe();
+      }
+      if (begun_ == list_.size() || !player_.ready()) return;
+      const BoardItemSlot& item = list_.at(begun_++);
+      if (item.is_segment) {
+        player_.load(item.segment);
       } else {
         player_.pass();
       }
@@ -82,17 +105,14 @@ class Board {
   SegmentPlayer& player() { return player_; }
 
  private:
-  struct Entry {
-    bool is_segment = false;
-    BoardSegment segment;
-    BoardOutputs outputs;
-  };
-
   void take(const WireFrame& frame) {
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
+      case MessageType::session: return name_session(frame);
+      case MessageType::ask: return answer(frame);
       case MessageType::segment:
-      case MessageType::outputs: return enqueue(frame);
+      case MessageType::outputs:
+      case MessageType::replace: return take_in_order(frame);
       default: return complain(WireError::unexpected);
     }
   }
@@ -102,46 +122,115 @@ class Board {
     Hello hello;
     decode(frame, hello);
     // The host may not like the answer; then it will not go on. Until the two agree there are no segments.
-    motors_ = hello.version == protocol_version && hello.motors <= most_motors_ ? hello.motors : uint8_t{0};
+    motors_ = hello.version == protocol_version && hello.motors <= identity_.motors ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
-    // Both sides count steps and their fractions from the same start.
-    player_ = SegmentPlayer(motors_);
-    expected_ = static_cast<uint8_t>(frame.sequence + 1);
-    executed_ = reported_ = frame.sequence;
-    complained_ = false;
-    send(HelloReply{.motors = most_motors_, .capacity = queue_capacity, .clock = clock_});
+    // Both sides count fractions of steps from the same start. Whole ones go on.
+    player_.restart(motors_);
+    list_.clear();
+    begun_ = 0;
+    session_ = 0;
+    executed_ = frame.sequence;
+    expected_ = static_cast<uint16_t>(frame.sequence + 1);
+    complained_ = owes_report_ = false;
+    trusted_ = true;
+    send(HelloReply{.motors = identity_.motors, .capacity = queue_capacity, .clock = identity_.clock});
+  }
+
+  void name_session(const WireFrame& frame) {
+    Session session;
+    decode(frame, session);
+    if (motors_ != 0) session_ = session.number;
+  }
+
+  // Rare and large, so by themselves: on a chip all in one function would need more registers than there are.
+  [[gnu::noinline]] void answer(const WireFrame& frame) {
+    Ask ask;
+    decode(frame, ask);
+    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors) {
+      return complain(WireError::bad_value);
+    }
+    if (ask.question == Question::about) return send(identity_.about);
+    tell_status(ask.motors);
+  }
+
+  [[gnu::noinline]] void tell_status(uint8_t motors) {
+    unsigned state = trusted_ ? unsigned{board_trusted} : 0U;
+    if (!idle()) state |= board_moves;
+    if (list_.gathering()) state |= board_replaces;
+    BoardStatus status{.session = session_,
+                       .executed = executed_,
+                       .taken = taken(),
+                       .free = list_.free(),
+                       .event = begun_ == 0 ? uint8_t{0} : player_.played(),
+                       .state = static_cast<uint8_t>(state),
+                       .reset = identity_.reset,
+                       .motors = motors_,
+                       .inputs = inputs_};
+    for (uint8_t motor = 0; motor < motors; ++motor) status.positions[motor] = position(motor);
+    send_for_motors(status, motors);
+  }
+
+  void take_in_order(const WireFrame& frame) {
+    const uint8_t missing = static_cast<uint8_t>(frame.sequence - expected_);
+    // More than half round is behind: a repeated frame, from a host that has not heard of the first one.
+    if (missing > 127) return report();
+    if (missing != 0) return complain(WireError::out_of_sequence);
+    if (!trusted_) return complain(WireError::unexpected);
+    if (frame.type == MessageType::replace) return begin_replacement(frame);
+    enqueue(frame);
+  }
+
+  void begin_replacement(const WireFrame& frame) {
+    Replace replace;
+    decode(frame, replace);
+    if (replace.count == 0) return complain(WireError::bad_value);
+    if (replace.count > list_.free()) return complain(WireError::queue_full);
+    list_.begin_replacement(replace.after, replace.count);
+    accept();
   }
 
   void enqueue(const WireFrame& frame) {
-    const uint8_t missing = static_cast<uint8_t>(frame.sequence - expected_);
-    // More than half round is behind: a repeated item, from a host that has not heard of the first one.
-    if (missing > 127) return report();
-    if (missing != 0) return complain(WireError::out_of_sequence);
-    if (queue_.full()) return complain(WireError::queue_full);
-    Entry& entry = queue_.space();
-    entry.is_segment = frame.type == MessageType::segment;
-    if (entry.is_segment) {
+    if (list_.free() == 0) return complain(WireError::queue_full);
+    BoardItemSlot& item = list_.space();
+    item.number = expected_;
+    item.is_segment = frame.type == MessageType::segment;
+    if (item.is_segment) {
       breathe();
-      decode(frame, motors_, entry.segment);
+      decode(frame, motors_, item.segment);
       breathe();
-      const uint8_t used = entry.segment.directions | entry.segment.flips;
-      if (entry.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
+      const uint8_t used = item.segment.directions | item.segment.flips;
+      if (item.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
     } else {
-      decode(frame, entry.outputs);
+      decode(frame, item.outputs);
     }
+    accept();
+    list_.append();
+    if (list_.gathering()) return;
+    if (list_.gathered()) {
+      if (!list_.complete(executed_, begun_))
+        return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
+      owes_report_ = true;
+    }
+    settle();
+  }
+
+  void accept() {
     ++expected_;
     complained_ = false;
-    queue_.push();
-    settle();
   }
 
   // The oldest item is done. Outputs are switched here: at the event before them.
   void retire() {
-    const Entry& entry = queue_.front();
-    if (!entry.is_segment) hardware_.outputs(entry.outputs);
-    queue_.pop();
+    const BoardItemSlot& item = list_.front();
+    if (item.is_segment) {
+      count_steps();
+    } else {
+      hardware_.outputs(item.outputs);
+    }
+    executed_ = item.number;
+    list_.pop();
     --begun_;
-    ++executed_;
+    owes_report_ = true;
   }
 
   // Between two pieces of work: hardware with a small buffer looks at its line.
@@ -149,33 +238,52 @@ class Board {
     if constexpr (requires { hardware_.breathe(); }) hardware_.breathe();
   }
 
+  // Of the segment that has just come to its end, or is broken off.
+  void count_steps() {
+    for (uint8_t motor = 0; motor < motors_; ++motor) positions_[motor] += player_.steps(motor);
+  }
+  [[gnu::noinline]] int32_t position(uint8_t motor) const {
+    return positions_[motor] + (begun_ == 0 || motor >= motors_ ? int16_t{0} : player_.steps(motor));
+  }
+  uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
+
   // Once for each gap: all that comes after a lost frame is out of sequence, and the host knows it from the first word.
   void complain(WireError reason) {
     if (complained_) return;
     complained_ = true;
-    send(ErrorReport{.reason = reason, .expected = expected_});
+    send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }
 
   template <class Message>
   void send(const Message& message) {
     uint8_t frame[largest_frame];
-    const uint8_t size = encode(message, sent_++, frame);
+    put_on_line(frame, encode(message, sent_++, frame));
+  }
+  template <class Message>
+  [[gnu::noinline]] void send_for_motors(const Message& message, uint8_t motors) {
+    uint8_t frame[largest_frame];
+    put_on_line(frame, encode(message, motors, sent_++, frame));
+  }
+  void put_on_line(const uint8_t* frame, uint8_t size) {
     for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);
   }
 
   Hardware& hardware_;
+  BoardIdentity identity_;
   Decoder decoder_;
   SegmentPlayer player_{0};
-  Ring<Entry, queue_capacity> queue_;  // its front is what is being played
-  uint8_t begun_ = 0;                  // items at its front that the player has
-  uint8_t most_motors_;
-  uint8_t motors_ = 0;  // agreed upon with the host
-  uint32_t clock_;
-  uint8_t expected_ = 0;  // sequence number of the next item
-  uint8_t executed_ = 0;  // of the last one that is done
-  uint8_t reported_ = 0;  // of the last one that the host knows to be done
-  uint8_t sent_ = 0;      // the board's own sequence number
+  PlayList<queue_capacity> list_;  // its front is what is being played
+  uint8_t begun_ = 0;              // items at its front that the player has
+  uint8_t motors_ = 0;             // agreed upon with the host
+  uint16_t session_ = 0;
+  uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte
+  uint16_t executed_ = 0;  // of the last item that is done
+  uint8_t sent_ = 0;       // the board's own sequence number
+  bool owes_report_ = false;
   bool complained_ = false;
+  bool trusted_ = true;
+  uint16_t inputs_ = 0;
+  int32_t positions_[max_motors] = {};  // at the end of the last segment
 };
 
 }  // namespace passo

@@ -18,15 +18,15 @@ class Player {
   void load(const BoardSegment& segment) {
     segment_ = segment;
     left_ = segment.events;
+    for (uint8_t motor = 0; motor < motors_; ++motor) at_start_[motor] = accumulators_[motor];
   }
   // Takes an item that is not its own to play: it is finished when all that came before it is. Only when ready().
   void pass() { ++finished_; }
-  // Items that were finished since the last call.
-  uint8_t take_finished() {
-    const uint8_t finished = finished_;
-    finished_ = 0;
-    return finished;
-  }
+  // The oldest item that it has is done: what played() and steps() say is final. Then forget() it.
+  bool finished() const { return finished_ != 0; }
+  void forget() { --finished_; }
+  // As it was made, and whatever it played is broken off.
+  void restart(uint8_t motors) { *this = Player(motors); }
 
   bool done() const { return left_ == 0; }
   uint8_t directions() const { return segment_.directions; }
@@ -53,6 +53,17 @@ class Player {
     return carries ^ segment_.flips;
   }
 
+  // Of the segment at hand: the events played, and the steps that a motor has made in them, down or up.
+  uint8_t played() const { return static_cast<uint8_t>(segment_.events - left_); }
+  int16_t steps(uint8_t motor) const {
+    // No count at every event: so many carries so many increments make.
+    const uint8_t bit = static_cast<uint8_t>(1U << motor);
+    const uint32_t added = at_start_[motor] + static_cast<uint32_t>(segment_.increments[motor]) * played();
+    const int16_t carries = static_cast<int16_t>(added >> 16);
+    const int16_t steps = (segment_.flips & bit) != 0 ? static_cast<int16_t>(played() - carries) : carries;
+    return (segment_.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
+  }
+
   uint16_t accumulator(uint8_t motor) const { return accumulators_[motor]; }
   uint16_t tick_fraction() const { return tick_fraction_; }
 
@@ -60,9 +71,10 @@ class Player {
   BoardSegment segment_;
   uint8_t motors_;
   uint8_t left_ = 0;
-  uint8_t finished_ = 0;  // items
+  uint8_t finished_ = 0;  // items that are done and not forgotten
   // Half a step and half a tick: what is truncated below is rounding above.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
+  uint16_t at_start_[max_motors] = {};  // the accumulators at the start of the segment
   uint16_t tick_fraction_ = 0x8000;
 };
 

@@ -1,12 +1,19 @@
 // InProcessLink: a link to a board in this very process. The bytes are those that a serial line would carry.
 //
-// The board plays only when the host has to wait for it: with no credit left, in wait() and in drain(). So its queue is
-// as full as the host wants it, and a run gives the same bytes every time. Nothing is lost on the way; an error that
-// the board reports is therefore a bug on one of the two sides, and final.
+// The board plays only when the host has to wait for it: with no room left, in wait() and in drain(). So its queue is
+// as full as the host wants it, and a run gives the same bytes every time.
+//
+// Where nothing is lost on the way an error that the board reports is a bug on one of the two sides, and final. Where
+// something may be lost, what was sent is kept until the board has taken it, and repeated from where the board
+// says that something is missing. After a silence the link asks the board how it is, again and again while patience
+// lasts: a line that comes back is found by that, and what it had swallowed is sent again.
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "passo/link/board_port.hpp"
 #include "passo/link/link.hpp"
@@ -15,41 +22,81 @@
 
 namespace passo {
 
+// Of a line on which bytes may get lost. The default is one that loses nothing.
+struct LineCare {
+  Seconds answer_within{std::numeric_limits<double>::infinity()};  // after so long without an answer, ask
+  Seconds patience{3600};                                          // and after so long, give up
+  std::uint16_t session = 0;                                       // by which the board is known again; not 0
+};
+
 class InProcessLink final : public Link {
  public:
   // Says hello: from here on both sides count the motors' fractions from the start. The port outlives the link.
-  InProcessLink(BoardPort& port, std::uint8_t motors);
+  InProcessLink(BoardPort& port, std::uint8_t motors, const LineCare& care = {});
 
   void send(const BoardSegment& segment) override;
   void send(const BoardOutputs& outputs) override;
+  ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) override;
+  ItemNumber executed() const override { return executed_; }
+  int room() const override { return free_ - later_by(sent_, taken_); }
   void drain() override;
-  bool busy() const override { return under_way() > 0; }
+  bool busy() const override { return sent_ != executed_; }
   void wait() override;
   std::optional<LinkError> error() const override { return error_; }
 
   std::uint64_t frames_sent() const override { return frames_sent_; }
   std::uint64_t bytes_sent() const override { return bytes_sent_; }
+  std::uint64_t frames_repeated() const { return frames_repeated_; }
   // What the board said it is; nothing where it did not answer.
   const std::optional<HelloReply>& board() const { return board_; }
+  // What it said when it was last asked.
+  const std::optional<BoardStatus>& status() const { return status_; }
 
  private:
+  struct Frame {
+    ItemNumber number = 0;
+    std::uint8_t size = 0;
+    std::uint8_t bytes[largest_frame] = {};
+  };
+
+  bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
   void say_hello();
-  bool wait_for_credit();
+  void name_session();
+  void wait_for_room();
   bool listen();
+  bool hear();
+  bool overdue() const;
+  void ask();
   void take(const WireFrame& frame);
+  void take(const Credit& credit);
+  void take(const BoardStatus& status);
+  void take(const ErrorReport& error);
+  void note_taken(std::uint8_t sequence);
+  void repeat();
+  template <class Message, class... More>
+  void say(const Message& message, More... more);
+  template <class Message, class... More>
+  void send_counted(const Message& message, More... more);
   void put_on_wire(const std::uint8_t* frame, std::uint8_t size);
-  // Items that were sent and, as far as we know, are not done.
-  std::uint8_t under_way() const { return static_cast<std::uint8_t>(last_sent_ - last_executed_); }
 
   BoardPort& port_;
   std::uint8_t motors_;
+  LineCare care_;
   Decoder decoder_;
   std::optional<HelloReply> board_;
+  std::optional<BoardStatus> status_;
   std::optional<LinkError> error_;
-  std::uint8_t last_sent_ = 0;      // sequence number of the last item sent
-  std::uint8_t last_executed_ = 0;  // of the last one that the board told to be done
+  ItemNumber sent_ = 0;      // number of the last frame sent
+  ItemNumber taken_ = 0;     // of the last one that the board told to have
+  ItemNumber executed_ = 0;  // of the last item that it told to be done
+  int free_ = 0;             // room that it had when it told so
+  bool news_ = false;        // since wait() began
+  std::deque<Frame> kept_;   // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};         // when the board last said anything
+  Seconds moved_on_{0};      // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
+  std::uint64_t frames_repeated_ = 0;
 };
 
 }  // namespace passo

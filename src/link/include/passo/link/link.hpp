@@ -6,20 +6,32 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <variant>
 
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
 
 enum class LinkError : std::uint8_t {
-  no_answer,       // the board is at rest and says nothing, though an answer is due
+  no_answer,       // the board says nothing, though an answer is due
   wrong_version,   // it speaks another protocol
   too_few_motors,  // it cannot turn as many as the machine has
   refused,         // it did not take what was sent
+  was_reset,       // it has forgotten the session, and with it where the motors are
+  stopped,         // it has stopped its motors at once
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);
+
+using LinkItem = std::variant<BoardSegment, BoardOutputs>;
+// Counts what is sent, modulo 65536. An item has one of its own for ever.
+using ItemNumber = std::uint16_t;
+// How much later `a` was sent than `b`; negative: before.
+constexpr int later_by(ItemNumber a, ItemNumber b) {
+  return static_cast<std::int16_t>(static_cast<ItemNumber>(a - b));
+}
 
 class Link {
  public:
@@ -31,11 +43,19 @@ class Link {
   // Never fail on their own: the first error is kept, and nothing is sent after it.
   virtual void send(const BoardSegment& segment) = 0;
   virtual void send(const BoardOutputs& outputs) = 0;
+  // Puts `items`, no more than there is room for, in the place of all that the board holds behind item `after`: all of
+  // them or, if that is too late or the line breaks, none. Returns the number of the first; the others follow.
+  virtual ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) = 0;
+  // The last item that is done, as far as we know.
+  virtual ItemNumber executed() const = 0;
+  // How many items the board can take now, for certain.
+  virtual int room() const = 0;
+
   // Waits until the board has executed all that was sent.
   virtual void drain() = 0;
   // Whether something that was sent is, as far as we know, not done.
   virtual bool busy() const = 0;
-  // While it is busy: waits until the board has done one more of them.
+  // Waits until the board has told something new: it has done one more item, or taken what was sent.
   virtual void wait() = 0;
   virtual std::optional<LinkError> error() const = 0;
 

@@ -21,6 +21,9 @@ namespace passo {
 
 class VirtualMachine final : public BoardPort {
  public:
+  // As many items as a board with some kilobytes holds: a twentieth of a second at its highest rate, and two tails.
+  static constexpr std::size_t items_held = 120;
+
   // `clock`: the board's timer, a whole number of hertz below 2^32.
   VirtualMachine(std::uint8_t motors, Hertz clock);
   VirtualMachine(const VirtualMachine&) = delete;
@@ -30,11 +33,14 @@ class VirtualMachine final : public BoardPort {
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
   void receive(std::span<const std::uint8_t> bytes) override;
-  [[nodiscard]] bool run() override;
+  [[nodiscard]] bool run(Seconds most) override;
   std::span<const std::uint8_t> replies() override;
+  Seconds elapsed() const override { return Seconds(static_cast<double>(hardware_.now) / clock_.value()); }
 
   // Lets time pass at rest; only while the board has nothing to play.
   void wait(Ticks time);
+  // The board's program; what its pins say, and what happens to it.
+  auto& board() { return board_; }
 
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
@@ -64,8 +70,11 @@ class VirtualMachine final : public BoardPort {
   };
 
   Hardware hardware_;
-  Board<Hardware> board_;
+  Board<Hardware, items_held> board_;
+  Hertz clock_;
   std::uint8_t motor_count_;
+  std::int64_t next_event_ = 0;
+  bool waits_ = false;  // for the next event, which is due then
   std::int64_t events_ = 0;
   std::int64_t shortest_event_interval_ = INT64_MAX;
   std::vector<std::uint8_t> taken_;  // what replies() gave away

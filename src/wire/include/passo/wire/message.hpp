@@ -9,7 +9,7 @@
 
 namespace passo {
 
-// Host to board, first of all. Its sequence number is where the counting starts: the first item has the next one.
+// Host to board, first of all. Its sequence number is where the counting starts: the first frame has the next one.
 struct Hello {
   uint8_t version = protocol_version;
   uint8_t motors = 0;  // how many increments each segment will have
@@ -23,24 +23,101 @@ struct HelloReply {
   uint32_t clock = 0;    // ticks a second
 };
 
+// Host to board, behind a hello: a number by which the host knows the board again after the line was broken. A board
+// that was reset meanwhile has none, 0.
+struct Session {
+  uint16_t number = 0;
+};
+
+// Host to board: the `count` frames that follow are items that take the place of all that the board holds behind item
+// `after`, as soon as the last of them has come.
+struct Replace {
+  uint16_t after = 0;
+  uint8_t count = 0;  // 1 and more
+};
+
+// Host to board, at any time: how are you? The only message of the host's, with hello and session, that is not counted.
+enum class Question : uint8_t { status = 0, about = 1 };
+struct Ask {
+  uint8_t version = protocol_version;
+  uint8_t motors = 0;  // for how many positions are wanted
+  Question question = Question::status;
+};
+
 // Board to host: so far have I come. Each tells all that the ones before it told, so that none is missed when lost.
 struct Credit {
-  uint8_t executed = 0;  // sequence number of the last item that is done
-  uint8_t free = 0;      // items that the queue has room for
+  uint16_t executed = 0;  // number of the last item that is done
+  uint8_t taken = 0;      // sequence number of the last frame that was taken
+  uint8_t free = 0;       // items that there is room for
 };
 
 enum class WireError : uint8_t {
   bad_frame = 1,        // cut short, of no known type, or the CRC is wrong
-  out_of_sequence = 2,  // an item is missing before this one
+  out_of_sequence = 2,  // a frame is missing before this one
   queue_full = 3,       // the host did not count its credits
   bad_value = 4,        // a segment without events, or for a motor that is not there
   unexpected = 5,       // a message that only the board sends, or a hello amid motion
+  too_late = 6,         // an item behind the one to replace after has begun; what was to take its place is dropped
 };
 
 // Board to host: what came was not taken.
 struct ErrorReport {
   WireError reason = WireError::bad_frame;
-  uint8_t expected = 0;  // sequence number of the item that the board waits for
+  uint8_t expected = 0;  // sequence number of the frame that the board waits for
+};
+
+enum class ResetCause : uint8_t { power_on = 0, brown_out = 1, watchdog = 2, button = 3 };
+enum BoardState : uint8_t {
+  board_moves = 1,     // it plays something
+  board_trusted = 2,   // since the hello the motors have made every step that is counted, as far as the board knows
+  board_replaces = 4,  // items are still to come for a replacement
+};
+// What the board's input pins say: a bit is set where the switch is on.
+enum BoardInput : uint16_t {
+  input_limit = 1,  // and the next seven: of motors 1…7
+  input_probe = 0x100,
+  input_door = 0x200,
+  input_emergency_stop = 0x400,
+  input_hold = 0x800,
+  input_start = 0x1000,
+};
+
+// Board to host, when asked. Positions are the motors' steps since the board was switched on.
+struct BoardStatus {
+  uint16_t session = 0;
+  uint16_t executed = 0;  // as in a credit, as the next two
+  uint8_t taken = 0;
+  uint8_t free = 0;
+  uint8_t event = 0;  // how many events of the item at hand are played
+  uint8_t state = 0;  // bits: BoardState
+  ResetCause reset = ResetCause::power_on;
+  uint8_t motors = 0;   // agreed upon; 0: a host has not said hello since the reset
+  uint16_t inputs = 0;  // bits: BoardInput
+  int32_t positions[max_motors] = {};
+};
+
+// Board to host: an input has changed that is watched, at this very event.
+struct Captured {
+  uint16_t input = 0;  // BoardInput
+  uint8_t item = 0;    // low byte of the number of the item that was played
+  uint8_t event = 0;   // how many of its events were
+  int32_t positions[max_motors] = {};
+};
+
+// Board to host: the motors were stopped at once. The positions are not trusted from here on; a hello begins anew.
+enum class FaultReason : uint8_t { emergency_stop = 1, limit = 2, driver = 3 };
+struct Fault {
+  FaultReason reason = FaultReason::emergency_stop;
+  uint8_t event = 0;
+  uint16_t executed = 0;
+};
+
+// Board to host, when asked: what else it is.
+struct About {
+  uint16_t firmware = 0;            // its own version, hundreds and units
+  uint32_t highest_event_rate = 0;  // events a second
+  uint32_t baud = 0;                // the fastest that its line can go
+  char name[16] = {};               // of the board; filled up with zeros
 };
 
 // Each writes one frame to `frame`, which has room for largest_frame bytes, and returns its size.
@@ -79,10 +156,74 @@ inline uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame)
   return encoder.finish();
 }
 
+inline uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::session, sequence);
+  encoder.put16(session.number);
+  return encoder.finish();
+}
+
+inline uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::replace, sequence);
+  encoder.put16(replace.after);
+  encoder.put8(replace.count);
+  return encoder.finish();
+}
+
+inline uint8_t encode(const Ask& ask, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::ask, sequence);
+  encoder.put8(ask.version);
+  encoder.put8(ask.motors);
+  encoder.put8(static_cast<uint8_t>(ask.question));
+  return encoder.finish();
+}
+
 inline uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
   Encoder encoder(frame, MessageType::credit, sequence);
-  encoder.put8(credit.executed);
+  encoder.put16(credit.executed);
+  encoder.put8(credit.taken);
   encoder.put8(credit.free);
+  return encoder.finish();
+}
+
+// For as many motors as the question had.
+inline uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::status, sequence);
+  encoder.put16(status.session);
+  encoder.put16(status.executed);
+  encoder.put8(status.taken);
+  encoder.put8(status.free);
+  encoder.put8(status.event);
+  encoder.put8(status.state);
+  encoder.put8(static_cast<uint8_t>(status.reset));
+  encoder.put8(status.motors);
+  encoder.put16(status.inputs);
+  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(status.positions[motor]));
+  return encoder.finish();
+}
+
+inline uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::captured, sequence);
+  encoder.put16(captured.input);
+  encoder.put8(captured.item);
+  encoder.put8(captured.event);
+  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(captured.positions[motor]));
+  return encoder.finish();
+}
+
+inline uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::fault, sequence);
+  encoder.put8(static_cast<uint8_t>(fault.reason));
+  encoder.put8(fault.event);
+  encoder.put16(fault.executed);
+  return encoder.finish();
+}
+
+inline uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
+  Encoder encoder(frame, MessageType::about, sequence);
+  encoder.put16(about.firmware);
+  encoder.put32(about.highest_event_rate);
+  encoder.put32(about.baud);
+  for (const char letter : about.name) encoder.put8(static_cast<uint8_t>(letter));
   return encoder.finish();
 }
 
@@ -132,7 +273,59 @@ inline void decode(const WireFrame& frame, HelloReply& reply) {
 }
 
 inline void decode(const WireFrame& frame, Credit& credit) {
-  credit = {.executed = frame.payload[0], .free = frame.payload[1]};
+  credit = {.executed = load16(frame.payload), .taken = frame.payload[2], .free = frame.payload[3]};
+}
+
+inline void decode(const WireFrame& frame, Session& session) {
+  session = {.number = load16(frame.payload)};
+}
+
+inline void decode(const WireFrame& frame, Replace& replace) {
+  replace = {.after = load16(frame.payload), .count = frame.payload[2]};
+}
+
+inline void decode(const WireFrame& frame, Ask& ask) {
+  ask = {.version = frame.payload[0], .motors = frame.payload[1], .question = static_cast<Question>(frame.payload[2])};
+}
+
+inline void load_positions(const uint8_t* bytes, uint8_t motors, int32_t* positions) {
+  for (uint8_t motor = 0; motor < max_motors; ++motor, bytes += 4) {
+    positions[motor] = motor < motors ? static_cast<int32_t>(load32(bytes)) : 0;
+  }
+}
+
+inline void decode(const WireFrame& frame, uint8_t motors, BoardStatus& status) {
+  const uint8_t* bytes = frame.payload;
+  status.session = load16(bytes);
+  status.executed = load16(bytes + 2);
+  status.taken = bytes[4];
+  status.free = bytes[5];
+  status.event = bytes[6];
+  status.state = bytes[7];
+  status.reset = static_cast<ResetCause>(bytes[8]);
+  status.motors = bytes[9];
+  status.inputs = load16(bytes + 10);
+  load_positions(bytes + status_size, motors, status.positions);
+}
+
+inline void decode(const WireFrame& frame, uint8_t motors, Captured& captured) {
+  captured.input = load16(frame.payload);
+  captured.item = frame.payload[2];
+  captured.event = frame.payload[3];
+  load_positions(frame.payload + captured_size, motors, captured.positions);
+}
+
+inline void decode(const WireFrame& frame, Fault& fault) {
+  fault = {.reason = static_cast<FaultReason>(frame.payload[0]),
+           .event = frame.payload[1],
+           .executed = load16(frame.payload + 2)};
+}
+
+inline void decode(const WireFrame& frame, About& about) {
+  about.firmware = load16(frame.payload);
+  about.highest_event_rate = load32(frame.payload + 2);
+  about.baud = load32(frame.payload + 6);
+  for (uint8_t i = 0; i < sizeof about.name; ++i) about.name[i] = static_cast<char>(frame.payload[10 + i]);
 }
 
 inline void decode(const WireFrame& frame, ErrorReport& error) {

@@ -5,7 +5,7 @@
 // The sync byte never occurs between link and payload: where a message has one, the byte on the wire is instead the
 // distance to the next such place (0: none), and `link` is the distance to the first. So a sync byte is the start of a
 // frame, a receiver is in step again at the very next frame after any garbage, and each byte costs it the same work.
-// The type alone tells the length (a segment's also the number of motors). Portable.
+// The type alone tells the length (where there is something for each motor, also the number of motors). Portable.
 #pragma once
 
 #include <stdint.h>
@@ -15,7 +15,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 1;
+inline constexpr uint8_t protocol_version = 2;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
 enum class MessageType : uint8_t {
@@ -23,14 +23,23 @@ enum class MessageType : uint8_t {
   hello = 0x0F,
   segment = 0x33,
   outputs = 0x3C,
+  replace = 0x55,
+  session = 0x66,
+  ask = 0x5A,
   // board to host
   hello_reply = 0xF0,
   credit = 0xCC,
   error = 0xC3,
+  status = 0xAA,
+  captured = 0x99,
+  fault = 0x96,
+  about = 0x69,
 };
 
 inline constexpr uint8_t frame_overhead = 6;
-inline constexpr uint8_t largest_payload = 10 + 2 * max_motors;
+inline constexpr uint8_t status_size = 12;  // without the positions
+inline constexpr uint8_t captured_size = 4;
+inline constexpr uint8_t largest_payload = status_size + 4 * max_motors;
 inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
 
 struct WireFrame {
@@ -39,15 +48,25 @@ struct WireFrame {
   uint8_t payload[largest_payload] = {};
 };
 
-// Bytes of payload, or 0 for what is no type. Without motors there are no segments.
+// Bytes of payload, or 0 for what is no type. Without motors there are no messages that have something for each.
 constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
+  const auto with_motors = [motors](unsigned rest, unsigned each) {
+    return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(rest + each * motors);
+  };
   switch (static_cast<MessageType>(type)) {
     case MessageType::hello:
-    case MessageType::credit:
+    case MessageType::session:
     case MessageType::error: return 2;
-    case MessageType::segment: return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(10 + 2 * motors);
-    case MessageType::outputs: return 3;
+    case MessageType::outputs:
+    case MessageType::replace:
+    case MessageType::ask: return 3;
+    case MessageType::credit:
+    case MessageType::fault: return 4;
     case MessageType::hello_reply: return 7;
+    case MessageType::about: return 26;
+    case MessageType::segment: return with_motors(10, 2);
+    case MessageType::status: return with_motors(status_size, 4);
+    case MessageType::captured: return with_motors(captured_size, 4);
   }
   return 0;
 }
