@@ -157,8 +157,11 @@ class ChipPlayer {
   static constexpr uint8_t few_at_once = 4;
   static constexpr uint16_t often = 300;
   static constexpr uint8_t most_pieces = 8;
-  // From the load of a segment at rest to the moment from which its first interval counts.
-  static constexpr uint16_t start_ticks = 6000;
+  // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
+  // after the line meanwhile.
+  static constexpr uint8_t blank_events = 24;
+  static constexpr uint16_t blank_ticks = 250;
+  static constexpr uint16_t start_ticks = 1500;
   // An alarm nearer than this may be missed.
   static constexpr uint16_t least_lead = 150;
 
@@ -199,8 +202,21 @@ class ChipPlayer {
 
   static void start_clock() {
     const uint16_t fraction = static_cast<uint16_t>(expansion.time);
-    expansion.time = static_cast<uint32_t>(now() + start_ticks) << 16 | fraction;
+    uint16_t time = static_cast<uint16_t>(now() + start_ticks);
+    for (uint8_t left = blank_events; left != 0; --left) {
+      time = static_cast<uint16_t>(time + blank_ticks);
+      volatile EventEntry& blank = entry(head_);
+      blank.time_high = static_cast<uint8_t>(time >> 8);
+      blank.time_low = static_cast<uint8_t>(time);
+      blank.toggles = 0;
+      head_ = static_cast<uint8_t>((head_ + 1) & ring_mask);
+      SerialLine::breathe();
+    }
+    entry(head_).toggles = pins.flag_special | pins.flag_stop;
+    made_ = static_cast<uint16_t>(made_ + blank_events);
+    expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
     fresh_ = true;
+    start();
   }
 
   // How many events two milliseconds have, in powers of two: 32,768 ticks.
@@ -217,15 +233,15 @@ class ChipPlayer {
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead();
     if (ahead >= most) return false;
-    const bool line_is_watched = running != 0 && fetched() != started_at_ && static_cast<uint16_t>(expansion.interval >> 16) < often;
+    const bool line_is_watched = running != 0 && static_cast<uint16_t>(expansion.interval >> 16) < often;
     const uint8_t at_once = line_is_watched ? most_at_once : few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
+    const uint8_t to_end = static_cast<uint8_t>(ring_page - (head_ & (ring_page - 1)));
     if (count > to_end) count = to_end;
     const uint8_t room = static_cast<uint8_t>(most - ahead);
     if (count > room) {
       // Worth the way only if there is room for many, or if few are ahead.
-      if (ahead >= most / 2) return false;
+      if (room < most / 3) return false;
       count = room;
     }
     if (turns_ != 0 && !queue_turn()) return false;
@@ -263,7 +279,6 @@ class ChipPlayer {
     if (!fresh_) catch_up(first);
     fresh_ = false;
     fetch_first(first);
-    started_at_ = first;
     const uint8_t toggles = entry(first).toggles;
     if ((toggles & pins.flag_special) != 0) turn_now(toggles);
     set_alarm(first);
@@ -284,7 +299,7 @@ class ChipPlayer {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     if (ahead > least_lead && ahead <= gap_) return;  // in time after all
     ++slips_;
-    const uint16_t later = static_cast<uint16_t>(now() + start_ticks - due);
+    const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);
       entry(i).time_high = static_cast<uint8_t>(time >> 8);
@@ -299,7 +314,6 @@ class ChipPlayer {
   static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
-  static inline uint8_t started_at_ = 0;  // entry with which the interrupt began
   static inline bool fresh_ = false;      // the clock was set for what is in the ring
   static inline uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
   static inline uint8_t slips_ = 0;

@@ -1,5 +1,6 @@
 // The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
 #include "chip_player.hpp"
+#include "passo/chip/line_decoder.hpp"
 #include "passo/firmware/board.hpp"
 #include "serial_line.hpp"
 
@@ -28,7 +29,7 @@ constexpr BoardIdentity identity = {
     .clock = clock,
     .reset = ResetCause::power_on,
     .about = {.firmware = 100, .highest_event_rate = 125'000, .baud = 500'000, .name = "uno cnc3"}};
-Board<Hardware, queue_capacity, ChipPlayer> board(hardware, identity);
+Board<Hardware, queue_capacity, ChipPlayer, LineDecoder> board(hardware, identity);
 
 void set_pins() {
   Register<0x2a>::write(uno_cnc_shield.steps_on('D') | uno_cnc_shield.directions_on('D'));

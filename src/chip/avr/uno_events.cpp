@@ -31,8 +31,12 @@ volatile uint16_t probe_entry;
 volatile uint8_t halted;
 
 // No instruction of the plain way changes a flag, so there is nothing to save but Z.
-[[gnu::naked, gnu::used]] void __vector_11() {  // entered and jumped to: 7
+[[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {
   asm volatile(R"(
+      .rept 11                      ; the vectors before it
+      jmp passo_reset
+      .endr
+                                    ; 4   to come here
       sbic %[pcifr], 0              ; 2   a machine's switch has moved: look before any step is made
       rjmp 5f
       sbic %[pcifr], 1              ; 2
@@ -180,7 +184,7 @@ asm(R"(
       passo_motor r10, r11, r16, r17, \mask2
       eor r30, r31                  ; 1
       st X+, r30                    ; 2
-      adiw r26, 1                   ; 2
+      inc r26                       ; 1   never past the end of a page
   .endm
 )");
 

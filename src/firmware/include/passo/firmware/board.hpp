@@ -36,7 +36,8 @@ struct BoardIdentity {
   About about = {};
 };
 
-template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player>
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player,
+          class LineDecoder = Decoder>
 class Board {
  public:
   Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}
@@ -105,7 +106,8 @@ class Board {
   SegmentPlayer& player() { return player_; }
 
  private:
-  void take(const WireFrame& frame) {
+  // By itself, so that a byte amid a frame has not to save all the registers that a whole one needs.
+  [[gnu::noinline]] void take(const WireFrame& frame) {
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::session: return name_session(frame);
@@ -270,7 +272,7 @@ class Board {
 
   Hardware& hardware_;
   BoardIdentity identity_;
-  Decoder decoder_;
+  LineDecoder decoder_;
   SegmentPlayer player_{0};
   PlayList<queue_capacity> list_;  // its front is what is being played
   uint8_t begun_ = 0;              // items at its front that the player has
