@@ -21,7 +21,8 @@ void sweep(const BoardUnderTest& board, const char* name, const std::vector<std:
                                                             .longest_interval = interval + interval / 8,
                                                             .shortest_segment = 120,
                                                             .longest_segment = 255,
-                                                            .segments = 100});
+                                                            .segments = 150,
+                                                            .ramp = 20});
     const EdgeCheck check = bench.play(stream);
     const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
     std::printf("| %s | %zu | %u | %.1f | %.1f | %s | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),

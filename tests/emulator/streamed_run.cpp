@@ -183,6 +183,7 @@ std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t mo
   std::vector<BoardSegment> segments;
   const unsigned all = (1U << motors) - 1;
   std::uint32_t interval = between(kind.shortest_interval << 16, kind.longest_interval << 16);
+  if (kind.ramp > 0) interval *= 5;
   for (int i = 0; i < kind.segments; ++i) {
     BoardSegment segment;
     segment.events = static_cast<std::uint8_t>(between(kind.shortest_segment, kind.longest_segment));
@@ -197,7 +198,8 @@ std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t mo
       segment.flips = static_cast<std::uint8_t>(segment.flips | 1U << master);
     }
     // From this rate to another within the bounds, as evenly as whole numbers allow.
-    const std::uint32_t target = between(kind.shortest_interval << 16, kind.longest_interval << 16);
+    std::uint32_t target = between(kind.shortest_interval << 16, kind.longest_interval << 16);
+    if (i < kind.ramp) target += target / 100 * static_cast<std::uint32_t>(400 * (kind.ramp - 1 - i) / kind.ramp);
     segment.interval = interval;
     const std::int64_t change = (static_cast<std::int64_t>(target) - interval) / segment.events;
     segment.change = static_cast<std::int32_t>(

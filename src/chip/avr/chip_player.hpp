@@ -25,6 +25,8 @@ class ChipPlayer {
   static void restart(uint8_t /*motors*/) {
     Timsk1::write(0);
     running = 0;
+    line_is_watched = 0;
+    slow_end_ = 0;
     head_ = fetched();
     entry(head_).toggles = pins.flag_special | pins.flag_stop;
     turns_head_ = turns_tail;
@@ -71,6 +73,7 @@ class ChipPlayer {
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
     left_ = segment.events;
+    most_ahead_ = most_ahead();
     remember(segment);
   }
   // An item that takes no time: it is finished with the event before it.
@@ -142,6 +145,8 @@ class ChipPlayer {
     if (running == 0 && waiting() != 0 && halted == 0) start();
   }
 
+  // What it has is made, and another segment can come.
+  static bool wants_more() { return left_ == 0; }
   // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
   static uint8_t slips() { return slips_; }
 
@@ -228,15 +233,18 @@ class ChipPlayer {
     return most < 2 ? uint8_t{2} : most;
   }
 
+  // The interrupt comes so often that it sees every byte off the line.
+  static bool is_fast() { return static_cast<uint16_t>(expansion.interval >> 16) < often; }
+
   // False where there was nothing to do.
   static bool make_events() {
     const uint8_t ahead = waiting();
-    const uint8_t most = most_ahead();
+    const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
-    const bool line_is_watched = running != 0 && static_cast<uint16_t>(expansion.interval >> 16) < often;
-    const uint8_t at_once = line_is_watched ? most_at_once : few_at_once;
+    line_is_watched = running != 0 && static_cast<int16_t>(made_ - ahead - slow_end_) >= 0 && is_fast();
+    const uint8_t at_once = line_is_watched != 0 ? most_at_once : few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint8_t to_end = static_cast<uint8_t>(ring_page - (head_ & (ring_page - 1)));
+    const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
     if (count > to_end) count = to_end;
     const uint8_t room = static_cast<uint8_t>(most - ahead);
     if (count > room) {
@@ -256,6 +264,7 @@ class ChipPlayer {
     SerialLine::breathe();
     left_ = static_cast<uint8_t>(left_ - count);
     made_ = static_cast<uint16_t>(made_ + count);
+    if (!is_fast()) slow_end_ = made_;
     head_ = behind;
     const uint8_t plain = static_cast<uint8_t>(entry(first).toggles & ~(pins.flag_special | pins.flag_stop));
     // From here on the interrupt may come to it.
@@ -309,6 +318,7 @@ class ChipPlayer {
   }
 
   static inline uint8_t head_ = 0;        // entry behind the last event
+  static inline uint8_t most_ahead_ = 0;   // how many events may be in the ring, at the rate of the loaded segment
   static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
   static inline uint8_t turns_ = 0;       // direction pins to turn over before its first event
   static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
@@ -317,6 +327,7 @@ class ChipPlayer {
   static inline bool fresh_ = false;      // the clock was set for what is in the ring
   static inline uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
   static inline uint8_t slips_ = 0;
+  static inline uint16_t slow_end_ = 0;    // `made_` after the last events that were not fast
   static inline uint16_t made_ = 0;       // events, ever
   static inline uint8_t begun_ = 0;       // items, ever
   static inline uint8_t finished_ = 0;

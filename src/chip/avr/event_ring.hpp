@@ -23,7 +23,6 @@ struct EventEntry {
 inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
 inline constexpr uint8_t ring_mask = ring_entries - 1;
-inline constexpr uint8_t ring_page = 64;  // entries
 
 // Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low byte
 // of the address and wraps by itself. All that the host may have under way fits.

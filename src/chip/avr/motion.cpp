@@ -40,19 +40,23 @@ void set_pins() {
   board.receive(hardware.line.take());
 }
 
-// Once around the loop.
+// Once around the loop. Events come first: nothing else here may take longer than what is ahead of the interrupt.
 [[gnu::noinline]] void turn() {
+  static uint8_t patience = 0;
   hardware.line.poll();
-  // Several: while many events are made, many bytes come.
-  for (uint8_t most = 8; most != 0 && hardware.line.has_byte(); --most) {
+  for (uint8_t taken = 0; hardware.line.has_byte() && (taken < 6 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
     receive();
     SerialLine::breathe();
   }
-  board.player().refill();
+  ChipPlayer::refill();
   SerialLine::breathe();
   board.settle();
   SerialLine::breathe();
-  if (board.owes_report() && hardware.line.can_send()) board.report();
+  ChipPlayer::refill();
+  // A credit tells what those before it told: while bytes wait, it can wait too.
+  if (!board.owes_report() || !hardware.line.can_send()) return;
+  if (hardware.line.has_byte() && (++patience & 7) != 0) return;
+  board.report();
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ class SerialLine {
   // Saves what came. Every 640 cycles at 500 kbaud, the interrupt's included: the UART itself holds two bytes. So this
   // stands between any two pieces of work, and has to cost nothing when nothing came.
   [[gnu::always_inline]] static void breathe() {
-    if ((Ucsr0a::read() & byte_received) != 0) fetch();
+    if (line_is_watched == 0 && (Ucsr0a::read() & byte_received) != 0) fetch();
   }
   // Sends on.
   void poll() {

@@ -23,6 +23,7 @@ struct Expansion {
 extern Expansion expansion;
 
 extern volatile uint8_t running;         // the interrupt plays
+extern volatile uint8_t line_is_watched;  // by the interrupt, which comes often: the main loop need not look
 extern volatile uint8_t turns_tail;      // low byte of the address of the next turn
 extern volatile uint8_t received_head;   // low byte of the address where the next byte off the line goes
 extern volatile uint8_t stop_low_b;      // pins of port B, C that stop everything when they are

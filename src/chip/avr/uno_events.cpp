@@ -20,6 +20,7 @@ extern "C" {
 
 Expansion expansion;
 volatile uint8_t running;
+volatile uint8_t line_is_watched;
 volatile uint8_t turns_tail = turns_address & 0xff;
 volatile uint8_t received_head;
 volatile uint8_t stop_low_b;
@@ -103,6 +104,7 @@ volatile uint8_t halted;
   4:  ldi r24, 0
       sts %[timsk], r24
       sts running, r24
+      sts line_is_watched, r24
       pop r24
       reti
 
@@ -140,6 +142,7 @@ volatile uint8_t halted;
   7:  ldi r24, 0
       sts %[timsk], r24
       sts running, r24
+      sts line_is_watched, r24
       ldi r24, 1
       sts halted, r24
       pop r25
@@ -184,7 +187,7 @@ asm(R"(
       passo_motor r10, r11, r16, r17, \mask2
       eor r30, r31                  ; 1
       st X+, r30                    ; 2
-      inc r26                       ; 1   never past the end of a page
+      adiw r26, 1                   ; 2
   .endm
 )");
 
