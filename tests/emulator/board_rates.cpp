@@ -11,18 +11,22 @@ namespace {
 
 using namespace passo;
 
-void sweep(const BoardUnderTest& board, const char* name, const std::vector<std::uint32_t>& intervals) {
+void sweep(const BoardUnderTest& board, const char* name, bool changing, const std::vector<std::uint32_t>& intervals) {
   for (const std::uint32_t interval : intervals) {
     BoardBench bench(board);
     std::mt19937_64 random(1);
     const auto motors = static_cast<std::uint8_t>(board.motors.size());
-    const std::vector<BoardSegment> stream = random_stream(random, motors,
-                                                           {.shortest_interval = interval,
-                                                            .longest_interval = interval + interval / 8,
-                                                            .shortest_segment = 120,
-                                                            .longest_segment = 255,
-                                                            .segments = 150,
-                                                            .ramp = 20});
+    StreamKind kind{.shortest_interval = interval,
+                    .longest_interval = interval,
+                    .shortest_segment = 200,
+                    .longest_segment = 255,
+                    .segments = 150,
+                    .ramp = 20};
+    if (changing) {
+      kind.longest_interval += interval / 8;
+      kind.shortest_segment = 120;
+    }
+    const std::vector<BoardSegment> stream = random_stream(random, motors, kind);
     const EdgeCheck check = bench.play(stream);
     const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
     std::printf("| %s | %zu | %u | %.1f | %.1f | %s | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
@@ -43,7 +47,8 @@ int main(int argc, char** argv) {
     std::puts("| board | motors | kbaud | kHz at the most | in the mean | every edge | error, cycles | pulse | set-up | "
               "bytes lost |");
     std::puts("|---|---:|---:|---:|---:|---|---:|---:|---:|---:|");
-    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno", intervals);
+    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, even", false, intervals);
+    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, changing", true, intervals);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "board_rates: %s\n", error.what());
     return 1;

@@ -35,17 +35,18 @@ TEST(Uno, steps_as_the_host_says_at_every_rate) {
     const EdgeCheck check = bench.play(random_stream(random, 3,
                                                      {.shortest_interval = interval / 2,
                                                       .longest_interval = interval,
-                                                      .shortest_segment = 1,
-                                                      .longest_segment = 60,
+                                                      .shortest_segment = interval < 1000 ? std::uint8_t{60} : std::uint8_t{1},
+                                                      .longest_segment = 120,
                                                       .segments = 30}));
     expect_every_edge(check, unavoidable);
   }
 }
 
-TEST(Uno, turns_three_motors_at_120_kHz_while_it_is_fed) {
+TEST(Uno, turns_three_motors_at_140_kHz_while_it_is_fed) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
-  StreamKind kind{.shortest_interval = 133, .longest_interval = 150, .shortest_segment = 100, .segments = 100};
+  StreamKind kind{
+      .shortest_interval = 114, .longest_interval = 128, .shortest_segment = 120, .segments = 120, .ramp = 20};
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
   kind.all_at_every_event = true;
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);

@@ -73,6 +73,13 @@ class ChipPlayer {
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
     left_ = segment.events;
+    // At its slowest, about: at its start or, if it slows down, at its end.
+    uint32_t slowest = segment.interval;
+    if (segment.change > 0) slowest += static_cast<uint32_t>(segment.change) * segment.events;
+    if (static_cast<uint16_t>(slowest >> 16) >= often) {
+      slow_end_ = static_cast<uint16_t>(made_ + left_);
+      line_is_watched = 0;
+    }
     most_ahead_ = most_ahead();
     remember(segment);
   }
@@ -159,7 +166,7 @@ class ChipPlayer {
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
   static constexpr uint8_t most_at_once = 64;
-  static constexpr uint8_t few_at_once = 4;
+  static constexpr uint8_t few_at_once = 8;
   static constexpr uint16_t often = 300;
   static constexpr uint8_t most_pieces = 8;
   // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
@@ -234,14 +241,16 @@ class ChipPlayer {
   }
 
   // The interrupt comes so often that it sees every byte off the line.
-  static bool is_fast() { return static_cast<uint16_t>(expansion.interval >> 16) < often; }
+  [[gnu::noinline]] static bool is_watched(uint8_t ahead) {
+    return running != 0 && static_cast<int16_t>(made_ - ahead - slow_end_) >= 0;
+  }
 
   // False where there was nothing to do.
   static bool make_events() {
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
-    line_is_watched = running != 0 && static_cast<int16_t>(made_ - ahead - slow_end_) >= 0 && is_fast();
+    if (line_is_watched == 0) line_is_watched = is_watched(ahead);
     const uint8_t at_once = line_is_watched != 0 ? most_at_once : few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
     const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
@@ -264,7 +273,6 @@ class ChipPlayer {
     SerialLine::breathe();
     left_ = static_cast<uint8_t>(left_ - count);
     made_ = static_cast<uint16_t>(made_ + count);
-    if (!is_fast()) slow_end_ = made_;
     head_ = behind;
     const uint8_t plain = static_cast<uint8_t>(entry(first).toggles & ~(pins.flag_special | pins.flag_stop));
     // From here on the interrupt may come to it.
@@ -308,6 +316,7 @@ class ChipPlayer {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     if (ahead > least_lead && ahead <= gap_) return;  // in time after all
     ++slips_;
+    slow_end_ = made_;  // nobody looks after the line until it goes on
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);

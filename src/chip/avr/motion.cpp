@@ -12,7 +12,8 @@ namespace passo::chip {
 namespace {
 
 constexpr uint32_t clock = 16'000'000;
-constexpr uint8_t queue_capacity = 16;
+// All that a host may have under way fits into the page of received bytes: 11 frames of 22 bytes and one to replace.
+constexpr uint8_t queue_capacity = 11;
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
@@ -43,19 +44,21 @@ void set_pins() {
 // Once around the loop. Events come first: nothing else here may take longer than what is ahead of the interrupt.
 [[gnu::noinline]] void turn() {
   static uint8_t patience = 0;
-  hardware.line.poll();
-  for (uint8_t taken = 0; hardware.line.has_byte() && (taken < 6 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
+  SerialLine& line = hardware.line;
+  line.poll();
+  for (uint8_t taken = 0; line.has_byte() && (taken < 6 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
     receive();
     SerialLine::breathe();
   }
   ChipPlayer::refill();
-  SerialLine::breathe();
+  line.poll();
   board.settle();
-  SerialLine::breathe();
+  line.poll();
   ChipPlayer::refill();
+  line.poll();
   // A credit tells what those before it told: while bytes wait, it can wait too.
-  if (!board.owes_report() || !hardware.line.can_send()) return;
-  if (hardware.line.has_byte() && (++patience & 7) != 0) return;
+  if (!board.owes_report() || !line.can_send()) return;
+  if (line.has_byte() && (++patience & 7) != 0) return;
   board.report();
 }
 

@@ -67,35 +67,29 @@ struct PinMap {
     return mask;
   }
 
-  // Calls visit(pin) for every pin, motors' enable pins aside, until it says false.
-  template <class Visit>
-  constexpr bool every_pin(Visit visit) const {
-    for (const MotorPins& pins : motor) {
-      if (!visit(pins.step) || !visit(pins.direction)) return false;
-    }
-    for (const Pin pin : limits) {
-      if (!visit(pin)) return false;
-    }
-    const Pin others[] = {probe,       emergency_stop,    door, feed_hold, cycle_start,
-                          spindle_pwm, spindle_direction, mist, flood};
-    for (const Pin pin : others) {
-      if (!visit(pin)) return false;
-    }
-    return true;
-  }
-
   // No pin has two jobs; but for the enable pins, which motors may share with each other only.
   constexpr bool without_conflict() const {
-    return every_pin([this](Pin one) {
-      if (!one.exists()) return true;
-      uint8_t jobs = 0;
-      every_pin([&](Pin other) {
-        jobs = static_cast<uint8_t>(jobs + (one == other ? 1 : 0));
-        return true;
-      });
-      for (const MotorPins& pins : motor) jobs = static_cast<uint8_t>(jobs + (one == pins.enable ? 1 : 0));
-      return jobs == 1;
-    });
+    constexpr uint8_t most = 2 * motor_count + most_axis_switches + 9;
+    Pin pins[most] = {};
+    uint8_t count = 0;
+    for (const MotorPins& one : motor) {
+      pins[count++] = one.step;
+      pins[count++] = one.direction;
+    }
+    for (const Pin one : limits) pins[count++] = one;
+    const Pin others[] = {probe,       emergency_stop,    door, feed_hold, cycle_start,
+                          spindle_pwm, spindle_direction, mist, flood};
+    for (const Pin one : others) pins[count++] = one;
+    for (uint8_t a = 0; a < most; ++a) {
+      if (!pins[a].exists()) continue;
+      for (uint8_t b = 0; b < a; ++b) {
+        if (pins[a] == pins[b]) return false;
+      }
+      for (const MotorPins& one : motor) {
+        if (pins[a] == one.enable) return false;
+      }
+    }
+    return true;
   }
 
   constexpr bool has_step_port(char port) const {
