@@ -19,6 +19,7 @@ constexpr std::uint16_t tcnt1l = 0x84;
 constexpr std::uint16_t tcnt1h = 0x85;
 constexpr std::uint16_t ocr1al = 0x88;
 constexpr std::uint16_t ocr1ah = 0x89;
+constexpr std::uint8_t overflow = 1 << 0;
 constexpr std::uint8_t compare_match_a = 1 << 1;
 
 }  // namespace
@@ -62,7 +63,14 @@ EmulatedTimer::EmulatedTimer(EmulatedChip& chip) : avr_(chip.avr()) {
     timer.set_alarm();
   });
   on_write(tifr1, [](avr_t* avr, avr_io_addr_t, std::uint8_t value, void* self) {
-    if ((value & compare_match_a) != 0) avr_clear_interrupt(avr, static_cast<EmulatedTimer*>(self)->match_);
+    auto& timer = *static_cast<EmulatedTimer*>(self);
+    if ((value & compare_match_a) != 0) avr_clear_interrupt(avr, timer.match_);
+    if ((value & overflow) != 0) timer.overflows_cleared_ = timer.overflows();
+  });
+  on_read(tifr1, [](avr_t* avr, avr_io_addr_t, void* self) {
+    const auto& timer = *static_cast<EmulatedTimer*>(self);
+    return static_cast<std::uint8_t>((avr->data[tifr1] & compare_match_a) |
+                                     (timer.overflows() > timer.overflows_cleared_ ? overflow : 0));
   });
   on_write(timsk1, [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void* self) {
     auto& timer = *static_cast<EmulatedTimer*>(self);
@@ -75,6 +83,10 @@ EmulatedTimer::EmulatedTimer(EmulatedChip& chip) : avr_(chip.avr()) {
 
 std::uint16_t EmulatedTimer::count() const {
   return runs_ ? static_cast<std::uint16_t>(avr_.cycle - started_) : std::uint16_t{0};
+}
+
+std::uint64_t EmulatedTimer::overflows() const {
+  return runs_ ? (avr_.cycle - started_) / 65536 : 0;
 }
 
 void EmulatedTimer::set_alarm() {

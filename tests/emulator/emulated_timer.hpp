@@ -1,4 +1,5 @@
-// EmulatedTimer: timer 1 of the ATmegas, free running at the full clock, with its compare match A. Stands in for
+// EmulatedTimer: timer 1 of the ATmegas, free running at the full clock, with its compare match A
+// and its overflow flag (which nobody has as an interrupt). Stands in for
 // simavr's, which forgets a preset count, clears all flags with one, and forgets a match that was pending when its
 // interrupt is enabled.
 //
@@ -22,6 +23,7 @@ class EmulatedTimer {
 
  private:
   std::uint16_t count() const;
+  std::uint64_t overflows() const;
   void set_alarm();
   static std::uint64_t on_match(avr_t* avr, std::uint64_t when, void* self);
 
@@ -31,6 +33,7 @@ class EmulatedTimer {
   bool runs_ = false;
   std::uint8_t temp_ = 0;
   std::uint16_t compare_ = 0;
+  std::uint64_t overflows_cleared_ = 0;
 };
 
 }  // namespace passo

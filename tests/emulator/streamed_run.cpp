@@ -68,6 +68,10 @@ void BoardBench::hear(std::uint8_t byte) {
     Credit credit;
     decode(frame, credit);
     last_executed_ = static_cast<std::uint8_t>(credit.executed);
+  } else if (frame.type == MessageType::fault) {
+    decode(frame, fault_.emplace());
+  } else if (frame.type == MessageType::captured) {
+    decode(frame, static_cast<std::uint8_t>(board_.motors.size()), captured_.emplace());
   } else {
     ++complaints_;
   }
@@ -80,19 +84,34 @@ void BoardBench::send_item(const BoardSegment& segment) {
   uart_->send({frame, size});
 }
 
-EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
+bool BoardBench::say_hello() {
   std::uint8_t frame[largest_frame];
-  const std::uint8_t size =
-      encode(Hello{.motors = static_cast<std::uint8_t>(board_.motors.size())}, last_sent_, frame);
+  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
+  const std::uint8_t size = encode(Hello{.motors = motors}, last_sent_, frame);
+  decoder_.set_motors(motors);
   greeted_ = false;
   complaints_ = 0;
-  const std::uint64_t lost = uart_->overruns();
   uart_->send({frame, size});
-  chip_->run_for(clock_rate / 50);
+  for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(clock_rate / 1000);
   last_executed_ = last_sent_;
   ports_->forget_changes();
+  return greeted_;
+}
+
+void BoardBench::start(const std::vector<BoardSegment>& segments) {
+  if (!say_hello()) return;
+  for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), capacity_); ++i) send_item(segments[i]);
+}
+
+void BoardBench::run(std::uint64_t cycles) {
+  const std::uint64_t end = chip_->cycles() + cycles;
+  while (chip_->cycles() < end) chip_->run_for(end - chip_->cycles());
+}
+
+EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
+  const std::uint64_t lost = uart_->overruns();
   EdgeCheck result;
-  if (!greeted_) return result;
+  if (!say_hello()) return result;
 
   std::size_t sent = 0;
   const std::uint64_t start = chip_->cycles();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -55,13 +56,22 @@ class BoardBench {
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
 
+  // Says hello and sends as many as the board takes at once.
+  void start(const std::vector<BoardSegment>& segments);
+  // Lets time pass, whatever the board says.
+  void run(std::uint64_t cycles);
+  const std::optional<Fault>& fault() const { return fault_; }
+  const std::optional<Captured>& captured() const { return captured_; }
+
   EmulatedChip& chip() { return *chip_; }
   EmulatedPorts& ports() { return *ports_; }
+  const EmulatedPorts& ports() const { return *ports_; }
   EmulatedUart& uart() { return *uart_; }
   std::uint64_t cycles() const { return chip_->cycles(); }
 
  private:
   void hear(std::uint8_t byte);
+  bool say_hello();
   void send_item(const BoardSegment& segment);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
 
@@ -76,6 +86,8 @@ class BoardBench {
   std::uint8_t last_sent_ = 0;
   std::uint8_t last_executed_ = 0;
   std::uint64_t complaints_ = 0;
+  std::optional<Fault> fault_;
+  std::optional<Captured> captured_;
 };
 
 // What a random stream of segments is made of.

@@ -154,6 +154,15 @@ class ChipPlayer {
 
   // What it has is made, and another segment can come.
   static bool wants_more() { return left_ == 0; }
+  // The probe touched, at an event at which the interrupt looked. Until watch_probe() all that is told of the oldest
+  // item, and whether it is finished, is told as it was then.
+  static bool captured() { return watching_ && probe_mask == 0; }
+  static bool watches_probe() { return watching_; }
+  static void watch_probe(uint8_t mask) {
+    probe_mask = mask;
+    watching_ = mask != 0;
+  }
+
   // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
   static uint8_t slips() { return slips_; }
 
@@ -190,11 +199,18 @@ class ChipPlayer {
   static uint8_t fetched() {
     uint16_t next;
     asm volatile("movw %0, r2" : "=r"(next));
+    return entry_of(next);
+  }
+  static uint8_t entry_of(uint16_t next) {
     return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & ring_mask);
   }
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
-    return static_cast<int16_t>(items_[finished_ & items_mask].end - static_cast<uint16_t>(made_ - waiting()));
+    const uint8_t now = fetched();
+    uint16_t played = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask));
+    // The main loop comes round within less events than the ring has.
+    if (captured()) played = static_cast<uint16_t>(played - ((now - entry_of(probe_entry)) & ring_mask));
+    return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
   }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
 
@@ -335,6 +351,7 @@ class ChipPlayer {
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;      // the clock was set for what is in the ring
   static inline uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
+  static inline bool watching_ = false;  // the probe
   static inline uint8_t slips_ = 0;
   static inline uint16_t slow_end_ = 0;    // `made_` after the last events that were not fast
   static inline uint16_t made_ = 0;       // events, ever

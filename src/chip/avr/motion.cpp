@@ -1,8 +1,10 @@
 // The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
 #include "chip_player.hpp"
+#include "passo/chip/input_reader.hpp"
 #include "passo/chip/line_decoder.hpp"
 #include "passo/firmware/board.hpp"
 #include "serial_line.hpp"
+#include "uno_wiring.hpp"
 
 #ifndef PASSO_BAUD
 #define PASSO_BAUD 500000
@@ -17,7 +19,7 @@ constexpr uint8_t queue_capacity = 11;
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
-  void outputs(const BoardOutputs&) {}
+  void outputs(const BoardOutputs& wanted) { UnoWiring::switch_outputs(wanted); }
   void send(uint8_t byte) { line.send(byte); }
   void breathe() { SerialLine::breathe(); }
 
@@ -25,15 +27,62 @@ struct Hardware {
 };
 
 Hardware hardware;
-constexpr BoardIdentity identity = {
-    .motors = uno_cnc_shield.motors,
-    .clock = clock,
-    .reset = ResetCause::power_on,
-    .about = {.firmware = 100, .highest_event_rate = 125'000, .baud = 500'000, .name = "uno cnc3"}};
-Board<Hardware, queue_capacity, ChipPlayer, LineDecoder> board(hardware, identity);
+ResetCause cause_of_reset() {
+  const uint8_t flags = Mcusr::read();
+  Mcusr::write(0);
+  if ((flags & 1 << 3) != 0) return ResetCause::watchdog;
+  if ((flags & 1 << 0) != 0) return ResetCause::power_on;
+  if ((flags & 1 << 2) != 0) return ResetCause::brown_out;
+  return ResetCause::button;
+}
 
-void set_pins() {
-  Register<0x2a>::write(uno_cnc_shield.steps_on('D') | uno_cnc_shield.directions_on('D'));
+BoardIdentity identity() {
+  return {.motors = uno_cnc_shield.motors,
+          .clock = clock,
+          .reset = cause_of_reset(),
+          .about = {.firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"}};
+}
+Board<Hardware, queue_capacity, ChipPlayer, LineDecoder> board(hardware, identity());
+InputReader reader;
+
+// A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.
+void start_watchdog() {
+  asm volatile("wdr");
+  Wdtcsr::write(1 << 4 | 1 << 3);
+  Wdtcsr::write(1 << 3 | 6);
+}
+
+// All at once, and nothing again until a host says hello.
+[[gnu::noinline]] void stop_at_once() {
+  const bool pressed = (UnoWiring::inputs() & input_emergency_stop) != 0;
+  board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  UnoWiring::switch_outputs({});
+  if (pressed) UnoWiring::enable_motors(false);
+  halted = 0;
+}
+
+[[gnu::noinline]] void look_at_inputs() {
+  const bool tick = (Tifr1::read() & timer_overflow) != 0;
+  if (tick) Tifr1::write(timer_overflow);
+  if (halted != 0) return stop_at_once();
+  uint16_t raw = UnoWiring::inputs();
+  const bool probed = ChipPlayer::captured();
+  // Amid motion it is the interrupt that tells where the probe touched.
+  if (running != 0 && ChipPlayer::watches_probe() && !probed) raw &= static_cast<uint16_t>(~input_probe);
+  const uint16_t on = reader.look(raw, tick);
+  constexpr uint16_t stopping = input_emergency_stop | 7 * input_limit;
+  // Amid motion the interrupt has stopped already; at rest nobody else looks.
+  if ((on & stopping) != 0 && !board.idle()) return stop_at_once();
+  if ((on & input_emergency_stop) != 0) return stop_at_once();
+  uint16_t told = on & (InputReader::pressed_by_people | input_probe);
+  if (probed) {
+    told |= input_probe;
+    board.settle();  // what was finished before the touch is let go of
+  }
+  if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
+  // Watched only while it is open, so that the first touch counts.
+  if (probed || (on & input_probe) != 0) ChipPlayer::watch_probe(0);
+  if ((raw & input_probe) == 0 && !ChipPlayer::captured()) ChipPlayer::watch_probe(UnoWiring::probe);
 }
 
 // The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.
@@ -44,6 +93,8 @@ void set_pins() {
 // Once around the loop. Events come first: nothing else here may take longer than what is ahead of the interrupt.
 [[gnu::noinline]] void turn() {
   static uint8_t patience = 0;
+  static uint8_t turns = 0;
+  asm volatile("wdr");
   SerialLine& line = hardware.line;
   line.poll();
   for (uint8_t taken = 0; line.has_byte() && (taken < 6 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
@@ -52,6 +103,9 @@ void set_pins() {
   }
   ChipPlayer::refill();
   line.poll();
+  // What the interrupt has seen at once, and before an item is let go of in which the probe touched; the rest in its time.
+  if (halted != 0 || ChipPlayer::captured() || (++turns & 15) == 0) look_at_inputs();
+  SerialLine::breathe();
   board.settle();
   line.poll();
   ChipPlayer::refill();
@@ -67,10 +121,12 @@ void set_pins() {
 
 extern "C" int main() {
   using namespace passo::chip;
-  set_pins();
+  UnoWiring::prepare();
   ChipPlayer::prepare();
   board.player().restart(0);
   SerialLine::open(clock, PASSO_BAUD);
+  UnoWiring::enable_motors(true);
+  start_watchdog();
   asm volatile("sei");
   for (;;) turn();
 }

@@ -17,6 +17,18 @@ struct Register {
   static void write(uint8_t value) { *reinterpret_cast<volatile uint8_t*>(address) = value; }
 };
 
+// PINx at `address`, then DDRx and PORTx. Single bits are turned over by a one in PINx: no neighbour is written, also not
+// when the interrupt comes between.
+template <uint16_t address>
+struct Port {
+  static uint8_t pins() { return Register<address>::read(); }
+  static void output(uint8_t mask) { Register<address + 1>::write(mask); }
+  static void set(uint8_t mask, bool high) {
+    const uint8_t now = Register<address + 2>::read();
+    Register<address>::write(static_cast<uint8_t>((high ? ~now : now) & mask));
+  }
+};
+
 using Tifr1 = Register<0x36>;
 using Pcifr = Register<0x3b>;
 using Gpior0 = Register<0x3e>;
@@ -46,6 +58,7 @@ using Ubrr0l = Register<0xc4>;
 using Ubrr0h = Register<0xc5>;
 using Udr0 = Register<0xc6>;
 
+inline constexpr uint8_t timer_overflow = 1 << 0;   // in TIFR1: every 65,536 cycles
 inline constexpr uint8_t compare_match_a = 1 << 1;  // in TIFR1 and TIMSK1
 inline constexpr uint8_t byte_received = 1 << 7;    // in UCSR0A
 inline constexpr uint8_t may_send = 1 << 5;
