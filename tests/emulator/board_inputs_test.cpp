@@ -4,8 +4,9 @@
 
 #include "emulator/streamed_run.hpp"
 #include "kit/seed.hpp"
-#include "passo/chip/uno_cnc_shield.hpp"
 #include <gtest/gtest.h>
+
+#include "passo/chip/uno_cnc_shield.hpp"
 
 namespace passo {
 namespace {

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "emulator/streamed_run.hpp"
+
 #include "passo/chip/uno_cnc_shield.hpp"
 
 namespace {
@@ -44,8 +45,9 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
   if (intervals.empty()) intervals = {400, 200, 160, 145, 130, 114, 107, 100, 95, 90, 85, 80};
   try {
-    std::puts("| board | motors | kbaud | kHz at the most | in the mean | every edge | error, cycles | pulse | set-up | "
-              "bytes lost |");
+    std::puts(
+        "| board | motors | kbaud | kHz at the most | in the mean | every edge | error, cycles | pulse | set-up | "
+        "bytes lost |");
     std::puts("|---|---:|---:|---:|---:|---|---:|---:|---:|---:|");
     sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, even", false, intervals);
     sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, changing", true, intervals);

@@ -32,12 +32,13 @@ TEST(Uno, steps_as_the_host_says_at_every_rate) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
   for (const std::uint32_t interval : {60'000U, 5'000U, 1'000U, 300U}) {
-    const EdgeCheck check = bench.play(random_stream(random, 3,
-                                                     {.shortest_interval = interval / 2,
-                                                      .longest_interval = interval,
-                                                      .shortest_segment = interval < 1000 ? std::uint8_t{60} : std::uint8_t{1},
-                                                      .longest_segment = 120,
-                                                      .segments = 30}));
+    const EdgeCheck check =
+        bench.play(random_stream(random, 3,
+                                 {.shortest_interval = interval / 2,
+                                  .longest_interval = interval,
+                                  .shortest_segment = interval < 1000 ? std::uint8_t{60} : std::uint8_t{1},
+                                  .longest_segment = 120,
+                                  .segments = 30}));
     expect_every_edge(check, unavoidable);
   }
 }

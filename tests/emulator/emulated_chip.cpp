@@ -71,7 +71,9 @@ void EmulatedChip::step() {
   if (avr_->interrupt_state == -1) {
     avr_->interrupt_state = avr_has_pending_interrupts(avr_.get()) != 0 ? std::int8_t{1} : std::int8_t{0};
   }
-  if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the emulated program died at " + std::to_string(avr_->pc) + " cycle " + std::to_string(avr_->cycle));
+  if (state == cpu_Done || state == cpu_Crashed)
+    throw std::runtime_error("the emulated program died at " + std::to_string(avr_->pc) + " cycle " +
+                             std::to_string(avr_->cycle));
 }
 
 void EmulatedChip::run_for(std::uint64_t cycles) {

@@ -1,9 +1,8 @@
 #include "emulator/emulated_ports.hpp"
 
+#include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_io.h>
-
-#include "emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {
@@ -30,11 +29,11 @@ EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr
           return static_cast<std::uint8_t>((avr->data[address + 2] & outputs) |
                                            (static_cast<Port*>(which)->levels & ~outputs));
         }};
-    avr_.io[AVR_DATA_TO_IO(pin)].w = {
-        .param = &port, .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void* which) {
-          auto& toggled = *static_cast<Port*>(which);
-          toggled.all->write(toggled, avr->data[address + 2] ^ value);
-        }};
+    avr_.io[AVR_DATA_TO_IO(pin)].w = {.param = &port,
+                                      .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void* which) {
+                                        auto& toggled = *static_cast<Port*>(which);
+                                        toggled.all->write(toggled, avr->data[address + 2] ^ value);
+                                      }};
     avr_.io[AVR_DATA_TO_IO(pin + 1)].w = {
         .param = nullptr,
         .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) { avr->data[address] = value; }};
@@ -44,10 +43,10 @@ EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr
                                             written.all->write(written, value);
                                           }};
   }
-  avr_.io[AVR_DATA_TO_IO(pcifr)].w = {
-      .param = nullptr, .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) {
-        avr->data[address] = static_cast<std::uint8_t>(avr->data[address] & ~value);
-      }};
+  avr_.io[AVR_DATA_TO_IO(pcifr)].w = {.param = nullptr,
+                                      .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) {
+                                        avr->data[address] = static_cast<std::uint8_t>(avr->data[address] & ~value);
+                                      }};
 }
 
 void EmulatedPorts::write(Port& port, std::uint8_t value) {

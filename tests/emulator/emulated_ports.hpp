@@ -40,7 +40,7 @@ class EmulatedPorts {
   struct Port {
     EmulatedPorts* all = nullptr;
     char name = 0;
-    std::uint16_t pin = 0;  // address of PINx; DDRx and PORTx are the next two
+    std::uint16_t pin = 0;       // address of PINx; DDRx and PORTx are the next two
     std::uint8_t levels = 0xff;  // that something outside gives it
   };
   void write(Port& port, std::uint8_t value);

@@ -2,12 +2,11 @@
 
 #include <stdexcept>
 
+#include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
 #include <simavr/sim_interrupts.h>
 #include <simavr/sim_io.h>
-
-#include "emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {

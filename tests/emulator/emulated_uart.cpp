@@ -1,10 +1,9 @@
 #include "emulator/emulated_uart.hpp"
 
+#include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
 #include <simavr/sim_io.h>
-
-#include "emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {
@@ -20,10 +19,9 @@ EmulatedUart::EmulatedUart(EmulatedChip& chip, std::uint32_t baud)
     : avr_(chip.avr()), byte_cycles_((10 * clock_rate + baud / 2) / baud) {
   avr_.io[AVR_DATA_TO_IO(ucsr0a)].r = {.param = this, .c = [](avr_t*, avr_io_addr_t, void* self) {
                                          const auto& uart = *static_cast<EmulatedUart*>(self);
-                                         return static_cast<std::uint8_t>(
-                                             (uart.received_bytes_.empty() ? 0 : 0x80) |
-                                             (uart.to_send_.size() < 2 ? 0x20 : 0) |
-                                             (uart.to_send_.empty() ? 0x40 : 0));
+                                         return static_cast<std::uint8_t>((uart.received_bytes_.empty() ? 0 : 0x80) |
+                                                                          (uart.to_send_.size() < 2 ? 0x20 : 0) |
+                                                                          (uart.to_send_.empty() ? 0x40 : 0));
                                        }};
   avr_.io[AVR_DATA_TO_IO(ucsr0a)].w = {
       .param = this,
@@ -36,8 +34,7 @@ EmulatedUart::EmulatedUart(EmulatedChip& chip, std::uint32_t baud)
                                        bytes.pop_front();
                                        return byte;
                                      }};
-  avr_.io[AVR_DATA_TO_IO(udr0)].w = {.param = this,
-                                     .c = [](avr_t* avr, avr_io_addr_t, std::uint8_t value, void* self) {
+  avr_.io[AVR_DATA_TO_IO(udr0)].w = {.param = this, .c = [](avr_t* avr, avr_io_addr_t, std::uint8_t value, void* self) {
                                        auto& uart = *static_cast<EmulatedUart*>(self);
                                        if (uart.to_send_.size() >= 2) return;  // lost, as in silicon
                                        uart.to_send_.push_back(value);

@@ -36,9 +36,9 @@ class EmulatedUart {
 
   avr_t& avr_;
   std::uint32_t byte_cycles_;
-  std::deque<std::uint8_t> line_;      // on its way to the chip
+  std::deque<std::uint8_t> line_;            // on its way to the chip
   std::deque<std::uint8_t> received_bytes_;  // in the chip, not yet read
-  std::deque<std::uint8_t> to_send_;   // the first one is on the line
+  std::deque<std::uint8_t> to_send_;         // the first one is on the line
   std::uint64_t overruns_ = 0;
   std::uint64_t received_ = 0;
 };

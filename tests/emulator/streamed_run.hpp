@@ -13,6 +13,7 @@
 #include "emulator/emulated_ports.hpp"
 #include "emulator/emulated_timer.hpp"
 #include "emulator/emulated_uart.hpp"
+
 #include "passo/chip/pin_map.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
@@ -30,17 +31,17 @@ struct BoardUnderTest {
 BoardUnderTest uno_under_test(const std::string& program);
 
 struct EdgeCheck {
-  std::uint64_t steps = 0;       // edges seen
-  std::uint64_t expected = 0;    // of the model
+  std::uint64_t steps = 0;            // edges seen
+  std::uint64_t expected = 0;         // of the model
   std::uint64_t wrong_count = 0;      // motors with another number of edges
   std::uint64_t wrong_direction = 0;  // edges
-  std::int64_t earliest = 0;     // edge against model, in cycles, from the mean start on
+  std::int64_t earliest = 0;          // edge against model, in cycles, from the mean start on
   std::int64_t latest = 0;
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
-  std::uint64_t overruns = 0;    // bytes lost in the UART
-  std::uint64_t complaints = 0;  // frames that the board did not take
+  std::uint64_t overruns = 0;        // bytes lost in the UART
+  std::uint64_t complaints = 0;      // frames that the board did not take
   bool finished = false;
   double seconds = 0;  // of the chip's time, playing
   std::uint64_t events = 0;

@@ -4,16 +4,17 @@
 // whichever is less: what is in the ring will be played, so a slow motion must not have seconds in it. A segment counts
 // as begun once it is loaded.
 //
-// Invariant: same steps at the same ticks as Player's, from the first event after a rest on. There is one, and all of it is static: what
-// lies at a fixed address costs half of what lies behind a pointer.
+// Invariant: same steps at the same ticks as Player's, from the first event after a rest on. There is one, and all of
+// it is static: what lies at a fixed address costs half of what lies behind a pointer.
 #pragma once
 
 #include "event_ring.hpp"
-#include "passo/chip/uno_cnc_shield.hpp"
-#include "passo/wire/board_segment.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
+
+#include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/wire/board_segment.hpp"
 
 namespace passo::chip {
 
@@ -126,7 +127,8 @@ class ChipPlayer {
     return (item.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
   }
 
-  // Additions of `increment` to `accumulator` that overflow. A 16 by 8 bit product, for which LLVM calls one of 32 bits.
+  // Additions of `increment` to `accumulator` that overflow. A 16 by 8 bit product, for which LLVM calls one of 32
+  // bits.
   static uint8_t carries(uint16_t accumulator, uint16_t increment, uint8_t events) {
     uint8_t count;
     asm volatile(
@@ -343,19 +345,19 @@ class ChipPlayer {
   }
 
   static inline uint8_t head_ = 0;        // entry behind the last event
-  static inline uint8_t most_ahead_ = 0;   // how many events may be in the ring, at the rate of the loaded segment
+  static inline uint8_t most_ahead_ = 0;  // how many events may be in the ring, at the rate of the loaded segment
   static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
   static inline uint8_t turns_ = 0;       // direction pins to turn over before its first event
   static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
-  static inline bool fresh_ = false;      // the clock was set for what is in the ring
-  static inline uint16_t gap_ = 0;        // ticks before the first event that was made when none was waiting, and a little
+  static inline bool fresh_ = false;  // the clock was set for what is in the ring
+  static inline uint16_t gap_ = 0;    // ticks before the first event that was made when none was waiting, and a little
   static inline bool watching_ = false;  // the probe
   static inline uint8_t slips_ = 0;
-  static inline uint16_t slow_end_ = 0;    // `made_` after the last events that were not fast
-  static inline uint16_t made_ = 0;       // events, ever
-  static inline uint8_t begun_ = 0;       // items, ever
+  static inline uint16_t slow_end_ = 0;  // `made_` after the last events that were not fast
+  static inline uint16_t made_ = 0;      // events, ever
+  static inline uint8_t begun_ = 0;      // items, ever
   static inline uint8_t finished_ = 0;
 
   static inline Item items_[most_begun];

@@ -24,8 +24,8 @@ inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
 inline constexpr uint8_t ring_mask = ring_entries - 1;
 
-// Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low byte
-// of the address and wraps by itself. All that the host may have under way fits.
+// Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low
+// byte of the address and wraps by itself. All that the host may have under way fits.
 inline constexpr uint16_t received_address = 0x300;
 
 // Direction bits to turn over, one for each flagged event that waits.

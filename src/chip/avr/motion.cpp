@@ -1,10 +1,11 @@
 // The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
 #include "chip_player.hpp"
+#include "serial_line.hpp"
+#include "uno_wiring.hpp"
+
 #include "passo/chip/input_reader.hpp"
 #include "passo/chip/line_decoder.hpp"
 #include "passo/firmware/board.hpp"
-#include "serial_line.hpp"
-#include "uno_wiring.hpp"
 
 #ifndef PASSO_BAUD
 #define PASSO_BAUD 500000
@@ -97,14 +98,15 @@ void start_watchdog() {
   asm volatile("wdr");
   SerialLine& line = hardware.line;
   line.poll();
-  for (uint8_t taken = 0; line.has_byte() && (taken < 6 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
+  for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
     receive();
     SerialLine::breathe();
   }
   ChipPlayer::refill();
   line.poll();
-  // What the interrupt has seen at once, and before an item is let go of in which the probe touched; the rest in its time.
-  if (halted != 0 || ChipPlayer::captured() || (++turns & 15) == 0) look_at_inputs();
+  // What the interrupt has seen at once, and before an item is let go of in which the probe touched; the rest in its
+  // time.
+  if (halted != 0 || ChipPlayer::captured() || (++turns & 63) == 0) look_at_inputs();
   SerialLine::breathe();
   board.settle();
   line.poll();

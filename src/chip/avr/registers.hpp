@@ -17,8 +17,8 @@ struct Register {
   static void write(uint8_t value) { *reinterpret_cast<volatile uint8_t*>(address) = value; }
 };
 
-// PINx at `address`, then DDRx and PORTx. Single bits are turned over by a one in PINx: no neighbour is written, also not
-// when the interrupt comes between.
+// PINx at `address`, then DDRx and PORTx. Single bits are turned over by a one in PINx: no neighbour is written, also
+// not when the interrupt comes between.
 template <uint16_t address>
 struct Port {
   static uint8_t pins() { return Register<address>::read(); }

@@ -1,4 +1,5 @@
-// SerialLine: the UART, polled. Bytes that came wait in a ring that the expander fills too; bytes to go wait in another.
+// SerialLine: the UART, polled. Bytes that came wait in a ring that the expander fills too; bytes to go wait in
+// another.
 #pragma once
 
 #include "event_ring.hpp"
@@ -14,9 +15,9 @@ class SerialLine {
     const uint16_t divider = static_cast<uint16_t>((clock / 4 / baud - 1) / 2);
     Ubrr0h::write(static_cast<uint8_t>(divider >> 8));
     Ubrr0l::write(static_cast<uint8_t>(divider));
-    Ucsr0a::write(1 << 1);                // eight samples a bit
-    Ucsr0b::write(1 << 4 | 1 << 3);       // receive and send, no interrupt
-    Ucsr0c::write(1 << 2 | 1 << 1);       // 8N1
+    Ucsr0a::write(1 << 1);           // eight samples a bit
+    Ucsr0b::write(1 << 4 | 1 << 3);  // receive and send, no interrupt
+    Ucsr0c::write(1 << 2 | 1 << 1);  // 8N1
   }
 
   // Saves what came. Every 640 cycles at 500 kbaud, the interrupt's included: the UART itself holds two bytes. So this
@@ -53,7 +54,8 @@ class SerialLine {
   // that would be late for its edge. So wait, if need be, until it has come and gone: the low bytes of the timer and of
   // its alarm tell whether it is due soon.
   [[gnu::noinline]] static void fetch() {
-    asm volatile(R"(
+    asm volatile(
+        R"(
       1:  lds r24, %[ocr]
           lds r25, %[tcnt]
           sub r24, r25
@@ -69,9 +71,9 @@ class SerialLine {
           sts received_head, r30
           rjmp 1b
       2:
-    )" ::[ocr] "n"(Ocr1al::where), [tcnt] "n"(Tcnt1l::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
-                 [received] "n"(received_address)
-                 : "r24", "r25", "r30", "r31", "memory");
+    )" ::[ocr] "n"(Ocr1al::where),
+        [tcnt] "n"(Tcnt1l::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address)
+        : "r24", "r25", "r30", "r31", "memory");
   }
 
   static constexpr uint8_t out_mask = 63;

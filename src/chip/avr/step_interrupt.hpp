@@ -22,17 +22,17 @@ struct Expansion {
 };
 extern Expansion expansion;
 
-extern volatile uint8_t running;         // the interrupt plays
+extern volatile uint8_t running;          // the interrupt plays
 extern volatile uint8_t line_is_watched;  // by the interrupt, which comes often: the main loop need not look
-extern volatile uint8_t turns_tail;      // low byte of the address of the next turn
-extern volatile uint8_t received_head;   // low byte of the address where the next byte off the line goes
-extern volatile uint8_t stop_low_b;      // pins of port B, C that stop everything when they are
-extern volatile uint8_t stop_low_c;      //   not as in `quiet`
+extern volatile uint8_t turns_tail;       // low byte of the address of the next turn
+extern volatile uint8_t received_head;    // low byte of the address where the next byte off the line goes
+extern volatile uint8_t stop_low_b;       // pins of port B, C that stop everything when they are
+extern volatile uint8_t stop_low_c;       //   not as in `quiet`
 extern volatile uint8_t quiet_b;
 extern volatile uint8_t quiet_c;
-extern volatile uint8_t probe_mask;      // armed: the probe's pin of port C
-extern volatile uint16_t probe_entry;    // r3:r2 when it touched; 0: not yet
-extern volatile uint8_t halted;          // by a pin
+extern volatile uint8_t probe_mask;    // armed: the probe's pin of port C
+extern volatile uint16_t probe_entry;  // r3:r2 when it touched; 0: not yet
+extern volatile uint8_t halted;        // by a pin
 
 // Makes the next `events` events (at least one) of the segment and puts them into the ring. The first keeps both flags
 // set, so that the interrupt does not run into what is not finished. Reads the line between events.

@@ -1,9 +1,10 @@
-// The two pieces that decide how fast the Uno steps: the interrupt that plays an event, and the expander that makes one.
-// Cycles are in the margin. docs/boards.md has what they add up to.
+// The two pieces that decide how fast the Uno steps: the interrupt that plays an event, and the expander that makes
+// one. Cycles are in the margin. docs/boards.md has what they add up to.
 #include "event_ring.hpp"
-#include "passo/chip/uno_cnc_shield.hpp"
 #include "registers.hpp"
 #include "step_interrupt.hpp"
+
+#include "passo/chip/uno_cnc_shield.hpp"
 
 namespace passo::chip {
 namespace {
@@ -163,14 +164,12 @@ static_assert(pins.flag_special == 1 << 1 && pins.flag_stop == 1 << 0 && pins.st
 // Registers: r7:r6 r9:r8 r11:r10 accumulators, r13:r12 r15:r14 r17:r16 increments, r21…r18 time, r25…r22 interval,
 // r29 r28 r1 r0 change, X the entry, r30 the toggles, r31 the flips. How many are left is in GPIOR2.
 asm(R"(
-  .macro passo_motor low, high, low_increment, high_increment, mask
+  .macro passo_motor low, high, low_increment, high_increment
       add \low, \low_increment      ; 1
       adc \high, \high_increment    ; 1
-      brcc 8f                       ; 2   with the next one, either way
-      ori r30, \mask
-  8:
+      rol r30                       ; 1   a carry is a step
   .endm
-  .macro passo_event mask0, mask1, mask2
+  .macro passo_event
       add r18, r22                  ; 4   time += interval
       adc r19, r23
       adc r20, r24
@@ -182,9 +181,11 @@ asm(R"(
       adc r24, r28
       adc r25, r29
       ldi r30, 0                    ; 1
-      passo_motor r6, r7, r12, r13, \mask0    ; 12
-      passo_motor r8, r9, r14, r15, \mask1
-      passo_motor r10, r11, r16, r17, \mask2
+      passo_motor r10, r11, r16, r17  ; 9
+      passo_motor r8, r9, r14, r15
+      passo_motor r6, r7, r12, r13
+      lsl r30                       ; 2   to where their pins are
+      lsl r30
       eor r30, r31                  ; 1
       st X+, r30                    ; 2
       adiw r26, 1                   ; 2
@@ -237,10 +238,10 @@ asm(R"(
       lds r27, expansion + 26
 
       ori r31, %[flags]             ; the first one
-      passo_event %[mask0], %[mask1], %[mask2]
+      passo_event
       andi r31, 0xff - %[flags]
       rjmp 2f
-  1:  passo_event %[mask0], %[mask1], %[mask2]
+  1:  passo_event
   2:  in r30, %[left]               ; single ones until four at a time are left
       dec r30
       out %[left], r30
@@ -249,10 +250,10 @@ asm(R"(
   4:  andi r30, 3
       brne 1b
 
-  3:  passo_event %[mask0], %[mask1], %[mask2]
-      passo_event %[mask0], %[mask1], %[mask2]
-      passo_event %[mask0], %[mask1], %[mask2]
-      passo_event %[mask0], %[mask1], %[mask2]
+  3:  passo_event
+      passo_event
+      passo_event
+      passo_event
       in r30, %[left]               ; 1
       subi r30, 4                   ; 1
       out %[left], r30              ; 1
@@ -292,9 +293,10 @@ asm(R"(
       pop r6
       ret
   )" ::[left] "n"(io(Gpior2::where)),
-               [mask0] "n"(pins.motor[0].step.mask()), [mask1] "n"(pins.motor[1].step.mask()),
-               [mask2] "n"(pins.motor[2].step.mask()), [flags] "n"(pins.flag_special | pins.flag_stop));
+               [flags] "n"(pins.flag_special | pins.flag_stop));
 }
+static_assert(pins.motor[0].step.bit == 2 && pins.motor[1].step.bit == 3 && pins.motor[2].step.bit == 4,
+              "the expander shifts the carries to these pins");
 static_assert((received_address & 0xff) == 0, "the receiving ring's index is the low byte of its addresses");
 }
 

@@ -1,10 +1,11 @@
 // The Uno's pins beside the motors': switches in, and what is switched.
 #pragma once
 
-#include "passo/chip/uno_cnc_shield.hpp"
-#include "passo/wire/message.hpp"
 #include "registers.hpp"
 #include "step_interrupt.hpp"
+
+#include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo::chip {
 

@@ -6,8 +6,9 @@
 #include <random>
 
 #include "kit/seed.hpp"
-#include "passo/wire/message.hpp"
 #include <gtest/gtest.h>
+
+#include "passo/wire/message.hpp"
 
 namespace passo {
 namespace {

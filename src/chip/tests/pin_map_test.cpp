@@ -1,7 +1,8 @@
 #include "passo/chip/pin_map.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
 #include <gtest/gtest.h>
+
+#include "passo/chip/uno_cnc_shield.hpp"
 
 namespace passo {
 namespace {

@@ -1,7 +1,7 @@
 // InputReader: what the board's switches say, out of what its pins say.
 //
-// What a person presses is debounced: it counts when it has been the same for three looks, some milliseconds apart. What
-// a machine touches is not: a limit switch or a probe means what it says at once. Portable.
+// What a person presses is debounced: it counts when it has been the same for three looks, some milliseconds apart.
+// What a machine touches is not: a limit switch or a probe means what it says at once. Portable.
 #pragma once
 
 #include <stdint.h>

@@ -1,5 +1,5 @@
-// LineDecoder: what Decoder of src/wire is, arranged for a chip on which each byte counts: one short way for a byte amid
-// a payload, another for all else. Frame for frame and refusal for refusal the same (tests/line_decoder_test.cpp).
+// LineDecoder: what Decoder of src/wire is, arranged for a chip on which each byte counts: one short way for a byte
+// amid a payload, another for all else. Frame for frame and refusal for refusal the same (tests/line_decoder_test.cpp).
 //
 // Meant to take Decoder's place there; then this file goes. Portable.
 #pragma once

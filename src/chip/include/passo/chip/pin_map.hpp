@@ -2,9 +2,8 @@
 //
 // A port's toggle register (PINx) is the one that the step timer's interrupt writes: a one there turns the pin over and
 // leaves its neighbours alone, so a step is two writes of the same byte. Hence what the checks ask for: step and
-// direction pins lie on the step ports, and each step port's flag bits, by which the interrupt finds what is not a plain
-// event, belong to no motor.
-// Portable.
+// direction pins lie on the step ports, and each step port's flag bits, by which the interrupt finds what is not a
+// plain event, belong to no motor. Portable.
 #pragma once
 
 #include <stdint.h>

@@ -2,8 +2,8 @@
 //
 // Takes frames off the wire, keeps what they bring in a PlayList, and plays it in order through a player. Two sides use
 // it: receive(), settle() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event() to the
-// timer. A chip's player runs ahead: it makes the events of several items before their time, and an interrupt of its own
-// plays them; there only the main loop's side is used. A player is what Player is to this file.
+// timer. A chip's player runs ahead: it makes the events of several items before their time, and an interrupt of its
+// own plays them; there only the main loop's side is used. A player is what Player is to this file.
 //
 // Hardware is a type with
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
@@ -36,8 +36,7 @@ struct BoardIdentity {
   About about = {};
 };
 
-template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player,
-          class LineDecoder = Decoder>
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, class LineDecoder = Decoder>
 class Board {
  public:
   Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}

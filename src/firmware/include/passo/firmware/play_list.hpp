@@ -9,7 +9,8 @@
 //                        |
 //                        +-> staged -> staged -> …     after the switch; the old tail's slots are free
 //
-// Only the main loop uses it, also where a timer is an interrupt. Portable: no heap; finding item k is a walk over the list.
+// Only the main loop uses it, also where a timer is an interrupt. Portable: no heap; finding item k is a walk over the
+// list.
 #pragma once
 
 #include <stddef.h>
