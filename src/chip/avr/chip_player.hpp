@@ -177,6 +177,7 @@ class ChipPlayer {
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
   static constexpr uint8_t most_at_once = 64;
+  static constexpr uint8_t some_at_once = 16;
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint16_t often = 300;
   static constexpr uint8_t most_pieces = 8;
@@ -269,7 +270,8 @@ class ChipPlayer {
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
     if (line_is_watched == 0) line_is_watched = is_watched(ahead);
-    const uint8_t at_once = line_is_watched != 0 ? most_at_once : few_at_once;
+    // What is being made counts only when it is done: where little is ahead, a little now is worth more than much later.
+    const uint8_t at_once = line_is_watched == 0 ? few_at_once : ahead < most_at_once / 2 ? some_at_once : most_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
     const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
     if (count > to_end) count = to_end;

@@ -114,7 +114,7 @@ void start_watchdog() {
   line.poll();
   // A credit tells what those before it told: while bytes wait, it can wait too.
   if (!board.owes_report() || !line.can_send()) return;
-  if (line.has_byte() && (++patience & 7) != 0) return;
+  if (line.has_byte() && (++patience & 3) != 0) return;
   board.report();
 }
 
