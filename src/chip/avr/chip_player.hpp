@@ -270,7 +270,8 @@ class ChipPlayer {
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
     if (line_is_watched == 0) line_is_watched = is_watched(ahead);
-    // What is being made counts only when it is done: where little is ahead, a little now is worth more than much later.
+    // What is being made counts only when it is done: where little is ahead, a little now is worth more than much
+    // later.
     const uint8_t at_once = line_is_watched == 0 ? few_at_once : ahead < most_at_once / 2 ? some_at_once : most_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
     const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);

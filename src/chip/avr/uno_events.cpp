@@ -11,6 +11,8 @@ namespace {
 
 constexpr const PinMap<3>& pins = uno_cnc_shield;
 constexpr uint8_t toggle_port = 0x09;  // PIND
+// A pulse is 19 cycles long by itself.
+constexpr uint8_t padding = pins.shortest_pulse > 19 ? pins.shortest_pulse - 19 : 0;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
 }
@@ -56,6 +58,9 @@ volatile uint8_t halted;
       mov r2, r30                   ; 1
       in r30, %[gpior0]             ; 1
       in r31, %[gpior1]             ; 1
+      .rept %[padding]
+      nop
+      .endr
       out %[port], r5               ; 1   the end of the pulse, 19 cycles after its start
       mov r5, r4                    ; 1
       sbrc r5, %[special]           ; 2
@@ -154,8 +159,8 @@ volatile uint8_t halted;
   )" ::[port] "n"(toggle_port),
                [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
                [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where),
-               [timsk] "n"(Timsk1::where), [pinb] "n"(0x03), [pinc] "n"(0x06), [special] "n"(1), [stop] "n"(0),
-               [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
+               [timsk] "n"(Timsk1::where), [pinb] "n"(0x03), [pinc] "n"(0x06), [special] "n"(1), [padding] "n"(padding),
+               [stop] "n"(0), [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
                [turns_mask] "n"(turns_mask), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
                [received] "n"(received_address));
 }
