@@ -53,5 +53,27 @@ TEST(Uno, turns_three_motors_at_140_kHz_while_it_is_fed) {
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
 }
 
+// One step in ten seconds: no interval is that long, so events without a step come between.
+TEST(Uno, is_as_exact_when_it_is_slow) {
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  const BoardSegment slow{.events = 255, .interval = 0xffff'ffff, .increments = {27, 65535, 0}};
+  expect_every_edge(bench.play({slow, slow, slow, slow, slow}), unavoidable);
+}
+
+TEST(Uno, steps_right_after_any_garbage_on_its_line) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  for (int trial = 0; trial < 5; ++trial) {
+    std::vector<std::uint8_t> garbage(2'000);
+    for (std::uint8_t& byte : garbage) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xA5 : random());
+    bench.ports().forget_changes();
+    bench.uart().send(garbage);
+    bench.run(garbage.size() * 320 + 100'000);
+    EXPECT_TRUE(bench.ports().changes().empty()) << "nothing of that was a segment";
+    StreamKind kind{.shortest_interval = 200, .longest_interval = 300, .shortest_segment = 60, .segments = 20};
+    expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
+  }
+}
+
 }  // namespace
 }  // namespace passo
