@@ -81,7 +81,9 @@ class ChipPlayer {
       slow_end_ = static_cast<uint16_t>(made_ + left_);
       line_is_watched = 0;
     }
+    SerialLine::breathe();
     most_ahead_ = most_ahead();
+    SerialLine::breathe();
     remember(segment);
   }
   // An item that takes no time: it is finished with the event before it.

@@ -80,6 +80,7 @@ void start_watchdog() {
     told |= input_probe;
     board.settle();  // what was finished before the touch is let go of
   }
+  SerialLine::breathe();
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   // Watched only while it is open, so that the first touch counts.
   if (probed || (on & input_probe) != 0) ChipPlayer::watch_probe(0);
@@ -115,6 +116,7 @@ void start_watchdog() {
   // A credit tells what those before it told: while bytes wait, it can wait too.
   if (!board.owes_report() || !line.can_send()) return;
   if (line.has_byte() && (++patience & 3) != 0) return;
+  SerialLine::breathe();  // the longest piece of work of all follows
   board.report();
 }
 
