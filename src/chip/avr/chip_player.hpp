@@ -151,6 +151,7 @@ class ChipPlayer {
 
   // Some events, and a start of the timer where it stands still.
   static void refill() {
+    note_capture();
     for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
@@ -165,6 +166,7 @@ class ChipPlayer {
   static void watch_probe(uint8_t mask) {
     probe_mask = mask;
     watching_ = mask != 0;
+    noted_ = false;
   }
 
   // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
@@ -211,11 +213,17 @@ class ChipPlayer {
   }
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
-    const uint8_t now = fetched();
-    uint16_t played = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask));
-    // The main loop comes round within less events than the ring has.
-    if (captured()) played = static_cast<uint16_t>(played - ((now - entry_of(probe_entry)) & ring_mask));
+    note_capture();
+    const uint16_t played = noted_ ? captured_at_ : static_cast<uint16_t>(made_ - waiting());
     return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
+  }
+  // Which event it was, told by the entry; in time, before the interrupt has been round the ring once more.
+  [[gnu::noinline]] static void note_capture() {
+    if (noted_ || !captured()) return;
+    const uint8_t now = fetched();
+    const uint8_t since = static_cast<uint8_t>((now - entry_of(probe_entry)) & ring_mask);
+    captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
+    noted_ = true;
   }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
 
@@ -358,6 +366,8 @@ class ChipPlayer {
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for what is in the ring
   static inline uint16_t gap_ = 0;    // ticks before the first event that was made when none was waiting, and a little
+  static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
+  static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;  // the probe
   static inline uint8_t slips_ = 0;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last events that were not fast
