@@ -26,13 +26,19 @@ set(PASSO_AVR_OPTIONS
   # LLVM turns `if` into a choice between two values, which an AVR has to make with branches and copies. Leave the `if`.
   -mllvm -two-entry-phi-node-folding-threshold=1)
 
-# passo_avr_program(NAME MCU mcu SOURCES file… [MODULES module…] [INCLUDES directory…])
+# passo_avr_program(NAME MCU mcu SOURCES file… [MODULES module…] [INCLUDES directory…] [OPTIONS option…] [DATA address]
+#                   [LINK_OPTIONS option…])
 #
 # The target NAME builds NAME.elf in the current binary directory; its path is the target's property PASSO_ELF. MODULES are
-# the portable modules whose headers the sources include; INCLUDES are further places to look for headers.
+# the portable modules whose headers the sources include; INCLUDES are further places to look for headers. DATA is where the
+# linker may begin to place variables, for programs that have laid out the RAM below themselves.
 function(passo_avr_program name)
-  cmake_parse_arguments(ARG "" "MCU" "SOURCES;MODULES;INCLUDES" ${ARGN})
-  set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU})
+  cmake_parse_arguments(ARG "" "MCU;DATA" "SOURCES;MODULES;INCLUDES;OPTIONS;LINK_OPTIONS" ${ARGN})
+  set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU} ${ARG_OPTIONS})
+  set(link_options -mmcu=${ARG_MCU} ${ARG_LINK_OPTIONS})
+  if(ARG_DATA)
+    list(APPEND link_options "-Wl,--section-start=.data=${ARG_DATA}")
+  endif()
   foreach(module IN LISTS ARG_MODULES)
     list(APPEND options "-I${PROJECT_SOURCE_DIR}/src/${module}/include")
   endforeach()
@@ -57,7 +63,7 @@ function(passo_avr_program name)
 
   set(elf "${CMAKE_CURRENT_BINARY_DIR}/${name}.elf")
   add_custom_command(OUTPUT "${elf}"
-    COMMAND "${PASSO_AVR_GCC}" -mmcu=${ARG_MCU} ${objects} -o "${elf}"
+    COMMAND "${PASSO_AVR_GCC}" ${link_options} ${objects} -o "${elf}"
     DEPENDS ${objects} COMMENT "Linking ${name}.elf" VERBATIM)
   add_custom_target(${name} DEPENDS "${elf}")
   set_target_properties(${name} PROPERTIES PASSO_ELF "${elf}")

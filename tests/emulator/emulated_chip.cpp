@@ -8,6 +8,7 @@
 #include <simavr/avr_extint.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_elf.h>
+#include <simavr/sim_interrupts.h>
 
 #ifdef __SANITIZE_ADDRESS__
 // simavr 1.6 never gives back what it allocates for an ELF file and for its wires.
@@ -46,7 +47,39 @@ EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
   // Sleeping is skipped, not waited for.
   avr_->sleep = [](avr_t*, avr_cycle_count_t) {};
   // Else a low level of INT0 and INT1 is looked for at every cycle, interrupts enabled or not.
-  for (std::uint8_t pin = 0; pin < 2; ++pin) avr_extint_set_strict_lvl_trig(avr_.get(), pin, 0);
+  for (std::uint8_t pin = 0; pin < 8; ++pin) avr_extint_set_strict_lvl_trig(avr_.get(), pin, 0);
+  if (avr_->address_size == 3) entry_cycles_ = 5;
+  mend_interrupts();
+}
+
+void EmulatedChip::mend_interrupts() {
+  for (std::uint8_t vector = 1; vector < 64; ++vector) {
+    avr_irq_t* const irq = avr_get_interrupt_irq(avr_.get(), vector);
+    if (irq == nullptr) continue;
+    avr_irq_register_notify(
+        irq + AVR_INT_IRQ_RUNNING,
+        [](avr_irq_t*, std::uint32_t entered, void* chip) {
+          auto* const self = static_cast<EmulatedChip*>(chip);
+          if (entered != 0) self->avr_->cycle += self->entry_cycles_;
+        },
+        this);
+  }
+}
+
+void EmulatedChip::step() {
+  const int state = avr_run(avr_.get());
+  if (avr_->interrupt_state == -1) {
+    avr_->interrupt_state = avr_has_pending_interrupts(avr_.get()) != 0 ? std::int8_t{1} : std::int8_t{0};
+  }
+  if (state == cpu_Done || state == cpu_Crashed)
+    throw std::runtime_error("the emulated program died at " + std::to_string(avr_->pc) + " cycle " +
+                             std::to_string(avr_->cycle));
+}
+
+void EmulatedChip::run_for(std::uint64_t cycles) {
+  const std::uint64_t end = avr_->cycle + cycles;
+  stopped_ = false;
+  while (!stopped_ && avr_->cycle < end) step();
 }
 
 void EmulatedChip::on_write(std::uint16_t address, std::function<void(std::uint8_t)> watcher) {
@@ -74,8 +107,7 @@ void EmulatedChip::run(std::uint64_t most_cycles) {
   const std::uint64_t end = avr_->cycle + most_cycles;
   stopped_ = false;
   while (!stopped_) {
-    const int state = avr_run(avr_.get());
-    if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the emulated program died");
+    step();
     if (avr_->cycle > end) throw std::runtime_error("the emulated program does not come to its end");
   }
 }

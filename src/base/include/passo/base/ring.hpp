@@ -20,6 +20,11 @@ class Ring {
   // The caller has asked full() and empty().
   void push(const T& item) { items_[head_++ & (Capacity - 1)] = item; }
   const T& front() const { return items_[tail_ & (Capacity - 1)]; }
+  // Counted from the front; less than size().
+  const T& at(size_t index) const { return items_[(tail_ + index) & (Capacity - 1)]; }
+  // Where the next item will be: written in place, then pushed. The caller has asked full().
+  T& space() { return items_[head_ & (Capacity - 1)]; }
+  void push() { ++head_; }
   void pop() { ++tail_; }
   void clear() { tail_ = head_; }
 

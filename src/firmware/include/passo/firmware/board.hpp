@@ -1,14 +1,15 @@
 // Board: the program of the control board, without its hardware. Bytes come in, steps go out.
 //
-// Takes frames off the wire, keeps what they bring in a PlayList, and plays it in order through the Player. Two
-// sides use it: receive() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event() to the
-// timer. On a chip the timer is an interrupt and receive() runs with it held back only where the board is idle, or the
-// list is changed.
+// Takes frames off the wire, keeps what they bring in a PlayList, and plays it in order through a player. Two sides use
+// it: receive(), settle() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event() to the
+// timer. A chip's player runs ahead: it makes the events of several items before their time, and an interrupt of its
+// own plays them; there only the main loop's side is used. A player is what Player is to this file.
 //
 // Hardware is a type with
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
+//   void breathe();                                   may be left out: called between two pieces of work
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -35,7 +36,7 @@ struct BoardIdentity {
   About about = {};
 };
 
-template <class Hardware, size_t queue_capacity = 32>
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, class LineDecoder = Decoder>
 class Board {
  public:
   Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}
@@ -65,8 +66,9 @@ class Board {
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
     const Fault fault{.reason = reason, .event = player_.played(), .executed = executed_};
-    if (!idle()) count_steps();
-    player_ = Player(motors_);
+    if (begun_ != 0) count_steps();
+    player_.restart(motors_);
+    begun_ = 0;
     list_.clear();
     trusted_ = false;
     send(fault);
@@ -79,15 +81,32 @@ class Board {
   void on_event() {
     const uint8_t stepped = player_.play();
     if (stepped != 0) hardware_.step(stepped, player_.directions());
-    if (player_.done()) {
-      count_steps();
-      retire();
-      advance();
-    }
+    if (player_.done()) settle();
   }
 
+  // Takes leave of what the player has finished, and gives it what it can take. On a chip the main loop calls it.
+  void settle() {
+    do {
+      breathe();
+      while (player_.finished()) {
+        retire();
+        player_.forget();
+        breathe();
+      }
+      if (begun_ == list_.size() || !player_.ready()) return;
+      const BoardItemSlot& item = list_.at(begun_++);
+      if (item.is_segment) {
+        player_.load(item.segment);
+      } else {
+        player_.pass();
+      }
+    } while (true);
+  }
+  SegmentPlayer& player() { return player_; }
+
  private:
-  void take(const WireFrame& frame) {
+  // By itself, so that a byte amid a frame has not to save all the registers that a whole one needs.
+  [[gnu::noinline]] void take(const WireFrame& frame) {
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::session: return name_session(frame);
@@ -107,8 +126,9 @@ class Board {
     motors_ = hello.version == protocol_version && hello.motors <= identity_.motors ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
-    player_ = Player(motors_);
+    player_.restart(motors_);
     list_.clear();
+    begun_ = 0;
     session_ = 0;
     executed_ = frame.sequence;
     expected_ = static_cast<uint16_t>(frame.sequence + 1);
@@ -123,13 +143,18 @@ class Board {
     if (motors_ != 0) session_ = session.number;
   }
 
-  void answer(const WireFrame& frame) {
+  // Rare and large, so by themselves: on a chip all in one function would need more registers than there are.
+  [[gnu::noinline]] void answer(const WireFrame& frame) {
     Ask ask;
     decode(frame, ask);
     if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors) {
       return complain(WireError::bad_value);
     }
     if (ask.question == Question::about) return send(identity_.about);
+    tell_status(ask.motors);
+  }
+
+  [[gnu::noinline]] void tell_status(uint8_t motors) {
     unsigned state = trusted_ ? unsigned{board_trusted} : 0U;
     if (!idle()) state |= board_moves;
     if (list_.gathering()) state |= board_replaces;
@@ -137,13 +162,13 @@ class Board {
                        .executed = executed_,
                        .taken = taken(),
                        .free = list_.free(),
-                       .event = idle() ? uint8_t{0} : player_.played(),
+                       .event = begun_ == 0 ? uint8_t{0} : player_.played(),
                        .state = static_cast<uint8_t>(state),
                        .reset = identity_.reset,
                        .motors = motors_,
                        .inputs = inputs_};
-    for (uint8_t motor = 0; motor < ask.motors; ++motor) status.positions[motor] = position(motor);
-    send_for_motors(status, ask.motors);
+    for (uint8_t motor = 0; motor < motors; ++motor) status.positions[motor] = position(motor);
+    send_for_motors(status, motors);
   }
 
   void take_in_order(const WireFrame& frame) {
@@ -167,28 +192,28 @@ class Board {
 
   void enqueue(const WireFrame& frame) {
     if (list_.free() == 0) return complain(WireError::queue_full);
-    BoardItemSlot item;
+    BoardItemSlot& item = list_.space();
     item.number = expected_;
     item.is_segment = frame.type == MessageType::segment;
     if (item.is_segment) {
+      breathe();
       decode(frame, motors_, item.segment);
+      breathe();
       const uint8_t used = item.segment.directions | item.segment.flips;
       if (item.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
     } else {
       decode(frame, item.outputs);
     }
     accept();
-    list_.append(item);
+    list_.append();
     if (list_.gathering()) return;
     if (list_.gathered()) {
-      // Where the timer has made the item behind the one at hand ready too, two have begun.
-      const uint8_t begun = idle() ? 0 : 1;
       owes_report_ = true;  // of the room, either way
-      if (!list_.complete(executed_, begun)) {
+      if (!list_.complete(executed_, begun_)) {
         return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
       }
     }
-    if (idle()) advance();
+    settle();
   }
 
   void accept() {
@@ -196,27 +221,31 @@ class Board {
     complained_ = false;
   }
 
-  // Loads the next segment, and switches the outputs that come before it.
-  void advance() {
-    for (; !list_.empty(); retire()) {
-      const BoardItemSlot& item = list_.front();
-      if (item.is_segment) return player_.load(item.segment);
+  // The oldest item is done. Outputs are switched here: at the event before them.
+  void retire() {
+    const BoardItemSlot& item = list_.front();
+    if (item.is_segment) {
+      count_steps();
+    } else {
       hardware_.outputs(item.outputs);
     }
+    executed_ = item.number;
+    list_.pop();
+    --begun_;
+    owes_report_ = true;
   }
 
-  void retire() {
-    executed_ = list_.front().number;
-    list_.pop();
-    owes_report_ = true;
+  // Between two pieces of work: hardware with a small buffer looks at its line.
+  void breathe() {
+    if constexpr (requires { hardware_.breathe(); }) hardware_.breathe();
   }
 
   // Of the segment that has just come to its end, or is broken off.
   void count_steps() {
     for (uint8_t motor = 0; motor < motors_; ++motor) positions_[motor] += player_.steps(motor);
   }
-  int32_t position(uint8_t motor) const {
-    return positions_[motor] + (idle() || motor >= motors_ ? int16_t{0} : player_.steps(motor));
+  [[gnu::noinline]] int32_t position(uint8_t motor) const {
+    return positions_[motor] + (begun_ == 0 || motor >= motors_ ? int16_t{0} : player_.steps(motor));
   }
   uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
 
@@ -233,7 +262,7 @@ class Board {
     put_on_line(frame, encode(message, sent_++, frame));
   }
   template <class Message>
-  void send_for_motors(const Message& message, uint8_t motors) {
+  [[gnu::noinline]] void send_for_motors(const Message& message, uint8_t motors) {
     uint8_t frame[largest_frame];
     put_on_line(frame, encode(message, motors, sent_++, frame));
   }
@@ -243,9 +272,10 @@ class Board {
 
   Hardware& hardware_;
   BoardIdentity identity_;
-  Decoder decoder_;
-  Player player_{0};
+  LineDecoder decoder_;
+  SegmentPlayer player_{0};
   PlayList<queue_capacity> list_;  // its front is what is being played
+  uint8_t begun_ = 0;              // items at its front that the player has
   uint8_t motors_ = 0;             // agreed upon with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte

@@ -9,8 +9,8 @@
 //                        |
 //                        +-> staged -> staged -> …     after the switch; the old tail's slots are free
 //
-// Two sides use it, as they use Board: pop() belongs to the timer, all else to the main loop. Where the timer is an
-// interrupt, append() and complete() run with it held back. Portable: no heap; finding item k is a walk over the list.
+// Only the main loop uses it, also where a timer is an interrupt. Portable: no heap; finding item k is a walk over the
+// list.
 #pragma once
 
 #include <stddef.h>
@@ -42,31 +42,43 @@ class PlayList {
     unused_ = 0;
     free_ = slot_count;
     front_ = last_ = none;
+    size_ = 0;
     staged_ = {};
   }
 
   uint8_t free() const { return free_; }
   bool empty() const { return front_ == none; }
   const BoardItemSlot& front() const { return slots_[front_]; }
+  // Counted from the front, without what is gathered beside; a walk.
+  const BoardItemSlot& at(uint8_t place) const {
+    uint8_t slot = front_;
+    for (; place != 0; --place) slot = slots_[slot].next;
+    return slots_[slot];
+  }
+  uint8_t size() const { return size_; }
   void pop() {
     const uint8_t slot = front_;
+    --size_;
     front_ = slots_[slot].next;
     if (front_ == none) last_ = none;
     give_back(slot);
   }
 
-  // Takes an item: into the replacement if one is being gathered, else behind the last. Only while free() > 0.
-  void append(const BoardItemSlot& item) {
+  // Where the next item is to be written, all but its `next`: a copy is a lot of work for a small chip. Only while
+  // free() > 0.
+  BoardItemSlot& space() { return slots_[unused_]; }
+  // Takes it: into the replacement if one is being gathered, else behind the last.
+  void append() {
     const uint8_t slot = unused_;
     unused_ = slots_[slot].next;
     --free_;
-    slots_[slot] = item;
     slots_[slot].next = none;
     if (gathering()) {
       link(staged_.front, staged_.last, slot);
       --staged_.missing;
     } else {
       link(front_, last_, slot);
+      ++size_;
     }
   }
 
@@ -92,6 +104,8 @@ class PlayList {
       drop(end);
       end = staged_.front;
       last_ = staged_.last;
+      size_ = 0;
+      for (uint8_t left = front_; left != none; left = slots_[left].next) ++size_;
     } else {
       drop(staged_.front);
     }
@@ -133,6 +147,7 @@ class PlayList {
   uint8_t last_ = none;
   uint8_t unused_ = none;  // the first free slot
   uint8_t free_ = 0;
+  uint8_t size_ = 0;  // of the list itself
   Replacement staged_;
 };
 

@@ -12,12 +12,22 @@ class Player {
  public:
   explicit Player(uint8_t motors) : motors_(motors) {}
 
-  // Takes the next segment. Only when done().
+  // Can take the next item.
+  bool ready() const { return done(); }
+  // Takes the next segment. Only when ready().
   void load(const BoardSegment& segment) {
     segment_ = segment;
     left_ = segment.events;
     for (uint8_t motor = 0; motor < motors_; ++motor) at_start_[motor] = accumulators_[motor];
   }
+  // Takes an item that is not its own to play: it is finished when all that came before it is. Only when ready().
+  void pass() { ++finished_; }
+  // The oldest item that it has is done: what played() and steps() say is final. Then forget() it.
+  bool finished() const { return finished_ != 0; }
+  void forget() { --finished_; }
+  // As it was made, and whatever it played is broken off.
+  void restart(uint8_t motors) { *this = Player(motors); }
+
   bool done() const { return left_ == 0; }
   uint8_t directions() const { return segment_.directions; }
 
@@ -39,7 +49,7 @@ class Player {
       accumulators_[motor] = after;
       if (after < before) carries = static_cast<uint8_t>(carries | 1U << motor);
     }
-    --left_;
+    if (--left_ == 0) ++finished_;
     return carries ^ segment_.flips;
   }
 
@@ -61,6 +71,7 @@ class Player {
   BoardSegment segment_;
   uint8_t motors_;
   uint8_t left_ = 0;
+  uint8_t finished_ = 0;  // items that are done and not forgotten
   // Half a step and half a tick: what is truncated below is rounding above.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
   uint16_t at_start_[max_motors] = {};  // the accumulators at the start of the segment

@@ -1,0 +1,136 @@
+// The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
+#include "chip_player.hpp"
+#include "serial_line.hpp"
+#include "uno_wiring.hpp"
+
+#include "passo/chip/input_reader.hpp"
+#include "passo/chip/line_decoder.hpp"
+#include "passo/firmware/board.hpp"
+
+#ifndef PASSO_BAUD
+#define PASSO_BAUD 500000
+#endif
+
+namespace passo::chip {
+namespace {
+
+constexpr uint32_t clock = 16'000'000;
+// All that a host may have under way fits into the page of received bytes: 11 frames of 22 bytes and one to replace.
+constexpr uint8_t queue_capacity = 11;
+
+struct Hardware {
+  void step(uint8_t, uint8_t) {}
+  void outputs(const BoardOutputs& wanted) { UnoWiring::switch_outputs(wanted); }
+  void send(uint8_t byte) { line.send(byte); }
+  void breathe() { SerialLine::breathe(); }
+
+  SerialLine line;
+};
+
+Hardware hardware;
+ResetCause cause_of_reset() {
+  const uint8_t flags = Mcusr::read();
+  Mcusr::write(0);
+  if ((flags & 1 << 3) != 0) return ResetCause::watchdog;
+  if ((flags & 1 << 0) != 0) return ResetCause::power_on;
+  if ((flags & 1 << 2) != 0) return ResetCause::brown_out;
+  return ResetCause::button;
+}
+
+BoardIdentity identity() {
+  return {.motors = uno_cnc_shield.motors,
+          .clock = clock,
+          .reset = cause_of_reset(),
+          .about = {.firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"}};
+}
+Board<Hardware, queue_capacity, ChipPlayer, LineDecoder> board(hardware, identity());
+InputReader reader;
+
+// A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.
+void start_watchdog() {
+  asm volatile("wdr");
+  Wdtcsr::write(1 << 4 | 1 << 3);
+  Wdtcsr::write(1 << 3 | 6);
+}
+
+// All at once, and nothing again until a host says hello.
+[[gnu::noinline]] void stop_at_once() {
+  const bool pressed = (UnoWiring::inputs() & input_emergency_stop) != 0;
+  board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  UnoWiring::switch_outputs({});
+  if (pressed) UnoWiring::enable_motors(false);
+  halted = 0;
+}
+
+[[gnu::noinline]] void look_at_inputs() {
+  const bool tick = (Tifr1::read() & timer_overflow) != 0;
+  if (tick) Tifr1::write(timer_overflow);
+  if (halted != 0) return stop_at_once();
+  uint16_t raw = UnoWiring::inputs();
+  const bool probed = ChipPlayer::captured();
+  // Amid motion it is the interrupt that tells where the probe touched.
+  if (running != 0 && ChipPlayer::watches_probe() && !probed) raw &= static_cast<uint16_t>(~input_probe);
+  const uint16_t on = reader.look(raw, tick);
+  constexpr uint16_t stopping = input_emergency_stop | 7 * input_limit;
+  // Amid motion the interrupt has stopped already; at rest nobody else looks.
+  if ((on & stopping) != 0 && !board.idle()) return stop_at_once();
+  if ((on & input_emergency_stop) != 0) return stop_at_once();
+  uint16_t told = on & (InputReader::pressed_by_people | input_probe);
+  if (probed) {
+    told |= input_probe;
+    board.settle();  // what was finished before the touch is let go of
+  }
+  SerialLine::breathe();
+  if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
+  // Watched only while it is open, so that the first touch counts.
+  if (probed || (on & input_probe) != 0) ChipPlayer::watch_probe(0);
+  if ((raw & input_probe) == 0 && !ChipPlayer::captured()) ChipPlayer::watch_probe(UnoWiring::probe);
+}
+
+// The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.
+[[gnu::noinline]] void receive() {
+  board.receive(hardware.line.take());
+}
+
+// Once around the loop. Events come first: nothing else here may take longer than what is ahead of the interrupt.
+[[gnu::noinline]] void turn() {
+  static uint8_t patience = 0;
+  static uint8_t turns = 0;
+  asm volatile("wdr");
+  SerialLine& line = hardware.line;
+  line.poll();
+  for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
+    receive();
+    SerialLine::breathe();
+  }
+  ChipPlayer::refill();
+  line.poll();
+  // What the interrupt has seen at once, and before an item is let go of in which the probe touched; the rest in its
+  // time.
+  if (halted != 0 || ChipPlayer::captured() || (++turns & 63) == 0) look_at_inputs();
+  SerialLine::breathe();
+  board.settle();
+  line.poll();
+  ChipPlayer::refill();
+  line.poll();
+  // A credit tells what those before it told: while bytes wait, it can wait too.
+  if (!board.owes_report() || !line.can_send()) return;
+  if (line.has_byte() && (++patience & 3) != 0) return;
+  SerialLine::breathe();  // the longest piece of work of all follows
+  board.report();
+}
+
+}  // namespace
+}  // namespace passo::chip
+
+extern "C" int main() {
+  using namespace passo::chip;
+  UnoWiring::prepare();
+  ChipPlayer::prepare();
+  board.player().restart(0);
+  SerialLine::open(clock, PASSO_BAUD);
+  UnoWiring::enable_motors(true);
+  start_watchdog();
+  asm volatile("sei");
+  for (;;) turn();
+}

@@ -1,0 +1,66 @@
+// The registers of the ATmega328P and the ATmega2560 that the firmware uses, by their addresses in data memory.
+//
+// The two chips have all of these at the same places; only the interrupt vectors and the ports differ.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo::chip {
+
+// What `in`, `out`, `sbic` reach has this much less as its number there.
+inline constexpr uint8_t io_base = 0x20;
+
+template <uint16_t address>
+struct Register {
+  static constexpr uint16_t where = address;
+  static uint8_t read() { return *reinterpret_cast<volatile uint8_t*>(address); }
+  static void write(uint8_t value) { *reinterpret_cast<volatile uint8_t*>(address) = value; }
+};
+
+// PINx at `address`, then DDRx and PORTx. Single bits are turned over by a one in PINx: no neighbour is written, also
+// not when the interrupt comes between.
+template <uint16_t address>
+struct Port {
+  static uint8_t pins() { return Register<address>::read(); }
+  static void output(uint8_t mask) { Register<address + 1>::write(mask); }
+  static void set(uint8_t mask, bool high) {
+    const uint8_t now = Register<address + 2>::read();
+    Register<address>::write(static_cast<uint8_t>((high ? ~now : now) & mask));
+  }
+};
+
+using Tifr1 = Register<0x36>;
+using Pcifr = Register<0x3b>;
+using Gpior0 = Register<0x3e>;
+using Gpior1 = Register<0x4a>;
+using Gpior2 = Register<0x4b>;
+using Mcusr = Register<0x54>;
+using Sreg = Register<0x5f>;
+using Wdtcsr = Register<0x60>;
+using Pcicr = Register<0x68>;
+using Pcmsk0 = Register<0x6b>;
+using Pcmsk1 = Register<0x6c>;
+using Pcmsk2 = Register<0x6d>;
+using Timsk1 = Register<0x6f>;
+using Tccr1a = Register<0x80>;
+using Tccr1b = Register<0x81>;
+using Tcnt1l = Register<0x84>;
+using Tcnt1h = Register<0x85>;
+using Ocr1al = Register<0x88>;
+using Ocr1ah = Register<0x89>;
+using Tccr2a = Register<0xb0>;
+using Tccr2b = Register<0xb1>;
+using Ocr2a = Register<0xb3>;
+using Ucsr0a = Register<0xc0>;
+using Ucsr0b = Register<0xc1>;
+using Ucsr0c = Register<0xc2>;
+using Ubrr0l = Register<0xc4>;
+using Ubrr0h = Register<0xc5>;
+using Udr0 = Register<0xc6>;
+
+inline constexpr uint8_t timer_overflow = 1 << 0;   // in TIFR1: every 65,536 cycles
+inline constexpr uint8_t compare_match_a = 1 << 1;  // in TIFR1 and TIMSK1
+inline constexpr uint8_t byte_received = 1 << 7;    // in UCSR0A
+inline constexpr uint8_t may_send = 1 << 5;
+
+}  // namespace passo::chip

@@ -1,0 +1,88 @@
+// SerialLine: the UART, polled. Bytes that came wait in a ring that the expander fills too; bytes to go wait in
+// another.
+#pragma once
+
+#include "event_ring.hpp"
+#include "registers.hpp"
+#include "step_interrupt.hpp"
+
+namespace passo::chip {
+
+class SerialLine {
+ public:
+  // `baud` divides 2 MHz: 500,000 and 1,000,000 do; 115,200 is off by 2 %, which is what the Uno always was.
+  static void open(uint32_t clock, uint32_t baud) {
+    const uint16_t divider = static_cast<uint16_t>((clock / 4 / baud - 1) / 2);
+    Ubrr0h::write(static_cast<uint8_t>(divider >> 8));
+    Ubrr0l::write(static_cast<uint8_t>(divider));
+    Ucsr0a::write(1 << 1);           // eight samples a bit
+    Ucsr0b::write(1 << 4 | 1 << 3);  // receive and send, no interrupt
+    Ucsr0c::write(1 << 2 | 1 << 1);  // 8N1
+  }
+
+  // Saves what came. Every 640 cycles at 500 kbaud, the interrupt's included: the UART itself holds two bytes. So this
+  // stands between any two pieces of work, and has to cost nothing when nothing came.
+  [[gnu::always_inline]] static void breathe() {
+    if (line_is_watched == 0 && (Ucsr0a::read() & byte_received) != 0) fetch();
+  }
+  // Sends on.
+  void poll() {
+    breathe();
+    if (sent_ != to_send_ && (Ucsr0a::read() & may_send) != 0) {
+      Udr0::write(out_[sent_]);
+      sent_ = static_cast<uint8_t>((sent_ + 1) & out_mask);
+    }
+  }
+
+  bool has_byte() const { return taken_ != received_head; }
+  uint8_t take() {
+    const uint8_t byte = *reinterpret_cast<volatile uint8_t*>(received_address + taken_);
+    ++taken_;
+    return byte;
+  }
+
+  // There is room for one of the board's frames.
+  bool can_send() const { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask) >= longest; }
+  void send(uint8_t byte) {
+    breathe();
+    out_[to_send_] = byte;
+    to_send_ = static_cast<uint8_t>((to_send_ + 1) & out_mask);
+  }
+
+ private:
+  // The interrupt fetches bytes too, so it must not come between the look and the end. It may not be held back either:
+  // that would be late for its edge. So wait, if need be, until it has come and gone: the low bytes of the timer and of
+  // its alarm tell whether it is due soon.
+  [[gnu::noinline]] static void fetch() {
+    asm volatile(
+        R"(
+      1:  lds r24, %[ocr]
+          lds r25, %[tcnt]
+          sub r24, r25
+          cpi r24, 34
+          brlo 1b
+          lds r24, %[ucsra]           ; from the second line to here 7 cycles, from here to the last store 13
+          sbrs r24, 7
+          rjmp 2f
+          lds r30, received_head
+          ldi r31, hi8(%[received])
+          lds r24, %[udr]
+          st Z+, r24
+          sts received_head, r30
+          rjmp 1b
+      2:
+    )" ::[ocr] "n"(Ocr1al::where),
+        [tcnt] "n"(Tcnt1l::where), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address)
+        : "r24", "r25", "r30", "r31", "memory");
+  }
+
+  static constexpr uint8_t out_mask = 63;
+  static constexpr uint8_t longest = 32;  // about, or a status with three motors
+
+  uint8_t taken_ = 0;
+  uint8_t out_[out_mask + 1] = {};
+  uint8_t to_send_ = 0;
+  uint8_t sent_ = 0;
+};
+
+}  // namespace passo::chip

@@ -1,0 +1,41 @@
+// InputReader: what the board's switches say, out of what its pins say.
+//
+// What a person presses is debounced: it counts when it has been the same for three looks, some milliseconds apart.
+// What a machine touches is not: a limit switch or a probe means what it says at once. Portable.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/wire/message.hpp"
+
+namespace passo {
+
+class InputReader {
+ public:
+  static constexpr uint16_t pressed_by_people = input_door | input_hold | input_start;
+  static constexpr uint8_t steady_looks = 3;
+
+  // `raw`: bits of BoardInput, set where the switch is on. `tick`: some milliseconds have passed since the last one.
+  // Returns the inputs that have gone on.
+  uint16_t look(uint16_t raw, bool tick) {
+    const uint16_t before = inputs_;
+    const uint16_t buttons = raw & pressed_by_people;
+    if (buttons != candidate_) {
+      candidate_ = buttons;
+      looks_ = 0;
+    } else if (tick && looks_ < steady_looks) {
+      ++looks_;
+    }
+    const uint16_t steady = looks_ == steady_looks ? candidate_ : static_cast<uint16_t>(inputs_ & pressed_by_people);
+    inputs_ = static_cast<uint16_t>((raw & ~pressed_by_people) | steady);
+    return static_cast<uint16_t>(inputs_ & ~before);
+  }
+  uint16_t inputs() const { return inputs_; }
+
+ private:
+  uint16_t inputs_ = 0;
+  uint16_t candidate_ = 0;
+  uint8_t looks_ = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,128 @@
+// PinMap: which pin of the chip is what, as data, checked at compile time.
+//
+// A port's toggle register (PINx) is the one that the step timer's interrupt writes: a one there turns the pin over and
+// leaves its neighbours alone, so a step is two writes of the same byte. Hence what the checks ask for: step and
+// direction pins lie on the step ports, and each step port's flag bits, by which the interrupt finds what is not a
+// plain event, belong to no motor. Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+struct Pin {
+  char port = 0;  // 'A'…'L'; 0: there is none
+  uint8_t bit = 0;
+
+  constexpr bool exists() const { return port != 0; }
+  constexpr uint8_t mask() const { return exists() ? static_cast<uint8_t>(1U << bit) : uint8_t{0}; }
+  friend constexpr bool operator==(Pin a, Pin b) { return a.port == b.port && a.bit == b.bit; }
+};
+
+struct MotorPins {
+  Pin step;
+  Pin direction;
+  Pin enable;  // low: the driver is on. Several motors may share one
+};
+
+inline constexpr uint8_t most_step_ports = 4;
+inline constexpr uint8_t most_axis_switches = 6;
+
+template <uint8_t motor_count>
+struct PinMap {
+  static constexpr uint8_t motors = motor_count;
+  MotorPins motor[motor_count] = {};
+  // The ports with step or direction pins, the first one with the flags of the interrupt.
+  char step_ports[most_step_ports] = {};
+  uint8_t shortest_pulse = 16;  // cycles: 1 microsecond for an A4988, 31 for a DRV8825
+  uint8_t flag_special = 0;     // masks in the first step port
+  uint8_t flag_stop = 0;
+
+  Pin limits[most_axis_switches] = {};
+  Pin probe = {};
+  Pin emergency_stop = {};
+  Pin door = {};
+  Pin feed_hold = {};
+  Pin cycle_start = {};
+
+  Pin spindle_pwm = {};
+  Pin spindle_direction = {};
+  Pin mist = {};
+  Pin flood = {};
+
+  // The motors' pins of one kind on one of the step ports, for the motors in `which`.
+  constexpr uint8_t steps_on(char port, uint8_t which = 0xff) const {
+    uint8_t mask = 0;
+    for (uint8_t m = 0; m < motor_count; ++m) {
+      if ((which >> m & 1) != 0 && motor[m].step.port == port) mask = static_cast<uint8_t>(mask | motor[m].step.mask());
+    }
+    return mask;
+  }
+  constexpr uint8_t directions_on(char port, uint8_t which = 0xff) const {
+    uint8_t mask = 0;
+    for (uint8_t m = 0; m < motor_count; ++m) {
+      const Pin pin = motor[m].direction;
+      if ((which >> m & 1) != 0 && pin.port == port) mask = static_cast<uint8_t>(mask | pin.mask());
+    }
+    return mask;
+  }
+
+  // No pin has two jobs; but for the enable pins, which motors may share with each other only.
+  constexpr bool without_conflict() const {
+    constexpr uint8_t most = 2 * motor_count + most_axis_switches + 9;
+    Pin pins[most] = {};
+    uint8_t count = 0;
+    for (const MotorPins& one : motor) {
+      pins[count++] = one.step;
+      pins[count++] = one.direction;
+    }
+    for (const Pin one : limits) pins[count++] = one;
+    const Pin others[] = {probe,       emergency_stop,    door, feed_hold, cycle_start,
+                          spindle_pwm, spindle_direction, mist, flood};
+    for (const Pin one : others) pins[count++] = one;
+    for (uint8_t a = 0; a < most; ++a) {
+      if (!pins[a].exists()) continue;
+      for (uint8_t b = 0; b < a; ++b) {
+        if (pins[a] == pins[b]) return false;
+      }
+      for (const MotorPins& one : motor) {
+        if (pins[a] == one.enable) return false;
+      }
+    }
+    return true;
+  }
+
+  constexpr bool has_step_port(char port) const {
+    for (const char one : step_ports) {
+      if (one != 0 && one == port) return true;
+    }
+    return false;
+  }
+  constexpr bool fits_the_interrupt() const {
+    for (const MotorPins& pins : motor) {
+      if (!has_step_port(pins.step.port) || !has_step_port(pins.direction.port)) return false;
+    }
+    const uint8_t flags = static_cast<uint8_t>(flag_special | flag_stop);
+    const uint8_t taken = static_cast<uint8_t>(steps_on(step_ports[0]) | directions_on(step_ports[0]));
+    return flag_special != 0 && flag_stop != 0 && (flag_special & flag_stop) == 0 && (flags & taken) == 0;
+  }
+};
+
+// The pins of each set of motors on one port, so that nobody has to put them together while the machine runs.
+template <uint8_t motor_count>
+struct MotorPinSets {
+  uint8_t steps[1 << motor_count] = {};
+  uint8_t directions[1 << motor_count] = {};
+};
+
+template <uint8_t motor_count>
+constexpr MotorPinSets<motor_count> motor_pin_sets(const PinMap<motor_count>& pins, char port) {
+  MotorPinSets<motor_count> sets;
+  for (uint8_t motors = 0; motors < 1 << motor_count; ++motors) {
+    sets.steps[motors] = pins.steps_on(port, motors);
+    sets.directions[motors] = pins.directions_on(port, motors);
+  }
+  return sets;
+}
+
+}  // namespace passo

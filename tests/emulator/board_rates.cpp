@@ -1,0 +1,58 @@
+// board_rates: sweeps event rates on the emulated boards and prints what the firmware makes of them, as the table in
+// docs/boards.md. Numbers as arguments are intervals in ticks to try instead.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "emulator/streamed_run.hpp"
+
+#include "passo/chip/uno_cnc_shield.hpp"
+
+namespace {
+
+using namespace passo;
+
+void sweep(const BoardUnderTest& board, const char* name, bool changing, const std::vector<std::uint32_t>& intervals) {
+  for (const std::uint32_t interval : intervals) {
+    BoardBench bench(board);
+    std::mt19937_64 random(1);
+    const auto motors = static_cast<std::uint8_t>(board.motors.size());
+    StreamKind kind{.shortest_interval = interval,
+                    .longest_interval = interval,
+                    .shortest_segment = 200,
+                    .longest_segment = 255,
+                    .segments = 150,
+                    .ramp = 20};
+    if (changing) {
+      kind.longest_interval += interval / 8;
+      kind.shortest_segment = 120;
+    }
+    const std::vector<BoardSegment> stream = random_stream(random, motors, kind);
+    const EdgeCheck check = bench.play(stream);
+    const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
+    std::printf("| %s | %zu | %u | %.1f | %s | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
+                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.spread()),
+                number(check.shortest_pulse), number(check.shortest_setup), number(check.overruns));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::uint32_t> intervals;
+  for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
+  if (intervals.empty()) intervals = {300, 160, 133, 120, 114, 110, 107, 100};
+  try {
+    std::puts(
+        "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | pulse | set-up | "
+        "bytes lost |");
+    std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|");
+    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, even", false, intervals);
+    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, changing", true, intervals);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "board_rates: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,232 @@
+#include "emulator/streamed_run.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+#include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/firmware/player.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::uint64_t clock_rate = 16'000'000;
+
+struct Edge {
+  std::int64_t time = 0;
+  bool down = false;
+};
+using Edges = std::vector<std::vector<Edge>>;  // of each motor
+
+Edges edges_of_model(const std::vector<BoardSegment>& segments, std::uint8_t motors, std::uint64_t& events) {
+  Edges edges(motors);
+  Player player(motors);
+  std::int64_t now = 0;
+  for (const BoardSegment& segment : segments) {
+    player.load(segment);
+    while (!player.done()) {
+      now += player.wait();
+      ++events;
+      const unsigned stepped = player.play();
+      for (std::uint8_t m = 0; m < motors; ++m) {
+        if ((stepped >> m & 1) != 0) edges[m].push_back({.time = now, .down = (segment.directions >> m & 1) != 0});
+      }
+    }
+  }
+  return edges;
+}
+
+}  // namespace
+
+BoardUnderTest uno_under_test(const std::string& program) {
+  BoardUnderTest board;
+  board.program = program;
+  board.motors.assign(std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor));
+  return board;
+}
+
+BoardBench::BoardBench(const BoardUnderTest& board)
+    : board_(board),
+      chip_(std::make_unique<EmulatedChip>(board.program, board.mcu)),
+      timer_(std::make_unique<EmulatedTimer>(*chip_)),
+      uart_(std::make_unique<EmulatedUart>(*chip_, board.baud)),
+      ports_(std::make_unique<EmulatedPorts>(*chip_, board.ports)) {
+  uart_->on_byte = [this](std::uint8_t byte) { hear(byte); };
+  chip_->run_for(100'000);  // it starts
+}
+
+void BoardBench::hear(std::uint8_t byte) {
+  if (decoder_.feed(byte) != Decoded::frame) return;
+  const WireFrame& frame = decoder_.frame();
+  if (frame.type == MessageType::hello_reply) {
+    HelloReply reply;
+    decode(frame, reply);
+    capacity_ = reply.capacity;
+    greeted_ = true;
+  } else if (frame.type == MessageType::credit) {
+    Credit credit;
+    decode(frame, credit);
+    last_executed_ = static_cast<std::uint8_t>(credit.executed);
+  } else if (frame.type == MessageType::fault) {
+    decode(frame, fault_.emplace());
+  } else if (frame.type == MessageType::captured) {
+    decode(frame, static_cast<std::uint8_t>(board_.motors.size()), captured_.emplace());
+  } else {
+    ++complaints_;
+  }
+  chip_->stop();
+}
+
+void BoardBench::send_item(const BoardSegment& segment) {
+  std::uint8_t frame[largest_frame];
+  const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
+  uart_->send({frame, size});
+}
+
+bool BoardBench::say_hello() {
+  std::uint8_t frame[largest_frame];
+  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
+  const std::uint8_t size = encode(Hello{.motors = motors}, last_sent_, frame);
+  decoder_.set_motors(motors);
+  greeted_ = false;
+  complaints_ = 0;
+  uart_->send({frame, size});
+  for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(clock_rate / 1000);
+  last_executed_ = last_sent_;
+  ports_->forget_changes();
+  return greeted_;
+}
+
+void BoardBench::start(const std::vector<BoardSegment>& segments) {
+  if (!say_hello()) return;
+  for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), capacity_); ++i) send_item(segments[i]);
+}
+
+void BoardBench::run(std::uint64_t cycles) {
+  const std::uint64_t end = chip_->cycles() + cycles;
+  while (chip_->cycles() < end) chip_->run_for(end - chip_->cycles());
+}
+
+EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
+  const std::uint64_t lost = uart_->overruns();
+  EdgeCheck result;
+  if (!say_hello()) return result;
+
+  std::size_t sent = 0;
+  const std::uint64_t start = chip_->cycles();
+  std::uint64_t heard = start;
+  const auto under_way = [this] { return static_cast<std::uint8_t>(last_sent_ - last_executed_); };
+  while (sent < segments.size() || under_way() > 0) {
+    while (sent < segments.size() && under_way() < capacity_) send_item(segments[sent++]);
+    const std::uint8_t executed = last_executed_;
+    chip_->run_for(clock_rate);
+    if (executed != last_executed_) heard = chip_->cycles();
+    if (complaints_ > 0 || chip_->cycles() - heard > 15 * clock_rate) break;
+  }
+  chip_->run_for(20'000);
+  const std::uint64_t complaints = complaints_;
+  result = check(segments);
+  result.finished = under_way() == 0 && sent == segments.size();
+  result.complaints = complaints;
+  result.overruns = uart_->overruns() - lost;
+  result.seconds = static_cast<double>(chip_->cycles() - start) / clock_rate;
+  return result;
+}
+
+EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) const {
+  EdgeCheck result;
+  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
+  const Edges expected = edges_of_model(segments, motors, result.events);
+  Edges seen(motors);
+  constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+  result.shortest_pulse = result.shortest_setup = never;
+  std::vector<std::uint64_t> rose(motors, 0);
+  std::vector<std::uint64_t> turned(motors, 0);
+  std::vector<bool> down(motors);
+  for (std::uint8_t m = 0; m < motors; ++m) {
+    const Pin pin = board_.motors[m].direction;
+    // As it was before the first change.
+    std::uint8_t level = ports_->outputs(pin.port);
+    for (const PortChange& change : ports_->changes()) {
+      if (change.port == pin.port) {
+        level = change.before;
+        break;
+      }
+    }
+    down[m] = (level & pin.mask()) != 0;
+  }
+  for (const PortChange& change : ports_->changes()) {
+    const unsigned turned_over = change.before ^ change.now;
+    for (std::uint8_t m = 0; m < motors; ++m) {
+      const MotorPins& pins = board_.motors[m];
+      if (change.port == pins.direction.port && (turned_over & pins.direction.mask()) != 0) {
+        down[m] = (change.now & pins.direction.mask()) != 0;
+        turned[m] = change.cycle;
+      }
+      if (change.port != pins.step.port || (turned_over & pins.step.mask()) == 0) continue;
+      if ((change.now & pins.step.mask()) != 0) {
+        seen[m].push_back({.time = static_cast<std::int64_t>(change.cycle), .down = down[m]});
+        rose[m] = change.cycle;
+        if (turned[m] != 0) result.shortest_setup = std::min(result.shortest_setup, change.cycle - turned[m]);
+        turned[m] = 0;
+      } else {
+        result.shortest_pulse = std::min(result.shortest_pulse, change.cycle - rose[m]);
+        result.longest_pulse = std::max(result.longest_pulse, change.cycle - rose[m]);
+      }
+    }
+  }
+  std::optional<std::int64_t> start;
+  for (std::uint8_t m = 0; m < motors; ++m) {
+    result.steps += seen[m].size();
+    result.expected += expected[m].size();
+    if (seen[m].size() != expected[m].size()) ++result.wrong_count;
+    for (std::size_t i = 0; i < std::min(seen[m].size(), expected[m].size()); ++i) {
+      const std::int64_t late = seen[m][i].time - expected[m][i].time;
+      if (!start) {
+        start = late;
+        result.earliest = result.latest = 0;
+      }
+      result.earliest = std::min(result.earliest, late - *start);
+      result.latest = std::max(result.latest, late - *start);
+      if (seen[m][i].down != expected[m][i].down) ++result.wrong_direction;
+    }
+  }
+  return result;
+}
+
+std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t motors, const StreamKind& kind) {
+  const auto between = [&random](std::uint32_t least, std::uint32_t most) {
+    return least + static_cast<std::uint32_t>(random() % (most - least + 1));
+  };
+  std::vector<BoardSegment> segments;
+  const unsigned all = (1U << motors) - 1;
+  std::uint32_t interval = between(kind.shortest_interval << 16, kind.longest_interval << 16);
+  if (kind.ramp > 0) interval *= 5;
+  for (int i = 0; i < kind.segments; ++i) {
+    BoardSegment segment;
+    segment.events = static_cast<std::uint8_t>(between(kind.shortest_segment, kind.longest_segment));
+    segment.directions = kind.reversing ? static_cast<std::uint8_t>(random() & all) : std::uint8_t{0};
+    segment.flips = static_cast<std::uint8_t>(kind.all_at_every_event ? all : random() & all);
+    for (std::uint8_t m = 0; m < motors; ++m) {
+      segment.increments[m] = kind.all_at_every_event ? std::uint16_t{0} : static_cast<std::uint16_t>(random());
+    }
+    if (!kind.all_at_every_event) {  // the master
+      const std::uint32_t master = between(0, motors - 1U);
+      segment.increments[master] = 0;
+      segment.flips = static_cast<std::uint8_t>(segment.flips | 1U << master);
+    }
+    // From this rate to another within the bounds, as evenly as whole numbers allow.
+    std::uint32_t target = between(kind.shortest_interval << 16, kind.longest_interval << 16);
+    if (i < kind.ramp) target += target / 100 * static_cast<std::uint32_t>(400 * (kind.ramp - 1 - i) / kind.ramp);
+    segment.interval = interval;
+    const std::int64_t change = (static_cast<std::int64_t>(target) - interval) / segment.events;
+    segment.change = static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(change, -std::int64_t{largest_change}, std::int64_t{largest_change}));
+    interval = static_cast<std::uint32_t>(interval + static_cast<std::int64_t>(segment.change) * segment.events);
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+}  // namespace passo

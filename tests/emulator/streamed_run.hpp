@@ -1,0 +1,107 @@
+// StreamedRun: board segments sent over the serial line to the real firmware on the emulated chip, and every edge of
+// its step pins held against the host's Player.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "emulator/emulated_chip.hpp"
+#include "emulator/emulated_ports.hpp"
+#include "emulator/emulated_timer.hpp"
+#include "emulator/emulated_uart.hpp"
+
+#include "passo/chip/pin_map.hpp"
+#include "passo/wire/decoder.hpp"
+#include "passo/wire/message.hpp"
+
+namespace passo {
+
+struct BoardUnderTest {
+  std::string program;
+  std::string mcu = "atmega328p";
+  std::vector<MotorPins> motors;
+  std::string ports = "BCD";
+  std::uint32_t baud = 500'000;
+};
+
+BoardUnderTest uno_under_test(const std::string& program);
+
+struct EdgeCheck {
+  std::uint64_t steps = 0;            // edges seen
+  std::uint64_t expected = 0;         // of the model
+  std::uint64_t wrong_count = 0;      // motors with another number of edges
+  std::uint64_t wrong_direction = 0;  // edges
+  std::int64_t earliest = 0;          // edge against model, in cycles, from the mean start on
+  std::int64_t latest = 0;
+  std::uint64_t shortest_pulse = 0;
+  std::uint64_t longest_pulse = 0;
+  std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
+  std::uint64_t overruns = 0;        // bytes lost in the UART
+  std::uint64_t complaints = 0;      // frames that the board did not take
+  bool finished = false;
+  double seconds = 0;  // of the chip's time, playing
+  std::uint64_t events = 0;
+
+  std::int64_t spread() const { return latest - earliest; }
+  bool exact() const { return finished && wrong_count == 0 && wrong_direction == 0 && steps == expected; }
+};
+
+class BoardBench {
+ public:
+  explicit BoardBench(const BoardUnderTest& board);
+
+  // Plays them from rest to rest.
+  EdgeCheck play(const std::vector<BoardSegment>& segments);
+
+  // Says hello and sends as many as the board takes at once.
+  void start(const std::vector<BoardSegment>& segments);
+  // Lets time pass, whatever the board says.
+  void run(std::uint64_t cycles);
+  const std::optional<Fault>& fault() const { return fault_; }
+  const std::optional<Captured>& captured() const { return captured_; }
+
+  EmulatedChip& chip() { return *chip_; }
+  EmulatedPorts& ports() { return *ports_; }
+  const EmulatedPorts& ports() const { return *ports_; }
+  EmulatedUart& uart() { return *uart_; }
+  std::uint64_t cycles() const { return chip_->cycles(); }
+
+ private:
+  void hear(std::uint8_t byte);
+  bool say_hello();
+  void send_item(const BoardSegment& segment);
+  EdgeCheck check(const std::vector<BoardSegment>& segments) const;
+
+  BoardUnderTest board_;
+  std::unique_ptr<EmulatedChip> chip_;
+  std::unique_ptr<EmulatedTimer> timer_;
+  std::unique_ptr<EmulatedUart> uart_;
+  std::unique_ptr<EmulatedPorts> ports_;
+  Decoder decoder_;
+  bool greeted_ = false;
+  std::uint8_t capacity_ = 0;
+  std::uint8_t last_sent_ = 0;
+  std::uint8_t last_executed_ = 0;
+  std::uint64_t complaints_ = 0;
+  std::optional<Fault> fault_;
+  std::optional<Captured> captured_;
+};
+
+// What a random stream of segments is made of.
+struct StreamKind {
+  std::uint32_t shortest_interval = 100;  // ticks
+  std::uint32_t longest_interval = 100;
+  std::uint8_t shortest_segment = 20;  // events
+  std::uint8_t longest_segment = 255;
+  int segments = 100;
+  int ramp = 0;  // the first ones speed up from a fifth of the rate: nothing moves at its highest rate at once
+  bool all_at_every_event = false;  // else one motor steps at every event, the others as it comes
+  bool reversing = true;            // directions change from segment to segment
+};
+std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t motors, const StreamKind& kind);
+
+}  // namespace passo
