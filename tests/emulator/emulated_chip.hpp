@@ -34,6 +34,9 @@ class EmulatedChip {
   void run(std::uint64_t most_cycles);
   void stop() { stopped_ = true; }
 
+  // For what stands in for simavr's own peripherals.
+  avr_t& avr() { return *avr_; }
+
   // The start of the instruction that is being executed.
   std::uint64_t cycles() const;
 

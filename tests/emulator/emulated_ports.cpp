@@ -1,0 +1,78 @@
+#include "emulator/emulated_ports.hpp"
+
+#include "emulator/emulated_chip.hpp"
+#include <simavr/sim_avr.h>
+#include <simavr/sim_io.h>
+
+namespace passo {
+namespace {
+
+constexpr std::uint16_t pcifr = 0x3b;
+constexpr std::uint16_t pcmsk0 = 0x6b;
+
+// PINA… of the data sheets; there is no port I.
+std::uint16_t pin_address(char port) {
+  if (port < 'H') return static_cast<std::uint16_t>(0x20 + 3 * (port - 'A'));
+  return static_cast<std::uint16_t>(0x100 + 3 * (port - 'H' - (port > 'I' ? 1 : 0)));
+}
+
+}  // namespace
+
+EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr_(chip.avr()) {
+  for (const char name : ports) {
+    Port& port = ports_.at(static_cast<std::size_t>(name - 'A'));
+    port = {.all = this, .name = name, .pin = pin_address(name), .levels = 0xff};
+    const std::uint16_t pin = port.pin;
+    avr_.io[AVR_DATA_TO_IO(pin)].r = {
+        .param = &port, .c = [](avr_t* avr, avr_io_addr_t address, void* which) {
+          const std::uint8_t outputs = avr->data[address + 1];
+          return static_cast<std::uint8_t>((avr->data[address + 2] & outputs) |
+                                           (static_cast<Port*>(which)->levels & ~outputs));
+        }};
+    avr_.io[AVR_DATA_TO_IO(pin)].w = {.param = &port,
+                                      .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void* which) {
+                                        auto& toggled = *static_cast<Port*>(which);
+                                        toggled.all->write(toggled, avr->data[address + 2] ^ value);
+                                      }};
+    avr_.io[AVR_DATA_TO_IO(pin + 1)].w = {
+        .param = nullptr,
+        .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) { avr->data[address] = value; }};
+    avr_.io[AVR_DATA_TO_IO(pin + 2)].w = {.param = &port,
+                                          .c = [](avr_t*, avr_io_addr_t, std::uint8_t value, void* which) {
+                                            auto& written = *static_cast<Port*>(which);
+                                            written.all->write(written, value);
+                                          }};
+  }
+  avr_.io[AVR_DATA_TO_IO(pcifr)].w = {.param = nullptr,
+                                      .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) {
+                                        avr->data[address] = static_cast<std::uint8_t>(avr->data[address] & ~value);
+                                      }};
+}
+
+void EmulatedPorts::write(Port& port, std::uint8_t value) {
+  std::uint8_t& output = avr_.data[port.pin + 2];
+  if (output != value) changes_.push_back({.cycle = avr_.cycle, .port = port.name, .before = output, .now = value});
+  output = value;
+}
+
+std::uint8_t EmulatedPorts::outputs(char port) const {
+  return avr_.data[pin_address(port) + 2];
+}
+
+void EmulatedPorts::set_input(char port, std::uint8_t bit, bool high) {
+  Port& changed = ports_.at(static_cast<std::size_t>(port - 'A'));
+  const auto mask = static_cast<std::uint8_t>(1U << bit);
+  const auto levels = static_cast<std::uint8_t>(high ? changed.levels | mask : changed.levels & ~mask);
+  if (levels == changed.levels) return;
+  changed.levels = levels;
+  // Groups 0 to 2 are ports B, C, D on the 328P; B, (E0 and J), K on the 2560.
+  const bool large = avr_.address_size == 3;
+  const int group = port == 'B' ? 0 : port == (large ? 'J' : 'C') ? 1 : port == (large ? 'K' : 'D') ? 2 : -1;
+  if (group < 0) return;
+  const unsigned watched = port == 'J' ? mask << 1U : mask;
+  if ((avr_.data[pcmsk0 + group] & watched) != 0) {
+    avr_.data[pcifr] = static_cast<std::uint8_t>(avr_.data[pcifr] | 1U << static_cast<unsigned>(group));
+  }
+}
+
+}  // namespace passo
