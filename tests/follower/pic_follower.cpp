@@ -1,0 +1,153 @@
+#include "follower/pic_follower.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace passo {
+namespace {
+
+constexpr Nanoseconds cycle = 200;  // an instruction at 20 MHz
+
+// Where a line of a vector is on the chip, and whether the pin is high where the line is.
+struct InputPin {
+  std::string pin;
+  bool straight = true;
+};
+const std::map<std::string, InputPin> input_pins = {
+    {"clock.x", {"porta0"}},     {"clock.y", {"porta1"}},     {"clock.z", {"porta2"}}, {"direction.x", {"porta3"}},
+    {"direction.y", {"porta4"}}, {"direction.z", {"porta5"}}, {"relay", {"porte0"}},   {"button", {"portb3", false}}};
+
+// The bits of an output on its port, F1 first.
+struct OutputPins {
+  std::string port;
+  std::vector<unsigned> bits;
+};
+const std::map<std::string, OutputPins> output_pins = {
+    {"windings.x", {"portd", {4, 5, 6, 7}}}, {"windings.y", {"portc", {7, 4, 5, 6}}},
+    {"windings.z", {"portc", {2, 3, 0, 1}}}, {"relay", {"portd", {0}}},
+    {"indicator.relay", {"porte", {2}}},     {"indicator.automatic", {"portd", {1}}},
+    {"indicator.manual", {"portd", {2}}}};
+
+void write_stimuli(std::ostream& out, const FollowerVector& vector) {
+  int number = 0;
+  for (const auto& [line, where] : input_pins) {
+    std::ostringstream changes;
+    bool initial = false;
+    const char* separator = "";
+    for (const LineChange& change : vector.lines) {
+      if (change.line != line) continue;
+      if (change.at == 0) {
+        initial = change.high;
+        continue;
+      }
+      changes << separator << change.at / cycle << "," << (change.high == where.straight ? 1 : 0);
+      separator = ", ";
+    }
+    out << "stimulus asynchronous_stimulus\n initial_state " << (initial == where.straight ? 1 : 0)
+        << "\n start_cycle 0\n { ";
+    // gpsim does not like an empty list.
+    out << (changes.str().empty() ? "1," + std::to_string(initial == where.straight ? 1 : 0) : changes.str());
+    out << " }\n name s" << number << "\nend\n";
+    out << "node n" << number << "\nattach n" << number << " s" << number << " " << where.pin << "\n";
+    ++number;
+  }
+}
+
+std::string switch_name(const std::string& line) {
+  const KeyPlace place = key_place(line);
+  return "key" + std::to_string(place.row) + std::to_string(place.column);
+}
+
+// A switch for each key that is used, between its row and its column.
+void write_keypad(std::ostream& out, const FollowerVector& vector) {
+  out << "module library libgpsim_modules\n";
+  std::map<std::string, std::string> nodes;  // what hangs on each row and column
+  std::set<std::string> keys;
+  for (const LineChange& change : vector.lines) {
+    if (!change.line.starts_with("key.") || !keys.insert(change.line).second) continue;
+    const KeyPlace place = key_place(change.line);
+    const std::string name = switch_name(change.line);
+    out << "module load switch " << name << "\n";
+    nodes["portb" + std::to_string(4 + place.row)] += " " + name + ".A";
+    nodes["portb" + std::to_string(place.column)] += " " + name + ".B";
+  }
+  for (const auto& [pin, ends] : nodes) out << "node n" << pin << "\nattach n" << pin << ends << " " << pin << "\n";
+}
+
+void write_script(const std::filesystem::path& script, const FollowerVector& vector) {
+  std::ofstream out(script);
+  write_stimuli(out, vector);
+  write_keypad(out, vector);
+  out << "log on pins.log\nlog w portc\nlog w portd\nlog w porte\n";
+  Nanoseconds stopped = -1;
+  for (const LineChange& change : vector.lines) {
+    if (!change.line.starts_with("key.")) continue;
+    // Several keys at one time: gpsim would never stop where it stands.
+    if (change.at != stopped) out << "break c " << change.at / cycle << "\nrun\n";
+    stopped = change.at;
+    out << switch_name(change.line) << ".state = " << (change.high ? "true" : "false") << "\n";
+  }
+  out << "break c " << vector.end / cycle << "\nrun\nquit\n";
+}
+
+unsigned value_on(const std::vector<unsigned>& bits, unsigned port) {
+  unsigned value = 0;
+  for (unsigned i = 0; i < bits.size(); ++i) value |= (port >> bits[i] & 1) << i;
+  return value;
+}
+
+// gpsim's log: a line with the cycle, then what the instruction did, "  Wrote: 0x00FD to portc(0x0007) was 0x0000".
+std::vector<OutputChange> read_log(const std::filesystem::path& log) {
+  std::ifstream in(log);
+  std::vector<OutputChange> changes;
+  std::map<std::string, unsigned> values;
+  Nanoseconds at = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("0x")) at = static_cast<Nanoseconds>(std::stoull(line, nullptr, 16)) * cycle;
+    std::istringstream words(line);
+    std::string wrote;
+    std::string value;
+    std::string to;
+    std::string where;
+    if (!(words >> wrote >> value >> to >> where) || wrote != "Wrote:") continue;
+    const std::string port = where.substr(0, where.find('('));
+    const auto now = static_cast<unsigned>(std::stoul(value, nullptr, 16));
+    for (const auto& [output, pins] : output_pins) {
+      if (pins.port != port) continue;
+      const unsigned shown = value_on(pins.bits, now);
+      unsigned& before = values.try_emplace(output, 0U).first->second;
+      if (shown != before) {
+        changes.push_back({at, output, pins.bits.size() == 4 ? winding_text(shown) : std::to_string(shown)});
+      }
+      before = shown;
+    }
+  }
+  return changes;
+}
+
+}  // namespace
+
+bool gpsim_is_here() {
+  return std::system("command -v gpsim >/dev/null 2>&1") == 0;
+}
+
+std::vector<OutputChange> run_on_pic(const std::string& images, const FollowerVector& vector,
+                                     const std::filesystem::path& work) {
+  const std::string image = images + "_" + vector.drive + ".cod";
+  if (!std::filesystem::exists(image)) throw std::runtime_error("no such image: " + image);
+  std::filesystem::create_directories(work);
+  std::filesystem::remove(work / "pins.log");
+  write_script(work / "script.stc", vector);
+  const std::string command =
+      "cd '" + work.string() + "' && gpsim -i -s '" + image + "' -c script.stc </dev/null >said.txt 2>&1";
+  if (std::system(command.c_str()) != 0 || !std::filesystem::exists(work / "pins.log")) {
+    throw std::runtime_error("gpsim failed; what it said is in " + (work / "said.txt").string());
+  }
+  return read_log(work / "pins.log");
+}
+
+}  // namespace passo
