@@ -15,6 +15,6 @@ function(passo_pic_program name)
   add_custom_command(OUTPUT "${hex}" "${cod}"
     COMMAND "${PASSO_GPASM}" -w 1 ${ARG_DEFINITIONS} -o "${hex}" "${source}"
     DEPENDS "${source}" COMMENT "Assembling ${ARG_SOURCE}" VERBATIM)
-  add_custom_target(${name} ALL DEPENDS "${hex}")
+  add_custom_target(${name} DEPENDS "${hex}")
   set_target_properties(${name} PROPERTIES PASSO_COD "${cod}")
 endfunction()

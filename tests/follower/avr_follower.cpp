@@ -1,12 +1,14 @@
 #include "follower/avr_follower.hpp"
 
-#include <map>
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "emulator/emulated_chip.hpp"
 #include "emulator/emulated_ports.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
+#include <simavr/sim_io.h>
 
 namespace passo {
 namespace {
@@ -28,17 +30,18 @@ class Run {
     // All that nobody pulls up is low.
     for (std::uint8_t bit = 0; bit < 8; ++bit) ports_.set_input(pins_.lines, bit, false);
     ports_.set_input(pins_.relay_line.port, pins_.relay_line.bit, false);
+    watch_samples();
     avr_cycle_timer_register(&chip_.avr(), 1, on_time, this);
   }
 
-  std::vector<OutputChange> play() {
+  ChipRun play() {
     const std::uint64_t end = cycles_of_ns(vector_.end);
     while (chip_.cycles() < end) {
       if (const int state = avr_run(&chip_.avr()); state == cpu_Done || state == cpu_Crashed) {
         throw std::runtime_error("the follower died");
       }
     }
-    return seen();
+    return {seen(), longest_turn_};
   }
 
  private:
@@ -55,8 +58,23 @@ class Run {
     return then;
   }
 
+  // Each reading of the lines' port is a sample; the port itself goes on as it was.
+  void watch_samples() {
+    auto& read = chip_.avr().io[AVR_DATA_TO_IO(port_registers(pins_.lines))].r;
+    port_reader_ = read.c;
+    port_ = read.param;
+    read.param = this;
+    read.c = [](avr_t* avr, avr_io_addr_t address, void* run) {
+      auto& self = *static_cast<Run*>(run);
+      if (self.sampled_ != 0) self.longest_turn_ = std::max(self.longest_turn_, avr->cycle - self.sampled_);
+      self.sampled_ = avr->cycle;
+      return self.port_reader_(avr, address, self.port_);
+    };
+  }
+
   void set(const LineChange& change) {
     const std::string& line = change.line;
+    if (!pins_.has_keypad() && (line.starts_with("key.") || line == "button")) return;
     if (line.starts_with("key.")) {
       const KeyPlace place = key_place(line);
       connected_[place.row][place.column] = change.high;
@@ -117,12 +135,16 @@ class Run {
   EmulatedChip chip_;
   EmulatedPorts ports_;
   std::vector<LineChange>::const_iterator next_ = vector_.lines.begin();
+  avr_io_read_t port_reader_ = nullptr;
+  void* port_ = nullptr;
+  std::uint64_t sampled_ = 0;
+  std::uint64_t longest_turn_ = 0;
   bool connected_[keypad_rows][keypad_columns] = {};
 };
 
 }  // namespace
 
-std::vector<OutputChange> run_on_avr(const AvrBoard& board, const FollowerVector& vector) {
+ChipRun run_on_avr(const AvrBoard& board, const FollowerVector& vector) {
   return Run(board, vector).play();
 }
 

@@ -18,6 +18,6 @@ struct AvrBoard {
   std::string images;
 };
 
-std::vector<OutputChange> run_on_avr(const AvrBoard& board, const FollowerVector& vector);
+ChipRun run_on_avr(const AvrBoard& board, const FollowerVector& vector);
 
 }  // namespace passo

@@ -1,5 +1,6 @@
 #include "follower/pic_follower.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -78,14 +79,14 @@ void write_keypad(std::ostream& out, const FollowerVector& vector) {
   for (const auto& [pin, ends] : nodes) out << "node n" << pin << "\nattach n" << pin << ends << " " << pin << "\n";
 }
 
-void write_script(const std::filesystem::path& script, const FollowerVector& vector) {
+void write_script(const std::filesystem::path& script, const FollowerVector& vector, Turns turns) {
   std::ofstream out(script);
   write_stimuli(out, vector);
   write_keypad(out, vector);
-  out << "log on pins.log\nlog w portc\nlog w portd\nlog w porte\n";
+  out << "log on pins.log\nlog w portc\nlog w portd\nlog w porte\n" << (turns == Turns::watched ? "log r porta\n" : "");
   Nanoseconds stopped = -1;
   for (const LineChange& change : vector.lines) {
-    if (!change.line.starts_with("key.")) continue;
+    if (!change.line.starts_with("key.") || change.at >= vector.end) continue;
     // Several keys at one time: gpsim would never stop where it stands.
     if (change.at != stopped) out << "break c " << change.at / cycle << "\nrun\n";
     stopped = change.at;
@@ -101,13 +102,19 @@ unsigned value_on(const std::vector<unsigned>& bits, unsigned port) {
 }
 
 // gpsim's log: a line with the cycle, then what the instruction did, "  Wrote: 0x00FD to portc(0x0007) was 0x0000".
-std::vector<OutputChange> read_log(const std::filesystem::path& log) {
+ChipRun read_log(const std::filesystem::path& log) {
   std::ifstream in(log);
-  std::vector<OutputChange> changes;
+  ChipRun run;
   std::map<std::string, unsigned> values;
+  Nanoseconds sampled = 0;
   Nanoseconds at = 0;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("0x")) at = static_cast<Nanoseconds>(std::stoull(line, nullptr, 16)) * cycle;
+    if (line.starts_with("  Read:") && line.find("from porta(") != std::string::npos) {
+      if (sampled != 0)
+        run.longest_turn = std::max(run.longest_turn, static_cast<std::uint64_t>((at - sampled) / cycle));
+      sampled = at;
+    }
     std::istringstream words(line);
     std::string wrote;
     std::string value;
@@ -121,12 +128,12 @@ std::vector<OutputChange> read_log(const std::filesystem::path& log) {
       const unsigned shown = value_on(pins.bits, now);
       unsigned& before = values.try_emplace(output, 0U).first->second;
       if (shown != before) {
-        changes.push_back({at, output, pins.bits.size() == 4 ? winding_text(shown) : std::to_string(shown)});
+        run.changes.push_back({at, output, pins.bits.size() == 4 ? winding_text(shown) : std::to_string(shown)});
       }
       before = shown;
     }
   }
-  return changes;
+  return run;
 }
 
 }  // namespace
@@ -135,19 +142,21 @@ bool gpsim_is_here() {
   return std::system("command -v gpsim >/dev/null 2>&1") == 0;
 }
 
-std::vector<OutputChange> run_on_pic(const std::string& images, const FollowerVector& vector,
-                                     const std::filesystem::path& work) {
+ChipRun run_on_pic(const std::string& images, const FollowerVector& vector, const std::filesystem::path& work,
+                   Turns turns) {
   const std::string image = images + "_" + vector.drive + ".cod";
   if (!std::filesystem::exists(image)) throw std::runtime_error("no such image: " + image);
   std::filesystem::create_directories(work);
   std::filesystem::remove(work / "pins.log");
-  write_script(work / "script.stc", vector);
+  write_script(work / "script.stc", vector, turns);
   const std::string command =
-      "cd '" + work.string() + "' && gpsim -i -s '" + image + "' -c script.stc </dev/null >said.txt 2>&1";
+      "cd '" + work.string() + "' && timeout 60 gpsim -i -s '" + image + "' -c script.stc </dev/null >said.txt 2>&1";
   if (std::system(command.c_str()) != 0 || !std::filesystem::exists(work / "pins.log")) {
     throw std::runtime_error("gpsim failed; what it said is in " + (work / "said.txt").string());
   }
-  return read_log(work / "pins.log");
+  ChipRun run = read_log(work / "pins.log");
+  std::filesystem::remove(work / "pins.log");  // some 10 MB
+  return run;
 }
 
 }  // namespace passo

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <random>
 #include <sstream>
@@ -86,20 +87,19 @@ std::vector<FollowerVector> follower_vectors(const fs::path& directory) {
   return vectors;
 }
 
-FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest) {
+FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges) {
   // Two windings on, and the pair goes round.
   constexpr std::array<const char*, 4> round = {"1100", "0110", "0011", "1001"};
-  constexpr Nanoseconds start = 1'000'000;
-  std::mt19937_64 random(seed);
-  const auto chance = [&](unsigned of) { return random() % of == 0; };
-  const auto span = [&] {
-    const auto longest = static_cast<std::uint64_t>(7 * shortest);
-    return shortest + (chance(4) ? static_cast<Nanoseconds>(random() % longest) : Nanoseconds{0});
-  };
+  std::mt19937_64 turns(seed);
   FollowerVector vector{.name = "random"};
   for (const char* axis : {"x", "y", "z"}) {
     const std::string name = axis;
-    Nanoseconds now = start + static_cast<Nanoseconds>(random() % 1000);
+    std::mt19937_64 times(edges == Edges::together ? seed : turns());
+    const auto span = [&] {
+      const auto longest = static_cast<std::uint64_t>(7 * shortest);
+      return shortest + (times() % 4 == 0 ? static_cast<Nanoseconds>(times() % longest) : Nanoseconds{0});
+    };
+    Nanoseconds now = 1'000'000 + span();
     int position = 0;
     bool down = false;
     for (int step = 0; step < steps_an_axis; ++step) {
@@ -108,7 +108,7 @@ FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds s
       vector.expected.push_back({{now, "windings." + name, round[static_cast<std::size_t>(position & 3)]}, 60'000});
       now += span();
       vector.lines.push_back({now, "clock." + name, false});
-      if (chance(5)) {
+      if (turns() % 5 == 0) {
         down = !down;
         vector.lines.push_back({now, "direction." + name, down});
       }
@@ -118,6 +118,23 @@ FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds s
   }
   std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
   return vector;
+}
+
+void add_fidgeting(FollowerVector& vector, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  constexpr std::array<const char*, 11> keys = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "*", "0"};
+  const auto press = [&](const std::string& line, Nanoseconds from) {
+    vector.lines.push_back({from, line, true});
+    vector.lines.push_back({from + 5'000'000 + static_cast<Nanoseconds>(random() % 50'000'000), line, false});
+  };
+  for (Nanoseconds now = 2'000'000; now < vector.end; now += 90'000'000) {
+    const std::size_t first = random() % keys.size();
+    press(std::string("key.") + keys[first], now);
+    if (random() % 4 == 0) press(std::string("key.") + keys[(first + 1) % keys.size()], now);
+    if (random() % 2 == 0) press("button", now);
+  }
+  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  vector.end = std::max(vector.end, vector.lines.back().at + 1'000'000);
 }
 
 KeyPlace key_place(const std::string& line) {
@@ -161,6 +178,11 @@ std::string difference(const FollowerVector& vector, const std::vector<OutputCha
     }
   }
   return {};
+}
+
+std::string text_of_file(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string winding_text(unsigned pattern) {

@@ -24,6 +24,13 @@ struct OutputChange {
   std::string value;
 };
 
+// What a chip's emulator saw.
+struct ChipRun {
+  std::vector<OutputChange> changes;
+  // The longest time from one sample of the clock lines to the next: a level that lasts longer is always seen.
+  std::uint64_t longest_turn = 0;  // in cycles
+};
+
 struct ExpectedChange {
   OutputChange change;  // at the earliest
   Nanoseconds within = 0;
@@ -46,8 +53,13 @@ FollowerVector read_follower_vector(const std::filesystem::path& file);
 std::vector<FollowerVector> follower_vectors(const std::filesystem::path& directory);
 
 // Three motors at random: each line is high and low for `shortest` or up to eight times that, and directions turn
-// between edges. What has to come out is computed from a motor's position.
-FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest);
+// between edges; each motor for itself, or all edges at one time. What has to come out is computed from a motor's
+// position.
+enum class Edges { apart, together };
+FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges);
+
+// A person plays with the keypad meanwhile, but does not press `#`.
+void add_fidgeting(FollowerVector& vector, std::uint64_t seed);
 
 // A row and column, from 0, of "key.5".
 struct KeyPlace {
@@ -63,6 +75,8 @@ std::vector<std::string> moved_outputs();
 // What differs, in words; empty where nothing does. Only the outputs that the board `has` are asked for.
 std::string difference(const FollowerVector& vector, const std::vector<OutputChange>& seen,
                        const std::vector<std::string>& has);
+
+std::string text_of_file(const std::filesystem::path& file);
 
 // F1 first.
 std::string winding_text(unsigned pattern);

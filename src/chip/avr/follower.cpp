@@ -78,6 +78,9 @@ constexpr uint16_t tccr0b = 0x45;
 constexpr uint16_t ocr0a = 0x47;
 constexpr uint8_t compare_match = 1 << 1;
 
+constexpr uint16_t mcusr = 0x54;
+constexpr uint16_t wdtcsr = 0x60;
+
 struct Hardware {
   static constexpr bool has_keypad = pins.has_keypad();
 
@@ -126,6 +129,10 @@ struct Hardware {
   // After a reset all pins float and all latches are low: outputs begin low.
   static void prepare() {
     prepare_ports();
+    // A watchdog that bites after a quarter of a second: then all pins float. The two writes belong together.
+    data_register(mcusr) = 0;
+    data_register(wdtcsr) = 0x18;
+    data_register(wdtcsr) = 0x0c;
     data_register(tccr0a) = 2;   // count to OCR0A, and again
     data_register(ocr0a) = 249;  // 16 MHz / 64 / 250
     data_register(tccr0b) = 3;   // divided by 64
@@ -141,5 +148,8 @@ constinit Follower<Hardware> follower(hardware);
 extern "C" int main() {
   passo::Hardware::prepare();
   passo::follower.begin();
-  for (;;) passo::follower.turn();
+  for (;;) {
+    asm volatile("wdr");
+    passo::follower.turn();
+  }
 }

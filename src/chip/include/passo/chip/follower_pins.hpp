@@ -103,7 +103,7 @@ static_assert(uno_follower.keypad_on_one_port());
 // Arduino Mega (ATmega2560).
 inline constexpr FollowerPins mega_follower = {
     .lines = 'F',                                            // A0 to A5
-    .relay_line = {'F', 6},                                  // A6
+    .relay_line = {'D', 7},                                  // D38
     .windings = {{{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}},   // D22 to D25
                  {{'A', 4}, {'A', 5}, {'A', 6}, {'A', 7}},   // D26 to D29
                  {{'C', 7}, {'C', 6}, {'C', 5}, {'C', 4}}},  // D30 to D33
