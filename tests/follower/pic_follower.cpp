@@ -110,17 +110,21 @@ ChipRun read_log(const std::filesystem::path& log) {
   Nanoseconds at = 0;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("0x")) at = static_cast<Nanoseconds>(std::stoull(line, nullptr, 16)) * cycle;
-    if (line.starts_with("  Read:") && line.find("from porta(") != std::string::npos) {
-      if (sampled != 0)
+    if (line.find("Read: ") != std::string::npos && line.find("from porta(") != std::string::npos) {
+      if (sampled != 0) {
         run.longest_turn = std::max(run.longest_turn, static_cast<std::uint64_t>((at - sampled) / cycle));
+      }
       sampled = at;
     }
-    std::istringstream words(line);
+    // Where gpsim does not find the source, it ends no line after its number.
+    const std::size_t written = line.find("Wrote: ");
+    if (written == std::string::npos) continue;
+    std::istringstream words(line.substr(written));
     std::string wrote;
     std::string value;
     std::string to;
     std::string where;
-    if (!(words >> wrote >> value >> to >> where) || wrote != "Wrote:") continue;
+    words >> wrote >> value >> to >> where;
     const std::string port = where.substr(0, where.find('('));
     const auto now = static_cast<unsigned>(std::stoul(value, nullptr, 16));
     for (const auto& [output, pins] : output_pins) {
