@@ -78,6 +78,7 @@ constexpr uint16_t tccr0b = 0x45;
 constexpr uint16_t ocr0a = 0x47;
 constexpr uint8_t compare_match = 1 << 1;
 
+constexpr uint16_t ucsr0b = 0xc1;
 constexpr uint16_t mcusr = 0x54;
 constexpr uint16_t wdtcsr = 0x60;
 
@@ -128,6 +129,7 @@ struct Hardware {
 
   // After a reset all pins float and all latches are low: outputs begin low.
   static void prepare() {
+    data_register(ucsr0b) = 0;  // old boot loaders leave the serial line on, and D0 and D1 with it
     prepare_ports();
     // A watchdog that bites after a quarter of a second: then all pins float. The two writes belong together.
     data_register(mcusr) = 0;
