@@ -20,13 +20,15 @@ constexpr std::uint64_t cycles_of_ns(Nanoseconds time) {
   return static_cast<std::uint64_t>(time) * 2 / 125;
 }
 
+const std::string all_ports = "ABCDEFGHJKL";
+
 class Run {
  public:
   Run(const AvrBoard& board, const FollowerVector& vector)
       : pins_(*board.pins),
         vector_(vector),
         chip_(board.images + "_" + vector.drive + ".elf", board.mcu),
-        ports_(chip_, board.mcu == "atmega2560" ? "ABCDEFGHJKL" : "BCD") {
+        ports_(chip_, board.mcu == "atmega2560" ? all_ports : "BCD") {
     // All that nobody pulls up is low.
     for (std::uint8_t bit = 0; bit < 8; ++bit) ports_.set_input(pins_.lines, bit, false);
     ports_.set_input(pins_.relay_line.port, pins_.relay_line.bit, false);
@@ -40,6 +42,7 @@ class Run {
       if (const int state = avr_run(&chip_.avr()); state == cpu_Done || state == cpu_Crashed) {
         throw std::runtime_error("the follower died");
       }
+      if (reset_asked_) reset();
     }
     return {seen(), longest_turn_};
   }
@@ -72,8 +75,25 @@ class Run {
     };
   }
 
+  // All pins float. simavr forgets who wanted to be called.
+  void reset() {
+    reset_asked_ = false;
+    avr_t& avr = chip_.avr();
+    for (const char port : all_ports) {
+      const auto latches = static_cast<avr_io_addr_t>(port_registers(port) + 2);
+      const auto& write = avr.io[AVR_DATA_TO_IO(latches)].w;
+      if (write.c != nullptr) write.c(&avr, latches, 0, write.param);
+    }
+    avr_reset(&avr);
+    avr_cycle_timer_register(&avr, 1, on_time, this);
+  }
+
   void set(const LineChange& change) {
     const std::string& line = change.line;
+    if (line == "reset") {
+      reset_asked_ = true;
+      return;
+    }
     if (!pins_.has_keypad() && (line.starts_with("key.") || line == "button")) return;
     if (line.starts_with("key.")) {
       const KeyPlace place = key_place(line);
@@ -137,6 +157,7 @@ class Run {
   std::vector<LineChange>::const_iterator next_ = vector_.lines.begin();
   avr_io_read_t port_reader_ = nullptr;
   void* port_ = nullptr;
+  bool reset_asked_ = false;
   std::uint64_t sampled_ = 0;
   std::uint64_t longest_turn_ = 0;
   bool connected_[keypad_rows][keypad_columns] = {};

@@ -1,6 +1,7 @@
 #include "follower/host_follower.hpp"
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "passo/firmware/follower.hpp"
@@ -31,6 +32,10 @@ class HostHardware {
     }
   }
   void advance_to(Nanoseconds now) { now_ = now; }
+  // All pins float: a transistor without a drive is off.
+  void reset() {
+    for (auto& [output, value] : values_) put(output, output.starts_with("windings.") ? "0000" : "0");
+  }
   const std::vector<OutputChange>& seen() const { return seen_; }
 
   uint8_t lines() {
@@ -88,13 +93,20 @@ class HostHardware {
 
 std::vector<OutputChange> run_on_host(const FollowerVector& vector, Nanoseconds turn) {
   HostHardware hardware(vector.drive);
-  Follower<HostHardware> follower(hardware);
+  std::optional<Follower<HostHardware>> follower;
   auto next = vector.lines.begin();
   for (Nanoseconds now = 0; now < vector.end; now += turn) {
     hardware.advance_to(now);
-    for (; next != vector.lines.end() && next->at <= now; ++next) hardware.set(*next);
-    if (now == 0) follower.begin();
-    follower.turn();
+    for (; next != vector.lines.end() && next->at <= now; ++next) {
+      if (next->line == "reset") {
+        hardware.reset();
+        follower.reset();
+      } else {
+        hardware.set(*next);
+      }
+    }
+    if (!follower) follower.emplace(hardware).begin();
+    follower->turn();
   }
   return hardware.seen();
 }

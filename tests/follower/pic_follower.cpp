@@ -86,10 +86,15 @@ void write_script(const std::filesystem::path& script, const FollowerVector& vec
   out << "log on pins.log\nlog w portc\nlog w portd\nlog w porte\n" << (turns == Turns::watched ? "log r porta\n" : "");
   Nanoseconds stopped = -1;
   for (const LineChange& change : vector.lines) {
-    if (!change.line.starts_with("key.") || change.at >= vector.end) continue;
-    // Several keys at one time: gpsim would never stop where it stands.
+    const bool reset = change.line == "reset";
+    if ((!reset && !change.line.starts_with("key.")) || change.at >= vector.end) continue;
+    // Several at one time: gpsim would never stop where it stands.
     if (change.at != stopped) out << "break c " << change.at / cycle << "\nrun\n";
     stopped = change.at;
+    if (reset) {
+      out << "reset\n";
+      continue;
+    }
     out << switch_name(change.line) << ".state = " << (change.high ? "true" : "false") << "\n";
   }
   out << "break c " << vector.end / cycle << "\nrun\nquit\n";
