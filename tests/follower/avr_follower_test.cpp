@@ -51,5 +51,10 @@ TEST(FollowerOnAvr, loses_no_step_while_each_level_lasts_as_long_as_the_manual_s
   expect_no_step_lost(mega, 7'000);
 }
 
+TEST(FollowerOnAvr, hears_the_keypad_while_three_motors_step_at_the_highest_rate) {
+  const FollowerVector vector = manual_mode_at_full_rate(7'000);
+  EXPECT_EQ(difference(vector, run_on_avr(mega, vector).changes, {"indicator.manual"}), "");
+}
+
 }  // namespace
 }  // namespace passo

@@ -36,5 +36,12 @@ TEST(FollowerOnPic, loses_no_step_while_each_level_lasts_as_long_as_the_manual_s
   }
 }
 
+TEST(FollowerOnPic, hears_the_keypad_while_three_motors_step_at_the_highest_rate) {
+  if (!gpsim_is_here()) GTEST_SKIP() << "gpsim is not installed (scripts/install.sh installs it)";
+  const FollowerVector vector = manual_mode_at_full_rate(15'000);
+  const ChipRun run = run_on_pic(PASSO_IMAGES "/follower_pic", vector, work_of("full_rate"), Turns::unwatched);
+  EXPECT_EQ(difference(vector, run.changes, {"indicator.manual"}), "");
+}
+
 }  // namespace
 }  // namespace passo

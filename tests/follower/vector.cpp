@@ -120,6 +120,24 @@ FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds s
   return vector;
 }
 
+FollowerVector manual_mode_at_full_rate(Nanoseconds level) {
+  FollowerVector vector{.name = "manual mode at full rate"};
+  vector.end = 60'000'000;
+  Nanoseconds shift = 0;
+  for (const char* axis : {"x", "y", "z"}) {
+    bool high = true;
+    for (Nanoseconds now = 1'000'000 + shift; now < vector.end; now += level) {
+      vector.lines.push_back({now, std::string("clock.") + axis, high});
+      high = !high;
+    }
+    shift += 2 * level / 3;
+  }
+  vector.lines.push_back({20'000'000, "key.#", true});
+  vector.expected.push_back({{40'000'000, "indicator.manual", "1"}, 9'100'000});
+  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  return vector;
+}
+
 void add_fidgeting(FollowerVector& vector, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   constexpr std::array<const char*, 11> keys = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "*", "0"};

@@ -58,6 +58,10 @@ std::vector<FollowerVector> follower_vectors(const std::filesystem::path& direct
 enum class Edges { apart, together };
 FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges);
 
+// Three square waves, a third of a period apart, without an end: the least time that a loop can have for anything else.
+// In the midst of it somebody wants manual mode; only that is looked at.
+FollowerVector manual_mode_at_full_rate(Nanoseconds level);
+
 // A person plays with the keypad meanwhile, but does not press `#`.
 void add_fidgeting(FollowerVector& vector, std::uint64_t seed);
 
