@@ -154,7 +154,8 @@ loop    clrwdt                          ; 1
         btfsc   STATUS,Z                ; 2
         goto    no_step
 
-; A step of one axis: 21 cycles, or 3 where there is none. The other motor's bits of the port stay as they are.
+; A step of one axis: 20 cycles, or 3 where there is none. The other motor's bits of the port stay as they are.
+; The longest turn has three of them: 10 + 1 + 3 * 20 + 2 = 73.
 axis    macro   bit, place, windings, shadow, port, all
         local   none
         btfss   risen,bit
