@@ -7,16 +7,20 @@
 // that can wait (relay, keys, indicators) is done only in a turn without a step, in pieces: a piece a millisecond.
 //
 // Hardware is a type with
-//   uint8_t lines();                         bits 0, 1, 2: clock of X, Y, Z; bits 3, 4, 5: direction, 1 is down;
-//   others: anything bool relay_line();                       the computer wants the tool void windings(uint8_t axis,
-//   uint8_t place);   the axis's windings as its WindingTable has them for this place void relay(bool on); and its
-//   indicator void indicators(bool automatic, bool manual); bool millisecond();                      one has passed
-//   since it last said so static constexpr bool has_keypad;        without one the follower is always automatic, and
-//   the rest is not asked for uint8_t rows();                          of the column that is drawn low: a bit for each
-//   row with a key down void draw_column(uint8_t column);        this one low, the others floating bool tool_button();
+//   uint8_t lines();                               bits 0 to 2: clock of X, Y, Z; 3 to 5: direction, 1 is down
+//   bool relay_line();                             the computer wants the tool
+//   void windings(uint8_t axis, uint8_t place);    what the motor's WindingTable has for this place
+//   void relay(bool on);                           and its indicator
+//   void indicators(bool automatic, bool manual);
+//   static constexpr bool has_keypad;              without one always automatic, and what follows is not asked for
+//   bool millisecond();                            one has passed since it last said so
+//   uint8_t rows();                                of the column that is drawn low: a bit for each with a key down
+//   void draw_column(uint8_t column);              this one low, the others floating
+//   bool tool_button();
 //
 // Invariant: a motor's windings carry no current before its first step. The relay is never closed by a reset or a
-// change of mode, only by an edge of its line or by the button. Portable.
+// change of mode, only by an edge of its line or by the button.
+// Portable.
 #pragma once
 
 #include <stdint.h>
@@ -37,23 +41,27 @@ struct Jog {
   uint8_t steps = 0;
   uint8_t down = 0;
 };
-constexpr Jog jog_of(Key key) {
-  constexpr uint8_t x = 1, y = 2, z = 4;
-  constexpr Jog jogs[no_key + 1] = {{x | y, x},
-                                    {y, 0},
-                                    {x | y, 0},  // 1 2 3
-                                    {x, x},
-                                    {z, 0},
-                                    {x, 0},  // 4 5 6
-                                    {x | y, x | y},
-                                    {y, y},
-                                    {x | y, y},  // 7 8 9
-                                    {},
-                                    {z, z},
-                                    {},  // * 0 #
-                                    {}};
-  return jogs[key];
+struct JogTable {
+  Jog of[no_key + 1] = {};
+};
+constexpr JogTable jog_table() {
+  constexpr uint8_t x = 1;
+  constexpr uint8_t y = 2;
+  constexpr uint8_t z = 4;
+  constexpr uint8_t both = x | y;
+  constexpr Jog jogs[keypad_rows][keypad_columns] = {
+      {{both, x}, {y, 0}, {both, 0}},     // 1 2 3
+      {{x, x}, {z, 0}, {x, 0}},           // 4 5 6
+      {{both, both}, {y, y}, {both, y}},  // 7 8 9
+      {{}, {z, z}, {}},                   // * 0 #
+  };
+  JogTable table;
+  for (uint8_t row = 0; row < keypad_rows; ++row) {
+    for (uint8_t column = 0; column < keypad_columns; ++column) table.of[key_at(row, column)] = jogs[row][column];
+  }
+  return table;
 }
+inline constexpr JogTable jog_of_key = jog_table();
 
 template <class Hardware>
 class Follower {
@@ -143,7 +151,7 @@ class Follower {
   }
   void jog(Key key, uint8_t looks_until_next) {
     wait_ = looks_until_next;
-    const Jog move = jog_of(key);
+    const Jog move = jog_of_key.of[key];
     step(move.steps, move.down);
   }
   // A mode key also says: I know where the machine stands.

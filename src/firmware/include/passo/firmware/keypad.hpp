@@ -1,9 +1,13 @@
 // Keypad: which key of a 4x3 keypad a person holds down.
 //
-//   1 2 3     A key connects its row to its column. The rows are read with a pull-up; one column at a time is drawn
-//   low, 4 5 6     and the others float, so that two keys in a row short nothing. Columns are driven a tick before they
-//   are 7 8 9     read: what a long cable needs to settle.
+//   1 2 3
+//   4 5 6
+//   7 8 9
 //   * 0 #
+//
+// A key connects its row to its column. The rows are read with a pull-up; one column at a time is drawn low, and the
+// others float, so that two keys in a row short nothing. A column is drawn long before its rows are read: what a long
+// cable needs to settle.
 //
 // Two keys at once are no key: a jog stops when a second finger comes down.
 // Portable.
