@@ -4,8 +4,9 @@
 # PASSO_AVR_FOUND tells whether both are here; PASSO_AVR_COMPILER names them, for figures that depend on them.
 find_program(PASSO_CLANG NAMES clang++ clang++-14)
 find_program(PASSO_AVR_GCC NAMES avr-gcc)
+find_program(PASSO_AVR_OBJCOPY NAMES avr-objcopy)
 set(PASSO_AVR_FOUND OFF)
-if(PASSO_CLANG AND PASSO_AVR_GCC)
+if(PASSO_CLANG AND PASSO_AVR_GCC AND PASSO_AVR_OBJCOPY)
   # clang's own <stdint.h>, and nothing of the host's.
   execute_process(COMMAND "${PASSO_CLANG}" -print-resource-dir
     OUTPUT_VARIABLE PASSO_CLANG_RESOURCES OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -31,7 +32,8 @@ set(PASSO_AVR_OPTIONS
 #
 # The target NAME builds NAME.elf in the current binary directory; its path is the target's property PASSO_ELF. MODULES are
 # the portable modules whose headers the sources include; INCLUDES are further places to look for headers. DATA is where the
-# linker may begin to place variables, for programs that have laid out the RAM below themselves.
+# linker may begin to place variables, for programs that have laid out the RAM below themselves. NAME.hex beside it is for
+# avrdude.
 function(passo_avr_program name)
   cmake_parse_arguments(ARG "" "MCU;DATA" "SOURCES;MODULES;INCLUDES;OPTIONS;LINK_OPTIONS" ${ARGN})
   set(options ${PASSO_AVR_OPTIONS} -mmcu=${ARG_MCU} ${ARG_OPTIONS})
@@ -62,8 +64,10 @@ function(passo_avr_program name)
   endforeach()
 
   set(elf "${CMAKE_CURRENT_BINARY_DIR}/${name}.elf")
-  add_custom_command(OUTPUT "${elf}"
+  set(hex "${CMAKE_CURRENT_BINARY_DIR}/${name}.hex")
+  add_custom_command(OUTPUT "${elf}" "${hex}"
     COMMAND "${PASSO_AVR_GCC}" ${link_options} ${objects} -o "${elf}"
+    COMMAND "${PASSO_AVR_OBJCOPY}" -O ihex "${elf}" "${hex}"
     DEPENDS ${objects} COMMENT "Linking ${name}.elf" VERBATIM)
   add_custom_target(${name} DEPENDS "${elf}")
   set_target_properties(${name} PROPERTIES PASSO_ELF "${elf}")

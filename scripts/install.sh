@@ -23,6 +23,7 @@ test_packages=(
   gcc-avr avr-libc binutils-avr  # link for the chip: libgcc, start-up code, linker
   libsimavr-dev simavr       # the chip, emulated
   libelf-dev                 # simavr reads programs with it
+  gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
   jq                         # the table of scripts/motion_table.sh

@@ -45,7 +45,8 @@ std::vector<double> place_of(const VirtualMachine& machine, const MachineDescrip
 std::optional<CableCut> read_cable_cut(const std::string& text) {
   const auto both = pair_of(text, ':');
   if (both) return CableCut{.at = Seconds(both->first), .missing = Seconds(both->second)};
-  fail(exit_bad_program, "'" + text + "': expected --cut-cable-at SECONDS:SECONDS, when it is cut and after how long it is back");
+  fail(exit_bad_program,
+       "'" + text + "': expected --cut-cable-at SECONDS:SECONDS, when it is cut and after how long it is back");
   return std::nullopt;
 }
 

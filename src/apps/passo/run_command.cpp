@@ -157,13 +157,13 @@ int run(const RunArguments& arguments) {
   if (!outputs) return fail(exit_failed, outputs.error().message);
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, *options, late,
-          {.line = cut ? std::optional(LineOptions{}) : std::nullopt});
+  Job job(std::move(*program), *machine, *options, late, {.line = cut ? std::optional(LineOptions{}) : std::nullopt});
   for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
   if (cut) {
     if (job.drive().refiller() == nullptr) {
-      return fail(exit_bad_program,
-                  "--cut-cable-at: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
+      return fail(
+          exit_bad_program,
+          "--cut-cable-at: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
     }
     job.line().cut(cut->at, cut->missing);
   }

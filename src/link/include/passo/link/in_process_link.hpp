@@ -103,10 +103,10 @@ class InProcessLink final : public Link {
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
-  bool news_ = false;            // since wait() began
-  std::deque<Frame> kept_;       // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};             // when the board last said anything
-  Seconds moved_on_{0};          // when it last took something, or we asked or sent
+  bool news_ = false;                                   // since wait() began
+  std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};                                    // when the board last said anything
+  Seconds moved_on_{0};                                 // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;

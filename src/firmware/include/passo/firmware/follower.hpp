@@ -1,0 +1,185 @@
+// Follower: the first control board's program, without its hardware. Step and direction come in on lines, windings go
+// out; a keypad moves the machine by hand. docs/follower.md says what it does for the person in front of it.
+//
+// One loop calls turn() as fast as it can. Each turn samples the clock lines once. A line that was low in the sample
+// before and is high in this one is a step, in the direction that was read with the sample before; so a direction must
+// stand before its edge, and what counts for the highest rate is the longest time between two samples. Therefore all
+// that can wait (relay, keys, indicators) is done only in a turn without a step, in pieces: a piece a millisecond.
+//
+// Hardware is a type with
+//   uint8_t lines();                               bits 0 to 2: clock of X, Y, Z; 3 to 5: direction, 1 is down
+//   bool relay_line();                             the computer wants the tool
+//   void windings(uint8_t axis, uint8_t place);    what the motor's WindingTable has for this place
+//   void relay(bool on);                           and its indicator
+//   void indicators(bool automatic, bool manual);
+//   static constexpr bool has_keypad;              without one always automatic, and what follows is not asked for
+//   bool millisecond();                            one has passed since it last said so
+//   uint8_t rows();                                of the column that is drawn low: a bit for each with a key down
+//   void draw_column(uint8_t column);              this one low, the others floating
+//   bool tool_button();
+//
+// Invariant: a motor's windings carry no current before its first step. The relay is never closed by a reset or a
+// change of mode, only by an edge of its line or by the button.
+// Portable.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/firmware/keypad.hpp"
+
+namespace passo {
+
+inline constexpr uint8_t follower_axes = 3;
+
+// Times of the keypad, in looks of 5 ms each: three columns, the keys, the rest.
+inline constexpr uint8_t looks_to_settle = 4;   // 20 ms
+inline constexpr uint8_t looks_to_repeat = 80;  // 400 ms from a key's first step to its second
+inline constexpr uint8_t looks_a_step = 2;      // 100 steps a second: motors start at that without a ramp
+
+// What a key moves: the axes of `steps`, those of `down` downwards.
+struct Jog {
+  uint8_t steps = 0;
+  uint8_t down = 0;
+};
+struct JogTable {
+  Jog of[no_key + 1] = {};
+};
+constexpr JogTable jog_table() {
+  constexpr uint8_t x = 1;
+  constexpr uint8_t y = 2;
+  constexpr uint8_t z = 4;
+  constexpr uint8_t both = x | y;
+  constexpr Jog jogs[keypad_rows][keypad_columns] = {
+      {{both, x}, {y, 0}, {both, 0}},     // 1 2 3
+      {{x, x}, {z, 0}, {x, 0}},           // 4 5 6
+      {{both, both}, {y, y}, {both, y}},  // 7 8 9
+      {{}, {z, z}, {}},                   // * 0 #
+  };
+  JogTable table;
+  for (uint8_t row = 0; row < keypad_rows; ++row) {
+    for (uint8_t column = 0; column < keypad_columns; ++column) table.of[key_at(row, column)] = jogs[row][column];
+  }
+  return table;
+}
+inline constexpr JogTable jog_of_key = jog_table();
+
+template <class Hardware>
+class Follower {
+ public:
+  constexpr explicit Follower(Hardware& hardware) : hardware_(hardware) {}
+
+  // Once, before the first turn: what is high already is no edge.
+  void begin() {
+    lines_ = hardware_.lines();
+    relay_line_ = hardware_.relay_line();
+    hardware_.indicators(true, false);
+    if constexpr (Hardware::has_keypad) hardware_.draw_column(0);
+  }
+
+  void turn() {
+    const uint8_t before = lines_;
+    lines_ = hardware_.lines();
+    const uint8_t risen = static_cast<uint8_t>(lines_ & ~before & 7);
+    if (risen != 0 && !manual_) return step(risen, static_cast<uint8_t>(before >> 3));
+    follow_relay();
+    if constexpr (Hardware::has_keypad) {
+      if (hardware_.millisecond()) tick();
+    }
+  }
+
+ private:
+  void step(uint8_t axes, uint8_t down) {
+    for (uint8_t axis = 0, bit = 1; axis < follower_axes; ++axis, bit = static_cast<uint8_t>(bit << 1)) {
+      if ((axes & bit) == 0) continue;
+      uint8_t place = places_[axis];
+      if ((down & bit) != 0) {
+        --place;
+      } else {
+        ++place;
+      }
+      places_[axis] = place;
+      hardware_.windings(axis, place);
+    }
+  }
+
+  void follow_relay() {
+    const bool line = hardware_.relay_line();
+    if (line == relay_line_) return;
+    relay_line_ = line;
+    if (!manual_) set_relay(line);
+  }
+  void set_relay(bool on) {
+    relay_ = on;
+    hardware_.relay(on);
+  }
+
+  // Every millisecond a fifth of a look at the keypad.
+  void tick() {
+    const uint8_t piece = piece_++;
+    if (piece < keypad_columns) {
+      scan_.add(piece, hardware_.rows());
+      hardware_.draw_column(piece_ < keypad_columns ? piece_ : uint8_t{0});
+    } else if (piece == keypad_columns) {
+      look_at_keys();
+    } else {
+      piece_ = 0;
+      look_at_button();
+      show_mode();
+    }
+  }
+
+  void look_at_keys() {
+    const Key held = key_.value();
+    key_.look(scan_.take());
+    if (key_.value() != held) {
+      press(key_.value());
+    } else if (manual_ && key_.steady() && --wait_ == 0) {
+      jog(held, looks_a_step);
+    }
+  }
+
+  void look_at_button() {
+    const uint8_t pushed = button_.value();
+    button_.look(hardware_.tool_button() ? 1 : 0);
+    if (manual_ && button_.value() > pushed) set_relay(!relay_);
+  }
+
+  void press(Key key) {
+    if (key == key_named('#')) set_manual(true);
+    if (key == key_named('*')) set_manual(false);
+    if (manual_) jog(key, looks_to_repeat);
+  }
+  void jog(Key key, uint8_t looks_until_next) {
+    wait_ = looks_until_next;
+    const Jog move = jog_of_key.of[key];
+    step(move.steps, move.down);
+  }
+  // A mode key also says: I know where the machine stands.
+  void set_manual(bool manual) {
+    manual_ = manual;
+    trusted_ = true;
+    if (!manual_ && !relay_line_) set_relay(false);
+  }
+
+  // After a reset nobody knows the position: the indicator blinks, 0.32 s on and 0.32 s off.
+  void show_mode() {
+    const bool lit = trusted_ || (++looks_ & 0x40) == 0;
+    hardware_.indicators(lit && !manual_, lit && manual_);
+  }
+
+  Hardware& hardware_;
+  uint8_t lines_ = 0;
+  uint8_t places_[follower_axes] = {};
+  bool relay_line_ = false;
+  bool relay_ = false;
+  bool manual_ = false;
+  bool trusted_ = false;
+  uint8_t piece_ = 0;  // of a look
+  uint8_t looks_ = 0;
+  uint8_t wait_ = 0;  // looks until a held key acts again
+  KeypadScan scan_;
+  Settled<looks_to_settle> key_{no_key};
+  Settled<looks_to_settle> button_{0};
+};
+
+}  // namespace passo

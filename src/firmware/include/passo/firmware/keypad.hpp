@@ -1,0 +1,91 @@
+// Keypad: which key of a 4x3 keypad a person holds down.
+//
+//   1 2 3
+//   4 5 6
+//   7 8 9
+//   * 0 #
+//
+// A key connects its row to its column. The rows are read with a pull-up; one column at a time is drawn low, and the
+// others float, so that two keys in a row short nothing. A column is drawn long before its rows are read: what a long
+// cable needs to settle.
+//
+// Two keys at once are no key: a jog stops when a second finger comes down.
+// Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+using Key = uint8_t;
+inline constexpr uint8_t keypad_rows = 4;
+inline constexpr uint8_t keypad_columns = 3;
+inline constexpr Key no_key = keypad_rows * keypad_columns;
+
+constexpr Key key_at(uint8_t row, uint8_t column) {
+  return static_cast<Key>(row * keypad_columns + column);
+}
+// The key with this letter on it; no_key where there is none.
+constexpr Key key_named(char name) {
+  constexpr char names[] = "123456789*0#";
+  Key key = 0;
+  while (key < no_key && names[key] != name) ++key;
+  return key;
+}
+
+// A value that counts only when it has been the same for `looks` looks after the first: contacts bounce.
+template <uint8_t looks>
+class Settled {
+ public:
+  constexpr explicit Settled(uint8_t value) : value_(value), seen_(value) {}
+
+  void look(uint8_t now) {
+    if (now != seen_) {
+      seen_ = now;
+      left_ = looks;
+    } else if (left_ != 0 && --left_ == 0) {
+      value_ = seen_;
+    }
+  }
+  uint8_t value() const { return value_; }
+  // The last look saw it too.
+  bool steady() const { return seen_ == value_; }
+
+ private:
+  uint8_t value_;
+  uint8_t seen_;
+  uint8_t left_ = 0;
+};
+
+// What one look at all columns finds. The caller drives the columns.
+class KeypadScan {
+ public:
+  // `rows`: a bit for each that is connected to this column.
+  void add(uint8_t column, uint8_t rows) {
+    if (rows == 0) return;
+    const uint8_t row = only_row(rows);
+    key_ = key_ == no_key && row < keypad_rows ? key_at(row, column) : several;
+  }
+  Key take() {
+    const Key key = key_ < no_key ? key_ : no_key;
+    key_ = no_key;
+    return key;
+  }
+
+ private:
+  static constexpr Key several = 0xff;
+
+  static constexpr uint8_t only_row(uint8_t rows) {
+    switch (rows) {
+      case 1: return 0;
+      case 2: return 1;
+      case 4: return 2;
+      case 8: return 3;
+      default: return keypad_rows;
+    }
+  }
+
+  Key key_ = no_key;
+};
+
+}  // namespace passo

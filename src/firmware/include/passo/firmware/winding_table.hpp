@@ -1,0 +1,34 @@
+// WindingTable: which of a motor's windings carry current at which step.
+//
+// A motor has four outputs F1 to F4, wired to its windings in the order in which they come round: Ph1, Ph3, Ph2, Ph4.
+// A pattern has F1 in bit 0. One step on in the table is one step up, one back is one step down.
+//   two on   1100 0110 0011 1001            1.4 times the torque of one winding, for twice the power
+//   wave     1000 0100 0010 0001            one winding: half the power
+//   half     the two in turn, eight of them: twice as many steps a turn, uneven in torque
+// Portable.
+#pragma once
+
+#include <stdint.h>
+
+namespace passo {
+
+enum class Drive : uint8_t { two_on, wave, half_step };
+
+struct WindingTable {
+  uint8_t patterns[8] = {};
+  uint8_t mask = 0;  // the motor's place, masked with it, is the index
+
+  constexpr uint8_t at(uint8_t place) const { return patterns[place & mask]; }
+};
+
+constexpr WindingTable winding_table(Drive drive) {
+  switch (drive) {
+    case Drive::two_on: return {.patterns = {0b0011, 0b0110, 0b1100, 0b1001}, .mask = 3};
+    case Drive::wave: return {.patterns = {0b0001, 0b0010, 0b0100, 0b1000}, .mask = 3};
+    case Drive::half_step:
+      return {.patterns = {0b0011, 0b0010, 0b0110, 0b0100, 0b1100, 0b1000, 0b1001, 0b0001}, .mask = 7};
+  }
+  return {};
+}
+
+}  // namespace passo

@@ -1,0 +1,212 @@
+#include "follower/vector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+namespace passo {
+namespace {
+
+namespace fs = std::filesystem;
+
+Nanoseconds nanoseconds(double microseconds) {
+  return std::llround(microseconds * 1000);
+}
+
+std::string in_microseconds(Nanoseconds time) {
+  std::ostringstream text;
+  text << static_cast<double>(time) / 1000 << " us";
+  return text.str();
+}
+
+// One line of the text form. False where it is none.
+bool read_line(const std::string& text, FollowerVector& vector) {
+  std::istringstream words(text);
+  if (text.starts_with("drive ")) {
+    std::string drive;
+    return static_cast<bool>(words >> drive >> vector.drive);
+  }
+  double time = 0;
+  std::string what;
+  if (!(words >> time >> what)) return false;
+  if (what == "end") {
+    vector.end = nanoseconds(time);
+    return true;
+  }
+  std::string name;
+  std::string value;
+  if (!(words >> name >> value)) return false;
+  if (what == "in") {
+    vector.lines.push_back({nanoseconds(time), name, value == "1"});
+    return value == "0" || value == "1";
+  }
+  std::string within;
+  double span = 0;
+  if (what != "out" || !(words >> within >> span) || within != "within") return false;
+  vector.expected.push_back({{nanoseconds(time), name, value}, nanoseconds(span)});
+  return true;
+}
+
+}  // namespace
+
+bool FollowerVector::needs_keypad() const {
+  return std::ranges::any_of(
+      lines, [](const LineChange& change) { return change.line.starts_with("key.") || change.line == "button"; });
+}
+
+FollowerVector read_follower_vector(const fs::path& file) {
+  std::ifstream in(file);
+  FollowerVector vector;
+  vector.name = file.stem().string();
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.empty() || line.starts_with('#')) continue;
+    if (!read_line(line, vector)) {
+      throw std::runtime_error(file.string() + ":" + std::to_string(number) +
+                               ": expected TIME in|out NAME VALUE, TIME end or drive NAME: " + line);
+    }
+  }
+  if (vector.end == 0) throw std::runtime_error(file.string() + ": has no end");
+  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  return vector;
+}
+
+std::vector<FollowerVector> follower_vectors(const fs::path& directory) {
+  std::vector<FollowerVector> vectors;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    if (entry.path().extension() == ".txt") vectors.push_back(read_follower_vector(entry.path()));
+  }
+  std::ranges::sort(vectors, {}, &FollowerVector::name);
+  return vectors;
+}
+
+FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges) {
+  // Two windings on, and the pair goes round.
+  constexpr std::array<const char*, 4> round = {"1100", "0110", "0011", "1001"};
+  std::mt19937_64 turns(seed);
+  FollowerVector vector{.name = "random"};
+  for (const char* axis : {"x", "y", "z"}) {
+    const std::string name = axis;
+    std::mt19937_64 times(edges == Edges::together ? seed : turns());
+    const auto span = [&] {
+      const auto longest = static_cast<std::uint64_t>(7 * shortest);
+      return shortest + (times() % 4 == 0 ? static_cast<Nanoseconds>(times() % longest) : Nanoseconds{0});
+    };
+    Nanoseconds now = 1'000'000 + span();
+    int position = 0;
+    bool down = false;
+    for (int step = 0; step < steps_an_axis; ++step) {
+      vector.lines.push_back({now, "clock." + name, true});
+      position += down ? -1 : 1;
+      vector.expected.push_back({{now, "windings." + name, round[static_cast<std::size_t>(position & 3)]}, 60'000});
+      now += span();
+      vector.lines.push_back({now, "clock." + name, false});
+      if (turns() % 5 == 0) {
+        down = !down;
+        vector.lines.push_back({now, "direction." + name, down});
+      }
+      now += span();
+    }
+    vector.end = std::max(vector.end, now + 100'000);
+  }
+  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  return vector;
+}
+
+FollowerVector manual_mode_at_full_rate(Nanoseconds level) {
+  FollowerVector vector{.name = "manual mode at full rate"};
+  vector.end = 60'000'000;
+  Nanoseconds shift = 0;
+  for (const char* axis : {"x", "y", "z"}) {
+    bool high = true;
+    for (Nanoseconds now = 1'000'000 + shift; now < vector.end; now += level) {
+      vector.lines.push_back({now, std::string("clock.") + axis, high});
+      high = !high;
+    }
+    shift += 2 * level / 3;
+  }
+  vector.lines.push_back({20'000'000, "key.#", true});
+  vector.expected.push_back({{40'000'000, "indicator.manual", "1"}, 9'100'000});
+  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  return vector;
+}
+
+void add_fidgeting(FollowerVector& vector, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  constexpr std::array<const char*, 11> keys = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "*", "0"};
+  const auto press = [&](const std::string& line, Nanoseconds from) {
+    vector.lines.push_back({from, line, true});
+    vector.lines.push_back({from + 5'000'000 + static_cast<Nanoseconds>(random() % 50'000'000), line, false});
+  };
+  for (Nanoseconds now = 2'000'000; now < vector.end; now += 90'000'000) {
+    const std::size_t first = random() % keys.size();
+    press(std::string("key.") + keys[first], now);
+    if (random() % 4 == 0) press(std::string("key.") + keys[(first + 1) % keys.size()], now);
+    if (random() % 2 == 0) press("button", now);
+  }
+  std::ranges::stable_sort(vector.lines, {}, &LineChange::at);
+  vector.end = std::max(vector.end, vector.lines.back().at + 1'000'000);
+}
+
+KeyPlace key_place(const std::string& line) {
+  const std::string names = "123456789*0#";
+  const std::size_t index = names.find(line.back());
+  if (!line.starts_with("key.") || index == std::string::npos) throw std::runtime_error("no such key: " + line);
+  return {static_cast<int>(index / 3), static_cast<int>(index % 3)};
+}
+
+std::vector<std::string> moved_outputs() {
+  return {"windings.x", "windings.y", "windings.z", "relay"};
+}
+
+std::vector<std::string> follower_outputs() {
+  std::vector<std::string> all = moved_outputs();
+  for (const char* indicator : {"relay", "automatic", "manual"}) all.push_back(std::string("indicator.") + indicator);
+  return all;
+}
+
+std::string difference(const FollowerVector& vector, const std::vector<OutputChange>& seen,
+                       const std::vector<std::string>& has) {
+  // Each output for itself: what changes at one time on two of them has no order.
+  std::map<std::string, std::vector<ExpectedChange>> expected;
+  std::map<std::string, std::vector<OutputChange>> got;
+  for (const ExpectedChange& change : vector.expected) expected[change.change.output].push_back(change);
+  for (const OutputChange& change : seen) got[change.output].push_back(change);
+  for (const std::string& output : has) {
+    const auto& wanted = expected[output];
+    const auto& given = got[output];
+    for (std::size_t i = 0; i < std::max(wanted.size(), given.size()); ++i) {
+      const std::string place = vector.name + ": change " + std::to_string(i + 1) + " of " + output + ": ";
+      const std::string want = i < wanted.size()
+                                   ? wanted[i].change.value + " from " + in_microseconds(wanted[i].change.at) +
+                                         " within " + in_microseconds(wanted[i].within)
+                                   : "none";
+      const std::string have = i < given.size() ? given[i].value + " at " + in_microseconds(given[i].at) : "none";
+      if (i >= wanted.size() || i >= given.size() || given[i].value != wanted[i].change.value ||
+          given[i].at < wanted[i].change.at || given[i].at > wanted[i].change.at + wanted[i].within) {
+        return place + "expected " + want + ", got " + have;
+      }
+    }
+  }
+  return {};
+}
+
+std::string text_of_file(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string winding_text(unsigned pattern) {
+  std::string text;
+  for (unsigned f = 0; f < 4; ++f) text += (pattern >> f & 1) != 0 ? '1' : '0';
+  return text;
+}
+
+}  // namespace passo

@@ -1,0 +1,88 @@
+// FollowerVector: what goes into a follower and what has to come out of it. vectors/README.md has the text form.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace passo {
+
+using Nanoseconds = std::int64_t;  // from the end of the reset
+
+// "clock.x" to a level.
+struct LineChange {
+  Nanoseconds at = 0;
+  std::string line;
+  bool high = false;
+};
+
+// "windings.x" from now on "0110".
+struct OutputChange {
+  Nanoseconds at = 0;
+  std::string output;
+  std::string value;
+};
+
+// What a chip's emulator saw.
+struct ChipRun {
+  std::vector<OutputChange> changes;
+  // The longest time from one sample of the clock lines to the next: a level that lasts longer is always seen.
+  std::uint64_t longest_turn = 0;  // in cycles
+};
+
+struct ExpectedChange {
+  OutputChange change;  // at the earliest
+  Nanoseconds within = 0;
+};
+
+struct FollowerVector {
+  std::string name;
+  std::string drive = "two_on";
+  std::vector<LineChange> lines = {};
+  std::vector<ExpectedChange> expected = {};
+  Nanoseconds end = 0;
+
+  // A person presses something; or lines and windings alone.
+  bool needs_keypad() const;
+};
+
+// Throws std::runtime_error with file and line where the text is wrong.
+FollowerVector read_follower_vector(const std::filesystem::path& file);
+// The hand-made ones, by name.
+std::vector<FollowerVector> follower_vectors(const std::filesystem::path& directory);
+
+// Three motors at random: each line is high and low for `shortest` or up to eight times that, and directions turn
+// between edges; each motor for itself, or all edges at one time. What has to come out is computed from a motor's
+// position.
+enum class Edges { apart, together };
+FollowerVector random_steps(std::uint64_t seed, int steps_an_axis, Nanoseconds shortest, Edges edges);
+
+// Three square waves, a third of a period apart, without an end: the least time that a loop can have for anything else.
+// In the midst of it somebody wants manual mode; only that is looked at.
+FollowerVector manual_mode_at_full_rate(Nanoseconds level);
+
+// A person plays with the keypad meanwhile, but does not press `#`.
+void add_fidgeting(FollowerVector& vector, std::uint64_t seed);
+
+// A row and column, from 0, of "key.5".
+struct KeyPlace {
+  int row = 0;
+  int column = 0;
+};
+KeyPlace key_place(const std::string& line);
+
+// All there are; those that a board without a keypad has, and that random steps are about.
+std::vector<std::string> follower_outputs();
+std::vector<std::string> moved_outputs();
+
+// What differs, in words; empty where nothing does. Only the outputs that the board `has` are asked for.
+std::string difference(const FollowerVector& vector, const std::vector<OutputChange>& seen,
+                       const std::vector<std::string>& has);
+
+std::string text_of_file(const std::filesystem::path& file);
+
+// F1 first.
+std::string winding_text(unsigned pattern);
+
+}  // namespace passo
