@@ -40,7 +40,7 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 }
 
 Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-         Diagnostics& diagnostics)
+         Diagnostics& diagnostics, const std::optional<LineOptions>& line)
     : path_options_(path_options(machine, program.name())),
       limits_(motion_limits(machine)),
       interpreter_(std::move(program), options, diagnostics),
@@ -48,8 +48,17 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       watched_path_(path_builder_),
       smoother_(watched_path_),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
-      drive_(smoother_, limits_, step_options(machine), machine_) {
+      line_(line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *line) : std::nullopt),
+      drive_(smoother_, limits_, step_options(machine), machine_, board_line()) {
+  if (line_) [[maybe_unused]]
+    const bool used = drive_.use_tails({});
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
+}
+
+BoardLine Job::board_line() {
+  // A line may be slow, but a board that lives answers at once.
+  if (line_) return {.port = &*line_, .care = {.answer_within = Seconds(0.05), .session = 1}};
+  return {};
 }
 
 }  // namespace passo

@@ -1,8 +1,10 @@
 #include "passo/controller/motion_drive.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <vector>
+
+#include "board_outputs.hpp"
 
 namespace passo {
 namespace {
@@ -12,29 +14,24 @@ Seconds time_of(const MotionItem& item) {
   return action != nullptr ? action->dwell : std::get<PlannedMove>(item).duration();
 }
 
-BoardOutputs board_outputs(const OutputState& state) {
-  unsigned switches = 0;
-  if (state.spindle != SpindleDirection::off) switches |= OutputSwitch::spindle_on;
-  if (state.spindle == SpindleDirection::counterclockwise) switches |= OutputSwitch::spindle_reverse;
-  if (state.mist) switches |= OutputSwitch::mist_on;
-  if (state.flood) switches |= OutputSwitch::flood_on;
-  const double rpm = std::clamp(std::round(state.revolutions_per_minute), 0.0, 65535.0);
-  return {.switches = static_cast<std::uint8_t>(switches), .spindle_rpm = static_cast<std::uint16_t>(rpm)};
-}
-
 }  // namespace
 
 MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
-                         VirtualMachine& machine)
+                         VirtualMachine& machine, const BoardLine& line)
     : tick_rate_(steps.clock.tick_rate),
       machine_(machine),
-      planner_(path, limits),
+      path_(path),
+      planner_(path_, limits),
       watched_motion_(planner_),
       step_generator_(watched_motion_, steps),
       watched_board_(step_generator_),
-      link_(machine, steps.motor_count),
+      link_(line.port != nullptr ? *line.port : machine, steps.motor_count, line.care),
+      steps_(steps),
       rested_(now()) {
-  watched_motion_.watch([this](const MotionItem& item) { planned_ += time_of(item); });
+  watched_motion_.watch([this](const MotionItem& item) {
+    planned_ += time_of(item);
+    if (refiller_) refiller_->watch(item);
+  });
 }
 
 void MotionDrive::go_live(const LiveOptions& options) {
@@ -43,9 +40,32 @@ void MotionDrive::go_live(const LiveOptions& options) {
   step_generator_.limit_waiting_to(options.longest_move);
 }
 
+bool MotionDrive::use_tails(const TailOptions& options) {
+  std::vector<PlannedMove> plan;
+  if (!planner_.braking_plan(plan)) return false;
+  refiller_.emplace(
+      Refiller::Stages{
+          .path = path_, .planner = planner_, .generator = step_generator_, .items = watched_board_, .link = link_},
+      steps_, options);
+  return true;
+}
+
+bool MotionDrive::advance_with_tails() {
+  switch (refiller_->advance()) {
+    case Refiller::Turn::goes_on: return true;
+    case Refiller::Turn::ended: state_ = State::ended; break;
+    // One that was resumed before it came to rest is none.
+    case Refiller::Turn::rests_in_hold:
+      if (state_ == State::holding) rest_in_hold();
+      break;
+  }
+  return state_ != State::ended;
+}
+
 bool MotionDrive::advance() {
   if (state_ == State::ended) return false;
   if (state_ == State::held) return true;
+  if (refiller_) return advance_with_tails();
   if (committed() >= horizon_ && link_.busy()) {
     link_.wait();
   } else if (watched_board_.next(item_)) {
@@ -70,7 +90,7 @@ void MotionDrive::rest_in_hold() {
     end();
     return;
   }
-  link_.drain();
+  if (!refiller_) link_.drain();  // it has waited, and what came too late is never executed
   state_ = State::held;
 }
 

@@ -22,8 +22,11 @@ void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
 
 bool VirtualMachine::run(Seconds most) {
   const double ticks = clock_ * most;
-  const bool bounded = ticks < 9e18;
-  const std::int64_t end = bounded ? hardware_.now + std::llround(ticks) : INT64_MAX;
+  return run_to(Ticks{ticks < 9e18 ? hardware_.now + std::llround(ticks) : INT64_MAX});
+}
+
+bool VirtualMachine::run_to(Ticks time) {
+  const std::int64_t end = time.count;
   while (hardware_.to_host.empty() && !board_.idle()) {
     if (!waits_) {
       const std::int64_t interval = board_.ticks_to_next_event();
@@ -38,7 +41,7 @@ bool VirtualMachine::run(Seconds most) {
     if (board_.owes_report()) board_.report();
   }
   if (!hardware_.to_host.empty()) return true;
-  if (bounded) hardware_.now = end;
+  if (end != INT64_MAX) hardware_.now = std::max(hardware_.now, end);
   return false;
 }
 

@@ -21,6 +21,22 @@ struct Stretch {
 
 class EventBuffer {
  public:
+  EventBuffer() = default;
+  EventBuffer(const EventBuffer& other) { *this = other; }
+  EventBuffer& operator=(const EventBuffer& other) {
+    // Of a hundred kilobytes, those that mean something.
+    const auto copy = [&](const auto& from, auto& to, std::size_t end) {
+      std::copy(from.begin() + static_cast<std::ptrdiff_t>(other.first_),
+                from.begin() + static_cast<std::ptrdiff_t>(end),
+                to.begin() + static_cast<std::ptrdiff_t>(other.first_));
+    };
+    copy(other.time_, time_, other.last_);
+    for (unsigned m = 0; m < max_motors; ++m) copy(other.place_[m], place_[m], other.last_ + 1);
+    first_ = other.first_;
+    last_ = other.last_;
+    return *this;
+  }
+
   std::size_t size() const { return last_ - first_; }
   bool empty() const { return first_ == last_; }
 

@@ -34,6 +34,11 @@ class EventStream {
   // Begins the next move; only after move_end, rest or at the start. The move must live until it is used up.
   void start_move(const PlannedMove& move);
   bool in_move() const { return in_move_; }
+  // The move at hand, a copy of it, now lives there.
+  void move_lives_in(const PlannedMove& move) {
+    path_.curve_lives_in(move.segment.curve);
+    clock_.move_lives_in(move);
+  }
   // Adds events of the current move.
   Stop fill(EventBuffer& events);
   // The next event chooses its master anew. Events that still wait are of the stretch before.

@@ -17,6 +17,7 @@ class MotorPath {
  public:
   // Begins a curve, which is followed as far as `end`. It must live until the next one begins.
   void start(const Curve& curve, double end, const StepOptions& options);
+  void curve_lives_in(const Curve& curve) { curve_ = &curve; }
 
   // A place on the curve with what all motors need of it, computed once: on an arc, where it stands on its circle.
   struct Spot {

@@ -20,6 +20,7 @@ class PhaseClock {
 
   // The move must live until the clock is started for the next one.
   void start(const PlannedMove& move);
+  void move_lives_in(const PlannedMove& move) { move_ = &move; }
   // `s` not less than at the last call.
   Moment at(double s) {
     while (s > end_ && phase_ + 1 < move_->phase_count) begin_phase(phase_ + 1, phase_start_ + duration_);

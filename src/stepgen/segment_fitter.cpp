@@ -8,8 +8,6 @@
 namespace passo {
 namespace {
 
-// How far an event may be from its exact time, in 1/65536 tick. Half a tick more comes from playing whole ticks.
-constexpr std::int64_t tolerance = whole_tick * 9 / 20;
 // An interval must fit the board's timer.
 constexpr std::int64_t longest_interval = 65535 * whole_tick;
 // Where the error of the fit is zero, as a part of the segment: the zeros of T3 with its first one at the start.
@@ -59,7 +57,8 @@ bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, cons
   std::int64_t time = now;
   for (unsigned k = 0; k < timing.events; ++k) {
     time += interval;
-    if (std::abs(time - events.time(k)) > tolerance) return false;
+    const std::int64_t allowed = share_ == 0 ? exact : std::max(exact, interval / share_);
+    if (std::abs(time - events.time(k)) > allowed) return false;
     interval += timing.change;
   }
   const std::int64_t last = interval - timing.change;

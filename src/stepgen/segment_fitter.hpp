@@ -29,6 +29,11 @@ class SegmentFitter {
   SegmentFitter(std::uint8_t motors, std::int64_t shortest_interval)
       : motors_(motors), shortest_interval_(shortest_interval) {}
 
+  // How far an event may be from its exact time, in 1/65536 tick. Half a tick more comes from playing whole ticks.
+  static constexpr std::int64_t exact = whole_tick * 9 / 20;
+  // Instead, by so much of its interval, one part in `share`; 0: exact.
+  void loosen_to(std::int64_t share) { share_ = share; }
+
   // Makes a segment of the first events of `events` (not empty; the last of them is followed by nothing known) and
   // returns how many it plays: 0 when the first event is too far away for one interval (wait first).
   unsigned fit(const EventBuffer& events, const Stretch& stretch, const BoardModel& board, BoardSegment& segment);
@@ -54,6 +59,7 @@ class SegmentFitter {
 
   std::uint8_t motors_;
   std::int64_t shortest_interval_;
+  std::int64_t share_ = 0;
   unsigned guess_ = longest;  // how many events the last segment played: the next will be alike
   // Exact places of the motor at hand in whole units, in its direction of travel; [0] is unused.
   std::array<std::int64_t, longest + 2> ideal_{};

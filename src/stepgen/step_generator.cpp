@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 
 #include "board_model.hpp"
 #include "event_stream.hpp"
@@ -14,7 +15,7 @@ namespace passo {
 class StepGenerator::Implementation {
  public:
   Implementation(Source<MotionItem>& motion, const StepOptions& options)
-      : motion_(motion),
+      : motion_(&motion),
         motors_(options.motor_count),
         tick_rate_(options.clock.tick_rate),
         stream_(options),
@@ -26,6 +27,23 @@ class StepGenerator::Implementation {
   }
 
   void limit_waiting_to(Seconds time) { longest_wait_ = std::llround(tick_rate_ * time * whole_tick); }
+
+  void loosen_to_one_in(int share) {
+    share_ = share;
+    fitter_.loosen_to(share);
+  }
+
+  void assume(const Implementation& other) {
+    const auto own = std::tuple(motion_, longest_wait_, share_);
+    *this = other;
+    std::tie(motion_, longest_wait_, share_) = own;
+    fitter_.loosen_to(share_);
+    finished_ = false;
+    if (stream_.in_move()) stream_.move_lives_in(std::get<PlannedMove>(motion_item_));
+  }
+
+  bool ends_at_rest() const { return rests_; }
+  bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !stream_.in_move(); }
 
   bool next(BoardItem& item) {
     for (;;) {
@@ -107,12 +125,13 @@ class StepGenerator::Implementation {
   // Pulls motion until there are events to play, a rest to come to or an action to pass on. False at the end.
   bool go_on() {
     if (!stream_.in_move()) {
-      if (!motion_.next(motion_item_)) return finish();
+      if (!motion_->next(motion_item_)) return finish();
       if (const auto* action = std::get_if<Action>(&motion_item_)) {
         take(*action);
         return true;
       }
       stream_.start_move(std::get<PlannedMove>(motion_item_));
+      rests_ = false;
     }
     switch (stream_.fill(events_)) {
       case EventStream::Stop::full: more_ = play_ = true; break;
@@ -127,7 +146,7 @@ class StepGenerator::Implementation {
       case EventStream::Stop::rest:
         stream_.end_stretch();
         more_ = false;
-        play_ = rest_ = true;
+        play_ = rest_ = rests_ = true;
         break;
     }
     return true;
@@ -146,11 +165,11 @@ class StepGenerator::Implementation {
     finished_ = true;
     stream_.end_stretch();
     more_ = false;
-    play_ = rest_ = true;
+    play_ = rest_ = rests_ = true;
     return true;
   }
 
-  Source<MotionItem>& motion_;
+  Source<MotionItem>* motion_;
   std::uint8_t motors_;
   Hertz tick_rate_;
   EventStream stream_;
@@ -160,10 +179,12 @@ class StepGenerator::Implementation {
   MotionItem motion_item_;
   BoardSegment last_;
   std::int64_t longest_wait_ = INT64_MAX;  // 1/65536 tick
+  int share_ = 0;
 
   bool play_ = false;  // events wait to be played
   bool more_ = false;  // and more of the same stretch may follow
   bool rest_ = false;  // after them, come to rest
+  bool rests_ = true;  // at the end of all that was pulled
   bool finished_ = false;
   std::optional<Action> action_;  // and then, pass this on
 };
@@ -178,6 +199,18 @@ bool StepGenerator::next(BoardItem& item) {
 
 void StepGenerator::limit_waiting_to(Seconds time) {
   implementation_->limit_waiting_to(time);
+}
+void StepGenerator::loosen_to_one_in(int share) {
+  implementation_->loosen_to_one_in(share);
+}
+void StepGenerator::assume(const StepGenerator& other) {
+  implementation_->assume(*other.implementation_);
+}
+bool StepGenerator::ends_at_rest() const {
+  return implementation_->ends_at_rest();
+}
+bool StepGenerator::at_rest() const {
+  return implementation_->at_rest();
 }
 
 }  // namespace passo

@@ -55,9 +55,10 @@ class Planner::Implementation {
   Implementation(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
       : path_(path),
         limits_(limits),
+        most_queued_(most_queued),
         cutter_(limits_),
         cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits), falling_axes(limits)) {
-    if (has_jerk_limit(limits)) jerk_limited_.emplace(path, limits, most_queued);
+    if (has_jerk_limit(limits)) jerk_limited_.emplace(path, limits_, most_queued_);
   }
 
   bool next(MotionItem& item) {
@@ -91,6 +92,38 @@ class Planner::Implementation {
     holding_ = false;
     decided_ = 0;
     if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
+  }
+
+  bool braking_plan(std::vector<PlannedMove>& plan) const {
+    plan.clear();
+    if (jerk_limited_) return false;
+    double speed_squared = speed_squared_;
+    auto segment = segments_.begin();
+    for (std::size_t i = 0; speed_squared > 0; ++i) {
+      const Cell& cell = cells_[i].cell;
+      const bool begins = plan.empty() || plan.back().to >= plan.back().segment.curve.length();
+      if (begins && !plan.empty()) ++segment;
+      if (begins || plan.back().phase_count == PlannedMove::most_phases) {
+        plan.push_back({.segment = *segment, .phases = {}});
+      }
+      PlannedMove& move = plan.back();
+      const Ride ride = shortest_ride(i, speed_squared);
+      add_phase(cell.start, ride.way, speed_squared, ride.exit, move);
+      move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell.end);
+      speed_squared = ride.exit;
+    }
+    return true;
+  }
+
+  void restart() {
+    segments_.clear();
+    while (!cells_.empty()) cells_.pop();
+    cutting_ = closed_ = false;
+    at_rest_ = true;
+    decided_ = 0;
+    speed_squared_ = 0;
+    action_.reset();
+    if (jerk_limited_) jerk_limited_.emplace(path_, limits_, most_queued_);
   }
 
  private:
@@ -211,7 +244,7 @@ class Planner::Implementation {
     bool complete = false;
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
       const Cell& cell = cells_[0].cell;
-      const double exit = planned_exit();
+      const double exit = planned_exit(0, speed_squared_);
       if (cell.straight) {
         add_phases({.start = cell.start,
                     .length = cell.length,
@@ -236,28 +269,30 @@ class Planner::Implementation {
     PlannedMove& move = begin_move(item);
     bool complete = false;
     while (speed_squared_ > 0 && !complete && move.phase_count < PlannedMove::most_phases) {
-      const Ride ride = shortest_ride();
+      const Ride ride = shortest_ride(0, speed_squared_);
       add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
       complete = go(ride, move);
     }
   }
 
-  double planned_exit() const { return exit_from(0, speed_squared_, cells_.size() > 1 ? cells_[1].entry_if_rest : 0); }
+  // Of cell i, entered with this speed.
+  double planned_exit(std::size_t i, double entry) const {
+    return exit_from(i, entry, i + 1 < cells_.size() ? cells_[i + 1].entry_if_rest : 0);
+  }
 
-  // To rest within the cell where that can be, or through it as slow as can be. Never faster than without the hold:
+  // To rest within cell i where that can be, or through it as slow as can be. Never faster than without the hold:
   // where the path rests anyway, rounding leaves no speed.
-  Ride shortest_ride() const {
-    const Cell& cell = cells_[0].cell;
+  Ride shortest_ride(std::size_t i, double entry) const {
+    const Cell& cell = cells_[i].cell;
     const double deceleration =
-        cell.straight ? cell.acceleration
-                      : sure_deceleration(cells_.demands(0), cells_.falling(0), cell.length, speed_squared_);
-    if (deceleration > 0 && speed_squared_ < 2 * deceleration * cell.length) {
-      const double way = speed_squared_ / (2 * deceleration);
+        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(i), cells_.falling(i), cell.length, entry);
+    if (deceleration > 0 && entry < 2 * deceleration * cell.length) {
+      const double way = entry / (2 * deceleration);
       return {way + smallest_cell < cell.length ? way : cell.length, 0};
     }
-    const double least = cell.straight ? std::max(0.0, speed_squared_ - 2 * cell.acceleration * cell.length)
-                                       : least_exit(cells_.demands(0), cells_.falling(0), speed_squared_);
-    return {cell.length, std::min(least, planned_exit())};
+    const double least = cell.straight ? std::max(0.0, entry - 2 * cell.acceleration * cell.length)
+                                       : least_exit(cells_.demands(i), cells_.falling(i), entry);
+    return {cell.length, std::min(least, planned_exit(i, entry))};
   }
 
   // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
@@ -269,14 +304,14 @@ class Planner::Implementation {
     move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell_end);
     speed_squared_ = ride.exit;
     const bool shortened = shorten(move);
-    decided_ -= std::min<std::size_t>(decided_, 1);
     if (move.to.value() < cell_end - smallest_rest) {
+      // How the rest of the cell is left, is as decided as it was for the whole.
       cutter_.cut(segment, move.to.value(), cell_end, piece_at_hand_);
       allow(speed_squared_, ride.exit, piece_at_hand_);
       cells_.replace_front(piece_at_hand_);
-      decided_ = 0;
       return true;
     }
+    decided_ -= std::min<std::size_t>(decided_, 1);
     move.to = Mm(cell_end);
     cells_.pop();
     const bool ended = cell_end >= segment_end;
@@ -289,7 +324,7 @@ class Planner::Implementation {
     const double start = cells_[0].cell.start;
     const double end = cells_[0].cell.end;
     const double middle = start + cells_[0].cell.length / 2;
-    const double exit = planned_exit();
+    const double exit = planned_exit(0, speed_squared_);
     const double halfway = (speed_squared_ + exit) / 2;
     cutter_.cut(segments_.front(), middle, end, piece_at_hand_);
     allow(halfway, exit, piece_at_hand_);
@@ -342,6 +377,7 @@ class Planner::Implementation {
 
   Source<PathItem>& path_;
   const MotionLimits limits_;
+  const std::size_t most_queued_;
   CellCutter cutter_;
 
   std::deque<Segment> segments_;  // whose cells are in the queue, or are being cut
@@ -384,6 +420,12 @@ void Planner::hold() {
 }
 void Planner::resume() {
   implementation_->resume();
+}
+bool Planner::braking_plan(std::vector<PlannedMove>& plan) const {
+  return implementation_->braking_plan(plan);
+}
+void Planner::restart() {
+  implementation_->restart();
 }
 
 }  // namespace passo

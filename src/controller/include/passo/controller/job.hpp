@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "passo/base/source.hpp"
@@ -13,6 +14,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
+#include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
@@ -34,9 +36,10 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 class Job {
  public:
-  // `diagnostics` gets what the second pass still finds (nothing, after a good check).
+  // `diagnostics` gets what the second pass still finds (nothing, after a good check). With a line the board is at its
+  // other end, and what it holds always ends at rest.
   Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-      Diagnostics& diagnostics);
+      Diagnostics& diagnostics, const std::optional<LineOptions>& line = std::nullopt);
 
   // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
   // has an error.
@@ -50,6 +53,8 @@ class Job {
   Tap<MotionItem>& motion() { return drive_.motion(); }
   Tap<BoardItem>& board() { return drive_.board(); }
   VirtualMachine& machine() { return machine_; }
+  // To spoil what goes over it; only of a job that has one.
+  VirtualLine& line() { return *line_; }
   const InProcessLink& link() const { return drive_.link(); }
   const Frame& frame() const { return path_builder_.frame(); }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
@@ -59,6 +64,8 @@ class Job {
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
+  BoardLine board_line();
+
   PathOptions path_options_;
   MotionLimits limits_;
 
@@ -68,7 +75,8 @@ class Job {
   Tap<PathItem> watched_path_;
   PathSmoother smoother_;   // corners -> curves within the tolerance
   VirtualMachine machine_;  // what is at the other end of the wire
-  MotionDrive drive_;       // segments -> phases -> board segments -> wire
+  std::optional<VirtualLine> line_;
+  MotionDrive drive_;  // segments -> phases -> board segments -> wire
 
   Seconds nominal_time_{0};
 };

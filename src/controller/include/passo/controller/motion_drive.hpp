@@ -10,8 +10,11 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "passo/base/source.hpp"
+#include "passo/controller/refiller.hpp"
+#include "passo/controller/rewindable_path.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/link/in_process_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
@@ -26,6 +29,12 @@ struct LiveOptions {
   Seconds longest_move{0.005};  // the planner's moves end after this time
 };
 
+// How a drive reaches its board: directly, or by a line that takes care.
+struct BoardLine {
+  BoardPort* port = nullptr;  // none: the machine itself
+  LineCare care = {};
+};
+
 class MotionDrive {
  public:
   enum class State : std::uint8_t {
@@ -36,10 +45,16 @@ class MotionDrive {
   };
 
   // `path` and `machine` outlive the drive, and no other drive uses the machine meanwhile.
-  MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, VirtualMachine& machine);
+  MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps, VirtualMachine& machine,
+              const BoardLine& line = {});
 
   // Before the first advance().
   void go_live(const LiveOptions& options);
+  // Before the first advance(): what the board holds ends at rest always, and the drive goes on from there when the
+  // line was broken. False, and without effect, where the planner cannot tell how it would brake.
+  bool use_tails(const TailOptions& options);
+  // Of tails; none is used without use_tails().
+  const Refiller* refiller() const { return refiller_ ? &*refiller_ : nullptr; }
 
   // Goes on a little: sends one board segment, or lets the board play one. False when it has ended.
   [[nodiscard]] bool advance();
@@ -58,7 +73,7 @@ class MotionDrive {
   // Of the virtual machine.
   Seconds now() const { return in_seconds(machine_.now()); }
   // The motion that was planned and is not played yet: so long from now on nothing can be changed.
-  Seconds committed() const { return planned_ - (now() - rested_); }
+  Seconds committed() const { return refiller_ ? refiller_->ahead() : planned_ - (now() - rested_); }
 
   // Who wants to watch, before the first advance().
   Tap<MotionItem>& motion() { return watched_motion_; }
@@ -67,17 +82,21 @@ class MotionDrive {
 
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
+  bool advance_with_tails();
   void send(const BoardItem& item);
   void rest_in_hold();
   bool end();
 
   Hertz tick_rate_;
   VirtualMachine& machine_;
+  RewindablePath path_;
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
   Tap<BoardItem> watched_board_;
   InProcessLink link_;  // board segments -> wire
+  StepOptions steps_;
+  std::optional<Refiller> refiller_;
 
   BoardItem item_;
   State state_ = State::running;

@@ -183,9 +183,10 @@ class Board {
     if (list_.gathered()) {
       // Where the timer has made the item behind the one at hand ready too, two have begun.
       const uint8_t begun = idle() ? 0 : 1;
-      if (!list_.complete(executed_, begun))
+      owes_report_ = true;  // of the room, either way
+      if (!list_.complete(executed_, begun)) {
         return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
-      owes_report_ = true;
+      }
     }
     if (idle()) advance();
   }

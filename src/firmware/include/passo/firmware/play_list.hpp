@@ -30,7 +30,8 @@ struct BoardItemSlot {
 
 template <size_t slot_count>
 class PlayList {
-  static_assert(slot_count > 0 && slot_count < 128);
+  static constexpr uint8_t none = 0xFF;
+  static_assert(slot_count > 0 && slot_count < none);
 
  public:
   PlayList() { clear(); }
@@ -99,8 +100,6 @@ class PlayList {
   }
 
  private:
-  static constexpr uint8_t none = 0xFF;
-
   struct Replacement {
     uint16_t after = 0;
     uint8_t missing = 0;

@@ -9,6 +9,7 @@
 // lasts: a line that comes back is found by that, and what it had swallowed is sent again.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -38,7 +39,7 @@ class InProcessLink final : public Link {
   void send(const BoardOutputs& outputs) override;
   ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) override;
   ItemNumber executed() const override { return executed_; }
-  int room() const override { return free_ - later_by(sent_, taken_); }
+  int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
   void drain() override;
   bool busy() const override { return sent_ != executed_; }
   void wait() override;
@@ -58,6 +59,9 @@ class InProcessLink final : public Link {
     std::uint8_t size = 0;
     std::uint8_t bytes[largest_frame] = {};
   };
+
+  // A sequence number is a byte, and half of them are for frames that come again.
+  static constexpr int most_untaken = 127;
 
   bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
   void say_hello();

@@ -21,8 +21,8 @@ namespace passo {
 
 class VirtualMachine final : public BoardPort {
  public:
-  // As many items as a board with some kilobytes holds: a twentieth of a second at its highest rate, and two tails.
-  static constexpr std::size_t items_held = 120;
+  // As a board with some kilobytes of memory.
+  static constexpr std::size_t items_held = 240;
 
   // `clock`: the board's timer, a whole number of hertz below 2^32.
   VirtualMachine(std::uint8_t motors, Hertz clock);
@@ -34,6 +34,8 @@ class VirtualMachine final : public BoardPort {
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
+  // The same, until that time; the end of all times is infinity.
+  [[nodiscard]] bool run_to(Ticks time);
   std::span<const std::uint8_t> replies() override;
   Seconds elapsed() const override { return Seconds(static_cast<double>(hardware_.now) / clock_.value()); }
 

@@ -44,6 +44,16 @@ class StepGenerator final : public Source<BoardItem> {
   // From now on events wait no longer than this for later ones that would make a longer board segment: what motion is
   // pulled ahead of the segment given is at most this and a move. Segments get shorter, no step less exact.
   void limit_waiting_to(Seconds time);
+  // From now on an event may be off its exact time by this part of its interval: far fewer segments close to a rest. No
+  // step less, or in another place.
+  void loosen_to_one_in(int share);
+
+  // From now on goes on as `other` would, which was made with the same options, but with its own motion, waiting and
+  // tolerance. So a fork tells what another motion from here on would be, and its end is a place to go on from.
+  void assume(const StepGenerator& other);
+  // All the motion that was pulled ends at rest; and it is given, too.
+  bool ends_at_rest() const;
+  bool at_rest() const;
 
  private:
   class Implementation;

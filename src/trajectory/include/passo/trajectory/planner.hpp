@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/trajectory/motion_limits.hpp"
@@ -47,6 +48,12 @@ class Planner final : public Source<MotionItem> {
   // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume().
   void hold();
   void resume();
+
+  // How the path would come to rest behind the last move given if it were held now. Nothing changes by it. False where
+  // the planner cannot tell: with a limit of jerk.
+  bool braking_plan(std::vector<PlannedMove>& plan) const;
+  // Forgets what it has pulled and begins again, from rest, with what the path gives next. Settings stay.
+  void restart();
 
  private:
   class Implementation;

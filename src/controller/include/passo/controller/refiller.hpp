@@ -1,0 +1,115 @@
+// Refiller: keeps the board's list filled so that it always ends at rest, and goes on where the machine came to rest
+// when it could not.
+//
+// Place on the street: between the step generator and the link. A refill is some more motion and a tail: how the
+// machine would brake to rest on the path from there. It takes the place of the tail before, as a whole or not at all.
+// For the tail the planner tells how it would brake, and a fork of the step generator what that would be on the board;
+// both go on as if nothing had been asked.
+//
+// Which tail was played, if one was, the board tells by the numbers of the items that it has executed. The refiller
+// remembers of each tail that may be played where on the path it ends and the fork's state there. From that place it
+// plans anew, from rest: no step is lost or made twice. Why a refill was late, or a line broken, makes no difference.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "passo/base/source.hpp"
+#include "passo/controller/rewindable_path.hpp"
+#include "passo/link/link.hpp"
+#include "passo/stepgen/step_generator.hpp"
+#include "passo/trajectory/planner.hpp"
+
+namespace passo {
+
+struct TailOptions {
+  Seconds horizon{0.1};         // of motion before the tail, behind a refill
+  Seconds refill_at{0.06};      // so much of it being left, the next one is sent
+  Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
+  // Events may be off by one part in so many of their interval: exact to the tick, the first milliseconds behind a rest
+  // would take hundreds of segments a second more than a line can carry.
+  int looseness = 256;
+  int tail_looseness = 4;
+};
+
+class Refiller {
+ public:
+  // What is above and below it. All outlive it.
+  struct Stages {
+    RewindablePath& path;
+    Planner& planner;
+    StepGenerator& generator;
+    Source<BoardItem>& items;  // the generator's, seen by those who watch
+    Link& link;
+  };
+  Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options);
+
+  enum class Turn : std::uint8_t {
+    goes_on,
+    rests_in_hold,  // the planner holds, and all that was given is executed
+    ended,          // all of the path is executed, or the link has an error
+  };
+  // Sends a refill, or waits for the board.
+  Turn advance();
+
+  // To be told of all motion that the planner gives.
+  void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
+  // The motion that was sent and is, as far as we know, not executed. The tail does not count.
+  Seconds ahead() const { return ahead_; }
+  // How often a tail was played to its end, and the path taken up again there.
+  int recoveries() const { return recoveries_; }
+  // Of the items sent, those that were tails.
+  std::uint64_t tail_items() const { return tail_items_; }
+  std::uint64_t refills() const { return refills_; }
+
+ private:
+  struct Motion {
+    ItemNumber number = 0;
+    Seconds time{0};
+  };
+  struct Refill {
+    ItemNumber first = 0;
+    ItemNumber last_of_motion = 0;
+    ItemNumber last = 0;  // of the tail; without one, of the motion
+    PathPlace rest;       // where the tail ends, and the generator there
+    std::unique_ptr<StepGenerator> rested;
+    bool has_tail() const { return last != last_of_motion; }
+  };
+
+  void note_executed();
+  void take_up(const Refill& refill);
+  void gather();
+  std::size_t room_for_motion() const;
+  void gather_tail();
+  bool send();
+  Seconds time_of(const LinkItem& item) const;
+
+  Stages stages_;
+  StepOptions steps_;
+  TailOptions options_;
+
+  std::deque<Motion> motion_;             // sent and not executed
+  std::deque<Refill> refills_under_way_;  // the first is being played; of the others, nothing yet
+  ItemNumber behind_ = 0;                 // the next refill goes behind this item
+  std::size_t tail_size_;                 // of the last refill: the next one will be alike
+  Seconds ahead_{0};
+  PathPlace given_;       // by the planner
+  bool on_tail_ = false;  // the board plays one: nothing is sent before it rests
+
+  // The refill at hand: gathered and not sent.
+  std::vector<LinkItem> items_;
+  std::size_t motion_items_ = 0;
+  Refill refill_;
+  bool holds_ = false;  // behind it, the planner holds
+  bool ended_ = false;  // behind it, the path has ended
+
+  BoardItem item_;
+  std::vector<PlannedMove> plan_;
+  int recoveries_ = 0;
+  std::uint64_t tail_items_ = 0;
+  std::uint64_t refills_ = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,164 @@
+#include "passo/controller/refiller.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "board_outputs.hpp"
+
+namespace passo {
+namespace {
+
+constexpr int smallest_refill = 4;  // items
+
+// The planner's braking, handed out as motion.
+class Braking final : public Source<MotionItem> {
+ public:
+  explicit Braking(const std::vector<PlannedMove>& plan) : plan_(plan) {}
+  [[nodiscard]] bool next(MotionItem& item) override {
+    if (given_ == plan_.size()) return false;
+    item = plan_[given_++];
+    return true;
+  }
+
+ private:
+  const std::vector<PlannedMove>& plan_;
+  std::size_t given_ = 0;
+};
+
+}  // namespace
+
+Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options)
+    : stages_(stages),
+      steps_(steps),
+      options_(options),
+      behind_(stages.link.executed()),
+      tail_size_(static_cast<std::size_t>(stages.link.room() / 4)) {
+  stages.path.keep();
+  stages.planner.limit_moves_to(options.longest_move);
+  stages.generator.limit_waiting_to(options.longest_move);
+  stages.generator.loosen_to_one_in(options.looseness);
+}
+
+Refiller::Turn Refiller::advance() {
+  if (stages_.link.error()) return Turn::ended;
+  note_executed();
+  if (items_.empty() && !on_tail_ && !holds_ && !ended_ && ahead_ < options_.refill_at && room_for_motion() > 0)
+    gather();
+  if (!items_.empty() && send()) return Turn::goes_on;
+  const bool idle = items_.empty() && refills_under_way_.empty();
+  if (idle && ended_) return Turn::ended;
+  if (idle && std::exchange(holds_, false)) return Turn::rests_in_hold;
+  stages_.link.wait();
+  return Turn::goes_on;
+}
+
+// What the board has told of how far it is.
+void Refiller::note_executed() {
+  const ItemNumber executed = stages_.link.executed();
+  for (; !motion_.empty() && later_by(motion_.front().number, executed) <= 0; motion_.pop_front()) {
+    ahead_ -= motion_.front().time;
+  }
+  auto& under_way = refills_under_way_;
+  while (under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0) under_way.pop_front();
+  if (under_way.empty() || later_by(executed, under_way.front().first) < 0) return;
+  stages_.path.forget_before(under_way.front().rest.item);
+  on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
+  if (executed != under_way.front().last) return;
+  const Refill played = std::move(under_way.front());
+  under_way.pop_front();
+  if (on_tail_) take_up(played);
+}
+
+// The board rests at the end of a tail. All that was sent behind it came too late.
+void Refiller::take_up(const Refill& refill) {
+  refills_under_way_.clear();
+  motion_.clear();
+  items_.clear();
+  ahead_ = Seconds(0);
+  on_tail_ = holds_ = ended_ = false;
+  behind_ = refill.last;
+  given_ = refill.rest;
+  stages_.path.rewind(refill.rest);
+  stages_.planner.restart();
+  stages_.generator.assume(*refill.rested);
+  ++recoveries_;
+}
+
+// Beside what the board holds, with its tail. A refill of next to nothing is not worth its tail, nor is one that leaves
+// no room for the next.
+std::size_t Refiller::room_for_motion() const {
+  const int tail = static_cast<int>(tail_size_ + tail_size_ / 4 + 4);
+  int room = stages_.link.room() - tail - (ahead_ < options_.refill_at / 2 ? 0 : tail / 2);
+  // From rest it goes on in any case, if only by little.
+  if (refills_under_way_.empty()) room = std::max(room, std::min(stages_.link.room() - tail, 2 * smallest_refill));
+  const int least = ahead_ < options_.refill_at / 2 ? smallest_refill : 4 * smallest_refill;
+  return room < least ? 0 : static_cast<std::size_t>(room);
+}
+
+// Motion up to the horizon, and how it would come to rest behind that.
+void Refiller::gather() {
+  refill_ = {};
+  Seconds time{0};
+  const std::size_t most = room_for_motion();
+  // Where what was pulled comes to rest by itself, that is the end of the refill: it needs no tail.
+  const auto wanted = [&] {
+    const StepGenerator& generator = stages_.generator;
+    return (ahead_ + time < options_.horizon && items_.size() < most) ||
+           (generator.ends_at_rest() && !generator.at_rest());
+  };
+  while (!holds_ && !ended_ && wanted()) {
+    if (!stages_.items.next(item_)) {
+      ended_ = true;
+    } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
+      items_.emplace_back(*segment);
+      time += time_of(items_.back());
+    } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
+      holds_ = true;
+    } else {
+      items_.emplace_back(board_outputs(action.outputs));
+    }
+  }
+  motion_items_ = items_.size();
+  refill_.rest = given_;
+  if (motion_items_ > 0 && !stages_.generator.at_rest()) gather_tail();
+  tail_size_ = items_.size() - motion_items_;
+}
+
+void Refiller::gather_tail() {
+  [[maybe_unused]] const bool known = stages_.planner.braking_plan(plan_);
+  assert(known);
+  for (const PlannedMove& move : plan_) refill_.rest = stages_.path.behind(refill_.rest, move);
+  Braking braking(plan_);
+  refill_.rested = std::make_unique<StepGenerator>(braking, steps_);
+  refill_.rested->assume(stages_.generator);
+  refill_.rested->loosen_to_one_in(options_.tail_looseness);
+  while (refill_.rested->next(item_)) items_.emplace_back(std::get<BoardSegment>(item_));
+}
+
+// False while there is no room.
+bool Refiller::send() {
+  if (stages_.link.room() <= static_cast<int>(items_.size())) return false;
+  refill_.first = stages_.link.replace(behind_, items_);
+  for (std::size_t i = 0; i < motion_items_; ++i) {
+    motion_.push_back({.number = static_cast<ItemNumber>(refill_.first + i), .time = time_of(items_[i])});
+    ahead_ += motion_.back().time;
+  }
+  refill_.last_of_motion = behind_ = static_cast<ItemNumber>(refill_.first + motion_items_ - 1);
+  refill_.last = static_cast<ItemNumber>(refill_.first + items_.size() - 1);
+  tail_items_ += items_.size() - motion_items_;
+  ++refills_;
+  refills_under_way_.push_back(std::move(refill_));
+  items_.clear();
+  return true;
+}
+
+Seconds Refiller::time_of(const LinkItem& item) const {
+  const auto* segment = std::get_if<BoardSegment>(&item);
+  if (segment == nullptr) return Seconds(0);
+  const double events = segment->events;
+  const double time = events * segment->interval + events * (events - 1) / 2 * segment->change;
+  return Seconds(time / static_cast<double>(whole_tick) / steps_.clock.tick_rate.value());
+}
+
+}  // namespace passo

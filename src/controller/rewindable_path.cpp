@@ -1,0 +1,44 @@
+#include "passo/controller/rewindable_path.hpp"
+
+#include <cassert>
+
+namespace passo {
+
+bool RewindablePath::next(PathItem& item) {
+  if (!keeps_) return path_.next(item);
+  if (next_ == first_ + kept_.size()) {
+    do {
+      if (!path_.next(item)) return false;
+    } while (std::holds_alternative<Segment>(item) && !std::get<Segment>(item).curve.has_length());
+    kept_.push_back(item);
+  } else {
+    item = kept_[next_ - first_];
+    auto* segment = std::get_if<Segment>(&item);
+    const bool begun = segment != nullptr && next_ == rewound_.item && rewound_.s > Mm(0);
+    if (begun) segment->curve = segment->curve.part(rewound_.s, segment->curve.length());
+  }
+  ++next_;
+  return true;
+}
+
+PathPlace RewindablePath::behind(const PathPlace& place, const MotionItem& motion) const {
+  const PathPlace next{.item = place.item + 1};
+  if (const auto* action = std::get_if<Action>(&motion)) {
+    return action->kind == Action::Kind::feed_hold ? place : next;
+  }
+  const auto& move = std::get<PlannedMove>(motion);
+  if (move.to >= move.segment.curve.length()) return next;
+  return {.item = place.item, .s = place.item == rewound_.item ? rewound_.s + move.to : move.to};
+}
+
+void RewindablePath::rewind(const PathPlace& place) {
+  assert(keeps_ && place.item >= first_ && place.item <= first_ + kept_.size());
+  next_ = place.item;
+  rewound_ = place;
+}
+
+void RewindablePath::forget_before(std::uint64_t item) {
+  for (; first_ < item && first_ < next_ && !kept_.empty(); ++first_) kept_.pop_front();
+}
+
+}  // namespace passo

@@ -1,0 +1,70 @@
+// VirtualLine: a serial line to a virtual machine, in its virtual time: bytes take time, and may be lost.
+//
+// A cut swallows what is sent while it lasts and what is on the way when it begins, in both directions. Other
+// trouble is up to whoever gives it: it sees every frame from the host and all that the board says, and hands back
+// what arrives instead. Frames arrive as a whole, with their last byte.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "passo/link/board_port.hpp"
+#include "passo/machine/virtual_machine.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+struct LineOptions {
+  double baud = 500'000;   // 10 bits a byte
+  Seconds latency{0.001};  // one way, besides
+};
+
+class VirtualLine final : public BoardPort {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+  // The machine outlives the line.
+  VirtualLine(VirtualMachine& machine, Hertz clock, const LineOptions& options);
+
+  // Nothing passes from then on, for `time`.
+  void cut(Seconds from, Seconds time);
+  // `spoil(to_board, bytes)` gives back what is put on the line in the place of `bytes`.
+  void set_trouble(std::function<Bytes(bool to_board, Bytes bytes)> spoil) { spoil_ = std::move(spoil); }
+
+  void receive(std::span<const std::uint8_t> bytes) override;
+  [[nodiscard]] bool run(Seconds most) override;
+  std::span<const std::uint8_t> replies() override;
+  Seconds elapsed() const override { return machine_.elapsed(); }
+
+ private:
+  struct Packet {
+    std::int64_t due = 0;
+    Bytes bytes;
+  };
+  // One direction.
+  struct Way {
+    std::deque<Packet> packets;
+    std::int64_t busy_until = 0;
+  };
+
+  void put(Way& way, bool to_board, std::span<const std::uint8_t> bytes);
+  void deliver();
+  bool is_cut(std::int64_t time) const { return time >= cut_from_ && time < cut_to_; }
+
+  VirtualMachine& machine_;
+  Hertz clock_;
+  double byte_ticks_;
+  std::int64_t latency_;
+  Way to_board_;
+  Way to_host_;
+  Bytes arrived_;
+  Bytes taken_;
+  std::int64_t cut_from_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t cut_to_ = std::numeric_limits<std::int64_t>::max();
+  std::function<Bytes(bool, Bytes)> spoil_;
+};
+
+}  // namespace passo
