@@ -87,6 +87,48 @@ struct MachineArguments {
 };
 int machine(const MachineArguments& arguments);
 
+struct BoardListArguments {
+  std::vector<std::string> devices;  // empty: all serial lines of this computer
+  double wait = 2.5;                 // seconds for each
+  bool json = false;
+};
+int board_list(const BoardListArguments& arguments);
+
+struct BoardInfoArguments {
+  std::string board;  // as parse_board_address() has it
+  double wait = 5;
+  bool json = false;
+};
+int board_info(const BoardInfoArguments& arguments);
+
+struct BoardMonitorArguments {
+  std::string board;
+  double every = 0.2;       // seconds
+  std::uint64_t count = 0;  // 0: until Ctrl-C
+  bool json = false;        // an object a line
+};
+int board_monitor(const BoardMonitorArguments& arguments);
+
+struct BoardFlashArguments {
+  std::string board;  // uno or mega
+  std::string device;
+  std::string image;   // empty: the one that was built with this program
+  std::string backup;  // what the board held before; empty: passo-backup-BOARD.hex
+  std::string programmer;
+  unsigned baud = 115'200;
+  bool dry_run = false;
+};
+int board_flash(const BoardFlashArguments& arguments);
+
+struct BoardServeArguments {
+  std::string name = "virtual";
+  unsigned motors = 4;
+  double clock = 16e6;
+  unsigned port = 7070;
+  bool once = false;  // one host, then end
+};
+int board_serve(const BoardServeArguments& arguments);
+
 struct InterpolateArguments {
   std::string method;  // a name of method_names(); empty with `compare`
   std::string to;      // "10,4", in steps

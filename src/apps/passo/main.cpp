@@ -1,9 +1,11 @@
 // passo: from a drawing to motor phases, on the command line.
 //
-// Only this and study_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file each.
+// Only this, board_options.cpp and study_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file
+// each.
 #include <cstdio>
 #include <exception>
 
+#include "board_options.hpp"
 #include "commands.hpp"
 #include "study_options.hpp"
 #include <CLI/CLI.hpp>
@@ -26,6 +28,7 @@ constexpr const char* examples = R"(Examples:
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
+  passo board list                                            what is on this computer's serial lines
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
@@ -155,6 +158,9 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
 
+  BoardArguments board_arguments;
+  CLI::App& board_command = add_board_command(app, board_arguments);
+
   InterpolateArguments interpolate_arguments;
   CLI::App& interpolate_command = add_interpolate_command(app, interpolate_arguments);
   RampArguments ramp_arguments;
@@ -174,6 +180,7 @@ int parse_and_run(int argc, char** argv) {
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);
+  if (board_command.parsed()) return board_arguments.chosen();
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);

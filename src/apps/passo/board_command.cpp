@@ -1,0 +1,172 @@
+// passo board list, info, monitor: what boards there are, what they are, and what they do.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "board_words.hpp"
+#include "commands.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "passo/transport/inquiry.hpp"
+#include "passo/transport/stream_port.hpp"
+
+namespace passo {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The names that stay the same wherever a board is plugged in; else those that the kernel gives.
+std::vector<std::string> serial_lines() {
+  std::vector<std::string> lines;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator("/dev/serial/by-id", none)) lines.push_back(entry.path());
+  if (lines.empty()) {
+    for (const auto& entry : fs::directory_iterator("/dev", none)) {
+      const std::string name = entry.path().filename();
+      if (name.starts_with("ttyUSB") || name.starts_with("ttyACM")) lines.push_back(entry.path());
+    }
+  }
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "passo: error: {}\n", message);
+  return exit_failed;
+}
+
+// Null, and said why, where there is no such board. `code`: what to exit with.
+std::unique_ptr<StreamPort> open_named(const std::string& board, int& code) {
+  const auto address = parse_board_address(board);
+  if (!address || address->kind == BoardAddress::Kind::virtual_machine) {
+    code = refuse(address ? "the virtual machine has nothing to tell: `passo board serve` is one that has"
+                          : address.error());
+    return nullptr;
+  }
+  auto port = open_board(*address);
+  if (port) return std::move(*port);
+  code = fail(port.error());
+  return nullptr;
+}
+
+std::string silence(const Inquiry& inquiry) {
+  if (inquiry.heard().empty()) return "does not answer";
+  return fmt::format("answers, but not as a board of Passo's: \"{}\"", inquiry.heard().substr(0, 60));
+}
+
+struct Found {
+  std::string device;
+  std::string words;
+  std::optional<About> about;
+};
+
+Found look_at(const std::string& device, Seconds wait) {
+  Found found{.device = device, .words = {}, .about = {}};
+  auto port = open_board({.kind = BoardAddress::Kind::serial, .place = device, .port = ""});
+  if (!port) {
+    found.words = port.error();
+    return found;
+  }
+  Inquiry inquiry(**port);
+  found.about = inquiry.about(wait);
+  found.words = found.about ? fmt::format("{}, firmware {}, {} events/s", name_of(*found.about),
+                                          version_of(*found.about), found.about->highest_event_rate)
+                            : silence(inquiry);
+  return found;
+}
+
+std::atomic<bool> interrupted = false;
+
+extern "C" void note_interrupt(int) {
+  interrupted = true;
+}
+
+std::string line_of(const BoardStatus& status) {
+  std::string line = fmt::format("{:<8}", (status.state & board_moves) != 0 ? "moves" : "rests");
+  const int motors = status.motors == 0 ? 0 : std::min<int>(status.motors, max_motors);
+  for (int motor = 0; motor < motors; ++motor) line += fmt::format(" {:>10}", status.positions[motor]);
+  line += fmt::format("   item {:>5} + {:<3}  ", status.executed, status.event);
+  const std::vector<std::string> switches = switches_of(status);
+  for (std::size_t i = 0; i < switches.size(); ++i) line += (i > 0 ? ", " : "") + switches[i];
+  return switches.empty() ? line + "-" : line;
+}
+
+}  // namespace
+
+int board_list(const BoardListArguments& arguments) {
+  const std::vector<std::string> devices = arguments.devices.empty() ? serial_lines() : arguments.devices;
+  nlohmann::json json = nlohmann::json::array();
+  if (devices.empty() && !arguments.json) fmt::print("No serial line with a USB adapter is there.\n");
+  for (const std::string& device : devices) {
+    if (is_terminal(STDERR_FILENO)) fmt::print(stderr, "{}: asking...\r", device);
+    const Found found = look_at(device, Seconds(arguments.wait));
+    if (!arguments.json) fmt::print("serial:{}  {}\n", found.device, found.words);
+    nlohmann::json one = {{"board", "serial:" + found.device}, {"says", found.words}};
+    if (found.about) one["about"] = to_json(*found.about);
+    json.push_back(one);
+  }
+  if (arguments.json) fmt::print("{}\n", json.dump(2));
+  return exit_done;
+}
+
+int board_info(const BoardInfoArguments& arguments) {
+  int code = exit_done;
+  const auto port = open_named(arguments.board, code);
+  if (!port) return code;
+  Inquiry inquiry(*port);
+  const auto about = inquiry.about(Seconds(arguments.wait));
+  const auto status = about ? inquiry.status(Seconds(arguments.wait)) : std::nullopt;
+  if (!status) return fail(arguments.board + ": " + silence(inquiry));
+  if (arguments.json) {
+    fmt::print("{}\n", nlohmann::json{{"about", to_json(*about)}, {"status", to_json(*status)}}.dump(2));
+    return exit_done;
+  }
+  std::string switches;
+  for (const std::string& name : switches_of(*status)) switches += (switches.empty() ? "" : ", ") + name;
+  fmt::print("{}\n", name_of(*about));
+  fmt::print("  firmware      {}, protocol {}\n", version_of(*about), int{protocol_version});
+  fmt::print("  events        {} a second at most\n", about->highest_event_rate);
+  if (about->baud > 0) fmt::print("  line          {} baud at most\n", about->baud);
+  fmt::print("  state         {}\n", state_of(*status));
+  fmt::print("  last reset    {}\n", reset_of(*status));
+  fmt::print("  switches on   {}\n", switches.empty() ? "none" : switches);
+  for (int motor = 0; motor < std::min<int>(status->motors, max_motors); ++motor) {
+    fmt::print("  motor {}       {} steps\n", motor + 1, status->positions[motor]);
+  }
+  return exit_done;
+}
+
+int board_monitor(const BoardMonitorArguments& arguments) {
+  int code = exit_done;
+  const auto port = open_named(arguments.board, code);
+  if (!port) return code;
+  interrupted = false;
+  std::signal(SIGINT, note_interrupt);
+  const bool live = is_terminal(STDOUT_FILENO) && !arguments.json;
+  if (!arguments.json) fmt::print("state     steps of each motor   item + events done   switches that are on\n");
+  Inquiry inquiry(*port);
+  for (std::uint64_t n = 0; !interrupted && (arguments.count == 0 || n < arguments.count); ++n) {
+    if (n > 0) std::this_thread::sleep_for(std::chrono::duration<double>(arguments.every));
+    const auto status = inquiry.status(Seconds(5));
+    if (interrupted) break;
+    if (!status) {
+      if (live) fmt::print("\n");
+      return fail(arguments.board + ": " + silence(inquiry));
+    }
+    // On a terminal one line that changes, in a pipe a line each.
+    fmt::print("{}{}", arguments.json ? to_json(*status).dump() : line_of(*status), live ? "\033[K\r" : "\n");
+    std::fflush(stdout);
+  }
+  if (live) fmt::print("\n");
+  return exit_done;
+}
+
+}  // namespace passo

@@ -1,0 +1,171 @@
+// passo board flash: puts the firmware on a board by avrdude, after a look whether it fits, and keeps what was there.
+//
+// avrdude compares the chip's signature with what we say it is, and reads back what it has written.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "commands.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "passo/base/result.hpp"
+
+namespace passo {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Chip {
+  const char* board;
+  const char* part;        // avrdude's -p
+  const char* programmer;  // its -c for the boot loader
+  unsigned flash;          // bytes that the boot loader leaves
+};
+constexpr std::array chips = {Chip{"uno", "atmega328p", "arduino", 32'768 - 512},
+                              Chip{"mega", "atmega2560", "wiring", 262'144 - 8'192}};
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "passo: error: {}\n", message);
+  return exit_failed;
+}
+
+std::optional<unsigned> hex_byte(const std::string& line, std::size_t at) {
+  if (at + 2 > line.size()) return {};
+  unsigned value = 0;
+  for (const char digit : {line[at], line[at + 1]}) {
+    const char low = static_cast<char>(digit | 0x20);
+    if (digit >= '0' && digit <= '9') {
+      value = value * 16 + static_cast<unsigned>(digit - '0');
+    } else if (low >= 'a' && low <= 'f') {
+      value = value * 16 + static_cast<unsigned>(low - 'a' + 10);
+    } else {
+      return {};
+    }
+  }
+  return value;
+}
+
+struct HexRecord {
+  unsigned address = 0;
+  unsigned type = 0;
+  std::vector<unsigned> data;
+};
+
+// Intel, Hexadecimal Object File Format Specification, revision A, 1988: ':' count address type data checksum.
+std::optional<HexRecord> read_record(const std::string& line) {
+  const auto count = line.empty() || line[0] != ':' ? std::nullopt : hex_byte(line, 1);
+  if (!count || line.size() != 11 + 2 * *count) return {};
+  std::vector<unsigned> bytes;
+  unsigned sum = 0;
+  for (std::size_t at = 1; at < line.size(); at += 2) {
+    const auto byte = hex_byte(line, at);
+    if (!byte) return {};
+    bytes.push_back(*byte);
+    sum += *byte;
+  }
+  if (sum % 256 != 0) return {};
+  return HexRecord{
+      .address = bytes[1] * 256 + bytes[2], .type = bytes[3], .data = {bytes.begin() + 4, bytes.end() - 1}};
+}
+
+// How far up in the flash the image reaches, or what is wrong with it.
+Result<unsigned, std::string> size_of_image(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return Failure{path + ": cannot be read"};
+  unsigned base = 0;
+  unsigned end = 0;
+  std::string line;
+  for (unsigned number = 1; std::getline(file, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const auto record = read_record(line);
+    if (!record) return Failure{fmt::format("{}:{}: no record of an Intel hex file, or damaged", path, number)};
+    const std::vector<unsigned>& data = record->data;
+    if (record->type == 1) return end;
+    if (record->type == 2 && data.size() == 2) base = (data[0] * 256 + data[1]) * 16;
+    if (record->type == 4 && data.size() == 2) base = (data[0] * 256 + data[1]) << 16;
+    if (record->type == 0) end = std::max(end, base + record->address + static_cast<unsigned>(data.size()));
+  }
+  return Failure{path + ": ends before its end record: is it whole?"};
+}
+
+// Beside this program, where the build puts it.
+std::string built_image(const std::string& board) {
+  std::error_code none;
+  return fs::read_symlink("/proc/self/exe", none).parent_path() / "firmware" / ("motion-" + board + ".hex");
+}
+
+// No shell in between: names are what they are. Its exit code; 127 where there is no such program.
+int start(const std::vector<std::string>& words) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char*> pointers;
+    for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+    pointers.push_back(nullptr);
+    execvp(pointers[0], pointers.data());
+    _exit(127);
+  }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) < 0) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+int board_flash(const BoardFlashArguments& arguments) {
+  const Chip& chip =
+      *std::find_if(chips.begin(), chips.end(), [&](const Chip& one) { return one.board == arguments.board; });
+  const std::string image = arguments.image.empty() ? built_image(arguments.board) : arguments.image;
+  const auto size = size_of_image(image);
+  if (!size) return refuse(size.error());
+  if (*size > chip.flash) {
+    return refuse(fmt::format("{}: {} bytes; the {} has room for {}", image, *size, chip.part, chip.flash));
+  }
+  const std::string backup =
+      arguments.backup.empty() ? fmt::format("passo-backup-{}.hex", arguments.board) : arguments.backup;
+  // The way back is not to be lost by a second attempt.
+  if (fs::exists(backup)) {
+    return refuse(backup + " is there already: what the board held before; name another with --backup");
+  }
+
+  const std::vector<std::string> avrdude = {"avrdude",
+                                            "-p",
+                                            chip.part,
+                                            "-c",
+                                            arguments.programmer.empty() ? chip.programmer : arguments.programmer,
+                                            "-P",
+                                            arguments.device,
+                                            "-b",
+                                            std::to_string(arguments.baud),
+                                            "-D"};
+  auto with = [&](const std::string& what) {
+    std::vector<std::string> words = avrdude;
+    words.insert(words.end(), {"-U", what});
+    return words;
+  };
+  const auto read_old = with("flash:r:" + backup + ":i");
+  const auto write_new = with("flash:w:" + image + ":i");
+  const auto write_old = with("flash:w:" + backup + ":i");
+  fmt::print("{}: {} of {} bytes\n", image, *size, chip.flash);
+  for (const auto& words : {read_old, write_new}) {
+    fmt::print("+ {}\n", fmt::join(words, " "));
+    if (arguments.dry_run) continue;
+    const int code = start(words);
+    if (code == 127) return fail("avrdude is not installed: apt-get install avrdude");
+    if (code != 0) {
+      return fail(fmt::format("avrdude ended with {}; the board {}", code,
+                              words == read_old ? "is as it was" : "may hold half a program: try again"));
+    }
+  }
+  fmt::print("{}The way back: {}\n", arguments.dry_run ? "Nothing was done. " : "Done. ", fmt::join(write_old, " "));
+  return exit_done;
+}
+
+}  // namespace passo

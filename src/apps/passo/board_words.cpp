@@ -1,0 +1,79 @@
+#include "board_words.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace passo {
+
+std::string name_of(const About& about) {
+  std::string name;
+  for (const char letter : about.name) {
+    if (letter == 0) break;
+    // It comes off a line: nothing of it may be more than text on a terminal.
+    name += std::isprint(static_cast<unsigned char>(letter)) != 0 ? letter : '?';
+  }
+  return name.empty() ? "without a name" : name;
+}
+
+std::string version_of(const About& about) {
+  return fmt::format("{}.{:02}", about.firmware / 100, about.firmware % 100);
+}
+
+std::vector<std::string> switches_of(const BoardStatus& status) {
+  std::vector<std::string> names;
+  for (unsigned motor = 0; motor < max_motors; ++motor) {
+    if ((status.inputs >> motor & 1U) != 0) names.push_back(fmt::format("limit {}", motor + 1));
+  }
+  struct Named {
+    unsigned bit;
+    const char* name;
+  };
+  for (const Named& one :
+       {Named{input_probe, "probe"}, Named{input_door, "door"}, Named{input_emergency_stop, "emergency stop"},
+        Named{input_hold, "hold button"}, Named{input_start, "start button"}}) {
+    if ((status.inputs & one.bit) != 0) names.emplace_back(one.name);
+  }
+  return names;
+}
+
+std::string state_of(const BoardStatus& status) {
+  std::string state = (status.state & board_moves) != 0 ? "moves" : "rests";
+  if (status.motors == 0) return state + ", no host has said hello since it started";
+  if ((status.state & board_trusted) == 0) state += ", its position is not to be trusted";
+  return state;
+}
+
+std::string reset_of(const BoardStatus& status) {
+  switch (status.reset) {
+    case ResetCause::power_on: return "power on";
+    case ResetCause::brown_out: return "a supply that was too low";
+    case ResetCause::watchdog: return "its watchdog";
+    case ResetCause::button: return "its reset button, or a host that opened the line";
+  }
+  return "a cause that this version does not know";
+}
+
+nlohmann::json to_json(const About& about) {
+  return {{"name", name_of(about)},
+          {"firmware", version_of(about)},
+          {"highest_event_rate_hz", about.highest_event_rate},
+          {"highest_baud", about.baud}};
+}
+
+nlohmann::json to_json(const BoardStatus& status) {
+  const int motors = status.motors == 0 ? static_cast<int>(max_motors) : std::min<int>(status.motors, max_motors);
+  return {{"moves", (status.state & board_moves) != 0},
+          {"trusted", (status.state & board_trusted) != 0},
+          {"motors", status.motors},
+          {"executed", status.executed},
+          {"event", status.event},
+          {"free", status.free},
+          {"reset", reset_of(status)},
+          {"switches", switches_of(status)},
+          {"positions", std::vector<std::int32_t>(status.positions, status.positions + motors)}};
+}
+
+}  // namespace passo

@@ -1,0 +1,24 @@
+// What a board says of itself, in words and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "passo/wire/message.hpp"
+
+namespace passo {
+
+std::string name_of(const About& about);
+// Hundreds and units: 1.02.
+std::string version_of(const About& about);
+// "limit X", "probe"; empty where all switches are off.
+std::vector<std::string> switches_of(const BoardStatus& status);
+std::string state_of(const BoardStatus& status);
+std::string reset_of(const BoardStatus& status);
+
+nlohmann::json to_json(const About& about);
+nlohmann::json to_json(const BoardStatus& status);
+
+}  // namespace passo

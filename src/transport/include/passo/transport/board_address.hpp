@@ -1,0 +1,31 @@
+// BoardAddress: where a board is, as a user writes it.
+//
+//   virtual                       a virtual machine in this process
+//   serial:/dev/ttyUSB0           a serial line at 500,000 baud
+//   serial:/dev/ttyUSB0@115200    at another rate
+//   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; [::1] for an address with colons
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "passo/base/result.hpp"
+
+namespace passo {
+
+inline constexpr unsigned usual_baud = 500'000;
+
+struct BoardAddress {
+  enum class Kind : unsigned char { virtual_machine, serial, tcp };
+  Kind kind = Kind::virtual_machine;
+  std::string place;           // device, or host
+  std::string port;            // tcp
+  unsigned baud = usual_baud;  // serial
+
+  bool operator==(const BoardAddress&) const = default;
+};
+
+// The error is a sentence that says what was expected.
+Result<BoardAddress, std::string> parse_board_address(std::string_view text);
+
+}  // namespace passo

@@ -1,0 +1,48 @@
+// StreamPort: a board at the other end of a serial line or a TCP connection, in real time.
+//
+// Place on the street: the wire itself, where the board is not in this process. The only code that opens devices and
+// sockets and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A line that breaks
+// says nothing any more, and swallows what is sent: what to do then is for the link to say (LineCare).
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "passo/base/result.hpp"
+#include "passo/link/board_port.hpp"
+#include "passo/transport/board_address.hpp"
+
+namespace passo {
+
+class StreamPort final : public BoardPort {
+ public:
+  // Takes an open descriptor, which it closes in the end.
+  explicit StreamPort(int descriptor);
+  ~StreamPort() override;
+  StreamPort(const StreamPort&) = delete;
+  StreamPort& operator=(const StreamPort&) = delete;
+
+  void receive(std::span<const std::uint8_t> bytes) override;
+  [[nodiscard]] bool run(Seconds most) override;
+  std::span<const std::uint8_t> replies() override;
+  Seconds elapsed() const override;
+
+  // The device has gone, or the other side has closed.
+  bool broken() const { return broken_; }
+
+ private:
+  bool wait_for(short events, Seconds most) const;
+
+  int descriptor_;
+  bool broken_ = false;
+  std::vector<std::uint8_t> arrived_;
+  std::vector<std::uint8_t> taken_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Opens a serial line or a connection. The error is a sentence with the reason.
+Result<std::unique_ptr<StreamPort>, std::string> open_board(const BoardAddress& address);
+
+}  // namespace passo

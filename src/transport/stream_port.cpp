@@ -1,0 +1,158 @@
+#include "passo/transport/stream_port.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t most_at_once = 4096;
+// As long as a line that takes nothing is waited for, before it counts as broken.
+constexpr Seconds longest_write{2};
+
+struct Speed {
+  unsigned baud;
+  speed_t code;
+};
+constexpr std::array speeds = {Speed{9600, B9600},         Speed{19200, B19200},       Speed{38400, B38400},
+                               Speed{57600, B57600},       Speed{115200, B115200},     Speed{230400, B230400},
+                               Speed{460800, B460800},     Speed{500'000, B500000},    Speed{576'000, B576000},
+                               Speed{921'600, B921600},    Speed{1'000'000, B1000000}, Speed{1'152'000, B1152000},
+                               Speed{1'500'000, B1500000}, Speed{2'000'000, B2000000}};
+
+std::string reason() {
+  return std::strerror(errno);
+}
+
+// Eight bits as they are, no control of flow. Without hang-up at the end: closing the line does not reset an Arduino.
+bool set_raw(int descriptor, speed_t speed) {
+  termios settings{};
+  if (tcgetattr(descriptor, &settings) != 0) return false;
+  cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cflag &= ~static_cast<tcflag_t>(HUPCL | CSTOPB | CRTSCTS);
+  settings.c_cc[VMIN] = 0;
+  settings.c_cc[VTIME] = 0;
+  if (cfsetspeed(&settings, speed) != 0 || tcsetattr(descriptor, TCSANOW, &settings) != 0) return false;
+  return tcflush(descriptor, TCIOFLUSH) == 0;
+}
+
+Result<int, std::string> open_serial(const BoardAddress& address) {
+  const auto* speed =
+      std::find_if(speeds.begin(), speeds.end(), [&](const Speed& one) { return one.baud == address.baud; });
+  if (speed == speeds.end()) {
+    return Failure{std::to_string(address.baud) + " baud: no rate of a serial line; try 115200, 500000 or 1000000"};
+  }
+  const int descriptor = open(address.place.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) {
+    const bool denied = errno == EACCES;
+    return Failure{address.place + ": " + reason() +
+                   (denied ? " (whoever is in group dialout may: adduser NAME dialout)" : "")};
+  }
+  // Two programs on one line would each get half of the answers.
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    close(descriptor);
+    return Failure{address.place + ": in use by another program"};
+  }
+  if (set_raw(descriptor, speed->code)) return descriptor;
+  std::string message = address.place + ": no serial line: " + reason();
+  close(descriptor);
+  return Failure{std::move(message)};
+}
+
+Result<int, std::string> connect_tcp(const BoardAddress& address) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const std::string name = address.place + ":" + address.port;
+  const int error = getaddrinfo(address.place.c_str(), address.port.c_str(), &hints, &found);
+  if (error != 0) return Failure{name + ": " + gai_strerror(error)};
+  int descriptor = -1;
+  for (const addrinfo* one = found; one != nullptr && descriptor < 0; one = one->ai_next) {
+    const int socket_ = socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
+    if (socket_ < 0) continue;
+    if (connect(socket_, one->ai_addr, one->ai_addrlen) == 0) {
+      descriptor = socket_;
+    } else {
+      const int kept = errno;
+      close(socket_);
+      errno = kept;
+    }
+  }
+  freeaddrinfo(found);
+  if (descriptor < 0) return Failure{name + ": " + reason()};
+  // Frames are small and wait for nobody.
+  const int on = 1;
+  setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
+  return descriptor;
+}
+
+}  // namespace
+
+StreamPort::StreamPort(int descriptor) : descriptor_(descriptor) {}
+
+StreamPort::~StreamPort() {
+  close(descriptor_);
+}
+
+bool StreamPort::wait_for(short events, Seconds most) const {
+  pollfd one{.fd = descriptor_, .events = events, .revents = 0};
+  const double milliseconds = std::ceil(most.value() * 1e3);
+  return poll(&one, 1, milliseconds < 1e9 ? static_cast<int>(milliseconds) : -1) > 0;
+}
+
+void StreamPort::receive(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty() && !broken_) {
+    const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
+    if (written > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    } else if (errno == EAGAIN || errno == EINTR) {
+      broken_ = !wait_for(POLLOUT, longest_write);
+    } else {
+      broken_ = true;
+    }
+  }
+}
+
+bool StreamPort::run(Seconds most) {
+  if (broken_ || !wait_for(POLLIN, most)) return false;
+  const std::size_t before = arrived_.size();
+  arrived_.resize(before + most_at_once);
+  const ssize_t got = read(descriptor_, arrived_.data() + before, most_at_once);
+  arrived_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  // Readable, and nothing to read: the other side has closed.
+  if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) broken_ = true;
+  return got > 0;
+}
+
+std::span<const std::uint8_t> StreamPort::replies() {
+  taken_ = std::exchange(arrived_, {});
+  return taken_;
+}
+
+Seconds StreamPort::elapsed() const {
+  return Seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+}
+
+Result<std::unique_ptr<StreamPort>, std::string> open_board(const BoardAddress& address) {
+  Result<int, std::string> opened =
+      address.kind == BoardAddress::Kind::tcp ? connect_tcp(address) : open_serial(address);
+  if (!opened) return Failure{opened.error()};
+  return std::make_unique<StreamPort>(*opened);
+}
+
+}  // namespace passo

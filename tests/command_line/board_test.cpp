@@ -1,0 +1,115 @@
+// passo board: what it says of boards, against the virtual one in the network, and what it would have avrdude do.
+#include <csignal>
+
+#include "kit/command_line.hpp"
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+
+class Boards : public passo::test::CommandLine {
+ protected:
+  ~Boards() override {
+    if (server_ > 0) {
+      kill(server_, SIGTERM);
+      waitpid(server_, nullptr, 0);
+    }
+  }
+
+  // Starts one; its address.
+  std::string serve() {
+    const std::string said = path("said");
+    server_ = fork();
+    if (server_ == 0) {
+      if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
+      execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", nullptr);
+      _exit(1);
+    }
+    for (int i = 0; i < 1000; ++i) {
+      const std::string text = read(said);
+      const std::size_t at = text.find("tcp:");
+      if (at != std::string::npos && text.back() == '\n') return text.substr(at, text.size() - at - 1);
+      usleep(10'000);
+    }
+    return "it did not start";
+  }
+
+  // An avrdude that notes how it was called, and writes the backup.
+  std::string fake_avrdude(int code = 0) const {
+    std::filesystem::create_directories(path("bin"));
+    const std::string file = write("bin/avrdude", "#!/bin/sh\necho \"$@\" >> " + path("calls") +
+                                                      "\nfor last; do :; done\ncase $last in flash:r:*) : > " +
+                                                      path("old.hex") + ";; esac\nexit " + std::to_string(code) + "\n");
+    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    return "PATH=" + path("bin") + ":$PATH";
+  }
+  std::string image() const { return write("new.hex", ":10000000000102030405060708090A0B0C0D0E0F78\n:00000001FF\n"); }
+
+  pid_t server_ = 0;
+};
+
+TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {
+  const std::string board = serve();
+  const Outcome info = passo("board info " + board);
+  ASSERT_EQ(info.code, 0) << info.err;
+  EXPECT_NE(info.out.find("no host has said hello"), std::string::npos) << info.out;
+  const auto json = nlohmann::json::parse(passo("board info --json " + board).out);
+  EXPECT_EQ(json["status"]["positions"].size(), 8);
+  EXPECT_EQ(json["status"]["moves"], false);
+
+  const Outcome watched = passo("board monitor " + board + " --count 3 --every 0.01 --json");
+  ASSERT_EQ(watched.code, 0) << watched.err;
+  EXPECT_EQ(std::count(watched.out.begin(), watched.out.end(), '\n'), 3);
+  EXPECT_EQ(nlohmann::json::parse(watched.out.substr(0, watched.out.find('\n')))["switches"].size(), 0);
+}
+
+TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {
+  EXPECT_EQ(passo("board info tcp:127.0.0.1:1").code, 1);
+  const Outcome nonsense = passo("board info nonsense");
+  EXPECT_EQ(nonsense.code, 2);
+  EXPECT_NE(nonsense.err.find("expected virtual, serial:DEVICE"), std::string::npos) << nonsense.err;
+  const Outcome list = passo("board list /dev/null --json");
+  EXPECT_EQ(list.code, 0);
+  EXPECT_NE(list.out.find("no serial line"), std::string::npos) << list.out;
+}
+
+TEST_F(Boards, are_flashed_by_avrdude_after_what_they_held_was_kept) {
+  const Outcome outcome =
+      passo("board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image(), fake_avrdude());
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::string common = "-p atmega328p -c arduino -P /dev/x -b 115200 -D -U flash:";
+  EXPECT_EQ(read(path("calls")), common + "r:" + path("old.hex") + ":i\n" + common + "w:" + path("new.hex") + ":i\n");
+  EXPECT_NE(outcome.out.find("The way back: avrdude"), std::string::npos);
+  // A second attempt would keep our own program as what was there before.
+  const Outcome again =
+      passo("board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image(), fake_avrdude());
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.err.find("is there already"), std::string::npos);
+}
+
+TEST_F(Boards, are_not_touched_when_the_first_look_fails_or_when_it_is_only_tried) {
+  const std::string flash = "board flash mega -d /dev/x --backup " + path("old.hex") + " --image ";
+  const Outcome failed = passo(flash + image(), fake_avrdude(1));
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_NE(failed.err.find("is as it was"), std::string::npos) << failed.err;
+  std::filesystem::remove(path("old.hex"));
+  std::filesystem::remove(path("calls"));
+  EXPECT_EQ(passo(flash + image() + " --dry-run", fake_avrdude()).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("calls")));
+}
+
+TEST_F(Boards, are_given_no_image_that_is_damaged_or_too_large) {
+  const std::string flash = "board flash uno -d /dev/x --dry-run --image ";
+  const Outcome damaged = passo(flash + write("a.hex", ":10000000000102030405060708090A0B0C0D0E0F79\n:00000001FF\n"));
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_NE(damaged.err.find("a.hex:1: no record"), std::string::npos) << damaged.err;
+  const Outcome cut = passo(flash + write("b.hex", ":10000000000102030405060708090A0B0C0D0E0F78\n"));
+  EXPECT_NE(cut.err.find("ends before its end"), std::string::npos) << cut.err;
+  const Outcome large = passo(flash + write("c.hex", ":017E00000081\n:00000001FF\n"));
+  EXPECT_EQ(large.code, 2);
+  EXPECT_NE(large.err.find("has room for 32256"), std::string::npos) << large.err;
+}
+
+}  // namespace
