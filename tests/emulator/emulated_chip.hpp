@@ -40,9 +40,6 @@ class EmulatedChip {
   // For what stands in for simavr's own peripherals.
   avr_t& avr() { return *avr_; }
 
-  // For what stands in for simavr's own peripherals.
-  avr_t& avr() { return *avr_; }
-
   // The start of the instruction that is being executed.
   std::uint64_t cycles() const;
 

@@ -78,7 +78,7 @@ Outcome run(const std::string& program, bool with_line, const Trouble& trouble =
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
   // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
-  Job job(ProgramReader::from_text("t", program), router(), InterpreterOptions(), diagnostics, line);
+  Job job(ProgramReader::from_text("t", program), router(), InterpreterOptions(), diagnostics, {.line = line});
   StepLog log;
   job.machine().add_observer(log);
   Outcome outcome;

@@ -38,22 +38,18 @@ std::vector<std::string> serial_lines() {
   return lines;
 }
 
-int fail(const std::string& message) {
-  fmt::print(stderr, "passo: error: {}\n", message);
-  return exit_failed;
-}
-
 // Null, and said why, where there is no such board. `code`: what to exit with.
 std::unique_ptr<StreamPort> open_named(const std::string& board, int& code) {
   const auto address = parse_board_address(board);
   if (!address || address->kind == BoardAddress::Kind::virtual_machine) {
-    code = refuse(address ? "the virtual machine has nothing to tell: `passo board serve` is one that has"
-                          : address.error());
+    code =
+        fail(exit_bad_program, address ? "the virtual machine has nothing to tell: `passo board serve` is one that has"
+                                       : address.error());
     return nullptr;
   }
   auto port = open_board(*address);
   if (port) return std::move(*port);
-  code = fail(port.error());
+  code = fail(exit_failed, port.error());
   return nullptr;
 }
 
@@ -124,7 +120,7 @@ int board_info(const BoardInfoArguments& arguments) {
   Inquiry inquiry(*port);
   const auto about = inquiry.about(Seconds(arguments.wait));
   const auto status = about ? inquiry.status(Seconds(arguments.wait)) : std::nullopt;
-  if (!status) return fail(arguments.board + ": " + silence(inquiry));
+  if (!status) return fail(exit_failed, arguments.board + ": " + silence(inquiry));
   if (arguments.json) {
     fmt::print("{}\n", nlohmann::json{{"about", to_json(*about)}, {"status", to_json(*status)}}.dump(2));
     return exit_done;
@@ -159,7 +155,7 @@ int board_monitor(const BoardMonitorArguments& arguments) {
     if (interrupted) break;
     if (!status) {
       if (live) fmt::print("\n");
-      return fail(arguments.board + ": " + silence(inquiry));
+      return fail(exit_failed, arguments.board + ": " + silence(inquiry));
     }
     // On a terminal one line that changes, in a pipe a line each.
     fmt::print("{}{}", arguments.json ? to_json(*status).dump() : line_of(*status), live ? "\033[K\r" : "\n");

@@ -31,11 +31,6 @@ struct Chip {
 constexpr std::array chips = {Chip{"uno", "atmega328p", "arduino", 32'768 - 512},
                               Chip{"mega", "atmega2560", "wiring", 262'144 - 8'192}};
 
-int fail(const std::string& message) {
-  fmt::print(stderr, "passo: error: {}\n", message);
-  return exit_failed;
-}
-
 std::optional<unsigned> hex_byte(const std::string& line, std::size_t at) {
   if (at + 2 > line.size()) return {};
   unsigned value = 0;
@@ -124,15 +119,16 @@ int board_flash(const BoardFlashArguments& arguments) {
       *std::find_if(chips.begin(), chips.end(), [&](const Chip& one) { return one.board == arguments.board; });
   const std::string image = arguments.image.empty() ? built_image(arguments.board) : arguments.image;
   const auto size = size_of_image(image);
-  if (!size) return refuse(size.error());
+  if (!size) return fail(exit_bad_program, size.error());
   if (*size > chip.flash) {
-    return refuse(fmt::format("{}: {} bytes; the {} has room for {}", image, *size, chip.part, chip.flash));
+    return fail(exit_bad_program,
+                fmt::format("{}: {} bytes; the {} has room for {}", image, *size, chip.part, chip.flash));
   }
   const std::string backup =
       arguments.backup.empty() ? fmt::format("passo-backup-{}.hex", arguments.board) : arguments.backup;
   // The way back is not to be lost by a second attempt.
   if (fs::exists(backup)) {
-    return refuse(backup + " is there already: what the board held before; name another with --backup");
+    return fail(exit_bad_program, backup + " is there already: what the board held before; name another with --backup");
   }
 
   const std::vector<std::string> avrdude = {"avrdude",
@@ -158,10 +154,10 @@ int board_flash(const BoardFlashArguments& arguments) {
     fmt::print("+ {}\n", fmt::join(words, " "));
     if (arguments.dry_run) continue;
     const int code = start(words);
-    if (code == 127) return fail("avrdude is not installed: apt-get install avrdude");
+    if (code == 127) return fail(exit_failed, "avrdude is not installed: apt-get install avrdude");
     if (code != 0) {
-      return fail(fmt::format("avrdude ended with {}; the board {}", code,
-                              words == read_old ? "is as it was" : "may hold half a program: try again"));
+      return fail(exit_failed, fmt::format("avrdude ended with {}; the board {}", code,
+                                           words == read_old ? "is as it was" : "may hold half a program: try again"));
     }
   }
   fmt::print("{}The way back: {}\n", arguments.dry_run ? "Nothing was done. " : "Done. ", fmt::join(write_old, " "));

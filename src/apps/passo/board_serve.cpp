@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "program_input.hpp"
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -18,11 +19,6 @@ namespace {
 // How often a board that plays looks whether the host has sent something.
 constexpr Seconds look{0.001};
 constexpr Seconds idle_look{0.05};
-
-int fail(const std::string& message) {
-  fmt::print(stderr, "passo: error: {}\n", message);
-  return exit_failed;
-}
 
 // Only for this computer: whoever can connect can turn the motors.
 int listen_on_loopback(unsigned port, unsigned& found) {
@@ -64,7 +60,7 @@ void serve(StreamPort& host, VirtualMachine& machine) {
 int board_serve(const BoardServeArguments& arguments) {
   unsigned port = 0;
   const int listening = listen_on_loopback(arguments.port, port);
-  if (listening < 0) return fail(fmt::format("127.0.0.1:{} is in use by another program", arguments.port));
+  if (listening < 0) return fail(exit_failed, fmt::format("127.0.0.1:{} is in use by another program", arguments.port));
   fmt::print("A virtual board of {} motors: tcp:127.0.0.1:{}\n", arguments.motors, port);
   std::fflush(stdout);
   VirtualMachine machine(static_cast<std::uint8_t>(arguments.motors), Hertz(arguments.clock));
