@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "board_outputs.hpp"
+#include <fmt/format.h>
+
 #include "passo/controller/stage_options.hpp"
 
 namespace passo {
@@ -20,6 +23,10 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   }
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
+
+// Of a board's list: a stretch of motion with its tail, and the next that takes the place of the tail. Near rest a tail
+// alone may take 19.
+constexpr unsigned fewest_items = 60;
 
 // So many moves behind a probe move are checked.
 constexpr std::uint64_t most_moves_behind_a_probe = 10'000'000;
@@ -90,9 +97,11 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
-      drive_(smoother_, limits_, step_options(machine), machine_, board_line()) {
-  if (line_) [[maybe_unused]]
+      drive_(smoother_, limits_, step_options(machine), machine_, board_line(options, line_)),
+      clock_(machine.board.clock) {
+  if ((line_ || options.board != nullptr) && !unsuited()) [[maybe_unused]]
     const bool used = drive_.use_tails({});
+  if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   const SpindleDescription& spindle = machine.spindle;
   machine_.fit_spindle({.counts_per_turn = spindle.counts_per_turn,
                         .run_up = spindle.run_up.value(),
@@ -107,9 +116,42 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
   }
 }
 
-BoardLine Job::board_line() {
+BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& line) {
   // A line may be slow, but a board that lives answers at once.
-  if (line_) return {.port = &*line_, .care = {.answer_within = Seconds(0.05), .session = 1}};
+  if (line) return {.port = &*line, .care = {.answer_within = Seconds(0.05), .session = 1}};
+  if (options.board == nullptr) return {};
+  return {.port = options.board,
+          .care = {.answer_within = Seconds(0.1), .patience = Seconds(60), .session = 1},
+          .real_time = true};
+}
+
+void Job::follow_by_machine(std::uint8_t motors) {
+  shadow_.emplace(machine_, motors);
+  drive_.board().watch([this](const BoardItem& item) {
+    if (const auto* segment = std::get_if<BoardSegment>(&item)) {
+      shadow_->send(*segment);
+    } else if (const auto& action = std::get<Action>(item); action.kind != Action::Kind::feed_hold) {
+      shadow_->send(board_outputs(action.outputs));
+    }
+  });
+}
+
+bool Job::advance() {
+  const bool goes_on = drive_.advance();
+  if (shadow_ && (!goes_on || drive_.state() == MotionDrive::State::held)) shadow_->drain();
+  return goes_on;
+}
+
+std::optional<std::string> Job::unsuited() const {
+  const auto& board = link().board();
+  if (link().error() || !board) return {};  // the link says it
+  if (static_cast<double>(board->clock) != clock_.value()) {
+    return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", board->clock,
+                       clock_.value());
+  }
+  if (board->capacity < fewest_items) {
+    return fmt::format("it holds {} items; motion that always ends at rest takes {}", board->capacity, fewest_items);
+  }
   return {};
 }
 

@@ -49,13 +49,15 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
                          VirtualMachine& machine, const BoardLine& line)
     : tick_rate_(steps.clock.tick_rate),
       machine_(machine),
+      port_(line.port != nullptr ? *line.port : machine),
+      real_time_(line.real_time),
       watched_path_(path),
       path_(watched_path_),
       planner_(path_, limits),
       watched_motion_(planner_),
       step_generator_(watched_motion_, steps),
       watched_board_(step_generator_),
-      link_(line.port != nullptr ? *line.port : machine, steps.motor_count, line.care),
+      link_(port_, steps.motor_count, line.care),
       steps_(steps),
       probe_(link_, steps),
       follower_(limits),
@@ -301,6 +303,13 @@ void MotionDrive::wait(Seconds time) {
 }
 
 void MotionDrive::let_pass(Seconds time) {
+  if (real_time_) {
+    const Seconds until = now() + time;
+    while (now() < until && (port_.run(until - now()) || now() < until)) {
+    }
+    rested_ += time;
+    return;
+  }
   const Ticks ticks{std::llround(tick_rate_ * time)};
   machine_.wait(ticks);
   rested_ += in_seconds(ticks);

@@ -47,6 +47,7 @@ struct RunArguments {
   std::vector<std::string> overrides;  // PERCENT@SECONDS
   std::vector<std::string> touches;    // LOW:HIGH of axes, as X10:60,Z:-2
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
+  std::string board = "virtual";       // as parse_board_address() has it
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };

@@ -5,8 +5,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 
+#include "board_run.hpp"
 #include "commands.hpp"
 #include "mid_run_changes.hpp"
 #include "program_input.hpp"
@@ -72,7 +74,7 @@ void count(const ProbeOutcome& outcome, const MachineDescription& machine, Probe
 }
 
 RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& arguments, const MachineDescription& machine,
-                RunOutputs& outputs, MidRunChanges& changes) {
+                RunOutputs& outputs, MidRunChanges& changes, const BoardRun* board) {
   SummaryBuilder builder(axes_of(machine));
   job.motion().watch([&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
@@ -87,7 +89,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (changes.any()) changes.act(job.drive(), job.machine(), machine);
-      tails.look(job.drive(), job.machine(), machine);
+      if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }
   }
@@ -148,6 +150,12 @@ int run(const RunArguments& arguments) {
   const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
+  if (check.probes && (cut || arguments.board != "virtual")) {
+    return fail(exit_bad_program, "over a line: not for a program with probe moves yet");
+  }
+  if (cut && arguments.board != "virtual") {
+    return fail(exit_bad_program, "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug");
+  }
 
   std::signal(SIGINT, end_on_signal);
   std::signal(SIGTERM, end_on_signal);
@@ -156,19 +164,32 @@ int run(const RunArguments& arguments) {
       RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
   if (!outputs) return fail(exit_failed, outputs.error().message);
 
+  std::unique_ptr<BoardRun> board;
+  if (arguments.board != "virtual") {
+    int code = exit_done;
+    board = BoardRun::open(arguments.board, static_cast<std::uint8_t>(machine->axes.size()), code);
+    if (!board) return code;
+  }
+
   Diagnostics late;
-  Job job(std::move(*program), *machine, *options, late, {.line = cut ? std::optional(LineOptions{}) : std::nullopt});
+  Job job(std::move(*program), *machine, *options, late,
+          {.line = cut ? std::optional(LineOptions{}) : std::nullopt, .board = board ? &board->port() : nullptr});
   for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
-  if (cut) {
+  if ((cut || board) && !job.link().error()) {
+    if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
     if (job.drive().refiller() == nullptr) {
       return fail(
           exit_bad_program,
-          "--cut-cable-at: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
+          "over a line: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
     }
-    job.line().cut(cut->at, cut->missing);
   }
-  const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes);
+  if (cut) job.line().cut(cut->at, cut->missing);
+  const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes, board.get());
   if (const auto error = job.link().error()) return fail(exit_failed, "the board: " + std::string(message_of(*error)));
+  if (board) {
+    if (const auto words = board->compare(job.machine().counts())) return fail(exit_failed, "the board: " + *words);
+    board->tell(*job.drive().refiller());
+  }
   if (late.any_error() || job.drive().stopped_by_probe()) {
     show(late);
     return fail(exit_failed, stopped_words(job, summary));

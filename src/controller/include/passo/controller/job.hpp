@@ -49,6 +49,9 @@ class Job {
     Probing probing = Probing::by_board;
     // With a line the board is at its other end, and what it holds always ends at rest.
     std::optional<LineOptions> line = {};
+    // A real one, in the place of the virtual machine, which then only does what was planned: for counts, traces and
+    // pictures. What the board holds always ends at rest. Outlives the job.
+    BoardPort* board = nullptr;
   };
 
   // `diagnostics` gets what the second pass still finds: nothing after a good check, if nothing was probed. An error
@@ -61,7 +64,9 @@ class Job {
 
   // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
   // has an error.
-  [[nodiscard]] bool advance() { return drive_.advance(); }
+  [[nodiscard]] bool advance();
+  // What keeps the job from being run on the board that it found, as a sentence without a full stop.
+  std::optional<std::string> unsuited() const;
 
   // To hold, resume, change and stop it in mid-run.
   MotionDrive& drive() { return drive_; }
@@ -83,7 +88,8 @@ class Job {
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
-  BoardLine board_line();
+  static BoardLine board_line(const Options& options, std::optional<VirtualLine>& line);
+  void follow_by_machine(std::uint8_t motors);
 
   PathOptions path_options_;
   MotionLimits limits_;
@@ -98,6 +104,8 @@ class Job {
   VirtualMachine machine_;  // what is at the other end of the wire
   std::optional<VirtualLine> line_;
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
+  Hertz clock_;
+  std::optional<InProcessLink> shadow_;  // to the machine, where it is not the board
 
   Seconds nominal_time_{0};
 };

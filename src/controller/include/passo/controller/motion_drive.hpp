@@ -39,7 +39,9 @@ struct LiveOptions {
 struct BoardLine {
   BoardPort* port = nullptr;  // none: the machine itself
   LineCare care = {};
+  bool real_time = false;  // no virtual machine is behind it: its time passes by itself
 };
+
 // In a probe move: the tool goes on so long into what it touched, before it brakes.
 inline constexpr LiveOptions probing_options{.horizon = Seconds(0.004), .longest_move = Seconds(0.001)};
 
@@ -89,8 +91,8 @@ class MotionDrive {
   void wait(Seconds time);
 
   State state() const { return state_; }
-  // Of the virtual machine.
-  Seconds now() const { return in_seconds(machine_.now()); }
+  // Of the board's side.
+  Seconds now() const { return port_.elapsed(); }
   // The motion that was planned and is not played yet: so long from now on nothing can be changed.
   Seconds committed() const { return refiller_ ? refiller_->ahead() : planned_ - (now() - rested_); }
 
@@ -121,6 +123,8 @@ class MotionDrive {
 
   Hertz tick_rate_;
   VirtualMachine& machine_;
+  BoardPort& port_;
+  bool real_time_;
   Tap<PathItem> watched_path_;
   RewindablePath path_;
   Planner planner_;  // segments -> phases

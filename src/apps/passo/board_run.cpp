@@ -1,0 +1,68 @@
+#include "board_run.hpp"
+
+#include <utility>
+
+#include "board_words.hpp"
+#include "commands.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+
+#include "passo/link/in_process_link.hpp"
+
+namespace passo {
+namespace {
+
+// An Arduino whose line is opened is in its boot loader for up to two seconds.
+constexpr Seconds first_answer{4};
+constexpr Seconds answer{2};
+
+}  // namespace
+
+BoardRun::BoardRun(std::unique_ptr<StreamPort> port, std::uint8_t motors) : port_(std::move(port)), motors_(motors) {}
+
+std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_t motors, int& code) {
+  const auto parsed = parse_board_address(address);
+  if (!parsed) {
+    code = fail(exit_bad_program, parsed.error());
+    return nullptr;
+  }
+  auto port = open_board(*parsed);
+  if (!port) {
+    code = fail(exit_failed, port.error());
+    return nullptr;
+  }
+  std::unique_ptr<BoardRun> run(new BoardRun(std::move(*port), motors));
+  Inquiry inquiry(run->port());
+  if (const auto status = inquiry.status(first_answer)) {
+    run->before_ = *status;
+    if ((status->state & board_moves) == 0) return run;
+    code = fail(exit_failed, address + ": it moves: another program runs on it, or has just left it");
+    return nullptr;
+  }
+  // The greeting has kept its form in all versions: what does not answer a question may answer that.
+  const InProcessLink greeting(run->port(), motors, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
+  const LinkError error = greeting.error().value_or(LinkError::wrong_version);
+  code = fail(exit_failed, fmt::format("{}: {}", address, message_of(error)));
+  return nullptr;
+}
+
+std::optional<std::string> BoardRun::compare(const MachineCounts& planned) {
+  const auto after = Inquiry(*port_).status(answer);
+  if (!after) return "it does not answer any more; whether all was done is not known";
+  for (unsigned motor = 0; motor < motors_; ++motor) {
+    const std::int64_t counted = std::int64_t{after->positions[motor]} - before_.positions[motor];
+    if (counted == planned.motors[motor].position) continue;
+    return fmt::format("motor {} stands {} steps from its start, and {} were planned", motor + 1, counted,
+                       planned.motors[motor].position);
+  }
+  return {};
+}
+
+void BoardRun::tell(const Refiller& refiller) const {
+  if (refiller.recoveries() == 0) return;
+  fmt::print(stderr,
+             "passo: {} times nothing had come in time: the machine came to rest on the path, and went on from there\n",
+             refiller.recoveries());
+}
+
+}  // namespace passo
