@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "board_outputs.hpp"
 #include <fmt/format.h>
 
 #include "passo/controller/stage_options.hpp"
@@ -127,13 +126,9 @@ BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& li
 
 void Job::follow_by_machine(std::uint8_t motors) {
   shadow_.emplace(machine_, motors);
-  drive_.board().watch([this](const BoardItem& item) {
-    if (const auto* segment = std::get_if<BoardSegment>(&item)) {
-      shadow_->send(*segment);
-    } else if (const auto& action = std::get<Action>(item); action.kind != Action::Kind::feed_hold) {
-      shadow_->send(board_outputs(action.outputs));
-    }
-  });
+  if (drive_.refiller() == nullptr) return;
+  drive_.refiller()->watch_executed(
+      [this](const LinkItem& item) { std::visit([this](const auto& one) { shadow_->send(one); }, item); });
 }
 
 bool Job::advance() {

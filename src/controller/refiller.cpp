@@ -59,6 +59,7 @@ Refiller::Turn Refiller::advance() {
 // What the board has told of how far it is.
 void Refiller::note_executed() {
   const ItemNumber executed = stages_.link.executed();
+  show_executed(executed);
   for (; !motion_.empty() && later_by(motion_.front().number, executed) <= 0; motion_.pop_front()) {
     ahead_ -= motion_.front().time;
   }
@@ -75,9 +76,18 @@ void Refiller::note_executed() {
   ++recoveries_;
 }
 
+// A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
+void Refiller::show_executed(ItemNumber executed) {
+  for (; !sent_.empty() && later_by(sent_.front().number, executed) <= 0; sent_.pop_front()) {
+    const Sent& sent = sent_.front();
+    if (!sent.end_of_tail || later_by(executed, *sent.end_of_tail) <= 0) executed_watcher_(sent.item);
+  }
+}
+
 // The board rests at the end of a tail. All that was sent behind it came too late.
 void Refiller::take_up(const Refill& refill) {
   refills_under_way_.clear();
+  sent_.clear();
   motion_.clear();
   items_.clear();
   ahead_ = Seconds(0);
@@ -173,6 +183,11 @@ bool Refiller::send() {
   }
   refill_.last_of_motion = behind_ = static_cast<ItemNumber>(refill_.first + motion_items_ - 1);
   refill_.last = static_cast<ItemNumber>(refill_.first + items_.size() - 1);
+  for (std::size_t i = 0; executed_watcher_ && i < items_.size(); ++i) {
+    Sent sent{.number = static_cast<ItemNumber>(refill_.first + i), .item = items_[i]};
+    if (i >= motion_items_) sent.end_of_tail = refill_.last;
+    sent_.push_back(sent);
+  }
   tail_items_ += items_.size() - motion_items_;
   ++refills_;
   most_at_rest_ = std::numeric_limits<std::size_t>::max();

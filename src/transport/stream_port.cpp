@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t most_at_once = 4096;
 // As long as a line that takes nothing is waited for, before it counts as broken.
 constexpr Seconds longest_write{2};
+constexpr Seconds between_attempts{0.2};
 
 struct Speed {
   unsigned baud;
@@ -103,10 +104,18 @@ Result<int, std::string> connect_tcp(const BoardAddress& address) {
 
 }  // namespace
 
-StreamPort::StreamPort(int descriptor) : descriptor_(descriptor) {}
+StreamPort::StreamPort(int descriptor, std::function<int()> open_again)
+    : descriptor_(descriptor), open_again_(std::move(open_again)) {}
 
 StreamPort::~StreamPort() {
-  close(descriptor_);
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void StreamPort::open_again(Seconds most) {
+  if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
+  poll(nullptr, 0, static_cast<int>(std::min(most, between_attempts).value() * 1e3));
+  descriptor_ = open_again_();
+  broken_ = descriptor_ < 0;
 }
 
 bool StreamPort::wait_for(short events, Seconds most) const {
@@ -129,6 +138,7 @@ void StreamPort::receive(std::span<const std::uint8_t> bytes) {
 }
 
 bool StreamPort::run(Seconds most) {
+  if (broken_ && open_again_) open_again(most);
   if (broken_ || !wait_for(POLLIN, most)) return false;
   const std::size_t before = arrived_.size();
   arrived_.resize(before + most_at_once);
@@ -149,10 +159,15 @@ Seconds StreamPort::elapsed() const {
 }
 
 Result<std::unique_ptr<StreamPort>, std::string> open_board(const BoardAddress& address) {
-  Result<int, std::string> opened =
-      address.kind == BoardAddress::Kind::tcp ? connect_tcp(address) : open_serial(address);
+  const auto open_it = [address] {
+    return address.kind == BoardAddress::Kind::tcp ? connect_tcp(address) : open_serial(address);
+  };
+  const Result<int, std::string> opened = open_it();
   if (!opened) return Failure{opened.error()};
-  return std::make_unique<StreamPort>(*opened);
+  return std::make_unique<StreamPort>(*opened, [open_it] {
+    const Result<int, std::string> again = open_it();
+    return again ? *again : -1;
+  });
 }
 
 }  // namespace passo

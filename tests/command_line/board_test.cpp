@@ -19,12 +19,13 @@ class Boards : public passo::test::CommandLine {
   }
 
   // Starts one; its address.
-  std::string serve() {
+  std::string serve(const std::string& clock = "16000000") {
     const std::string said = path("said");
     server_ = fork();
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", nullptr);
+      execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", "--clock", clock.c_str(),
+            nullptr);
       _exit(1);
     }
     for (int i = 0; i < 1000; ++i) {
@@ -63,6 +64,34 @@ TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {
   ASSERT_EQ(watched.code, 0) << watched.err;
   EXPECT_EQ(std::count(watched.out.begin(), watched.out.end(), '\n'), 3);
   EXPECT_EQ(nlohmann::json::parse(watched.out.substr(0, watched.out.find('\n')))["switches"].size(), 0);
+}
+
+TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {
+  const std::string router =
+      (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "router.toml").string();
+  const std::string program = write("p.ngc", "G21 G90 F3000\nG1 X3 Y1\nG2 X5 Y1 I1 J0\nG1 X1 Z-1\nM2\n");
+  const std::string command = "run " + program + " --json -m " + router;
+  const auto alone = nlohmann::json::parse(passo(command).out);
+  const std::string board = serve("18000000");
+  const Outcome outcome = passo(command + " --board " + board);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], alone["steps"]);
+  const auto counted = nlohmann::json::parse(passo("board info --json " + board).out)["status"]["positions"];
+  EXPECT_EQ(counted[0], alone["steps"]["X"]["net"]);
+  EXPECT_EQ(counted[2], alone["steps"]["Z"]["net"]);
+}
+
+TEST_F(Boards, that_do_not_suit_a_machine_are_refused_with_words) {
+  const std::filesystem::path machines = std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines";
+  const std::string program = write("p.ngc", "G21 G1 X1 F600\nM2\n");
+  const std::string board = serve("18000000");
+  const Outcome clock = passo("run " + program + " -m " + (machines / "bench.toml").string() + " --board " + board);
+  EXPECT_EQ(clock.code, 1);
+  EXPECT_NE(clock.err.find("18000000 ticks a second"), std::string::npos) << clock.err;
+  const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");
+  const Outcome probe = passo("run " + probing + " -m " + (machines / "router.toml").string() + " --board " + board);
+  EXPECT_EQ(probe.code, 2);
+  EXPECT_NE(probe.err.find("probe moves"), std::string::npos) << probe.err;
 }
 
 TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {

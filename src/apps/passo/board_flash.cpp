@@ -90,10 +90,10 @@ Result<unsigned, std::string> size_of_image(const std::string& path) {
   return Failure{path + ": ends before its end record: is it whole?"};
 }
 
-// Beside this program, where the build puts it.
+// Where the build puts it, seen from this program.
 std::string built_image(const std::string& board) {
   std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path() / "firmware" / ("motion-" + board + ".hex");
+  return fs::read_symlink("/proc/self/exe", none).parent_path() / "src" / "chip" / ("motion_" + board + ".hex");
 }
 
 // No shell in between: names are what they are. Its exit code; 127 where there is no such program.
@@ -118,6 +118,9 @@ int board_flash(const BoardFlashArguments& arguments) {
   const Chip& chip =
       *std::find_if(chips.begin(), chips.end(), [&](const Chip& one) { return one.board == arguments.board; });
   const std::string image = arguments.image.empty() ? built_image(arguments.board) : arguments.image;
+  if (arguments.image.empty() && !fs::exists(image)) {
+    return fail(exit_failed, image + " was not built: that needs clang and avr-gcc, which scripts/install.sh installs");
+  }
   const auto size = size_of_image(image);
   if (!size) return fail(exit_bad_program, size.error());
   if (*size > chip.flash) {

@@ -61,8 +61,8 @@ std::optional<std::string> BoardRun::compare(const MachineCounts& planned) {
 void BoardRun::tell(const Refiller& refiller) const {
   if (refiller.recoveries() == 0) return;
   fmt::print(stderr,
-             "passo: {} times nothing had come in time: the machine came to rest on the path, and went on from there\n",
-             refiller.recoveries());
+             "passo: nothing had come to the board in time, {}: it came to rest on the path, and went on from there\n",
+             refiller.recoveries() == 1 ? "once" : fmt::format("{} times", refiller.recoveries()));
 }
 
 }  // namespace passo

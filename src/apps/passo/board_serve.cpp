@@ -7,6 +7,7 @@
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -39,19 +40,49 @@ int listen_on_loopback(unsigned port, unsigned& found) {
   return listening;
 }
 
-// The host's side of the port is where the machine's bytes come from. The machine's time follows the clock.
-void serve(StreamPort& host, VirtualMachine& machine) {
-  const Seconds ahead = machine.elapsed() - host.elapsed();
-  bool plays = true;
-  while (!host.broken()) {
-    if (host.run(plays ? look : idle_look)) machine.receive(host.replies());
-    const Seconds before = machine.elapsed();
-    for (Seconds now = host.elapsed() + ahead; machine.elapsed() < now;) {
-      if (!machine.run(now - machine.elapsed())) break;
-      host.receive(machine.replies());
+// The machine's time follows the clock, whether a host is there or not.
+class RealTime {
+ public:
+  explicit RealTime(VirtualMachine& machine) : machine_(machine) {}
+
+  // Up to now. What the machine says meanwhile goes to the host, if there is one.
+  void catch_up(StreamPort* host) {
+    const Seconds before = machine_.elapsed();
+    for (Seconds now = elapsed(); machine_.elapsed() < now;) {
+      const bool said = machine_.run(now - machine_.elapsed());
+      if (const auto bytes = machine_.replies(); host != nullptr && !bytes.empty()) host->receive(bytes);
+      if (!said) break;
     }
-    if (const auto said = machine.replies(); !said.empty()) host.receive(said);
-    plays = machine.elapsed() > before;
+    plays_ = machine_.elapsed() > before;
+  }
+  // How long to wait for the host until the next look.
+  Seconds patience() const { return plays_ ? look : idle_look; }
+
+ private:
+  Seconds elapsed() const {
+    return Seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count());
+  }
+
+  VirtualMachine& machine_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  bool plays_ = false;
+};
+
+void serve(StreamPort& host, VirtualMachine& machine, RealTime& time) {
+  while (!host.broken()) {
+    if (host.run(time.patience())) machine.receive(host.replies());
+    time.catch_up(&host);
+  }
+}
+
+// The next host; less than 0 when there will be none.
+int wait_for_host(int listening, RealTime& time) {
+  for (;;) {
+    pollfd one{.fd = listening, .events = POLLIN, .revents = 0};
+    const int ready = poll(&one, 1, static_cast<int>(time.patience().value() * 1e3));
+    if (ready > 0) return accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
+    if (ready < 0) return -1;
+    time.catch_up(nullptr);
   }
 }
 
@@ -64,11 +95,12 @@ int board_serve(const BoardServeArguments& arguments) {
   fmt::print("A virtual board of {} motors: tcp:127.0.0.1:{}\n", arguments.motors, port);
   std::fflush(stdout);
   VirtualMachine machine(static_cast<std::uint8_t>(arguments.motors), Hertz(arguments.clock));
+  RealTime time(machine);
   do {
-    const int descriptor = accept4(listening, nullptr, nullptr, SOCK_CLOEXEC);
+    const int descriptor = wait_for_host(listening, time);
     if (descriptor < 0) break;
     StreamPort host(descriptor);
-    serve(host, machine);
+    serve(host, machine, time);
   } while (!arguments.once);
   close(listening);
   return exit_done;

@@ -104,6 +104,27 @@ TEST_F(StreamPorts, a_board_in_the_network_answers_and_one_that_has_gone_is_know
   EXPECT_FALSE(open_board(where));
 }
 
+TEST_F(StreamPorts, a_line_that_broke_is_opened_again) {
+  int first[2];
+  int second[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, first), 0);
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, second), 0);
+  int attempts = 0;
+  StreamPort port(first[0], [&] { return ++attempts < 3 ? -1 : second[0]; });
+  close(first[1]);
+  EXPECT_FALSE(port.run(Seconds(1)));
+  EXPECT_TRUE(port.broken());
+  const std::uint8_t byte = 7;
+  ASSERT_EQ(write(second[1], &byte, 1), 1);
+  for (int i = 0; i < 3 && !port.run(Seconds(0.01)); ++i) {
+  }
+  EXPECT_EQ(attempts, 3);
+  const auto replies = port.replies();
+  ASSERT_EQ(replies.size(), 1);
+  EXPECT_EQ(replies[0], byte);
+  close(second[1]);
+}
+
 TEST_F(StreamPorts, what_cannot_be_opened_says_why) {
   const auto missing = open_board({.kind = BoardAddress::Kind::serial, .place = "/dev/no-such-line", .port = ""});
   ASSERT_FALSE(missing);

@@ -49,8 +49,8 @@ class Job {
     Probing probing = Probing::by_board;
     // With a line the board is at its other end, and what it holds always ends at rest.
     std::optional<LineOptions> line = {};
-    // A real one, in the place of the virtual machine, which then only does what was planned: for counts, traces and
-    // pictures. What the board holds always ends at rest. Outlives the job.
+    // A real one, in the place of the virtual machine, which then only does what the board tells to have done: for
+    // counts, traces and pictures. What the board holds always ends at rest. Outlives the job.
     BoardPort* board = nullptr;
   };
 

@@ -65,6 +65,7 @@ class MotionDrive {
   bool use_tails(const TailOptions& options);
   // Of tails; none is used without use_tails().
   const Refiller* refiller() const { return refiller_ ? &*refiller_ : nullptr; }
+  Refiller* refiller() { return refiller_ ? &*refiller_ : nullptr; }
 
   // Who wants to know what probe moves find, before the first advance(); and whether a probe that is touched in another
   // move stops the drive.

@@ -13,8 +13,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "passo/base/source.hpp"
@@ -57,6 +60,8 @@ class Refiller {
 
   // To be told of all motion that the planner gives.
   void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
+  // Who wants to see each item that the board has told to have executed, tails that were played included.
+  void watch_executed(std::function<void(const LinkItem&)> watcher) { executed_watcher_ = std::move(watcher); }
   // The motion that was sent and is, as far as we know, not executed. The tail does not count.
   Seconds ahead() const { return ahead_; }
   // How often a tail was played to its end, and the path taken up again there.
@@ -70,6 +75,11 @@ class Refiller {
     ItemNumber number = 0;
     Seconds time{0};
   };
+  struct Sent {
+    ItemNumber number = 0;
+    LinkItem item;
+    std::optional<ItemNumber> end_of_tail = {};  // none: motion
+  };
   struct Refill {
     ItemNumber first = 0;
     ItemNumber last_of_motion = 0;
@@ -80,6 +90,7 @@ class Refiller {
   };
 
   void note_executed();
+  void show_executed(ItemNumber executed);
   void take_up(const Refill& refill);
   void gather();
   std::size_t room_for_motion() const;
@@ -98,6 +109,8 @@ class Refiller {
   ItemNumber behind_ = 0;                 // the next refill goes behind this item
   int places_;                            // that the board has for items, as far as we use them
   std::size_t tail_size_;                 // of the last refill: the next one will be alike
+  std::function<void(const LinkItem&)> executed_watcher_;
+  std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
   PathPlace given_;       // by the planner
   bool on_tail_ = false;  // the board plays one: nothing is sent before it rests

@@ -2,10 +2,12 @@
 //
 // Place on the street: the wire itself, where the board is not in this process. The only code that opens devices and
 // sockets and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A line that breaks
-// says nothing any more, and swallows what is sent: what to do then is for the link to say (LineCare).
+// says nothing any more, and swallows what is sent, while it is opened again and again: how long that may take is for
+// the link to say (LineCare).
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,8 +20,9 @@ namespace passo {
 
 class StreamPort final : public BoardPort {
  public:
-  // Takes an open descriptor, which it closes in the end.
-  explicit StreamPort(int descriptor);
+  // Takes an open descriptor, which it closes in the end. `open_again` gives another for a line that broke, or less
+  // than 0.
+  explicit StreamPort(int descriptor, std::function<int()> open_again = nullptr);
   ~StreamPort() override;
   StreamPort(const StreamPort&) = delete;
   StreamPort& operator=(const StreamPort&) = delete;
@@ -34,8 +37,10 @@ class StreamPort final : public BoardPort {
 
  private:
   bool wait_for(short events, Seconds most) const;
+  void open_again(Seconds most);
 
   int descriptor_;
+  std::function<int()> open_again_;
   bool broken_ = false;
   std::vector<std::uint8_t> arrived_;
   std::vector<std::uint8_t> taken_;
