@@ -14,8 +14,7 @@ constexpr std::size_t fewest_in_motion = 32;  // cells from which a start in mot
 }  // namespace
 
 JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, std::size_t most_queued)
-    : axes_(axes),
-      path_(path),
+    : path_(path),
       cutter_(axes),
       profile_(axes),
       most_queued_(std::max<std::size_t>(most_queued, 2 * first_window)),

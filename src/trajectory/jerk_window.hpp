@@ -41,7 +41,6 @@ class JerkWindow {
   void pull();
   void look_ahead();
 
-  const std::vector<LimitedAxis>& axes_;
   PathAhead& path_;
   JerkCutter cutter_;
   JerkProfile profile_;
