@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <type_traits>
 #include <utility>
 
+#include "plane_arc.hpp"
 #include "spline_chords.hpp"
 #include <fmt/format.h>
 
@@ -28,30 +28,6 @@ constexpr double merge_share = 0.05;
 
 // After an error a move needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
-
-struct PlaneAxes {
-  Axis first;
-  Axis second;
-};
-
-constexpr PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::zx: return {Axis::z, Axis::x};
-    case Plane::yz: return {Axis::y, Axis::z};
-    default: return {Axis::x, Axis::y};  // there are no arcs in the planes of U V W
-  }
-}
-
-// The angle from start to end in the sense of `turns`, 1 or -1 within one turn. As in LinuxCNC's canon layer two
-// directions closer than a millionth of a radian are one, and the arc is a full circle.
-double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
-  constexpr double same_direction = 1e-6;
-  constexpr double full = 2 * std::numbers::pi;
-  const double sense = turns > 0 ? 1 : -1;
-  double sweep = sense * (end_angle - start_angle);
-  if (sweep < same_direction) sweep += full;
-  return sense * (sweep + full * (std::abs(static_cast<double>(turns)) - 1));
-}
 
 // What others act on. An operation that is new must be named here or handled, else take() does not compile.
 template <class What, class... Others>

@@ -1,0 +1,37 @@
+// What an arc of RS274/NGC is in its plane: which axes, and how far round. Private to path/.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/interpreter/operation.hpp"
+
+namespace passo {
+
+struct PlaneAxes {
+  Axis first;
+  Axis second;
+};
+
+constexpr PlaneAxes axes_of(Plane plane) {
+  switch (plane) {
+    case Plane::zx: return {Axis::z, Axis::x};
+    case Plane::yz: return {Axis::y, Axis::z};
+    default: return {Axis::x, Axis::y};  // there are no arcs in the planes of U V W
+  }
+}
+
+// The angle from start to end in the sense of `turns`, 1 or -1 within one turn. As in LinuxCNC's canon layer two
+// directions closer than a millionth of a radian are one, and the arc is a full circle.
+inline double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
+  constexpr double same_direction = 1e-6;
+  constexpr double full = 2 * std::numbers::pi;
+  const double sense = turns > 0 ? 1 : -1;
+  double sweep = sense * (end_angle - start_angle);
+  if (sweep < same_direction) sweep += full;
+  return sense * (sweep + full * (std::abs(static_cast<double>(turns)) - 1));
+}
+
+}  // namespace passo
