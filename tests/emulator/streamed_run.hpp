@@ -41,6 +41,7 @@ struct EdgeCheck {
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
   std::uint64_t overruns = 0;        // bytes lost in the UART
+  std::uint64_t unwatched = 0;       // the longest time between two looks at it, since the board started
   std::uint64_t complaints = 0;      // frames that the board did not take
   bool finished = false;
   double seconds = 0;  // of the chip's time, playing
@@ -73,6 +74,8 @@ class BoardBench {
  private:
   void hear(std::uint8_t byte);
   bool say_hello();
+  // Behind all that was executed.
+  void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
 

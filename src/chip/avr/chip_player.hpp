@@ -159,6 +159,8 @@ class ChipPlayer {
 
   // What it has is made, and another segment can come.
   static bool wants_more() { return left_ == 0; }
+  // The interrupt could come to the end of the ring if all else came first.
+  static bool is_short() { return running != 0 && waiting() < most_ahead_ / 2; }
   // The probe touched, at an event at which the interrupt looked. Until watch_probe() all that is told of the oldest
   // item, and whether it is finished, is told as it was then.
   static bool captured() { return watching_ && probe_mask == 0; }
@@ -280,9 +282,10 @@ class ChipPlayer {
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
     if (line_is_watched == 0) line_is_watched = is_watched(ahead);
-    // What is being made counts only when it is done: where little is ahead, a little now is worth more than much
-    // later.
-    const uint8_t at_once = line_is_watched == 0 ? few_at_once : ahead < most_at_once / 2 ? some_at_once : most_at_once;
+    // What is being made counts only when it is done, and an event takes about half as long to make as to play: as many
+    // as are ahead will be done in time.
+    uint8_t at_once = ahead < some_at_once ? some_at_once : ahead < most_at_once ? ahead : most_at_once;
+    if (line_is_watched == 0) at_once = few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
     const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
     if (count > to_end) count = to_end;
@@ -294,7 +297,7 @@ class ChipPlayer {
     }
     if (turns_ != 0 && !queue_turn()) return false;
 
-    if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
+    if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     entry(behind).toggles = pins.flag_special | pins.flag_stop;
@@ -345,14 +348,17 @@ class ChipPlayer {
   static void catch_up(uint8_t first) {
     const uint16_t due = static_cast<uint16_t>(entry(first).time_high << 8 | entry(first).time_low);
     const uint16_t ahead = static_cast<uint16_t>(due - now());
-    if (ahead > least_lead && ahead <= gap_) return;  // in time after all
+    // A fraction may have made it one tick longer.
+    if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // in time after all
     ++slips_;
-    slow_end_ = made_;  // nobody looks after the line until it goes on
+    // Nobody looks after the line until it goes on.
+    if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);
       entry(i).time_high = static_cast<uint8_t>(time >> 8);
       entry(i).time_low = static_cast<uint8_t>(time);
+      SerialLine::breathe();
     }
     expansion.time += static_cast<uint32_t>(later) << 16;
   }
@@ -365,7 +371,7 @@ class ChipPlayer {
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for what is in the ring
-  static inline uint16_t gap_ = 0;    // ticks before the first event that was made when none was waiting, and a little
+  static inline uint16_t gap_ = 0;    // whole ticks before the first event that was made when none was waiting
   static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;  // the probe

@@ -22,7 +22,7 @@ struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs& wanted) { UnoWiring::switch_outputs(wanted); }
   void send(uint8_t byte) { line.send(byte); }
-  void breathe() { SerialLine::breathe(); }
+  static void breathe() { SerialLine::breathe(); }
 
   SerialLine line;
 };
@@ -113,10 +113,9 @@ void start_watchdog() {
   line.poll();
   ChipPlayer::refill();
   line.poll();
-  // A credit tells what those before it told: while bytes wait, it can wait too.
+  // A credit tells what those before it told: while there is more urgent work it can wait.
   if (!board.owes_report() || !line.can_send()) return;
-  if (line.has_byte() && (++patience & 3) != 0) return;
-  SerialLine::breathe();  // the longest piece of work of all follows
+  if ((line.has_byte() || ChipPlayer::is_short()) && (++patience & 7) != 0) return;
   board.report();
 }
 

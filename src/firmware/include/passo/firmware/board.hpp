@@ -9,7 +9,7 @@
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
-//   void breathe();                                   may be left out: called between two pieces of work
+//   static void breathe();                            may be left out: called between two pieces of work
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -126,8 +126,11 @@ class Board {
     motors_ = hello.version == protocol_version && hello.motors <= identity_.motors ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
+    breathe();
     player_.restart(motors_);
+    breathe();
     list_.clear();
+    breathe();
     begun_ = 0;
     session_ = 0;
     executed_ = frame.sequence;
@@ -206,10 +209,11 @@ class Board {
     }
     accept();
     list_.append();
+    breathe();
     if (list_.gathering()) return;
     if (list_.gathered()) {
       owes_report_ = true;  // of the room, either way
-      if (!list_.complete(executed_, begun_)) {
+      if (!list_.template complete<Breath>(executed_, begun_)) {
         return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
       }
     }
@@ -236,9 +240,12 @@ class Board {
   }
 
   // Between two pieces of work: hardware with a small buffer looks at its line.
-  void breathe() {
-    if constexpr (requires { hardware_.breathe(); }) hardware_.breathe();
-  }
+  struct Breath {
+    [[gnu::always_inline]] void operator()() const {
+      if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
+    }
+  };
+  static void breathe() { Breath{}(); }
 
   // Of the segment that has just come to its end, or is broken off.
   void count_steps() {
@@ -259,12 +266,12 @@ class Board {
   template <class Message>
   void send(const Message& message) {
     uint8_t frame[largest_frame];
-    put_on_line(frame, encode(message, sent_++, frame));
+    put_on_line(frame, encode<Breath>(message, sent_++, frame));
   }
   template <class Message>
   [[gnu::noinline]] void send_for_motors(const Message& message, uint8_t motors) {
     uint8_t frame[largest_frame];
-    put_on_line(frame, encode(message, motors, sent_++, frame));
+    put_on_line(frame, encode<Breath>(message, motors, sent_++, frame));
   }
   void put_on_line(const uint8_t* frame, uint8_t size) {
     for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);

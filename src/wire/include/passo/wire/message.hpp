@@ -120,17 +120,19 @@ struct About {
   char name[16] = {};               // of the board; filled up with zeros
 };
 
-// Each writes one frame to `frame`, which has room for largest_frame bytes, and returns its size.
-inline uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::hello, sequence);
+// Each writes one frame to `frame`, which has room for largest_frame bytes, and returns its size. Pause: Encoder's.
+template <class Pause = NoPause>
+uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::hello, sequence);
   encoder.put8(hello.version);
   encoder.put8(hello.motors);
   return encoder.finish();
 }
 
 // The change fits in 24 bits: at most largest_change, up or down.
-inline uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::segment, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::segment, sequence);
   encoder.put8(segment.events);
   encoder.put8(segment.directions);
   encoder.put8(segment.flips);
@@ -140,15 +142,17 @@ inline uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t seque
   return encoder.finish();
 }
 
-inline uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::outputs, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::outputs, sequence);
   encoder.put8(outputs.switches);
   encoder.put16(outputs.spindle_rpm);
   return encoder.finish();
 }
 
-inline uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::hello_reply, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::hello_reply, sequence);
   encoder.put8(reply.version);
   encoder.put8(reply.motors);
   encoder.put8(reply.capacity);
@@ -156,29 +160,33 @@ inline uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame)
   return encoder.finish();
 }
 
-inline uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::session, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::session, sequence);
   encoder.put16(session.number);
   return encoder.finish();
 }
 
-inline uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::replace, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::replace, sequence);
   encoder.put16(replace.after);
   encoder.put8(replace.count);
   return encoder.finish();
 }
 
-inline uint8_t encode(const Ask& ask, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::ask, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Ask& ask, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::ask, sequence);
   encoder.put8(ask.version);
   encoder.put8(ask.motors);
   encoder.put8(static_cast<uint8_t>(ask.question));
   return encoder.finish();
 }
 
-inline uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::credit, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::credit, sequence);
   encoder.put16(credit.executed);
   encoder.put8(credit.taken);
   encoder.put8(credit.free);
@@ -186,8 +194,9 @@ inline uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
 }
 
 // For as many motors as the question had.
-inline uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::status, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::status, sequence);
   encoder.put16(status.session);
   encoder.put16(status.executed);
   encoder.put8(status.taken);
@@ -201,8 +210,9 @@ inline uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequenc
   return encoder.finish();
 }
 
-inline uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::captured, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::captured, sequence);
   encoder.put16(captured.input);
   encoder.put8(captured.item);
   encoder.put8(captured.event);
@@ -210,16 +220,18 @@ inline uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence
   return encoder.finish();
 }
 
-inline uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::fault, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::fault, sequence);
   encoder.put8(static_cast<uint8_t>(fault.reason));
   encoder.put8(fault.event);
   encoder.put16(fault.executed);
   return encoder.finish();
 }
 
-inline uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::about, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::about, sequence);
   encoder.put16(about.firmware);
   encoder.put32(about.highest_event_rate);
   encoder.put32(about.baud);
@@ -227,8 +239,9 @@ inline uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-inline uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::error, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::error, sequence);
   encoder.put8(static_cast<uint8_t>(error.reason));
   encoder.put8(error.expected);
   return encoder.finish();
