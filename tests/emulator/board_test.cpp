@@ -65,6 +65,35 @@ TEST(Uno, is_as_exact_when_it_is_slow) {
   expect_every_edge(bench.play({slow, slow, slow, slow, slow}), unavoidable);
 }
 
+// 30 events a segment at its highest rate: more segments than the line has room for.
+TEST(Uno, loses_no_step_and_tells_it_where_its_events_come_too_late) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  const auto slipped_after = [&](const StreamKind& kind) {
+    const EdgeCheck check = bench.play(random_stream(random, 3, kind));
+    EXPECT_TRUE(check.exact());
+    bench.ask();
+    bench.run(100'000);
+    return bench.status() && (bench.status()->state & board_slipped) != 0;
+  };
+  const StreamKind slow{.shortest_interval = 400, .longest_interval = 500, .shortest_segment = 60, .segments = 20};
+  EXPECT_TRUE(slipped_after({.shortest_interval = 114,
+                             .longest_interval = 120,
+                             .shortest_segment = 30,
+                             .longest_segment = 30,
+                             .segments = 60}));
+  EXPECT_FALSE(slipped_after(slow)) << "a hello begins anew";
+}
+
+TEST(Uno, refuses_a_segment_faster_than_it_states) {
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  bench.start({{.events = 200, .flips = 7, .interval = 113 << 16}});
+  bench.run(200'000);
+  ASSERT_TRUE(bench.error().has_value());
+  EXPECT_EQ(bench.error()->reason, WireError::bad_value);
+  EXPECT_TRUE(bench.ports().changes().empty());
+}
+
 TEST(Uno, steps_right_after_any_garbage_on_its_line) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));

@@ -72,6 +72,11 @@ void BoardBench::hear(std::uint8_t byte) {
     decode(frame, fault_.emplace());
   } else if (frame.type == MessageType::captured) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), captured_.emplace());
+  } else if (frame.type == MessageType::status) {
+    decode(frame, static_cast<std::uint8_t>(board_.motors.size()), status_.emplace());
+  } else if (frame.type == MessageType::error) {
+    decode(frame, error_.emplace());
+    ++complaints_;
   } else {
     ++complaints_;
   }
@@ -82,6 +87,12 @@ void BoardBench::send_item(const BoardSegment& segment) {
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
   uart_->send({frame, size});
+}
+
+void BoardBench::ask() {
+  std::uint8_t frame[largest_frame];
+  status_.reset();
+  uart_->send({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
 }
 
 void BoardBench::send_replace(std::uint8_t count) {

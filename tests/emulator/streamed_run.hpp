@@ -62,6 +62,10 @@ class BoardBench {
   void start(const std::vector<BoardSegment>& segments);
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
+  // Asks the board how it is; the answer comes while it runs.
+  void ask();
+  const std::optional<BoardStatus>& status() const { return status_; }
+  const std::optional<ErrorReport>& error() const { return error_; }
   const std::optional<Fault>& fault() const { return fault_; }
   const std::optional<Captured>& captured() const { return captured_; }
 
@@ -92,6 +96,8 @@ class BoardBench {
   std::uint64_t complaints_ = 0;
   std::optional<Fault> fault_;
   std::optional<Captured> captured_;
+  std::optional<BoardStatus> status_;
+  std::optional<ErrorReport> error_;
 };
 
 // What a random stream of segments is made of.

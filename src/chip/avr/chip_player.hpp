@@ -32,7 +32,7 @@ class ChipPlayer {
     entry(head_).toggles = pins.flag_special | pins.flag_stop;
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
-    turning_ = fresh_ = false;
+    turning_ = fresh_ = slipped_ = false;
     made_ = 0;
     begun_ = finished_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
@@ -153,6 +153,7 @@ class ChipPlayer {
   static void refill() {
     note_capture();
     for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
+      SerialLine::poll();
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
   }
@@ -171,8 +172,8 @@ class ChipPlayer {
     noted_ = false;
   }
 
-  // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
-  static uint8_t slips() { return slips_; }
+  // The ring ran dry though there was something to play: the machine stood still for a moment.
+  static bool slipped() { return slipped_; }
 
  private:
   static constexpr const PinMap<3>& pins = uno_cnc_shield;
@@ -278,10 +279,14 @@ class ChipPlayer {
 
   // False where there was nothing to do.
   static bool make_events() {
+    const bool plays = running != 0;  // told first: it may stop at any moment
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
-    if (line_is_watched == 0) line_is_watched = is_watched(ahead);
+    if (line_is_watched == 0) {
+      line_is_watched = is_watched(ahead);
+      if (running == 0) line_is_watched = 0;  // it has stopped in between
+    }
     // What is being made counts only when it is done, and an event takes about half as long to make as to play: as many
     // as are ahead will be done in time.
     uint8_t at_once = ahead < some_at_once ? some_at_once : ahead < most_at_once ? ahead : most_at_once;
@@ -297,7 +302,8 @@ class ChipPlayer {
     }
     if (turns_ != 0 && !queue_turn()) return false;
 
-    if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
+    // The interrupt may come to the end of the ring while these are made.
+    if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     entry(behind).toggles = pins.flag_special | pins.flag_stop;
@@ -350,7 +356,7 @@ class ChipPlayer {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     // A fraction may have made it one tick longer.
     if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // in time after all
-    ++slips_;
+    slipped_ = true;
     // Nobody looks after the line until it goes on.
     if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
@@ -371,11 +377,11 @@ class ChipPlayer {
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for what is in the ring
-  static inline uint16_t gap_ = 0;    // whole ticks before the first event that was made when none was waiting
+  static inline uint16_t gap_ = 0;    // whole ticks before the event at which the interrupt stopped
   static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;  // the probe
-  static inline uint8_t slips_ = 0;
+  static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last events that were not fast
   static inline uint16_t made_ = 0;      // events, ever
   static inline uint8_t begun_ = 0;      // items, ever

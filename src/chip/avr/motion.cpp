@@ -15,6 +15,9 @@ namespace passo::chip {
 namespace {
 
 constexpr uint32_t clock = 16'000'000;
+// Of segments of 120 events and more; docs/boards.md has how it was measured.
+constexpr uint32_t highest_event_rate = 140'000;
+constexpr uint32_t shortest = shortest_interval(clock, highest_event_rate);
 // All that a host may have under way fits into the page of received bytes: 11 frames of 22 bytes and one to replace.
 constexpr uint8_t queue_capacity = 11;
 
@@ -38,10 +41,12 @@ ResetCause cause_of_reset() {
 }
 
 BoardIdentity identity() {
-  return {.motors = uno_cnc_shield.motors,
-          .clock = clock,
-          .reset = cause_of_reset(),
-          .about = {.firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"}};
+  return {
+      .motors = uno_cnc_shield.motors,
+      .clock = clock,
+      .reset = cause_of_reset(),
+      .shortest_interval = shortest,
+      .about = {.firmware = 100, .highest_event_rate = highest_event_rate, .baud = 500'000, .name = "uno cnc shield3"}};
 }
 Board<Hardware, queue_capacity, ChipPlayer, LineDecoder> board(hardware, identity());
 InputReader reader;

@@ -33,8 +33,18 @@ struct BoardIdentity {
   uint8_t motors = 0;  // the most that it can turn
   uint32_t clock = 0;  // ticks a second
   ResetCause reset = ResetCause::power_on;
+  uint32_t shortest_interval = 0;  // of a segment that it takes; shortest_interval() tells which goes with a rate
   About about = {};
 };
+
+// The interval at this many events a second, and a whole tick less: the host fits its segments that closely. 0: any.
+constexpr uint32_t shortest_interval(uint32_t clock, uint32_t highest_event_rate) {
+  if (highest_event_rate == 0) return 0;
+  const uint64_t interval = (uint64_t{clock} << 16) / highest_event_rate;
+  if (interval < uint64_t{whole_tick}) return 0;
+  return static_cast<uint32_t>(interval < largest_interval ? interval : largest_interval) -
+         static_cast<uint32_t>(whole_tick);
+}
 
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, class LineDecoder = Decoder>
 class Board {
@@ -160,6 +170,7 @@ class Board {
   [[gnu::noinline]] void tell_status(uint8_t motors) {
     unsigned state = trusted_ ? unsigned{board_trusted} : 0U;
     if (!idle()) state |= board_moves;
+    if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
     BoardStatus status{.session = session_,
                        .executed = executed_,
@@ -203,7 +214,9 @@ class Board {
       decode(frame, motors_, item.segment);
       breathe();
       const uint8_t used = item.segment.directions | item.segment.flips;
-      if (item.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
+      if (item.segment.events == 0 || used >> motors_ != 0 || !is_slow_enough(item.segment)) {
+        return complain(WireError::bad_value);
+      }
     } else {
       decode(frame, item.outputs);
     }
@@ -218,6 +231,17 @@ class Board {
       }
     }
     settle();
+  }
+
+  // Its first interval and its last one, and so all between.
+  [[gnu::noinline]] bool is_slow_enough(const BoardSegment& segment) const {
+    const uint32_t interval = segment.interval;
+    if (interval < identity_.shortest_interval) return false;
+    if (segment.change == 0) return true;
+    const bool faster = segment.change < 0;
+    const uint32_t change = static_cast<uint32_t>(faster ? -segment.change : segment.change);
+    const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
+    return change * static_cast<uint8_t>(segment.events - 1) <= room;
   }
 
   void accept() {

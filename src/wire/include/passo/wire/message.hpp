@@ -55,7 +55,7 @@ enum class WireError : uint8_t {
   bad_frame = 1,        // cut short, of no known type, or the CRC is wrong
   out_of_sequence = 2,  // a frame is missing before this one
   queue_full = 3,       // the host did not count its credits
-  bad_value = 4,        // a segment without events, or for a motor that is not there
+  bad_value = 4,        // a segment without events, faster than the board is, or for a motor that is not there
   unexpected = 5,       // a message that only the board sends, or a hello amid motion
   too_late = 6,         // an item behind the one to replace after has begun; what was to take its place is dropped
 };
@@ -71,6 +71,7 @@ enum BoardState : uint8_t {
   board_moves = 1,     // it plays something
   board_trusted = 2,   // since the hello the motors have made every step that is counted, as far as the board knows
   board_replaces = 4,  // items are still to come for a replacement
+  board_slipped = 8,   // since the hello it stood still amid motion: it could not make events in time. No step is lost
 };
 // What the board's input pins say: a bit is set where the switch is on.
 enum BoardInput : uint16_t {
