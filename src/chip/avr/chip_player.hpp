@@ -76,7 +76,9 @@ class ChipPlayer {
     left_ = segment.events;
     // At its slowest, about: at its start or, if it slows down, at its end.
     uint32_t slowest = segment.interval;
-    if (segment.change > 0) slowest += static_cast<uint32_t>(segment.change) * segment.events;
+    if (segment.change > 0 && static_cast<uint16_t>(slowest >> 16) < often) {
+      slowest += static_cast<uint32_t>(segment.change) << 8;
+    }
     if (static_cast<uint16_t>(slowest >> 16) >= often) {
       slow_end_ = static_cast<uint16_t>(made_ + left_);
       line_is_watched = 0;
@@ -161,7 +163,7 @@ class ChipPlayer {
   // What it has is made, and another segment can come.
   static bool wants_more() { return left_ == 0; }
   // The interrupt could come to the end of the ring if all else came first.
-  static bool is_short() { return running != 0 && waiting() < most_ahead_ / 2; }
+  static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
   // The probe touched, at an event at which the interrupt looked. Until watch_probe() all that is told of the oldest
   // item, and whether it is finished, is told as it was then.
   static bool captured() { return watching_ && probe_mask == 0; }
@@ -183,8 +185,7 @@ class ChipPlayer {
   static constexpr uint8_t most_begun = 8;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
-  static constexpr uint8_t most_at_once = 64;
-  static constexpr uint8_t some_at_once = 16;
+  static constexpr uint8_t most_at_once = 100;
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint16_t often = 300;
   static constexpr uint8_t most_pieces = 8;
@@ -287,9 +288,12 @@ class ChipPlayer {
       line_is_watched = is_watched(ahead);
       if (running == 0) line_is_watched = 0;  // it has stopped in between
     }
-    // What is being made counts only when it is done, and an event takes about half as long to make as to play: as many
-    // as are ahead will be done in time.
-    uint8_t at_once = ahead < some_at_once ? some_at_once : ahead < most_at_once ? ahead : most_at_once;
+    // What is being made counts only when it is done. At the highest rate an event takes 45 cycles to make, the
+    // interrupt's included, and 114 to play: twice as many as are ahead, less a few for the way, will be done before
+    // the interrupt stops and no longer looks after the line.
+    uint8_t at_once = most_at_once;
+    if (ahead < (most_at_once + few_at_once) / 2) at_once = static_cast<uint8_t>(2 * ahead - few_at_once);
+    if (ahead < few_at_once) at_once = few_at_once;
     if (line_is_watched == 0) at_once = few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
     const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);

@@ -4,7 +4,6 @@
 #include "uno_wiring.hpp"
 
 #include "passo/chip/input_reader.hpp"
-#include "passo/chip/line_decoder.hpp"
 #include "passo/firmware/board.hpp"
 
 #ifndef PASSO_BAUD
@@ -48,7 +47,7 @@ BoardIdentity identity() {
       .shortest_interval = shortest,
       .about = {.firmware = 100, .highest_event_rate = highest_event_rate, .baud = 500'000, .name = "uno cnc shield3"}};
 }
-Board<Hardware, queue_capacity, ChipPlayer, LineDecoder> board(hardware, identity());
+Board<Hardware, queue_capacity, ChipPlayer> board(hardware, identity());
 InputReader reader;
 
 // A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.

@@ -46,7 +46,7 @@ constexpr uint32_t shortest_interval(uint32_t clock, uint32_t highest_event_rate
          static_cast<uint32_t>(whole_tick);
 }
 
-template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, class LineDecoder = Decoder>
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player>
 class Board {
  public:
   Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}
@@ -70,7 +70,10 @@ class Board {
     inputs_ = inputs;
     if (captured == 0 || motors_ == 0) return;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = player_.played()};
-    for (uint8_t motor = 0; motor < motors_; ++motor) message.positions[motor] = position(motor);
+    for (uint8_t motor = 0; motor < motors_; ++motor) {
+      breathe();
+      message.positions[motor] = position(motor);
+    }
     send_for_motors(message, motors_);
   }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
@@ -163,6 +166,7 @@ class Board {
     if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors) {
       return complain(WireError::bad_value);
     }
+    breathe();
     if (ask.question == Question::about) return send(identity_.about);
     tell_status(ask.motors);
   }
@@ -181,7 +185,11 @@ class Board {
                        .reset = identity_.reset,
                        .motors = motors_,
                        .inputs = inputs_};
-    for (uint8_t motor = 0; motor < motors; ++motor) status.positions[motor] = position(motor);
+    for (uint8_t motor = 0; motor < motors; ++motor) {
+      breathe();
+      status.positions[motor] = position(motor);
+    }
+    breathe();
     send_for_motors(status, motors);
   }
 
@@ -241,7 +249,8 @@ class Board {
     const bool faster = segment.change < 0;
     const uint32_t change = static_cast<uint32_t>(faster ? -segment.change : segment.change);
     const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
-    return change * static_cast<uint8_t>(segment.events - 1) <= room;
+    // Most segments are far from it, and so need no product.
+    return change << 8 <= room || change * static_cast<uint8_t>(segment.events - 1) <= room;
   }
 
   void accept() {
@@ -303,7 +312,7 @@ class Board {
 
   Hardware& hardware_;
   BoardIdentity identity_;
-  LineDecoder decoder_;
+  Decoder decoder_;
   SegmentPlayer player_{0};
   PlayList<queue_capacity> list_;  // its front is what is being played
   uint8_t begun_ = 0;              // items at its front that the player has
