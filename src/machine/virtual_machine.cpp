@@ -7,12 +7,21 @@
 
 namespace passo {
 
-VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock)
-    : board_(hardware_, {.motors = motors,
-                         .clock = static_cast<std::uint32_t>(std::llround(clock.value())),
-                         .about = {.name = "virtual machine"}}),
-      clock_(clock),
-      motor_count_(motors) {
+namespace {
+
+BoardIdentity identity_of(std::uint8_t motors, Hertz clock, Hertz highest_event_rate) {
+  const auto ticks = static_cast<std::uint32_t>(std::llround(clock.value()));
+  const auto rate = static_cast<std::uint32_t>(std::ceil(highest_event_rate.value()));
+  return {.motors = motors,
+          .clock = ticks,
+          .shortest_interval = shortest_interval(ticks, rate),
+          .about = {.highest_event_rate = rate, .name = "virtual machine"}};
+}
+
+}  // namespace
+
+VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate)
+    : board_(hardware_, identity_of(motors, clock, highest_event_rate)), clock_(clock), motor_count_(motors) {
   hardware_.seconds_a_tick = 1 / clock.value();
 }
 

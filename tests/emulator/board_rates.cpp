@@ -42,7 +42,7 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, const s
 int main(int argc, char** argv) {
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
-  if (intervals.empty()) intervals = {300, 160, 133, 120, 114, 110, 107, 100};
+  if (intervals.empty()) intervals = {300, 200, 160, 133, 120, 114};
   try {
     std::puts(
         "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | pulse | set-up | "

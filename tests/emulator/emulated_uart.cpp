@@ -1,5 +1,7 @@
 #include "emulator/emulated_uart.hpp"
 
+#include <algorithm>
+
 #include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
@@ -18,7 +20,8 @@ constexpr std::uint32_t clock_rate = 16'000'000;
 EmulatedUart::EmulatedUart(EmulatedChip& chip, std::uint32_t baud)
     : avr_(chip.avr()), byte_cycles_((10 * clock_rate + baud / 2) / baud) {
   avr_.io[AVR_DATA_TO_IO(ucsr0a)].r = {.param = this, .c = [](avr_t*, avr_io_addr_t, void* self) {
-                                         const auto& uart = *static_cast<EmulatedUart*>(self);
+                                         auto& uart = *static_cast<EmulatedUart*>(self);
+                                         uart.note_look();
                                          return static_cast<std::uint8_t>((uart.received_bytes_.empty() ? 0 : 0x80) |
                                                                           (uart.to_send_.size() < 2 ? 0x20 : 0) |
                                                                           (uart.to_send_.empty() ? 0x40 : 0));
@@ -48,6 +51,11 @@ void EmulatedUart::send(std::span<const std::uint8_t> bytes) {
   const bool idle = line_.empty();
   line_.insert(line_.end(), bytes.begin(), bytes.end());
   if (idle && !bytes.empty()) avr_cycle_timer_register(&avr_, byte_cycles_, on_line_in, this);
+}
+
+void EmulatedUart::note_look() {
+  if (looked_ != 0) longest_unwatched_ = std::max(longest_unwatched_, avr_.cycle - looked_);
+  looked_ = avr_.cycle;
 }
 
 std::uint64_t EmulatedUart::on_line_in(avr_t* /*avr*/, std::uint64_t when, void* self) {

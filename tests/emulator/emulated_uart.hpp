@@ -29,8 +29,11 @@ class EmulatedUart {
 
   std::uint64_t overruns() const { return overruns_; }
   std::uint64_t received() const { return received_; }
+  // The longest time, in cycles, in which the program has not looked whether a byte has come, whether one had or not.
+  std::uint64_t longest_unwatched() const { return longest_unwatched_; }
 
  private:
+  void note_look();
   static std::uint64_t on_line_in(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t on_line_out(avr_t* avr, std::uint64_t when, void* self);
 
@@ -41,6 +44,8 @@ class EmulatedUart {
   std::deque<std::uint8_t> to_send_;         // the first one is on the line
   std::uint64_t overruns_ = 0;
   std::uint64_t received_ = 0;
+  std::uint64_t looked_ = 0;
+  std::uint64_t longest_unwatched_ = 0;
 };
 
 }  // namespace passo

@@ -72,6 +72,11 @@ void BoardBench::hear(std::uint8_t byte) {
     decode(frame, fault_.emplace());
   } else if (frame.type == MessageType::captured) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), captured_.emplace());
+  } else if (frame.type == MessageType::status) {
+    decode(frame, static_cast<std::uint8_t>(board_.motors.size()), status_.emplace());
+  } else if (frame.type == MessageType::error) {
+    decode(frame, error_.emplace());
+    ++complaints_;
   } else {
     ++complaints_;
   }
@@ -82,6 +87,18 @@ void BoardBench::send_item(const BoardSegment& segment) {
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
   uart_->send({frame, size});
+}
+
+void BoardBench::ask() {
+  std::uint8_t frame[largest_frame];
+  status_.reset();
+  uart_->send({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
+}
+
+void BoardBench::send_replace(std::uint8_t count) {
+  std::uint8_t frame[largest_frame];
+  const Replace replace{.after = last_executed_, .count = count};
+  uart_->send({frame, encode(replace, ++last_sent_, frame)});
 }
 
 bool BoardBench::say_hello() {
@@ -117,6 +134,10 @@ EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   const std::uint64_t start = chip_->cycles();
   std::uint64_t heard = start;
   const auto under_way = [this] { return static_cast<std::uint8_t>(last_sent_ - last_executed_); };
+  // A replacement begins when all of it has come: else the line would be too slow for short segments at the start.
+  const std::size_t first = std::min<std::size_t>(segments.size(), capacity_ - 1U);
+  send_replace(static_cast<std::uint8_t>(first));
+  while (sent < first) send_item(segments[sent++]);
   while (sent < segments.size() || under_way() > 0) {
     while (sent < segments.size() && under_way() < capacity_) send_item(segments[sent++]);
     const std::uint8_t executed = last_executed_;
@@ -130,6 +151,7 @@ EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   result.finished = under_way() == 0 && sent == segments.size();
   result.complaints = complaints;
   result.overruns = uart_->overruns() - lost;
+  result.unwatched = uart_->longest_unwatched();
   result.seconds = static_cast<double>(chip_->cycles() - start) / clock_rate;
   return result;
 }

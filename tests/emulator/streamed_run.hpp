@@ -41,6 +41,7 @@ struct EdgeCheck {
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
   std::uint64_t overruns = 0;        // bytes lost in the UART
+  std::uint64_t unwatched = 0;       // the longest time between two looks at it, since the board started
   std::uint64_t complaints = 0;      // frames that the board did not take
   bool finished = false;
   double seconds = 0;  // of the chip's time, playing
@@ -61,6 +62,10 @@ class BoardBench {
   void start(const std::vector<BoardSegment>& segments);
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
+  // Asks the board how it is; the answer comes while it runs.
+  void ask();
+  const std::optional<BoardStatus>& status() const { return status_; }
+  const std::optional<ErrorReport>& error() const { return error_; }
   const std::optional<Fault>& fault() const { return fault_; }
   const std::optional<Captured>& captured() const { return captured_; }
 
@@ -73,6 +78,8 @@ class BoardBench {
  private:
   void hear(std::uint8_t byte);
   bool say_hello();
+  // Behind all that was executed.
+  void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
 
@@ -89,6 +96,8 @@ class BoardBench {
   std::uint64_t complaints_ = 0;
   std::optional<Fault> fault_;
   std::optional<Captured> captured_;
+  std::optional<BoardStatus> status_;
+  std::optional<ErrorReport> error_;
 };
 
 // What a random stream of segments is made of.

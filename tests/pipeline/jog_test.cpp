@@ -17,7 +17,8 @@ MachineDescription example_machine(const std::string& name) {
 }
 
 VirtualMachine machine_of(const MachineDescription& description) {
-  return VirtualMachine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock);
+  return VirtualMachine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,
+                        description.board.highest_event_rate);
 }
 
 void expect_at(const MachineDescription& description, const VirtualMachine& machine, const Point& place) {

@@ -73,7 +73,8 @@ struct Ending {
 };
 
 Ending jog_to_rest(const MachineDescription& description, const JogWords& words, const JogArguments& arguments) {
-  VirtualMachine machine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock);
+  VirtualMachine machine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,
+                         description.board.highest_event_rate);
   const JogRequest request{.direction = words.way,
                            .speed = MmPerSecond(arguments.feed / seconds_per_minute),
                            .distance = Mm(words.is_endless ? 0 : length_of(words.way)),

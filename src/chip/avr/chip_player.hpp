@@ -32,7 +32,7 @@ class ChipPlayer {
     entry(head_).toggles = pins.flag_special | pins.flag_stop;
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
-    turning_ = fresh_ = false;
+    turning_ = fresh_ = slipped_ = false;
     made_ = 0;
     begun_ = finished_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
@@ -76,7 +76,9 @@ class ChipPlayer {
     left_ = segment.events;
     // At its slowest, about: at its start or, if it slows down, at its end.
     uint32_t slowest = segment.interval;
-    if (segment.change > 0) slowest += static_cast<uint32_t>(segment.change) * segment.events;
+    if (segment.change > 0 && static_cast<uint16_t>(slowest >> 16) < often) {
+      slowest += static_cast<uint32_t>(segment.change) << 8;
+    }
     if (static_cast<uint16_t>(slowest >> 16) >= often) {
       slow_end_ = static_cast<uint16_t>(made_ + left_);
       line_is_watched = 0;
@@ -153,12 +155,15 @@ class ChipPlayer {
   static void refill() {
     note_capture();
     for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
+      SerialLine::poll();
     }
     if (running == 0 && waiting() != 0 && halted == 0) start();
   }
 
   // What it has is made, and another segment can come.
   static bool wants_more() { return left_ == 0; }
+  // The interrupt could come to the end of the ring if all else came first.
+  static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
   // The probe touched, at an event at which the interrupt looked. Until watch_probe() all that is told of the oldest
   // item, and whether it is finished, is told as it was then.
   static bool captured() { return watching_ && probe_mask == 0; }
@@ -169,8 +174,8 @@ class ChipPlayer {
     noted_ = false;
   }
 
-  // How often the ring ran dry though there was something to play: each time the machine stood still for a moment.
-  static uint8_t slips() { return slips_; }
+  // The ring ran dry though there was something to play: the machine stood still for a moment.
+  static bool slipped() { return slipped_; }
 
  private:
   static constexpr const PinMap<3>& pins = uno_cnc_shield;
@@ -180,8 +185,7 @@ class ChipPlayer {
   static constexpr uint8_t most_begun = 8;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
-  static constexpr uint8_t most_at_once = 64;
-  static constexpr uint8_t some_at_once = 16;
+  static constexpr uint8_t most_at_once = 100;
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint16_t often = 300;
   static constexpr uint8_t most_pieces = 8;
@@ -276,13 +280,21 @@ class ChipPlayer {
 
   // False where there was nothing to do.
   static bool make_events() {
+    const bool plays = running != 0;  // told first: it may stop at any moment
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
-    if (line_is_watched == 0) line_is_watched = is_watched(ahead);
-    // What is being made counts only when it is done: where little is ahead, a little now is worth more than much
-    // later.
-    const uint8_t at_once = line_is_watched == 0 ? few_at_once : ahead < most_at_once / 2 ? some_at_once : most_at_once;
+    if (line_is_watched == 0) {
+      line_is_watched = is_watched(ahead);
+      if (running == 0) line_is_watched = 0;  // it has stopped in between
+    }
+    // What is being made counts only when it is done. At the highest rate an event takes 45 cycles to make, the
+    // interrupt's included, and 114 to play: twice as many as are ahead, less a few for the way, will be done before
+    // the interrupt stops and no longer looks after the line.
+    uint8_t at_once = most_at_once;
+    if (ahead < (most_at_once + few_at_once) / 2) at_once = static_cast<uint8_t>(2 * ahead - few_at_once);
+    if (ahead < few_at_once) at_once = few_at_once;
+    if (line_is_watched == 0) at_once = few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
     const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
     if (count > to_end) count = to_end;
@@ -294,7 +306,8 @@ class ChipPlayer {
     }
     if (turns_ != 0 && !queue_turn()) return false;
 
-    if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
+    // The interrupt may come to the end of the ring while these are made.
+    if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     entry(behind).toggles = pins.flag_special | pins.flag_stop;
@@ -345,14 +358,17 @@ class ChipPlayer {
   static void catch_up(uint8_t first) {
     const uint16_t due = static_cast<uint16_t>(entry(first).time_high << 8 | entry(first).time_low);
     const uint16_t ahead = static_cast<uint16_t>(due - now());
-    if (ahead > least_lead && ahead <= gap_) return;  // in time after all
-    ++slips_;
-    slow_end_ = made_;  // nobody looks after the line until it goes on
+    // A fraction may have made it one tick longer.
+    if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // in time after all
+    slipped_ = true;
+    // Nobody looks after the line until it goes on.
+    if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);
       entry(i).time_high = static_cast<uint8_t>(time >> 8);
       entry(i).time_low = static_cast<uint8_t>(time);
+      SerialLine::breathe();
     }
     expansion.time += static_cast<uint32_t>(later) << 16;
   }
@@ -365,11 +381,11 @@ class ChipPlayer {
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for what is in the ring
-  static inline uint16_t gap_ = 0;    // ticks before the first event that was made when none was waiting, and a little
+  static inline uint16_t gap_ = 0;    // whole ticks before the event at which the interrupt stopped
   static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;  // the probe
-  static inline uint8_t slips_ = 0;
+  static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last events that were not fast
   static inline uint16_t made_ = 0;      // events, ever
   static inline uint8_t begun_ = 0;      // items, ever

@@ -26,7 +26,7 @@ class SerialLine {
     if (line_is_watched == 0 && (Ucsr0a::read() & byte_received) != 0) fetch();
   }
   // Sends on.
-  void poll() {
+  static void poll() {
     breathe();
     if (sent_ != to_send_ && (Ucsr0a::read() & may_send) != 0) {
       Udr0::write(out_[sent_]);
@@ -34,16 +34,16 @@ class SerialLine {
     }
   }
 
-  bool has_byte() const { return taken_ != received_head; }
-  uint8_t take() {
+  static bool has_byte() { return taken_ != received_head; }
+  static uint8_t take() {
     const uint8_t byte = *reinterpret_cast<volatile uint8_t*>(received_address + taken_);
     ++taken_;
     return byte;
   }
 
   // There is room for one of the board's frames.
-  bool can_send() const { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask) >= longest; }
-  void send(uint8_t byte) {
+  static bool can_send() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask) >= longest; }
+  static void send(uint8_t byte) {
     breathe();
     out_[to_send_] = byte;
     to_send_ = static_cast<uint8_t>((to_send_ + 1) & out_mask);
@@ -79,10 +79,10 @@ class SerialLine {
   static constexpr uint8_t out_mask = 63;
   static constexpr uint8_t longest = 32;  // about, or a status with three motors
 
-  uint8_t taken_ = 0;
-  uint8_t out_[out_mask + 1] = {};
-  uint8_t to_send_ = 0;
-  uint8_t sent_ = 0;
+  static inline uint8_t taken_ = 0;
+  static inline uint8_t out_[out_mask + 1] = {};
+  static inline uint8_t to_send_ = 0;
+  static inline uint8_t sent_ = 0;
 };
 
 }  // namespace passo::chip

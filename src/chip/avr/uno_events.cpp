@@ -65,7 +65,7 @@ volatile uint8_t halted;
       mov r5, r4                    ; 1
       sbrc r5, %[special]           ; 2
       rjmp 2f
-      lds r4, %[ucsra]              ; 2   a byte off the line does not wait for the main loop
+  9:  lds r4, %[ucsra]              ; 2   a byte off the line does not wait for the main loop
       sbrc r4, 7                    ; 2
       rjmp 8f
       reti                          ; 4
@@ -104,7 +104,7 @@ volatile uint8_t halted;
       pop r24
       out %[sreg], r24
       pop r24
-      reti
+      rjmp 9b
 
       ; behind the last event
   4:  ldi r24, 0
@@ -112,7 +112,7 @@ volatile uint8_t halted;
       sts running, r24
       sts line_is_watched, r24
       pop r24
-      reti
+      rjmp 9b
 
       ; a switch: flags first, pins then, so that no change is missed
   5:  push r24
@@ -155,7 +155,7 @@ volatile uint8_t halted;
       pop r24
       out %[sreg], r24
       pop r24
-      reti
+      rjmp 9b
   )" ::[port] "n"(toggle_port),
                [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
                [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where),

@@ -228,6 +228,41 @@ TEST_F(BoardTest, refuses_a_segment_without_events_or_for_a_motor_that_is_not_th
   EXPECT_TRUE(board_.idle());
 }
 
+// 100 ticks at a rate that gives 101: one less is the host's rounding.
+TEST(SlowBoard, refuses_a_segment_that_is_faster_than_it_states_at_its_start_or_its_end) {
+  Bench bench;
+  Board<Bench, capacity> board(
+      bench, {.motors = 1, .clock = 1'010'000, .shortest_interval = shortest_interval(1'010'000, 10'000)});
+  constexpr std::uint32_t tick = 1 << 16;
+  constexpr std::uint32_t shortest = 100 * tick;
+  const auto refused = [&](const BoardSegment& segment) {
+    std::uint8_t frame[largest_frame];
+    const auto send = [&](std::uint8_t size) {
+      for (std::uint8_t i = 0; i < size; ++i) board.receive(frame[i]);
+    };
+    while (!board.idle()) board.on_event();
+    send(encode(Hello{.motors = 1}, 0, frame));
+    bench.replies.clear();
+    send(encode(segment, 1, 1, frame));
+    if (bench.replies.empty()) return false;
+    ErrorReport error;
+    decode(bench.replies.back(), error);
+    EXPECT_EQ(error.reason, WireError::bad_value);
+    EXPECT_TRUE(board.idle());
+    return true;
+  };
+  EXPECT_FALSE(refused({.events = 9, .interval = shortest}));
+  EXPECT_TRUE(refused({.events = 9, .interval = shortest - 1}));
+  EXPECT_TRUE(refused({.events = 9, .interval = shortest - 1, .change = 1000}));
+  EXPECT_FALSE(refused({.events = 9, .interval = shortest + 8 * tick, .change = -static_cast<std::int32_t>(tick)}));
+  EXPECT_TRUE(refused({.events = 10, .interval = shortest + 8 * tick, .change = -static_cast<std::int32_t>(tick)}));
+  EXPECT_FALSE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff, .change = -largest_change}));
+  EXPECT_TRUE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff - 1, .change = -largest_change}));
+  // Beyond 32 bits intervals would begin again at the shortest.
+  EXPECT_FALSE(refused({.events = 9, .interval = largest_interval - 8 * tick, .change = tick}));
+  EXPECT_TRUE(refused({.events = 9, .interval = largest_interval - 8 * tick + 1, .change = tick}));
+}
+
 TEST_F(BoardTest, refuses_a_hello_amid_motion_and_goes_on) {
   greet();
   send_segment(1, 3);

@@ -9,7 +9,7 @@
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
-//   void breathe();                                   may be left out: called between two pieces of work
+//   static void breathe();                            may be left out: called between two pieces of work
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -33,10 +33,20 @@ struct BoardIdentity {
   uint8_t motors = 0;  // the most that it can turn
   uint32_t clock = 0;  // ticks a second
   ResetCause reset = ResetCause::power_on;
+  uint32_t shortest_interval = 0;  // of a segment that it takes; shortest_interval() tells which goes with a rate
   About about = {};
 };
 
-template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, class LineDecoder = Decoder>
+// The interval at this many events a second, and a whole tick less: the host fits its segments that closely. 0: any.
+constexpr uint32_t shortest_interval(uint32_t clock, uint32_t highest_event_rate) {
+  if (highest_event_rate == 0) return 0;
+  const uint64_t interval = (uint64_t{clock} << 16) / highest_event_rate;
+  if (interval < uint64_t{whole_tick}) return 0;
+  return static_cast<uint32_t>(interval < largest_interval ? interval : largest_interval) -
+         static_cast<uint32_t>(whole_tick);
+}
+
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player>
 class Board {
  public:
   Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}
@@ -60,7 +70,10 @@ class Board {
     inputs_ = inputs;
     if (captured == 0 || motors_ == 0) return;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = player_.played()};
-    for (uint8_t motor = 0; motor < motors_; ++motor) message.positions[motor] = position(motor);
+    for (uint8_t motor = 0; motor < motors_; ++motor) {
+      breathe();
+      message.positions[motor] = position(motor);
+    }
     send_for_motors(message, motors_);
   }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
@@ -126,8 +139,11 @@ class Board {
     motors_ = hello.version == protocol_version && hello.motors <= identity_.motors ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
+    breathe();
     player_.restart(motors_);
+    breathe();
     list_.clear();
+    breathe();
     begun_ = 0;
     session_ = 0;
     executed_ = frame.sequence;
@@ -150,6 +166,7 @@ class Board {
     if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors) {
       return complain(WireError::bad_value);
     }
+    breathe();
     if (ask.question == Question::about) return send(identity_.about);
     tell_status(ask.motors);
   }
@@ -157,6 +174,7 @@ class Board {
   [[gnu::noinline]] void tell_status(uint8_t motors) {
     unsigned state = trusted_ ? unsigned{board_trusted} : 0U;
     if (!idle()) state |= board_moves;
+    if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
     BoardStatus status{.session = session_,
                        .executed = executed_,
@@ -167,7 +185,11 @@ class Board {
                        .reset = identity_.reset,
                        .motors = motors_,
                        .inputs = inputs_};
-    for (uint8_t motor = 0; motor < motors; ++motor) status.positions[motor] = position(motor);
+    for (uint8_t motor = 0; motor < motors; ++motor) {
+      breathe();
+      status.positions[motor] = position(motor);
+    }
+    breathe();
     send_for_motors(status, motors);
   }
 
@@ -200,20 +222,35 @@ class Board {
       decode(frame, motors_, item.segment);
       breathe();
       const uint8_t used = item.segment.directions | item.segment.flips;
-      if (item.segment.events == 0 || used >> motors_ != 0) return complain(WireError::bad_value);
+      if (item.segment.events == 0 || used >> motors_ != 0 || !is_slow_enough(item.segment)) {
+        return complain(WireError::bad_value);
+      }
     } else {
       decode(frame, item.outputs);
     }
     accept();
     list_.append();
+    breathe();
     if (list_.gathering()) return;
     if (list_.gathered()) {
       owes_report_ = true;  // of the room, either way
-      if (!list_.complete(executed_, begun_)) {
+      if (!list_.template complete<Breath>(executed_, begun_)) {
         return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
       }
     }
     settle();
+  }
+
+  // Its first interval and its last one, and so all between.
+  [[gnu::noinline]] bool is_slow_enough(const BoardSegment& segment) const {
+    const uint32_t interval = segment.interval;
+    if (interval < identity_.shortest_interval) return false;
+    if (segment.change == 0) return true;
+    const bool faster = segment.change < 0;
+    const uint32_t change = static_cast<uint32_t>(faster ? -segment.change : segment.change);
+    const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
+    // Most segments are far from it, and so need no product.
+    return change << 8 <= room || change * static_cast<uint8_t>(segment.events - 1) <= room;
   }
 
   void accept() {
@@ -236,9 +273,12 @@ class Board {
   }
 
   // Between two pieces of work: hardware with a small buffer looks at its line.
-  void breathe() {
-    if constexpr (requires { hardware_.breathe(); }) hardware_.breathe();
-  }
+  struct Breath {
+    [[gnu::always_inline]] void operator()() const {
+      if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
+    }
+  };
+  static void breathe() { Breath{}(); }
 
   // Of the segment that has just come to its end, or is broken off.
   void count_steps() {
@@ -259,12 +299,12 @@ class Board {
   template <class Message>
   void send(const Message& message) {
     uint8_t frame[largest_frame];
-    put_on_line(frame, encode(message, sent_++, frame));
+    put_on_line(frame, encode<Breath>(message, sent_++, frame));
   }
   template <class Message>
   [[gnu::noinline]] void send_for_motors(const Message& message, uint8_t motors) {
     uint8_t frame[largest_frame];
-    put_on_line(frame, encode(message, motors, sent_++, frame));
+    put_on_line(frame, encode<Breath>(message, motors, sent_++, frame));
   }
   void put_on_line(const uint8_t* frame, uint8_t size) {
     for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);
@@ -272,7 +312,7 @@ class Board {
 
   Hardware& hardware_;
   BoardIdentity identity_;
-  LineDecoder decoder_;
+  Decoder decoder_;
   SegmentPlayer player_{0};
   PlayList<queue_capacity> list_;  // its front is what is being played
   uint8_t begun_ = 0;              // items at its front that the player has

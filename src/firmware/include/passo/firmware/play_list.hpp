@@ -17,6 +17,7 @@
 #include <stdint.h>
 
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/encoder.hpp"
 
 namespace passo {
 
@@ -92,16 +93,19 @@ class PlayList {
   bool gathered() const { return staged_.front != none && staged_.missing == 0; }
   // The switch. `executed`: the last item that was popped; `begun`: how many at the front are being played or
   // made ready for the timer, and stay. False where an item behind the one to replace after has begun: all stays as it
-  // was.
+  // was. The longest work of all: Pause{}() is called between its parts.
+  template <class Pause = NoPause>
   bool complete(uint16_t executed, uint8_t begun) {
     uint8_t slot = front_;
     uint8_t place = 1;
     for (; slot != none && slots_[slot].number != staged_.after; slot = slots_[slot].next) ++place;
     const bool behind_all = slot == none && begun == 0 && executed == staged_.after;
+    Pause{}();
     const bool in_time = behind_all || (slot != none && place >= begun);
     if (in_time) {
       uint8_t& end = slot == none ? front_ : slots_[slot].next;
       drop(end);
+      Pause{}();
       end = staged_.front;
       last_ = staged_.last;
       size_ = 0;

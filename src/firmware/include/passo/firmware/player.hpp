@@ -29,6 +29,9 @@ class Player {
   void restart(uint8_t motors) { *this = Player(motors); }
 
   bool done() const { return left_ == 0; }
+  // Since restart() it could not make an event in time and all after it came later. Never, where each is made when it
+  // is due.
+  bool slipped() const { return false; }
   uint8_t directions() const { return segment_.directions; }
 
   // Whole ticks from the event before to the one that comes next. Only when not done(), once for each event.

@@ -27,8 +27,9 @@ class VirtualMachine final : public BoardPort {
   // As a board with some kilobytes of memory.
   static constexpr std::size_t items_held = 240;
 
-  // `clock`: the board's timer, a whole number of hertz below 2^32.
-  VirtualMachine(std::uint8_t motors, Hertz clock);
+  // `clock`: the board's timer, a whole number of hertz below 2^32. Segments faster than the highest event rate it
+  // refuses; 0: none.
+  VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate = Hertz(0));
   VirtualMachine(const VirtualMachine&) = delete;
   VirtualMachine& operator=(const VirtualMachine&) = delete;
 

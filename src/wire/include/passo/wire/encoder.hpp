@@ -1,6 +1,7 @@
 // Encoder: puts one frame together in a buffer of the caller's. Same code on the host and on the board.
 //
-// Portable.
+// A frame is long work for a chip that has to look after its line meanwhile: Pause{}() is called at every byte, and on
+// the host is nothing. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -10,6 +11,11 @@
 
 namespace passo {
 
+struct NoPause {
+  void operator()() const {}
+};
+
+template <class Pause = NoPause>
 class Encoder {
  public:
   // `frame` has room for largest_frame bytes.
@@ -27,6 +33,7 @@ class Encoder {
       byte = 0;
     }
     frame_[size_++] = byte;
+    Pause{}();
   }
   // Least significant byte first.
   void put16(uint16_t value) {
@@ -47,7 +54,10 @@ class Encoder {
     // Over the bytes as they are on the wire, links included: a flipped bit is then one wrong bit to the CRC, never
     // more.
     uint16_t crc = crc16_start;
-    for (uint8_t i = 1; i < size_; ++i) crc = crc16(crc, frame_[i]);
+    for (uint8_t i = 1; i < size_; ++i) {
+      crc = crc16(crc, frame_[i]);
+      Pause{}();
+    }
     frame_[size_++] = static_cast<uint8_t>(crc);
     frame_[size_++] = static_cast<uint8_t>(crc >> 8);
     return size_;

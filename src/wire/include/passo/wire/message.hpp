@@ -55,7 +55,7 @@ enum class WireError : uint8_t {
   bad_frame = 1,        // cut short, of no known type, or the CRC is wrong
   out_of_sequence = 2,  // a frame is missing before this one
   queue_full = 3,       // the host did not count its credits
-  bad_value = 4,        // a segment without events, or for a motor that is not there
+  bad_value = 4,        // a segment without events, faster than the board is, or for a motor that is not there
   unexpected = 5,       // a message that only the board sends, or a hello amid motion
   too_late = 6,         // an item behind the one to replace after has begun; what was to take its place is dropped
 };
@@ -71,6 +71,7 @@ enum BoardState : uint8_t {
   board_moves = 1,     // it plays something
   board_trusted = 2,   // since the hello the motors have made every step that is counted, as far as the board knows
   board_replaces = 4,  // items are still to come for a replacement
+  board_slipped = 8,   // since the hello it stood still amid motion: it could not make events in time. No step is lost
 };
 // What the board's input pins say: a bit is set where the switch is on.
 enum BoardInput : uint16_t {
@@ -120,17 +121,19 @@ struct About {
   char name[16] = {};               // of the board; filled up with zeros
 };
 
-// Each writes one frame to `frame`, which has room for largest_frame bytes, and returns its size.
-inline uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::hello, sequence);
+// Each writes one frame to `frame`, which has room for largest_frame bytes, and returns its size. Pause: Encoder's.
+template <class Pause = NoPause>
+uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::hello, sequence);
   encoder.put8(hello.version);
   encoder.put8(hello.motors);
   return encoder.finish();
 }
 
 // The change fits in 24 bits: at most largest_change, up or down.
-inline uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::segment, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::segment, sequence);
   encoder.put8(segment.events);
   encoder.put8(segment.directions);
   encoder.put8(segment.flips);
@@ -140,15 +143,17 @@ inline uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t seque
   return encoder.finish();
 }
 
-inline uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::outputs, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::outputs, sequence);
   encoder.put8(outputs.switches);
   encoder.put16(outputs.spindle_rpm);
   return encoder.finish();
 }
 
-inline uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::hello_reply, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::hello_reply, sequence);
   encoder.put8(reply.version);
   encoder.put8(reply.motors);
   encoder.put8(reply.capacity);
@@ -156,29 +161,33 @@ inline uint8_t encode(const HelloReply& reply, uint8_t sequence, uint8_t* frame)
   return encoder.finish();
 }
 
-inline uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::session, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::session, sequence);
   encoder.put16(session.number);
   return encoder.finish();
 }
 
-inline uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::replace, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::replace, sequence);
   encoder.put16(replace.after);
   encoder.put8(replace.count);
   return encoder.finish();
 }
 
-inline uint8_t encode(const Ask& ask, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::ask, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Ask& ask, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::ask, sequence);
   encoder.put8(ask.version);
   encoder.put8(ask.motors);
   encoder.put8(static_cast<uint8_t>(ask.question));
   return encoder.finish();
 }
 
-inline uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::credit, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::credit, sequence);
   encoder.put16(credit.executed);
   encoder.put8(credit.taken);
   encoder.put8(credit.free);
@@ -186,8 +195,9 @@ inline uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
 }
 
 // For as many motors as the question had.
-inline uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::status, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::status, sequence);
   encoder.put16(status.session);
   encoder.put16(status.executed);
   encoder.put8(status.taken);
@@ -201,8 +211,9 @@ inline uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequenc
   return encoder.finish();
 }
 
-inline uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::captured, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::captured, sequence);
   encoder.put16(captured.input);
   encoder.put8(captured.item);
   encoder.put8(captured.event);
@@ -210,16 +221,18 @@ inline uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence
   return encoder.finish();
 }
 
-inline uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::fault, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::fault, sequence);
   encoder.put8(static_cast<uint8_t>(fault.reason));
   encoder.put8(fault.event);
   encoder.put16(fault.executed);
   return encoder.finish();
 }
 
-inline uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::about, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::about, sequence);
   encoder.put16(about.firmware);
   encoder.put32(about.highest_event_rate);
   encoder.put32(about.baud);
@@ -227,8 +240,9 @@ inline uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-inline uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
-  Encoder encoder(frame, MessageType::error, sequence);
+template <class Pause = NoPause>
+uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::error, sequence);
   encoder.put8(static_cast<uint8_t>(error.reason));
   encoder.put8(error.expected);
   return encoder.finish();
