@@ -1,5 +1,6 @@
 // JerkProfile: from planned squares of speeds to phases of constant jerk, and what these ask of each axis.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,10 +12,27 @@ namespace {
 constexpr double most_growth = 3;  // of x within a cell where more cannot be played
 constexpr double most_above_cap = 4;
 constexpr double least_share = 0.2;
-constexpr double looked_at = 0.99;  // curves are looked at in five places of a cell
+// Of a limit, for what is between the places that are looked at in a bend: five of a cell, and where that is near the
+// limit, more, with a parabola through each three.
+constexpr double looked_at = 0.99;
+constexpr double looked_at_closely = 0.96;
+constexpr int close_parts = 4;
 constexpr double unseen_change = 1e-6;
-constexpr double weak = 100;    // mm/s², for axes without a limit
-constexpr double accepted = 1;  // of a limit
+constexpr double weak = 100;       // mm/s², for axes without a limit
+constexpr double accepted = 1;     // of a limit
+constexpr double no_speed = 1e-9;  // of that beside it: rounding
+constexpr int most_slowings = 40;
+constexpr double beyond = 0.9999;  // slowed by so much more, against rounding
+
+// The most that the parabola through three values, at even distances, is away from 0 between them.
+double highest_through(const std::array<double, 3>& values) {
+  const auto [first, second, third] = values;
+  const double most = std::max({std::abs(first), std::abs(second), std::abs(third)});
+  const double rise = third - first;
+  const double bend = first - 2 * second + third;
+  if (!(std::abs(rise) < 2 * std::abs(bend))) return most;
+  return std::max(most, std::abs(second - rise * rise / (8 * bend)));
+}
 
 }  // namespace
 
@@ -57,6 +75,17 @@ double JerkProfile::highest(const State& from, double jerk, double time) {
   return turns ? from.speed - from.acceleration * from.acceleration / (2 * jerk) : from.speed;
 }
 
+// Whether phases exist, and do not run back, at whatever speed.
+bool JerkProfile::is_possible(const Pair& pair, const State& from) {
+  const auto lowest = [](const State& at, double jerk, double time) {
+    const bool turns = at.acceleration < 0 && at.acceleration + jerk * time > 0;
+    return turns ? at.speed - at.acceleration * at.acceleration / (2 * jerk) : at.speed;
+  };
+  const double least = -no_speed * std::max(from.speed, pair.middle.speed);
+  return pair.half > 0 && pair.middle.speed >= 0 && lowest(from, pair.first, pair.half) >= least &&
+         lowest(pair.middle, pair.second, pair.half) >= least;
+}
+
 JerkProfile::Inside JerkProfile::inside(const State& from, double jerk, double time) {
   return {.state = {.speed = from.speed + time * (from.acceleration + time * jerk / 2),
                     .acceleration = from.acceleration + time * jerk},
@@ -66,15 +95,14 @@ JerkProfile::Inside JerkProfile::inside(const State& from, double jerk, double t
 // The largest multiples of the limits.
 JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const Pair pair = pair_of(i);
-  if (!(pair.half > 0) || pair.middle.speed < 0) return {2, 2};
   const State from = state(i);
+  if (!is_possible(pair, from)) return {2, 2};
   const State to = state(i + 1);
   const JerkCell& cell = cells_[i];
   // Straight pieces are rounded above the low place between them: where a jump is to stay unseen, too much.
   if (from.speed * from.speed > most_above_cap * cap_[i]) return {2, 0};
   const double top =
       std::max({to.speed, highest(from, pair.first, pair.half), highest(pair.middle, pair.second, pair.half)});
-  Excess worst;
   if (cell.straight) {
     const double jerk = std::max(std::abs(pair.first), std::abs(pair.second)) / cell.jerk;
     const double acceleration =
@@ -82,38 +110,46 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
         cell.acceleration;
     return {std::max(acceleration, top / std::sqrt(cell.top_squared)), jerk};
   }
-  const AxisShape* shape = shapes(i);
-  // The middle of the cell's time, and of its halves.
-  const Inside middle = inside(from, pair.first, pair.half);
-  const Inside early = inside(from, pair.first, pair.half / 2);
-  Inside late = inside(pair.middle, pair.second, pair.half / 2);
-  late.way += middle.way;
-  worst.force = top * top / cell.top_squared;
-  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
-    const auto see = [&](double first, double second, double third_here, const State& at, double jerk) {
-      const double v = at.speed;
-      const double force = std::abs(first * at.acceleration + second * v * v) / (axes_[k].acceleration * looked_at);
-      const double jolt = std::abs(first * jerk + 3 * second * v * at.acceleration + third_here * v * v * v) /
-                          (axes_[k].jerk * looked_at);
-      worst.force = std::max(worst.force, force);
-      worst.jolt = std::max(worst.jolt, jolt);
-    };
-    const auto see_inside = [&](const Inside& place, double jerk) {
-      const double share = place.way / cell.length;
-      const double third = shape->third_in + share * (shape->third_out - shape->third_in);
-      const double bend = shape->bend_in + share * (shape->bend_out - shape->bend_in);
-      const double slope = shape->slope_in + share * (shape->slope_out - shape->slope_in) -
-                           cell.length * cell.length * share * (1 - share) / 2 * third;
-      see(slope, bend, third, place.state, jerk);
-    };
-    see(shape->slope_in, shape->bend_in, shape->third_in, from, pair.first);
-    see_inside(early, pair.first);
-    see_inside(middle, pair.first);
-    see_inside(middle, pair.second);
-    see_inside(late, pair.second);
-    see(shape->slope_out, shape->bend_out, shape->third_out, to, pair.second);
-  }
+  Excess worst{.force = top * top / cell.top_squared, .jolt = 0};
+  const auto look = [&](int parts) {
+    look_at_half(i, from, pair.first, pair.half, 0, parts, worst);
+    const double way = inside(from, pair.first, pair.half).way;
+    look_at_half(i, pair.middle, pair.second, pair.half, way, parts, worst);
+  };
+  look(1);
+  if (worst.jolt > looked_at_closely && worst.jolt <= accepted) look(close_parts);
   return worst;
+}
+
+// Half the time of a cell that is not straight, in so many parts. `way`: from the cell's start to that of the half.
+void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, double time, double way, int parts,
+                               Excess& worst) const {
+  const double length = cells_[i].length;
+  const AxisShape* shape = shapes(i);
+  for (int part = 0; part < parts; ++part) {
+    std::array<Inside, 3> places;
+    for (std::size_t at = 0; at < places.size(); ++at) {
+      places[at] = inside(start, jerk, time * (part + 0.5 * static_cast<double>(at)) / parts);
+    }
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+      const AxisShape& own = shape[k];
+      std::array<double, 3> force{};
+      std::array<double, 3> jolt{};
+      for (std::size_t at = 0; at < places.size(); ++at) {
+        const double share = (way + places[at].way) / length;
+        const double third = own.third_in + share * (own.third_out - own.third_in);
+        const double bend = own.bend_in + share * (own.bend_out - own.bend_in);
+        const double slope =
+            own.slope_in + share * (own.slope_out - own.slope_in) - length * length * share * (1 - share) / 2 * third;
+        const double v = places[at].state.speed;
+        const double a = places[at].state.acceleration;
+        force[at] = slope * a + bend * v * v;
+        jolt[at] = slope * jerk + 3 * bend * v * a + third * v * v * v;
+      }
+      worst.force = std::max(worst.force, highest_through(force) / (axes_[k].acceleration * looked_at));
+      worst.jolt = std::max(worst.jolt, highest_through(jolt) / (axes_[k].jerk * looked_at));
+    }
+  }
 }
 
 // Around every place beyond its limits: less jerk is planned with, then less speed; wider and more the longer it takes.
@@ -128,7 +164,7 @@ bool JerkProfile::lower_where_exceeded(int round) {
     const Excess worst = excess(i);
     if (worst.force <= accepted && worst.jolt <= accepted) continue;
     exceeded_.push_back(i);
-    if (!(pair_of(i).half > 0)) flatten(i);
+    if (!is_possible(pair_of(i), state(i))) flatten(i);
     const double slower = std::clamp(1 / std::max(worst.force, std::cbrt(worst.jolt * worst.jolt)), most, least);
     const double gentler = std::clamp(1 / worst.jolt, most, least);
     const std::size_t from = i > reach ? i - reach : 0;
@@ -143,6 +179,36 @@ bool JerkProfile::lower_where_exceeded(int round) {
   checked_.assign(x_.begin(), x_.end());
   for (const std::size_t i : exceeded_) checked_[i] = -1;
   return !exceeded_.empty();
+}
+
+// Where repairs run out: between rests all is played more slowly. With x times f, every speed is times the root of f,
+// every acceleration times f and every jerk times the root of f³; so limits can always be kept. Only a cell that cannot
+// be played at any speed needs another shape of the stretch: even speed, with two cells at each end to reach it.
+void JerkProfile::slow_down() {
+  const std::size_t n = cells_.size();
+  for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
+    end = begin + 1;
+    while (end < n && x_[end] > 0) ++end;
+    for (int round = 0; round < most_slowings; ++round) {
+      double most = 0;
+      bool is_played = true;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Excess worst = excess(i);
+        is_played = is_played && is_possible(pair_of(i), state(i));
+        most = std::max({most, worst.force * worst.force, std::cbrt(worst.jolt * worst.jolt)});
+      }
+      if (!is_played) level(begin, end);
+      if (is_played && most <= accepted) break;
+      if (is_played) {
+        for (std::size_t k = begin + 1; k < end; ++k) x_[k] *= beyond / most;
+      }
+    }
+  }
+}
+
+void JerkProfile::level(std::size_t begin, std::size_t end) {
+  const auto at = [this](std::size_t k) { return x_.begin() + static_cast<std::ptrdiff_t>(k); };
+  if (end > begin + 1) std::fill(at(begin + 1), at(end), *std::min_element(at(begin + 1), at(end)));
 }
 
 // Too much change within one cell, at whatever speed.

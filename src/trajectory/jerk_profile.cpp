@@ -14,10 +14,9 @@ constexpr double planned_jerk = 0.95;
 constexpr double planned_acceleration = 0.98;
 constexpr double planned_velocity = 0.9999;
 constexpr double constant_speed_jerk = 0.9;  // of the jerk, for the bends of the path alone
-constexpr int most_repairs = 80;
+constexpr double most_unevenness = 2.5;
 constexpr int rounds_a_refinement = 10;
 constexpr std::size_t most_undecided = 600;  // cells in which a calm place is looked for
-// Of the acceleration: a change that is none.
 
 }  // namespace
 
@@ -325,7 +324,25 @@ void JerkProfile::refine() {
     split(i);
     if (i > 0 && (k == 0 || exceeded_[k - 1] + 2 < i)) split(i - 1);
   }
+  even_out();
   prepare();
+}
+
+// Where a long cell meets a short one, the acceleration cannot change evenly: all of the change would be in the short
+// one, and the finer that is cut, the more jerk it takes.
+void JerkProfile::even_out() {
+  const auto is_long = [this](std::size_t i) {
+    const double length = cells_[i].length / most_unevenness;
+    return (i > 0 && length > cells_[i - 1].length) || (i + 1 < cells_.size() && length > cells_[i + 1].length);
+  };
+  for (std::size_t i = 0; i < cells_.size();) {
+    if (is_long(i)) {
+      split(i);
+      i -= std::min<std::size_t>(i, 1);
+    } else {
+      ++i;
+    }
+  }
 }
 
 std::size_t JerkProfile::plan(bool closed) {
@@ -334,7 +351,7 @@ std::size_t JerkProfile::plan(bool closed) {
   std::size_t decided = 0;
   bool good = false;
   bool new_cells = true;  // cut since `decided` was counted
-  for (int round = 0; round < most_repairs && !good; ++round) {
+  for (int round = 0; round < most_repairs_ && !good; ++round) {
     if (frozen_ > 0) {
       cap_[0] = std::max(cap_[0], kept_[0]);
       cap_[1] = std::max(cap_[1], kept_[1]);
@@ -347,11 +364,13 @@ std::size_t JerkProfile::plan(bool closed) {
     cut_corners();
     changed_ = {.all = false, .from = cells_.size(), .to = 0};
     good = !lower_where_exceeded(round);
-    if (!good && frozen_ == 0 && round % rounds_a_refinement == rounds_a_refinement - 1) {
+    const bool refines = round % rounds_a_refinement == rounds_a_refinement - 1 && round + 1 < most_repairs_;
+    if (!good && frozen_ == 0 && refines) {
       refine();
       new_cells = true;
     }
   }
+  if (!good && frozen_ == 0) slow_down();
   fell_back_ = !good && frozen_ > 0;
   if (fell_back_) return go_on_as_planned();
   const std::size_t n = cells_.size();

@@ -12,7 +12,8 @@
 //                                the profile below them is a convex hull, found in linear time (chords).
 //
 // What remains is checked against every axis on the very phases that are given, and where a limit is exceeded the
-// speed is lowered and the window planned again.
+// speed is lowered and the window planned again. Where that does not help, the plan before goes on, which was checked
+// and ends at rest; from rest the window is slowed as a whole. So no plan is given that was not found good.
 //
 // The window ends at rest or is planned as if it did. A place where braking does not limit the speed, from which the
 // profile goes on unchanged whatever comes, decides all before it.
@@ -29,7 +30,9 @@ namespace passo {
 
 class JerkProfile {
  public:
-  explicit JerkProfile(const std::vector<LimitedAxis>& axes) : axes_(axes) {}
+  // `most_repairs`: of a plan, before it is slowed as a whole.
+  explicit JerkProfile(const std::vector<LimitedAxis>& axes, int most_repairs = 80)
+      : axes_(axes), most_repairs_(most_repairs) {}
 
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
@@ -97,22 +100,29 @@ class JerkProfile {
     double jolt = 0;
   };
   Excess excess(std::size_t i) const;
+  void look_at_half(std::size_t i, const State& start, double jerk, double time, double way, int parts,
+                    Excess& worst) const;
   struct Inside {  // a phase
     State state;
     double way = 0;  // from its start
   };
   static Inside inside(const State& from, double jerk, double time);
+  static bool is_possible(const Pair& pair, const State& from);
   static double highest(const State& from, double jerk, double time);  // speed of a phase, but for its end
   bool lower_where_exceeded(int round);
+  void slow_down();
+  void level(std::size_t begin, std::size_t end);
   std::size_t go_on_as_planned();
   void prepare();
   void split(std::size_t i);
   void refine();
+  void even_out();
   void flatten(std::size_t i);
   bool is_as_checked(std::size_t i) const;
   bool is_calm(std::size_t node) const;
 
   std::vector<LimitedAxis> axes_;
+  int most_repairs_;
   std::vector<JerkCell> cells_;
   std::vector<AxisShape> shapes_;
   std::vector<double> entry_cap_;    // of each cell

@@ -185,7 +185,7 @@ TEST(MidRun, holds_and_overrides_lose_nothing_in_cycles) {
 }
 
 TEST(MidRun, holds_and_overrides_lose_nothing_where_the_jerk_is_limited) {
-  for (const char* name : {"bench", "forty-eight"}) {
+  for (const char* name : {"bench", "router", "forty-eight"}) {
     const MachineDescription machine = with_jerk_limits(example_machine(name));
     for (const std::string& program : {lines(), arcs(), dense(), cycles()}) expect_nothing_lost(program, machine, 1);
   }

@@ -80,30 +80,10 @@ inline AxisMotion motion_at(const Curve& curve, Axis axis, const Phase& phase, d
   return {q.first * v, q.first * a + q.second * v * v, q.first * j + 3 * q.second * v * a + q.third * v * v * v};
 }
 
-// The largest multiple of its limit that the jerk of an axis is.
-inline double largest_jerk(const std::vector<MotionItem>& motion, const MotionLimits& limits) {
-  double largest = 0;
-  for (const MotionItem& item : motion) {
-    const auto* move = std::get_if<PlannedMove>(&item);
-    if (move == nullptr) continue;
-    for (const Phase& phase : *move) {
-      for (const Axis axis : all_axes) {
-        const double limit = limits.jerk[axis].value();
-        for (int k = 0; limit > 0 && k <= 40; ++k) {
-          const AxisMotion here = motion_at(move->segment.curve, axis, phase, phase.duration.value() * k / 40.0);
-          largest = std::max(largest, std::abs(here.jerk) / limit);
-        }
-      }
-    }
-  }
-  return largest;
-}
-
 // Looks at 40 places of each phase, and at what changes from each to the next.
 class JerkOracle {
  public:
-  // `jerk`: the multiple of its limit that counts as kept.
-  explicit JerkOracle(const MotionLimits& limits, double jerk = 1) : limits_(limits), jerk_(jerk) {}
+  explicit JerkOracle(const MotionLimits& limits) : limits_(limits) {}
 
   void check(const std::vector<MotionItem>& motion) {
     for (const MotionItem& item : motion) {
@@ -156,7 +136,7 @@ class JerkOracle {
           ASSERT_LE(std::abs(here.acceleration), a * tolerated);
         }
         if (j > 0) {
-          ASSERT_LE(std::abs(here.jerk), j * tolerated * jerk_);
+          ASSERT_LE(std::abs(here.jerk), j * tolerated);
         }
       }
       before_[axis] = motion_at(segment.curve, axis, phase, phase.duration.value());
@@ -170,7 +150,6 @@ class JerkOracle {
 
   static constexpr double tolerated = 1.0005;
   const MotionLimits limits_;
-  const double jerk_;
   PerAxis<AxisMotion> before_;
 };
 

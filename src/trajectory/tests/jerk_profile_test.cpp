@@ -1,0 +1,96 @@
+// JerkProfile where its repairs run out: what is given is within the limits all the same.
+#include "../jerk_profile.hpp"
+
+#include "jerk_kit.hpp"
+
+namespace passo::test {
+namespace {
+
+std::vector<MotionItem> planned_with(int repairs, const std::vector<PathItem>& path, const MotionLimits& limits) {
+  const std::vector<LimitedAxis> axes = axes_with_limits(limits);
+  JerkProfile profile(axes, repairs);
+  JerkCutter cutter(axes);
+  std::vector<AxisShape> shapes(axes.size());
+  std::vector<Segment> segments;
+  for (const PathItem& item : path) segments.push_back(std::get<Segment>(item));
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const bool is_last = i + 1 == segments.size();
+    cutter.begin(segments[i], {.entry_squared = i == 0 ? 0 : cutter.joint_cap(segments[i - 1], segments[i]),
+                               .exit_squared = is_last ? 0 : cutter.joint_cap(segments[i], segments[i + 1])});
+    bool is_first = i == 0;
+    for (JerkCell cell; cutter.next(cell, shapes.data()); is_first = false) {
+      profile.push(cell, shapes.data(), is_first);
+    }
+  }
+  EXPECT_EQ(profile.plan(true), profile.size());
+  std::vector<MotionItem> motion;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    PlannedMove move;
+    move.segment = segments.at(at);
+    profile.add_phases(i, move);
+    const Phase& last = move.phases[move.phase_count - 1];
+    move.to = last.position_at(last.duration);
+    motion.emplace_back(move);
+    if (profile.cell(i).ends_segment) ++at;
+  }
+  return motion;
+}
+
+TEST(JerkProfile, keeps_every_limit_with_no_repair_at_all_but_takes_longer) {
+  Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  int slower = 0;
+  for (int n = 0; n < 12; ++n) {
+    SCOPED_TRACE(n);
+    const MotionLimits limits =
+        jerk_limits(std::exp(random.between(3, 6)), std::exp(random.between(5, 8)), std::exp(random.between(8, 12)));
+    const std::vector<PathItem> path = smooth_chain(random, 20);
+    const std::vector<MotionItem> slow = planned_with(1, path, limits);
+    expect_within_limits(slow, limits);
+    if (HasFatalFailure()) return;
+    if (total_time(slow) > 1.01 * total_time(plan(path, limits))) ++slower;
+  }
+  EXPECT_GT(slower, 2);
+}
+
+// Cells of any length side by side on a line, as no cutter makes them: some have no phases at all, at whatever speed,
+// until the stretch has another shape.
+TEST(JerkProfile, keeps_every_limit_on_cells_that_hardly_fit_together) {
+  Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  for (int n = 0; n < 300; ++n) {
+    SCOPED_TRACE(n);
+    const MotionLimits limits = jerk_limits(100, 500, std::exp(random.between(8, 12)));
+    JerkProfile profile(axes_with_limits(limits), 1);
+    const std::vector<AxisShape> shapes = {{.slope_in = 1, .slope_out = 1}, {}, {}};
+    double s = 0;
+    for (int i = 0; i < 8; ++i) {
+      const double length = std::exp(random.between(-10, 4));
+      const double top = std::exp(random.between(0, 4.6));
+      profile.push({.start = s,
+                    .length = length,
+                    .top_squared = top * top,
+                    .acceleration = 500,
+                    .jerk = limits.jerk[Axis::x].value(),
+                    .straight = true},
+                   shapes.data(), i == 0);
+      s += length;
+    }
+    ASSERT_EQ(profile.plan(true), profile.size());
+    std::vector<MotionItem> motion;
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+      PlannedMove move;
+      move.segment = segment_of(Curve::line(xyz(0, 0), xyz(s, 0)), 100);
+      profile.add_phases(i, move);
+      const Phase& last = move.phases[move.phase_count - 1];
+      move.to = last.position_at(last.duration);
+      motion.emplace_back(move);
+    }
+    expect_within_limits(motion, limits);
+    if (HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace passo::test
