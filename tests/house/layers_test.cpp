@@ -72,7 +72,7 @@ TEST(Layers, what_is_not_public_is_included_by_its_own_module_only) {
   for (const fs::path& file : files_below("src", cpp_files)) {
     for (const Include& include : includes_of(file)) {
       if (!include.quoted || include.name.starts_with("passo/")) continue;
-      if (include.name.starts_with("kit/") && file.string().find("/tests/") != std::string::npos) continue;
+      if (include.name.starts_with("kit/") && is_test(file)) continue;
       const fs::path own = fs::path("src") / module_of(file);
       const fs::path beside = project_root() / file.parent_path() / include.name;
       const fs::path in_module = project_root() / own / include.name;

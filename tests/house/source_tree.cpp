@@ -74,7 +74,8 @@ std::string module_of(const fs::path& relative) {
 }
 
 bool is_test(const fs::path& relative) {
-  return std::ranges::find(relative, fs::path("tests")) != relative.end();
+  return std::ranges::find(relative, fs::path("tests")) != relative.end() ||
+         std::ranges::find(relative, fs::path("fuzz")) != relative.end();
 }
 
 std::vector<Include> includes_of(const fs::path& relative) {
