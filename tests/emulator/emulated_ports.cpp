@@ -69,7 +69,7 @@ void EmulatedPorts::set_input(char port, std::uint8_t bit, bool high) {
   const bool large = avr_.address_size == 3;
   const int group = port == 'B' ? 0 : port == (large ? 'J' : 'C') ? 1 : port == (large ? 'K' : 'D') ? 2 : -1;
   if (group < 0) return;
-  const unsigned watched = port == 'J' ? mask << 1U : mask;
+  const unsigned watched = port == 'J' ? unsigned{mask} << 1U : unsigned{mask};
   if ((avr_.data[pcmsk0 + static_cast<unsigned>(group)] & watched) != 0) {
     avr_.data[pcifr] = static_cast<std::uint8_t>(avr_.data[pcifr] | 1U << static_cast<unsigned>(group));
   }
