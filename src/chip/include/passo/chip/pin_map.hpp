@@ -8,16 +8,9 @@
 
 #include <stdint.h>
 
+#include "passo/chip/pin.hpp"
+
 namespace passo {
-
-struct Pin {
-  char port = 0;  // 'A'…'L'; 0: there is none
-  uint8_t bit = 0;
-
-  constexpr bool exists() const { return port != 0; }
-  constexpr uint8_t mask() const { return exists() ? static_cast<uint8_t>(1U << bit) : uint8_t{0}; }
-  friend constexpr bool operator==(Pin a, Pin b) { return a.port == b.port && a.bit == b.bit; }
-};
 
 struct MotorPins {
   Pin step;
