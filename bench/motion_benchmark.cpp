@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
@@ -131,6 +132,54 @@ void planner_chords(benchmark::State& state) {
   }
 }
 BENCHMARK(planner_chords)->Arg(1)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
+
+// The rows of a relief, 200 mm long and half a millimetre apart, in moves of a tenth of a millimetre: hills, rounded to
+// the micrometre as CAM programs write them.
+class Raster final : public Source<PathItem> {
+ public:
+  explicit Raster(std::size_t moves) : moves_(moves) {}
+  [[nodiscard]] bool next(PathItem& item) override {
+    if (given_ == moves_) return false;
+    const Point from = place(given_);
+    item = Segment{.curve = Curve::line(from, place(++given_)),
+                   .speed = MmPerSecond(50),
+                   .tolerance = Mm(0.01),
+                   .merge = Mm(0.0005)};
+    return true;
+  }
+
+ private:
+  static Point place(std::size_t move) {
+    constexpr std::size_t a_row = 2000;
+    const std::size_t row = move / a_row;
+    const double x = 0.1 * static_cast<double>(row % 2 == 0 ? move % a_row : a_row - move % a_row);
+    const double y = 0.5 * static_cast<double>(row);
+    Point point;
+    point[Axis::x] = x;
+    point[Axis::y] = y;
+    point[Axis::z] = std::round((std::sin(x / 7) * std::cos(y / 11) + 0.3 * std::sin(x / 2.1 + y / 3)) * 1e3) / 1e3;
+    return point;
+  }
+  std::size_t moves_;
+  std::size_t given_ = 0;
+};
+
+// What a program of such moves costs from path to phases: smoothed, and planned with limits of acceleration, or of jerk
+// too. The argument is the limit of jerk in mm/s³; 0: none.
+void smoothed_raster(benchmark::State& state) {
+  MotionLimits limits = motion_limits();
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.jerk[axis] = MmPerSecond3(static_cast<double>(state.range(0)));
+  }
+  for (auto _ : state) {
+    Raster raster(count / 10);
+    PathSmoother smoother(raster, state.range(0) > 0 ? Smoothness::slow_bending : Smoothness::least_bending);
+    Planner planner(smoother, limits);
+    for (MotionItem item; planner.next(item);) benchmark::DoNotOptimize(item);
+    state.SetItemsProcessed(state.items_processed() + static_cast<std::int64_t>(count / 10));
+  }
+}
+BENCHMARK(smoothed_raster)->Arg(0)->Arg(25'000)->Unit(benchmark::kMillisecond);
 
 // What the source alone costs, to be taken off the line above.
 void source_chords(benchmark::State& state) {
