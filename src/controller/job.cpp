@@ -98,15 +98,11 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
                          : std::nullopt),
       drive_(smoother_, limits_, step_options(machine), machine_, board_line(options, line_)),
       clock_(machine.board.clock) {
-  if ((line_ || options.board != nullptr) && !unsuited()) [[maybe_unused]]
-    const bool used = drive_.use_tails({});
+  const bool over_a_line = line_ || options.board != nullptr;
+  if (over_a_line && !unsuited()) static_cast<void>(drive_.use_tails({}));
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
-  const SpindleDescription& spindle = machine.spindle;
-  machine_.fit_spindle({.counts_per_turn = spindle.counts_per_turn,
-                        .run_up = spindle.run_up.value(),
-                        .droop = spindle.droop,
-                        .ripple = spindle.ripple,
-                        .ripple_rate = spindle.ripple_rate.value()});
+  // The encoder is not on the wire yet: over a line nothing may follow what this spindle does.
+  if (!over_a_line) fit_spindle(machine.spindle);
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
   drive_.probe().tell(probe_outcome_);
   if (machine.probe.guards && options.probing == Probing::by_board) {
@@ -122,6 +118,14 @@ BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& li
   return {.port = options.board,
           .care = {.answer_within = Seconds(0.1), .patience = Seconds(60), .session = 1},
           .real_time = true};
+}
+
+void Job::fit_spindle(const SpindleDescription& spindle) {
+  machine_.fit_spindle({.counts_per_turn = spindle.counts_per_turn,
+                        .run_up = spindle.run_up.value(),
+                        .droop = spindle.droop,
+                        .ripple = spindle.ripple,
+                        .ripple_rate = spindle.ripple_rate.value()});
 }
 
 void Job::follow_by_machine(std::uint8_t motors) {

@@ -305,8 +305,7 @@ void MotionDrive::wait(Seconds time) {
 void MotionDrive::let_pass(Seconds time) {
   if (real_time_) {
     const Seconds until = now() + time;
-    while (now() < until && (port_.run(until - now()) || now() < until)) {
-    }
+    while (now() < until) static_cast<void>(port_.run(until - now()));
     rested_ += time;
     return;
   }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/example_machine.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
@@ -21,10 +22,7 @@ namespace passo {
 namespace {
 
 const MachineDescription& router() {
-  static const MachineDescription machine = [] {
-    Diagnostics diagnostics;
-    return load_machine_file(PASSO_SOURCE_DIR "/examples/machines/router.toml", diagnostics).value();
-  }();
+  static const MachineDescription machine = test::example_machine("router");
   return machine;
 }
 

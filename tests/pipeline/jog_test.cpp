@@ -4,17 +4,13 @@
 #include <cmath>
 #include <string>
 
+#include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
 
 namespace passo {
 namespace {
 
-MachineDescription example_machine(const std::string& name) {
-  Diagnostics diagnostics;
-  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/" + name + ".toml", diagnostics);
-  EXPECT_TRUE(machine) << render(diagnostics, false);
-  return machine.value_or(MachineDescription());
-}
+using test::example_machine;
 
 VirtualMachine machine_of(const MachineDescription& description) {
   return VirtualMachine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,

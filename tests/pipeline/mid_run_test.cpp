@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
 
 #include "passo/controller/job.hpp"
@@ -14,20 +15,10 @@
 namespace passo {
 namespace {
 
+using test::example_machine;
 using State = MotionDrive::State;
 
-MachineDescription example_machine(const std::string& name) {
-  Diagnostics diagnostics;
-  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/" + name + ".toml", diagnostics);
-  EXPECT_TRUE(machine) << render(diagnostics, false);
-  return machine.value_or(MachineDescription());
-}
-
-// Full acceleration after 20 ms.
-MachineDescription with_jerk_limits(MachineDescription machine) {
-  for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
-  return machine;
-}
+using test::with_jerk_limits;
 
 ProofOptions proof_options(const MachineDescription& machine) {
   ProofOptions options;

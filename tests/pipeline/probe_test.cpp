@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
 
 #include "passo/controller/job.hpp"
@@ -13,12 +14,7 @@
 namespace passo {
 namespace {
 
-MachineDescription example_machine(const std::string& name) {
-  Diagnostics diagnostics;
-  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/" + name + ".toml", diagnostics);
-  EXPECT_TRUE(machine) << render(diagnostics, false);
-  return machine.value_or(MachineDescription());
-}
+using test::example_machine;
 
 TouchBox below(Axis axis, double high) {
   TouchBox box;

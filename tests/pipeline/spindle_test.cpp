@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
 
 #include "passo/controller/job.hpp"
@@ -12,14 +13,9 @@ namespace passo {
 namespace {
 
 MachineDescription lathe(const SpindleDescription& spindle, bool jerk = false) {
-  Diagnostics diagnostics;
-  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/router.toml", diagnostics);
-  EXPECT_TRUE(machine) << render(diagnostics, false);
-  MachineDescription lathe = machine.value_or(MachineDescription());
+  const MachineDescription router = test::example_machine("router");
+  MachineDescription lathe = jerk ? test::with_jerk_limits(router) : router;
   lathe.spindle = spindle;
-  if (jerk) {
-    for (AxisDescription& axis : lathe.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
-  }
   return lathe;
 }
 

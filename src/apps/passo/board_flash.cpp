@@ -119,7 +119,8 @@ int board_flash(const BoardFlashArguments& arguments) {
       *std::find_if(chips.begin(), chips.end(), [&](const Chip& one) { return one.board == arguments.board; });
   const std::string image = arguments.image.empty() ? built_image(arguments.board) : arguments.image;
   if (arguments.image.empty() && !fs::exists(image)) {
-    return fail(exit_failed, image + " was not built: that needs clang and avr-gcc, which scripts/install.sh installs");
+    return fail(exit_failed,
+                image + " is not there: scripts/test.sh builds the images; docs/boards.md says for which boards");
   }
   const auto size = size_of_image(image);
   if (!size) return fail(exit_bad_program, size.error());

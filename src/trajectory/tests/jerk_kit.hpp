@@ -24,6 +24,16 @@ inline MotionLimits jerk_limits(double velocity, double acceleration, double jer
   return limits;
 }
 
+inline MotionLimits draw_jerk_limits(Random& random) {
+  MotionLimits limits = jerk_limits(1, 1, 1);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.velocity[axis] = MmPerSecond(std::exp(random.between(3, 6)));
+    limits.acceleration[axis] = MmPerSecond2(std::exp(random.between(5, 8)));
+    limits.jerk[axis] = MmPerSecond3(std::exp(random.between(8, 12)));
+  }
+  return limits;
+}
+
 inline Segment segment_of(const Curve& curve, double speed) {
   return {.curve = curve,
           .speed = MmPerSecond(speed),

@@ -195,15 +195,6 @@ class JerkLimitedMeddling : public testing::TestWithParam<int> {
       break;
     }
   }
-  MotionLimits draw_limits() {
-    MotionLimits limits = jerk_limits(1, 1, 1);
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-      limits.velocity[axis] = MmPerSecond(std::exp(random_.between(3, 6)));
-      limits.acceleration[axis] = MmPerSecond2(std::exp(random_.between(5, 8)));
-      limits.jerk[axis] = MmPerSecond3(std::exp(random_.between(8, 12)));
-    }
-    return limits;
-  }
   void SetUp() override {
     for (int n = 0; n < GetParam(); ++n) random_.between(0, 1);
   }
@@ -216,7 +207,7 @@ TEST_P(JerkLimitedMeddling, keeps_every_axis_within_its_limits_on_smooth_chains)
   for (int n = 0; n < 3; ++n) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()) + ", path " + std::to_string(n));
     const std::vector<PathItem> path = smooth_chain(random_, 50);
-    meddle(path, draw_limits());
+    meddle(path, draw_jerk_limits(random_));
     if (HasFatalFailure()) return;
   }
   std::printf("%d holds, %d rests\n", holds_, rests_);
@@ -247,7 +238,7 @@ TEST_P(JerkLimitedMeddling, keeps_every_axis_within_its_limits_on_lines_arcs_and
     }
     if (random_.chance(0.05)) path.emplace_back(Action{.kind = Action::Kind::dwell});
   }
-  meddle(smoothed(path), draw_limits());
+  meddle(smoothed(path), draw_jerk_limits(random_));
   std::printf("%d holds, %d rests\n", holds_, rests_);
 }
 

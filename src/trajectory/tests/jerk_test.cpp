@@ -7,15 +7,6 @@ namespace {
 
 class JerkLimited : public testing::TestWithParam<int> {
  protected:
-  MotionLimits draw_limits() {
-    MotionLimits limits = jerk_limits(1, 1, 1);
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-      limits.velocity[axis] = MmPerSecond(std::exp(random_.between(3, 6)));
-      limits.acceleration[axis] = MmPerSecond2(std::exp(random_.between(5, 8)));
-      limits.jerk[axis] = MmPerSecond3(std::exp(random_.between(8, 12)));
-    }
-    return limits;
-  }
   std::string seed() const { return "PASSO_SEED=" + std::to_string(random_.seed()); }
 
   Random random_;
@@ -26,7 +17,7 @@ TEST_P(JerkLimited, smooth_chains_keep_every_axis_within_its_limits) {
   for (int n = 0; n < GetParam(); ++n) random_.between(0, 1);
   for (int n = 0; n < 10; ++n) {
     SCOPED_TRACE(n);
-    const MotionLimits limits = draw_limits();
+    const MotionLimits limits = draw_jerk_limits(random_);
     std::vector<PathItem> path = smooth_chain(random_, 150);
     expect_within_limits(plan(path, limits), limits);
     if (HasFatalFailure()) return;
@@ -38,7 +29,7 @@ TEST_P(JerkLimited, smooth_chains_keep_every_axis_within_its_limits) {
 TEST_P(JerkLimited, lines_arcs_and_rests_keep_every_axis_within_its_limits) {
   SCOPED_TRACE(seed());
   for (int n = 0; n < GetParam(); ++n) random_.between(0, 1);
-  const MotionLimits limits = draw_limits();
+  const MotionLimits limits = draw_jerk_limits(random_);
   std::vector<PathItem> path = RandomProgram(random_).draw(1000);
   expect_within_limits(plan(path, limits), limits);
 }

@@ -89,6 +89,7 @@ class Job {
 
  private:
   static BoardLine board_line(const Options& options, std::optional<VirtualLine>& line);
+  void fit_spindle(const SpindleDescription& spindle);
   void follow_by_machine(std::uint8_t motors);
 
   PathOptions path_options_;

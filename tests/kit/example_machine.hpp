@@ -1,0 +1,25 @@
+// The machines of examples/, for tests of the whole street. A test program that uses it defines PASSO_SOURCE_DIR.
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+
+namespace passo::test {
+
+inline MachineDescription example_machine(const std::string& name) {
+  Diagnostics diagnostics;
+  auto machine = load_machine_file(PASSO_SOURCE_DIR "/examples/machines/" + name + ".toml", diagnostics);
+  EXPECT_TRUE(machine) << render(diagnostics, false);
+  return machine.value_or(MachineDescription());
+}
+
+// Full acceleration after 20 ms.
+inline MachineDescription with_jerk_limits(MachineDescription machine) {
+  for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
+  return machine;
+}
+
+}  // namespace passo::test
