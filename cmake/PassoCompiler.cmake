@@ -35,5 +35,9 @@ endif()
 
 find_program(PASSO_CCACHE ccache)
 if(PASSO_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${PASSO_CCACHE}")
+  # Precompiled headers are kept too; for g++ that takes an option more.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${PASSO_CCACHE}")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(passo_compiler INTERFACE -fpch-preprocess)
+  endif()
 endif()

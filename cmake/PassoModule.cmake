@@ -37,6 +37,14 @@ function(passo_module module)
   endif()
 endfunction()
 
+# GoogleTest's headers, compiled once for all test programs.
+function(passo_test_headers)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "")
+  add_library(passo_test_headers OBJECT "${PROJECT_BINARY_DIR}/test_headers.cpp")
+  target_link_libraries(passo_test_headers PRIVATE GTest::gmock GTest::gtest passo_compiler)
+  target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+endfunction()
+
 # passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…])
 #
 # A GoogleTest program. Tests without a label are fast: a developer runs them at every change.
@@ -47,7 +55,10 @@ function(passo_test name)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
     PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINITIONS})
-  target_precompile_headers(${name} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
+  if(NOT TARGET passo_test_headers)
+    passo_test_headers()
+  endif()
+  target_precompile_headers(${name} REUSE_FROM passo_test_headers)
   set(properties TIMEOUT 600)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
