@@ -9,9 +9,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr int most_steps = 12;
+constexpr int most_steps = 14;
 constexpr double first_target = 0.02;  // price times slack, in parts of the mean time of a cell
-constexpr double last_target = 1e-4;
+constexpr double last_target = 3e-5;
 constexpr double target_falls = 0.2;     // by this factor from step to step, at best
 constexpr double short_of_limit = 0.95;  // a step goes no nearer to where a slack or a price is nothing
 constexpr double least_share = 1e-3;     // of a step: where it goes no farther, there is no way
@@ -155,22 +155,42 @@ void JerkLift::measure(bool first_time) {
   }
 }
 
-void JerkLift::add(std::size_t at, const Four& g, double weight, double pull) {
+// What a cell adds to the system.
+struct JerkLift::Block {
+  Four first{};  // products with x0, and so on
+  Four second{};
+  Four third{};
+  Four fourth{};
+  Four pull{};
+
+  void add(const Four& g, double weight, double pulled) {
+    const Four by = {weight * g[0], weight * g[1], weight * g[2], weight * g[3]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      first[k] += by[0] * g[k];
+      second[k] += by[1] * g[k];
+      third[k] += by[2] * g[k];
+      fourth[k] += by[3] * g[k];
+      pull[k] += pulled * g[k];
+    }
+  }
+};
+
+void JerkLift::add_to_system(std::size_t at, const Block& block) {
+  const std::array<const Four*, 4> rows = {&block.first, &block.second, &block.third, &block.fourth};
   for (std::size_t i = 0; i < 4; ++i) {
-    const double by = weight * g[i];
-    for (std::size_t k = i; k < 4; ++k) system_[at + i][k - i] += by * g[k];
-    step_[at + i] += pull * g[i];
+    for (std::size_t k = i; k < 4; ++k) system_[at + i][k - i] += (*rows[i])[k];
+    step_[at + i] += block.pull[i];
   }
 }
 
 // The integral of 1/v by Simpson's rule.
-void JerkLift::add_time(std::size_t c) {
+void JerkLift::add_time(std::size_t c, Block& block) const {
   const double* const at = &at_[2 * c];
   const Cell& cell = cells_[c];
   const auto put = [&](const Four& square, double weight) {
     const double x = times(square, at);
     const double by = weight / (x * std::sqrt(x));
-    add(2 * c, square, 0.75 * by / x, 0.5 * by);
+    block.add(square, 0.75 * by / x, 0.5 * by);
   };
   put(x_in, cell.length / 6);
   put(cell.middle, cell.length * 2 / 3);
@@ -195,22 +215,24 @@ void JerkLift::assemble(double target) {
   std::size_t r = 0;
   std::size_t t = 0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    add_time(c);
+    Block block;
+    add_time(c, block);
     for (; r < cells_[c].rows_end; ++r) {
       const Row& row = rows_[r];
       const double up = row.up.by_slack;
       const double down = row.down.by_slack;
-      add(2 * c, row.along, row.up.price * up + row.down.price * down,
-          (target + row.down.price * row.down.missing) * down - (target + row.up.price * row.up.missing) * up);
+      block.add(row.along, row.up.price * up + row.down.price * down,
+                (target + row.down.price * row.down.missing) * down - (target + row.up.price * row.up.missing) * up);
     }
     for (; t < cells_[c].jolt_rows_end; ++t) {
       const JoltRow& row = jolt_rows_[t];
       const auto put = [&](const Four& gradient, const Side& side) {
-        add(2 * c, gradient, side.price * side.by_slack, (target + side.price * side.missing) * side.by_slack);
+        block.add(gradient, side.price * side.by_slack, (target + side.price * side.missing) * side.by_slack);
       };
       put(sum(row.along, -1, row.square, -row.fall), row.up);
       put(sum(row.along, 1, row.square, -row.fall), row.down);
     }
+    add_to_system(2 * c, block);
   }
 }
 

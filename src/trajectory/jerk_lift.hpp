@@ -80,8 +80,9 @@ class JerkLift {
   void add_straight_rows(const JerkCell& cell, double share, bool is_first);
   void measure(bool first_time);
   void assemble(double target);
-  void add_time(std::size_t c);
-  void add(std::size_t at, const Four& gradient, double weight, double pull);
+  struct Block;
+  void add_time(std::size_t c, Block& block) const;
+  void add_to_system(std::size_t at, const Block& block);
   void solve();
   double look_along();
   void go(double share, double target);

@@ -133,6 +133,7 @@ class JerkProfile {
     std::size_t last = 0;
   };
   void find_raised_too_far(const Stretch& raised);
+  void put_back(std::size_t first, std::size_t last);
 
   std::vector<LimitedAxis> axes_;
   int most_repairs_;

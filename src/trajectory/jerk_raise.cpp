@@ -21,7 +21,7 @@ constexpr double most_lowering = 0.7;
 constexpr double safely = 0.998;
 
 constexpr double at_cap = 1 - 1e-6;
-constexpr int rounds_of_raising = 5;
+constexpr int rounds_of_raising = 7;
 constexpr int rounds_nearby = 3;
 constexpr std::size_t nearby = 24;  // cells raised again on both sides of one
 constexpr std::size_t fewest_to_raise = 5;
@@ -92,6 +92,12 @@ void JerkProfile::raise_between(std::size_t first, std::size_t last) {
     for (const Stretch& raised : again_) find_raised_too_far(raised);
     if (exceeded_.empty()) return;
     if (round == rounds_of_raising) break;
+    if (round == rounds_nearby) {  // anew, with what is known of the limits now
+      put_back(first, last);
+      if (!lift_.raise(stretch, first, last, states_)) return;
+      again_.assign(1, {first, last});
+      continue;
+    }
     again_.clear();
     const std::size_t beside = round < rounds_nearby ? nearby : 3 * nearby;
     for (std::size_t k = 0; k < exceeded_.size();) {
@@ -103,6 +109,11 @@ void JerkProfile::raise_between(std::size_t first, std::size_t last) {
       static_cast<void>(lift_.raise(stretch, around.first, around.last, states_));
     }
   }
+  put_back(first, last);
+}
+
+// As it was planned.
+void JerkProfile::put_back(std::size_t first, std::size_t last) {
   const auto at = [](std::vector<State>& states, std::size_t k) {
     return states.begin() + static_cast<std::ptrdiff_t>(k);
   };
