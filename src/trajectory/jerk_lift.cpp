@@ -16,7 +16,6 @@ constexpr double target_falls = 0.2;     // by this factor from step to step, at
 constexpr double short_of_limit = 0.95;  // a step goes no nearer to where a slack or a price is nothing
 constexpr double least_share = 1e-3;     // of a step: where it goes no farther, there is no way
 constexpr double passable = 0.05;        // of a limit beyond it: the check decides
-constexpr double speed_share = 0.9999 * 0.9999;
 constexpr double outer_part = 0.65;  // of x at the node, for the mean speed of half a cell; the rest is the middle's
 constexpr double least_slack = 0.3;  // of the limit, at the start
 
@@ -69,8 +68,8 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
   const JerkCell& own = stretch.cells[cell];
   const double share = stretch.share[cell];
   const Forms forms(own.length);
-  const double half_cap = own.top_squared / 2 * speed_share;
-  const double in_cap = cell > 0 ? std::min(half_cap, stretch.cells[cell - 1].top_squared / 2 * speed_share) : half_cap;
+  const double half_cap = stretch.cap[cell] / 2;
+  const double in_cap = cell > 0 ? std::min(half_cap, stretch.cap[cell - 1] / 2) : half_cap;
   if (!is_first) rows_.push_back({.along = x_in, .offset = in_cap, .limit = in_cap});
   rows_.push_back({.along = forms.middle_x, .offset = half_cap, .limit = half_cap});
   if (own.straight) {

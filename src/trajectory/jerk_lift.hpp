@@ -38,6 +38,7 @@ class JerkLift {
     const std::vector<JerkCell>& cells;
     const std::vector<AxisShape>& shapes;  // of each cell, one an axis
     const std::vector<double>& share;      // of the limits, in each cell
+    const std::vector<double>& cap;        // of the squares of the speeds there
   };
   // Of the nodes from `first` to `last` all but these two are raised; each must have speed. False where no way to keep
   // the limits was found: then all stays.

@@ -174,6 +174,7 @@ class JerkProfile {
   std::vector<bool> jumps_;          // the bend, and limits the speed
   std::vector<bool> fixed_;
   std::vector<double> lift_share_;  // of the limits, in each cell
+  std::vector<double> lift_cap_;
   std::vector<State> states_;
   std::vector<State> unraised_;
   std::vector<Stretch> again_;  // raised once more

@@ -19,6 +19,7 @@ constexpr double share_of_straights = 0.998;
 constexpr double least_lowering = 0.995;
 constexpr double most_lowering = 0.7;
 constexpr double safely = 0.998;
+constexpr double lower_cap = 0.9995;
 
 constexpr double at_cap = 1 - 1e-6;
 constexpr int rounds_of_raising = 7;
@@ -73,7 +74,11 @@ void JerkProfile::raise(std::size_t last) {
   is_raised_ = true;
   unraised_.assign(states_.begin(), states_.end());
   lift_share_.clear();
-  for (const JerkCell& cell : cells_) lift_share_.push_back(cell.straight ? share_of_straights : share_in_bends);
+  lift_cap_.clear();
+  for (const JerkCell& cell : cells_) {
+    lift_share_.push_back(cell.straight ? share_of_straights : share_in_bends);
+    lift_cap_.push_back(cell.top_squared * planned_velocity * planned_velocity);
+  }
   for (std::size_t k = 2; k < last; ++k) {
     if (fixed_[k]) continue;
     const std::size_t first = k - 1;
@@ -84,7 +89,7 @@ void JerkProfile::raise(std::size_t last) {
 
 // Two nodes that are fixed, and none between.
 void JerkProfile::raise_between(std::size_t first, std::size_t last) {
-  const JerkLift::Stretch stretch{.cells = cells_, .shapes = shapes_, .share = lift_share_};
+  const JerkLift::Stretch stretch{.cells = cells_, .shapes = shapes_, .share = lift_share_, .cap = lift_cap_};
   if (!lift_.raise(stretch, first, last, states_)) return;
   again_.assign(1, {first, last});
   for (int round = 0; round <= rounds_of_raising; ++round) {
@@ -127,6 +132,7 @@ void JerkProfile::find_raised_too_far(const Stretch& raised) {
     if (most <= 1) continue;
     exceeded_.push_back(i);
     lift_share_[i] *= std::clamp(safely / most, most_lowering, least_lowering);
+    if (worst.force > 1) lift_cap_[i] *= lower_cap;  // it may be the speed
   }
 }
 
