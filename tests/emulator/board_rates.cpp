@@ -6,8 +6,6 @@
 
 #include "emulator/streamed_run.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
-
 namespace {
 
 using namespace passo;
@@ -50,6 +48,10 @@ int main(int argc, char** argv) {
     std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|");
     sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, even", false, intervals);
     sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, changing", true, intervals);
+    for (const std::uint8_t motors : {std::uint8_t{4}, std::uint8_t{6}}) {
+      sweep(mega_under_test(PASSO_MOTION_MEGA, motors), "Mega, even", false, intervals);
+      sweep(mega_under_test(PASSO_MOTION_MEGA, motors), "Mega, changing", true, intervals);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "board_rates: %s\n", error.what());
     return 1;

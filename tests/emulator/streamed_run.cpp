@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/firmware/player.hpp"
 
@@ -43,6 +44,15 @@ BoardUnderTest uno_under_test(const std::string& program) {
   BoardUnderTest board;
   board.program = program;
   board.motors.assign(std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor));
+  return board;
+}
+
+BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors) {
+  BoardUnderTest board;
+  board.program = program;
+  board.mcu = "atmega2560";
+  board.motors.assign(std::begin(mega_ramps.motor), std::begin(mega_ramps.motor) + motors);
+  board.ports = "ABCDEFGHJKL";
   return board;
 }
 

@@ -29,13 +29,15 @@ struct BoardUnderTest {
 };
 
 BoardUnderTest uno_under_test(const std::string& program);
+// With a host that drives that many motors.
+BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors);
 
 struct EdgeCheck {
   std::uint64_t steps = 0;            // edges seen
   std::uint64_t expected = 0;         // of the model
   std::uint64_t wrong_count = 0;      // motors with another number of edges
   std::uint64_t wrong_direction = 0;  // edges
-  std::int64_t earliest = 0;          // edge against model, in cycles, from the mean start on
+  std::int64_t earliest = 0;          // edge against model, in cycles, from the first one on
   std::int64_t latest = 0;
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;

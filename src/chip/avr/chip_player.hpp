@@ -13,7 +13,6 @@
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/wire/board_segment.hpp"
 
 namespace passo::chip {
@@ -23,13 +22,15 @@ class ChipPlayer {
   explicit ChipPlayer(uint8_t /*motors*/) {}
 
   // At once, whatever it played is broken off. Motors without pins stand still: the board refuses a host with more.
-  static void restart(uint8_t /*motors*/) {
+  static void restart(uint8_t motors) {
     Timsk1::write(0);
     running = 0;
     line_is_watched = 0;
     slow_end_ = 0;
-    head_ = fetched();
-    entry(head_).toggles = pins.flag_special | pins.flag_stop;
+    head_ = fetched_entry();
+    flagged_byte(head_) = pins.flag_special | pins.flag_stop;
+    if (motors != expansion.motors) forget_toggles();
+    expansion.motors = motors;
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
     turning_ = fresh_ = false;
@@ -41,7 +42,9 @@ class ChipPlayer {
     // Where the pins are; a turn that was queued may not have been made.
     directions_ = 0;
     for (uint8_t m = 0; m < pins.motors; ++m) {
-      if ((Register<0x2b>::read() & pins.motor[m].direction.mask()) != 0) {
+      const Pin pin = pins.motor[m].direction;
+      const uint8_t levels = *reinterpret_cast<volatile uint8_t*>(port_registers(pin.port) + 2);
+      if ((levels & pin.mask()) != 0) {
         directions_ = static_cast<uint8_t>(directions_ | 1U << m);
       }
     }
@@ -49,14 +52,11 @@ class ChipPlayer {
 
   // Once, before anything moves.
   static void prepare() {
-    for (uint8_t i = 0; i < ring_entries; ++i) {
-      const uint16_t next = ring_address + sizeof(EventEntry) * ((i + 1) & ring_mask);
-      entry(i).next_page = static_cast<uint8_t>(next >> 8);
-    }
+    prepare_ring();
     // Free running at the full clock: the interrupt tells when to come back.
     Tccr1a::write(0);
     Tccr1b::write(1);
-    fetch_first(0);
+    fetch_entry(0);
   }
 
   // Can take the next item.
@@ -68,8 +68,8 @@ class ChipPlayer {
     for (uint8_t m = 0; m < pins.motors; ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
-    expansion.flips = motor_pins.steps[segment.flips];
-    turns_ = motor_pins.directions[segment.directions ^ directions_];
+    for (uint8_t p = 0; p < step_port_count; ++p) expansion.flips.on[p] = motor_pins.on[p].steps[segment.flips];
+    turns_ = segment.directions ^ directions_;
     SerialLine::breathe();
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
@@ -173,9 +173,7 @@ class ChipPlayer {
   static uint8_t slips() { return slips_; }
 
  private:
-  static constexpr const PinMap<3>& pins = uno_cnc_shield;
-  static constexpr char port = 'D';
-  static constexpr MotorPinSets<pins.motors> motor_pins = motor_pin_sets(pins, port);
+  static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);
   static constexpr uint8_t items_mask = 7;
   static constexpr uint8_t most_begun = 8;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
@@ -184,6 +182,7 @@ class ChipPlayer {
   static constexpr uint8_t some_at_once = 16;
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint16_t often = 300;
+  static constexpr uint8_t most_events = 126;  // in the ring: what is there will be played
   static constexpr uint8_t most_pieces = 8;
   // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
   // after the line meanwhile.
@@ -202,15 +201,6 @@ class ChipPlayer {
     uint16_t increments[pins.motors];
   };
 
-  // The entry that the interrupt has in its registers, or the one behind the last event.
-  static uint8_t fetched() {
-    uint16_t next;
-    asm volatile("movw %0, r2" : "=r"(next));
-    return entry_of(next);
-  }
-  static uint8_t entry_of(uint16_t next) {
-    return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & ring_mask);
-  }
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
     note_capture();
@@ -220,21 +210,22 @@ class ChipPlayer {
   // Which event it was, told by the entry; in time, before the interrupt has been round the ring once more.
   [[gnu::noinline]] static void note_capture() {
     if (noted_ || !captured()) return;
-    const uint8_t now = fetched();
+    const uint8_t now = fetched_entry();
     const uint8_t since = static_cast<uint8_t>((now - entry_of(probe_entry)) & ring_mask);
     captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
     noted_ = true;
   }
-  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
-
-  // Puts an entry into the interrupt's registers. Only while it does not run.
-  static void fetch_first(uint8_t index) {
-    const uint16_t next = ring_address + sizeof(EventEntry) * ((index + 1) & ring_mask);
-    asm volatile("movw r2, %0\n\tmov r5, %1" ::"r"(next), "r"(entry(index).toggles));
+  // An event at which nothing happens.
+  static void clear_toggles(uint8_t index) {
+    for (uint8_t p = 0; p < step_port_count; ++p) {
+      *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + 0x100 * p) = 0;
+    }
   }
+  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
+
   static void set_alarm(uint8_t index) {
-    Ocr1ah::write(entry(index).time_high);
-    Ocr1al::write(entry(index).time_low);
+    Ocr1ah::write(*time_high_of(index));
+    Ocr1al::write(*time_low_of(index));
   }
   static uint16_t now() {
     const uint8_t low = Tcnt1l::read();
@@ -246,14 +237,12 @@ class ChipPlayer {
     uint16_t time = static_cast<uint16_t>(now() + start_ticks);
     for (uint8_t left = blank_events; left != 0; --left) {
       time = static_cast<uint16_t>(time + blank_ticks);
-      volatile EventEntry& blank = entry(head_);
-      blank.time_high = static_cast<uint8_t>(time >> 8);
-      blank.time_low = static_cast<uint8_t>(time);
-      blank.toggles = 0;
+      set_time(head_, time);
+      clear_toggles(head_);
       head_ = static_cast<uint8_t>((head_ + 1) & ring_mask);
       SerialLine::breathe();
     }
-    entry(head_).toggles = pins.flag_special | pins.flag_stop;
+    flagged_byte(head_) = pins.flag_special | pins.flag_stop;
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
     fresh_ = true;
@@ -263,7 +252,7 @@ class ChipPlayer {
   // How many events two milliseconds have, in powers of two: 32,768 ticks.
   static uint8_t most_ahead() {
     uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
-    uint8_t most = ring_entries - 2;
+    uint8_t most = most_events;
     if (high >= 1) most = 64;
     for (; high > 1; high >>= 1) most >>= 1;
     return most < 2 ? uint8_t{2} : most;
@@ -284,8 +273,8 @@ class ChipPlayer {
     // later.
     const uint8_t at_once = line_is_watched == 0 ? few_at_once : ahead < most_at_once / 2 ? some_at_once : most_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
-    if (count > to_end) count = to_end;
+    const uint16_t to_end = static_cast<uint16_t>(ring_entries - head_);
+    if (count > to_end) count = static_cast<uint8_t>(to_end);
     const uint8_t room = static_cast<uint8_t>(most - ahead);
     if (count > room) {
       // Worth the way only if there is room for many, or if few are ahead.
@@ -297,25 +286,26 @@ class ChipPlayer {
     if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
-    entry(behind).toggles = pins.flag_special | pins.flag_stop;
-    expansion.address = ring_address + sizeof(EventEntry) * first;
+    flagged_byte(behind) = pins.flag_special | pins.flag_stop;
+    expansion.address = entry_address(first);
     SerialLine::breathe();
     expand(count);
     SerialLine::breathe();
     left_ = static_cast<uint8_t>(left_ - count);
     made_ = static_cast<uint16_t>(made_ + count);
     head_ = behind;
-    const uint8_t plain = static_cast<uint8_t>(entry(first).toggles & ~(pins.flag_special | pins.flag_stop));
+    const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(pins.flag_special | pins.flag_stop));
     // From here on the interrupt may come to it.
-    entry(first).toggles = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
+    flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
     turning_ = false;
     return true;
   }
 
   static bool queue_turn() {
-    const uint8_t head = static_cast<uint8_t>((turns_head_ + 1) & (turns_address + turns_mask));
+    const uint8_t head = static_cast<uint8_t>((turns_head_ + step_port_count) & (turns_address + turns_mask));
     if (head == turns_tail) return false;
-    *reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_) = turns_;
+    volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_);
+    for (uint8_t p = 0; p < step_port_count; ++p) turn[p] = motor_pins.on[p].directions[turns_];
     turns_head_ = head;
     turns_ = 0;
     turning_ = true;
@@ -323,11 +313,11 @@ class ChipPlayer {
   }
 
   static void start() {
-    const uint8_t first = fetched();
+    const uint8_t first = fetched_entry();
     if (!fresh_) catch_up(first);
     fresh_ = false;
-    fetch_first(first);
-    const uint8_t toggles = entry(first).toggles;
+    fetch_entry(first);
+    const uint8_t toggles = flagged_byte(first);
     if ((toggles & pins.flag_special) != 0) turn_now(toggles);
     set_alarm(first);
     Tifr1::write(compare_match_a);
@@ -336,23 +326,24 @@ class ChipPlayer {
   }
   static void turn_now(uint8_t toggles) {
     const uint8_t tail = turns_tail;
-    Register<0x29>::write(*reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail));
-    turns_tail = static_cast<uint8_t>((tail + 1) & (turns_address + turns_mask));
+    const volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail);
+    for (uint8_t p = 0; p < step_port_count; ++p) {
+      *reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p])) = turn[p];
+    }
+    turns_tail = static_cast<uint8_t>((tail + step_port_count) & (turns_address + turns_mask));
     asm volatile("mov r5, %0" ::"r"(static_cast<uint8_t>(toggles & ~pins.flag_special)));
   }
 
   // Where the interrupt stopped before an event that now is late: that one and all behind it come later still.
   static void catch_up(uint8_t first) {
-    const uint16_t due = static_cast<uint16_t>(entry(first).time_high << 8 | entry(first).time_low);
+    const uint16_t due = time_of(first);
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     if (ahead > least_lead && ahead <= gap_) return;  // in time after all
     ++slips_;
     slow_end_ = made_;  // nobody looks after the line until it goes on
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
-      const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);
-      entry(i).time_high = static_cast<uint8_t>(time >> 8);
-      entry(i).time_low = static_cast<uint8_t>(time);
+      set_time(i, static_cast<uint16_t>(time_of(i) + later));
     }
     expansion.time += static_cast<uint32_t>(later) << 16;
   }
@@ -360,7 +351,7 @@ class ChipPlayer {
   static inline uint8_t head_ = 0;        // entry behind the last event
   static inline uint8_t most_ahead_ = 0;  // how many events may be in the ring, at the rate of the loaded segment
   static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
-  static inline uint8_t turns_ = 0;       // direction pins to turn over before its first event
+  static inline uint8_t turns_ = 0;       // motors to turn round before its first event
   static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;

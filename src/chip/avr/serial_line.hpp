@@ -77,7 +77,9 @@ class SerialLine {
   }
 
   static constexpr uint8_t out_mask = 63;
-  static constexpr uint8_t longest = 32;  // about, or a status with three motors
+  // About, or a status.
+  static constexpr uint8_t longest = frame_overhead + (pins.motors < 4 ? 26 : status_size + 4 * pins.motors);
+  static_assert(longest <= out_mask);
 
   uint8_t taken_ = 0;
   uint8_t out_[out_mask + 1] = {};
