@@ -65,7 +65,7 @@ class ChipPlayer {
   static bool done() { return left_ == 0 && running == 0 && waiting() == 0; }
 
   static void load(const BoardSegment& segment) {
-    for (uint8_t m = 0; m < pins.motors; ++m) expansion.increments[m] = segment.increments[m];
+    for (uint8_t m = 0; m < motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
     for (uint8_t p = 0; p < step_port_count; ++p) expansion.flips.on[p] = motor_pins.on[p].steps[segment.flips];
@@ -99,7 +99,7 @@ class ChipPlayer {
     item.events = segment.events;
     item.directions = segment.directions;
     item.flips = segment.flips;
-    for (uint8_t m = 0; m < pins.motors; ++m) item.increments[m] = segment.increments[m];
+    for (uint8_t m = 0; m < motors(); ++m) item.increments[m] = segment.increments[m];
   }
 
   // The oldest item that it has is done.
@@ -107,7 +107,7 @@ class ChipPlayer {
   static void forget() {
     const Item& item = items_[finished_ & items_mask];
     if (item.events != 0) {
-      for (uint8_t m = 0; m < pins.motors; ++m) {
+      for (uint8_t m = 0; m < motors(); ++m) {
         at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
       }
     }
@@ -181,8 +181,6 @@ class ChipPlayer {
   static constexpr uint8_t most_at_once = 64;
   static constexpr uint8_t some_at_once = 16;
   static constexpr uint8_t few_at_once = 8;
-  static constexpr uint16_t often = 300;
-  static constexpr uint8_t most_events = 126;  // in the ring: what is there will be played
   static constexpr uint8_t most_pieces = 8;
   // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
   // after the line meanwhile.
@@ -201,6 +199,8 @@ class ChipPlayer {
     uint16_t increments[pins.motors];
   };
 
+  // On the Uno one loop less is worth more than a motor less.
+  static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
     note_capture();

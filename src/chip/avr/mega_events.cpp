@@ -88,12 +88,15 @@ volatile uint8_t halted;
       rjmp 8f
       reti                          ; 5   57 in all
 
-  8:  out %[gpior0], r30            ; 17 in all
+  8:  out %[gpior0], r30            ; 20 in all, and 12 for a second byte
       out %[gpior1], r31
       lds r30, received_head
-      ldi r31, hi8(%[received])
+  9:  ldi r31, hi8(%[received])
       lds r3, %[udr]
       st Z+, r3
+      lds r3, %[ucsra]
+      sbrc r3, 7
+      rjmp 9b
       sts received_head, r30
       in r30, %[gpior0]
       in r31, %[gpior1]

@@ -19,11 +19,15 @@ inline constexpr uint16_t times_high_address = 0x200;
 inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
+inline constexpr uint8_t most_events = 220;  // two milliseconds at the highest rate: what is there will be played
 
 // As on the Uno; a turn has a byte for each step port.
 inline constexpr uint16_t received_address = 0x800;
 inline constexpr uint16_t turns_address = 0x900;
 inline constexpr uint8_t turns_mask = 0x0f;
+// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, the UART holds two, and the interrupt takes them all.
+inline constexpr uint16_t often = 600;
+
 inline constexpr uint16_t first_free_address = 0x910;
 
 inline uint16_t entry_address(uint8_t index) {

@@ -23,6 +23,7 @@ struct EventEntry {
 
 inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
+inline constexpr uint8_t most_events = 126;  // in the ring: what is there will be played
 
 // Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low
 // byte of the address and wraps by itself. All that the host may have under way fits.
@@ -31,6 +32,9 @@ inline constexpr uint16_t received_address = 0x300;
 // Direction bits to turn over, one for each flagged event that waits.
 inline constexpr uint16_t turns_address = 0x400;
 inline constexpr uint8_t turns_mask = 0x03;
+
+// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, and the interrupt takes one.
+inline constexpr uint16_t often = 300;
 
 // From here on the linker places its own (CMakeLists.txt says so to it).
 inline constexpr uint16_t first_free_address = 0x404;
