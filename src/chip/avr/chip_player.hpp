@@ -283,7 +283,8 @@ class ChipPlayer {
     }
     if (turns_ != 0 && !queue_turn()) return false;
 
-    if (ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
+    // If the interrupt comes to its end meanwhile, then in front of this one.
+    if (ahead == 0 || running != 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     flagged_byte(behind) = pins.flag_special | pins.flag_stop;
@@ -340,7 +341,8 @@ class ChipPlayer {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     if (ahead > least_lead && ahead <= gap_) return;  // in time after all
     ++slips_;
-    slow_end_ = made_;  // nobody looks after the line until it goes on
+    // Nobody looks after the line until it goes on; where it is slow, not then either.
+    if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
       set_time(i, static_cast<uint16_t>(time_of(i) + later));
@@ -356,7 +358,7 @@ class ChipPlayer {
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
   static inline bool fresh_ = false;  // the clock was set for what is in the ring
-  static inline uint16_t gap_ = 0;    // ticks before the first event that was made when none was waiting, and a little
+  static inline uint16_t gap_ = 0;    // ticks before the event at which the interrupt stopped, and a little
   static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;  // the probe

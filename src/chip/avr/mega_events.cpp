@@ -271,6 +271,11 @@ asm(R"(
       sts expansion + 2 * \motor, \low
       sts expansion + 2 * \motor + 1, \high
   .endm
+  .macro passo_breathe              ; at low rates nobody else looks at the line
+      lds r24, 0xc0
+      sbrc r24, 7
+      call passo_fetch
+  .endm
   .macro passo_port number, page
       lds r30, expansion + 36 + \number
       lds r26, expansion + 40
@@ -312,6 +317,7 @@ asm(R"(
       sts expansion + 30, r24
       sts expansion + 31, r25
 
+      passo_breathe
       passo_get r18, r19, r22, r23, 2   ; port L
       ldi r31, %[pin2]
       passo_port 1, %[page_f] + 1
@@ -328,6 +334,7 @@ asm(R"(
   6:  passo_all passo_one_motor
   7:  passo_put r18, r19, 2
 
+      passo_breathe
       lds r24, expansion + 42           ; port C
       cpi r24, 5
       brsh 5f
@@ -339,7 +346,8 @@ asm(R"(
       passo_all passo_one_motor
       passo_put r18, r19, 4
 
-  8:  lds r24, expansion + 42           ; port A
+  8:  passo_breathe
+      lds r24, expansion + 42           ; port A
       cpi r24, 4
       brsh 5f
       rjmp 9f
@@ -350,7 +358,8 @@ asm(R"(
       passo_all passo_one_motor
       passo_put r18, r19, 3
 
-  9:  passo_get r18, r19, r22, r23, 0   ; port F: the first event keeps its flags
+  9:  passo_breathe
+      passo_get r18, r19, r22, r23, 0   ; port F: the first event keeps its flags
       passo_get r20, r21, r24, r25, 1
       ldi r31, %[pin0]
       ldi r16, %[pin1]
@@ -381,7 +390,7 @@ static_assert(pins.motor[0].step.port == 'F' && pins.motor[1].step.port == 'F' &
               "the expander makes each port's byte out of these motors");
 static_assert(((received_address | times_high_address | times_low_address | first_toggles_address) & 0xff) == 0,
               "an entry's number is the low byte of its addresses");
-static_assert(sizeof(Expansion) == 43);
+static_assert(sizeof(Expansion) == 43 && Ucsr0a::where == 0xc0);
 }
 
 }  // namespace passo::chip

@@ -21,14 +21,18 @@ inline void set_spindle_duty(uint8_t duty) {
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled. Pins of ports D and E
 // have flags of their own, INT2 to INT5; those of B and J one for the port.
 inline void watch_switches() {
-  stop_low_b = pins.stops_on('B');
-  stop_low_d = pins.stops_on('D');
-  stop_low_e = pins.stops_on('E');
-  stop_low_j = pins.stops_on('J');
+  constexpr uint8_t b = pins.stops_on('B');
+  constexpr uint8_t d = pins.stops_on('D');
+  constexpr uint8_t e = pins.stops_on('E');
+  constexpr uint8_t j = pins.stops_on('J');
+  stop_low_b = b;
+  stop_low_d = d;
+  stop_low_e = e;
+  stop_low_j = j;
   Eicra::write(1 << 6 | 1 << 4);  // any change of INT3 and INT2
   Eicrb::write(1 << 2 | 1 << 0);  // of INT5 and INT4
-  Pcmsk0::write(static_cast<uint8_t>(pins.stops_on('B') | pins.probe.mask()));
-  Pcmsk1::write(static_cast<uint8_t>(pins.stops_on('J') << 1));
+  Pcmsk0::write(static_cast<uint8_t>(b | pins.probe.mask()));
+  Pcmsk1::write(static_cast<uint8_t>(j << 1));
   Pcifr::write(7);
   Eifr::write(0xff);
 }

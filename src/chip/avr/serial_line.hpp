@@ -53,7 +53,7 @@ class SerialLine {
   // The interrupt fetches bytes too, so it must not come between the look and the end. It may not be held back either:
   // that would be late for its edge. So wait, if need be, until it has come and gone: the low bytes of the timer and of
   // its alarm tell whether it is due soon.
-  [[gnu::noinline]] static void fetch() {
+  [[gnu::noinline, gnu::used]] static void fetch() asm("passo_fetch") {
     asm volatile(
         R"(
       1:  lds r24, %[ocr]

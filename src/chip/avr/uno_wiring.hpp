@@ -18,10 +18,12 @@ inline void set_spindle_duty(uint8_t duty) {
 
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled.
 inline void watch_switches() {
-  stop_low_b = pins.stops_on('B');
-  stop_low_c = pins.stops_on('C');
-  Pcmsk0::write(pins.stops_on('B'));
-  Pcmsk1::write(static_cast<uint8_t>(pins.stops_on('C') | pins.probe.mask()));
+  constexpr uint8_t b = pins.stops_on('B');
+  constexpr uint8_t c = pins.stops_on('C');
+  stop_low_b = b;
+  stop_low_c = c;
+  Pcmsk0::write(b);
+  Pcmsk1::write(static_cast<uint8_t>(c | pins.probe.mask()));
   Pcifr::write(7);
 }
 static_assert(pins.spindle_pwm == Pin{'B', 3} && pins.probe.port == 'C');
