@@ -28,9 +28,10 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, const s
     const std::vector<BoardSegment> stream = random_stream(random, motors, kind);
     const EdgeCheck check = bench.play(stream);
     const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
-    std::printf("| %s | %zu | %u | %.1f | %s | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
-                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.spread()),
-                number(check.shortest_pulse), number(check.shortest_setup), number(check.overruns));
+    std::printf("| %s | %zu | %u | %.1f | %s | %llu | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
+                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.error),
+                number(check.apart), number(check.shortest_pulse), number(check.shortest_setup),
+                number(check.overruns));
     std::fflush(stdout);
   }
 }
@@ -40,12 +41,12 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, const s
 int main(int argc, char** argv) {
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
-  if (intervals.empty()) intervals = {300, 160, 133, 120, 114, 110, 107, 100};
+  if (intervals.empty()) intervals = {300, 200, 160, 150, 145, 133, 120, 114, 110, 107, 100};
   try {
     std::puts(
-        "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | pulse | set-up | "
+        "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | apart | pulse | set-up | "
         "bytes lost |");
-    std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|");
+    std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|---:|");
     sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, even", false, intervals);
     sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, changing", true, intervals);
     for (const std::uint8_t motors : {std::uint8_t{4}, std::uint8_t{6}}) {

@@ -25,7 +25,8 @@ inline constexpr uint8_t most_events = 220;  // two milliseconds at the highest 
 inline constexpr uint16_t received_address = 0x800;
 inline constexpr uint16_t turns_address = 0x900;
 inline constexpr uint8_t turns_mask = 0x0f;
-// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, the UART holds two, and the interrupt takes them all.
+// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, the UART holds two,
+// and the interrupt takes them all.
 inline constexpr uint16_t often = 600;
 
 inline constexpr uint16_t first_free_address = 0x910;

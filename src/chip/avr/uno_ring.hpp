@@ -33,7 +33,8 @@ inline constexpr uint16_t received_address = 0x300;
 inline constexpr uint16_t turns_address = 0x400;
 inline constexpr uint8_t turns_mask = 0x03;
 
-// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, and the interrupt takes one.
+// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, and the interrupt
+// takes one.
 inline constexpr uint16_t often = 300;
 
 // From here on the linker places its own (CMakeLists.txt says so to it).
