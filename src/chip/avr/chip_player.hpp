@@ -179,7 +179,7 @@ class ChipPlayer {
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
   static constexpr uint8_t most_at_once = 64;
-  static constexpr uint8_t some_at_once = 16;
+  static constexpr uint8_t some_at_once = step_port_count > 1 ? 32 : 16;  // the way is longer with more ports
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint8_t most_pieces = 8;
   // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
@@ -273,8 +273,8 @@ class ChipPlayer {
     // later.
     const uint8_t at_once = line_is_watched == 0 ? few_at_once : ahead < most_at_once / 2 ? some_at_once : most_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint16_t to_end = static_cast<uint16_t>(ring_entries - head_);
-    if (count > to_end) count = static_cast<uint8_t>(to_end);
+    const uint8_t behind_this = static_cast<uint8_t>(ring_mask - head_);  // entries, up to the ring's end
+    if (count > behind_this) count = static_cast<uint8_t>(behind_this + 1);
     const uint8_t room = static_cast<uint8_t>(most - ahead);
     if (count > room) {
       // Worth the way only if there is room for many, or if few are ahead.
@@ -284,7 +284,7 @@ class ChipPlayer {
     if (turns_ != 0 && !queue_turn()) return false;
 
     // If the interrupt comes to its end meanwhile, then in front of this one.
-    if (ahead == 0 || running != 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
+    if (ahead == 0 || (line_is_watched == 0 && running != 0)) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     flagged_byte(behind) = pins.flag_special | pins.flag_stop;
