@@ -29,7 +29,13 @@ class ChipPlayer {
     slow_end_ = 0;
     head_ = fetched_entry();
     flagged_byte(head_) = pins.flag_special | pins.flag_stop;
-    if (motors != expansion.motors) forget_toggles();
+    if (step_port_count > 1 && motors != expansion.motors) {
+      for (uint8_t i = ring_mask; i != 0; --i) {
+        forget_toggles(i);
+        SerialLine::breathe();
+      }
+      forget_toggles(0);
+    }
     expansion.motors = motors;
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
@@ -107,11 +113,13 @@ class ChipPlayer {
   static void forget() {
     const Item& item = items_[finished_ & items_mask];
     if (item.events != 0) {
+      if (step_port_count > 1) SerialLine::breathe();
       for (uint8_t m = 0; m < motors(); ++m) {
         at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
       }
     }
     ++finished_;
+    if (step_port_count > 1) SerialLine::breathe();
   }
   // Of the oldest item: the events played, and the steps that a motor has made in them, down or up.
   static uint8_t played() {
@@ -284,7 +292,8 @@ class ChipPlayer {
     if (turns_ != 0 && !queue_turn()) return false;
 
     // If the interrupt comes to its end meanwhile, then in front of this one.
-    if (ahead == 0 || (line_is_watched == 0 && running != 0)) gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
+    if (ahead == 0 || (line_is_watched == 0 && running != 0))
+      gap_ = static_cast<uint16_t>(expansion.interval >> 16) + 1;
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
     flagged_byte(behind) = pins.flag_special | pins.flag_stop;

@@ -45,10 +45,10 @@ inline uint16_t toggles_address(uint8_t index) {
 }
 
 inline void prepare_ring() {}
-// The expander leaves out the ports of motors that the host does not know.
-inline void forget_toggles() {
-  for (uint16_t at = first_toggles_address + 0x100; at != first_toggles_address + 0x400; ++at) {
-    *reinterpret_cast<volatile uint8_t*>(at) = 0;
+// The expander leaves out the ports of motors that the host does not know. A byte of each of those ports.
+inline void forget_toggles(uint8_t index) {
+  for (uint16_t port = 0x100; port != 0x400; port += 0x100) {
+    *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + port) = 0;
   }
 }
 

@@ -63,7 +63,7 @@ inline void prepare_ring() {
   }
 }
 // No event turns anything over on a port of motors that the host does not know.
-inline void forget_toggles() {}
+inline void forget_toggles(uint8_t /*index*/) {}
 
 // r3:r2 is behind the bytes of the entry that the interrupt has fetched, so at the next one.
 inline uint8_t entry_of(uint16_t next) {
