@@ -39,6 +39,7 @@ std::int64_t worst_reaction(const BoardUnderTest& board, Pin pin, FaultReason re
     bench.start(long_run(board.motors.size() > 3 ? 145 : 114, 7));
     bench.run(60'000 + random() % 40'000);
     EXPECT_FALSE(bench.fault().has_value());
+    EXPECT_FALSE(bench.ports().changes().empty()) << "it moves";
     const std::uint64_t switched = bench.chip().cycles();
     bench.ports().set_input(pin.port, pin.bit, false);
     bench.run(200'000);

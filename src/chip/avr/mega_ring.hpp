@@ -11,7 +11,7 @@ namespace passo::chip {
 
 inline constexpr const PinMap<6>& pins = mega_ramps;
 inline constexpr About about = {
-    .firmware = 100, .highest_event_rate = 110'000, .baud = 500'000, .name = "mega ramps 1.4"};
+    .firmware = 100, .highest_event_rate = 100'000, .baud = 500'000, .name = "mega ramps 1.4"};
 
 // Pages at the start of RAM, before everything that the linker places: times, high and low bytes, and what to turn over
 // on each of the step ports, in their order in the pin map.
