@@ -194,7 +194,7 @@ class ChipPlayer {
   // after the line meanwhile.
   static constexpr uint8_t blank_events = 24;
   static constexpr uint16_t blank_ticks = 250;
-  static constexpr uint16_t start_ticks = 1500;
+  static constexpr uint16_t start_ticks = step_port_count > 1 ? 2600 : 1500;  // more than it takes to write them
   // An alarm nearer than this may be missed.
   static constexpr uint16_t least_lead = 150;
 
