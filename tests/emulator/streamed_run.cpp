@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/firmware/player.hpp"
 
@@ -43,6 +44,15 @@ BoardUnderTest uno_under_test(const std::string& program) {
   BoardUnderTest board;
   board.program = program;
   board.motors.assign(std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor));
+  return board;
+}
+
+BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors) {
+  BoardUnderTest board;
+  board.program = program;
+  board.mcu = "atmega2560";
+  board.motors.assign(std::begin(mega_ramps.motor), std::begin(mega_ramps.motor) + motors);
+  board.ports = "ABCDEFGHJKL";
   return board;
 }
 
@@ -198,22 +208,26 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) const {
       }
     }
   }
-  std::optional<std::int64_t> start;
+  std::optional<std::int64_t> first;
+  std::optional<std::int64_t> last;
   for (std::uint8_t m = 0; m < motors; ++m) {
     result.steps += seen[m].size();
     result.expected += expected[m].size();
     if (seen[m].size() != expected[m].size()) ++result.wrong_count;
+    std::optional<std::int64_t> earliest;
+    std::optional<std::int64_t> latest;
     for (std::size_t i = 0; i < std::min(seen[m].size(), expected[m].size()); ++i) {
       const std::int64_t late = seen[m][i].time - expected[m][i].time;
-      if (!start) {
-        start = late;
-        result.earliest = result.latest = 0;
-      }
-      result.earliest = std::min(result.earliest, late - *start);
-      result.latest = std::max(result.latest, late - *start);
+      earliest = std::min(earliest.value_or(late), late);
+      latest = std::max(latest.value_or(late), late);
       if (seen[m][i].down != expected[m][i].down) ++result.wrong_direction;
     }
+    if (!earliest) continue;
+    result.error = std::max(result.error, *latest - *earliest);
+    first = std::min(first.value_or(*earliest), *earliest);
+    last = std::max(last.value_or(*earliest), *earliest);
   }
+  if (first) result.apart = *last - *first;
   return result;
 }
 

@@ -29,14 +29,16 @@ struct BoardUnderTest {
 };
 
 BoardUnderTest uno_under_test(const std::string& program);
+// With a host that drives that many motors.
+BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors);
 
 struct EdgeCheck {
   std::uint64_t steps = 0;            // edges seen
   std::uint64_t expected = 0;         // of the model
   std::uint64_t wrong_count = 0;      // motors with another number of edges
   std::uint64_t wrong_direction = 0;  // edges
-  std::int64_t earliest = 0;          // edge against model, in cycles, from the mean start on
-  std::int64_t latest = 0;
+  std::int64_t error = 0;             // the worst motor's edges against the model, peak to peak, in cycles
+  std::int64_t apart = 0;             // the first motor's edge of an event, and the last one's: always in this order
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
@@ -47,13 +49,15 @@ struct EdgeCheck {
   double seconds = 0;  // of the chip's time, playing
   std::uint64_t events = 0;
 
-  std::int64_t spread() const { return latest - earliest; }
   bool exact() const { return finished && wrong_count == 0 && wrong_direction == 0 && steps == expected; }
 };
 
 class BoardBench {
  public:
   explicit BoardBench(const BoardUnderTest& board);
+
+  // The next host drives the first `count` motors only.
+  void drive_motors(std::size_t count) { board_.motors.resize(count); }
 
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);

@@ -4,12 +4,9 @@
 #include "registers.hpp"
 #include "step_interrupt.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
-
 namespace passo::chip {
 namespace {
 
-constexpr const PinMap<3>& pins = uno_cnc_shield;
 constexpr uint8_t toggle_port = 0x09;  // PIND
 // A pulse is 19 cycles long by itself.
 constexpr uint8_t padding = pins.shortest_pulse > 19 ? pins.shortest_pulse - 19 : 0;
