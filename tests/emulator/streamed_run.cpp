@@ -99,6 +99,11 @@ void BoardBench::send_item(const BoardSegment& segment) {
   uart_->send({frame, size});
 }
 
+void BoardBench::send_item(const BoardOutputs& outputs) {
+  std::uint8_t frame[largest_frame];
+  uart_->send({frame, encode(outputs, ++last_sent_, frame)});
+}
+
 void BoardBench::ask() {
   std::uint8_t frame[largest_frame];
   status_.reset();
@@ -128,6 +133,12 @@ bool BoardBench::say_hello() {
 void BoardBench::start(const std::vector<BoardSegment>& segments) {
   if (!say_hello()) return;
   for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), capacity_); ++i) send_item(segments[i]);
+}
+
+void BoardBench::start_items(const std::vector<Item>& items) {
+  if (!say_hello()) return;
+  send_replace(static_cast<std::uint8_t>(items.size()));
+  for (const Item& item : items) std::visit([this](const auto& one) { send_item(one); }, item);
 }
 
 void BoardBench::run(std::uint64_t cycles) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "passo/chip/pin_map.hpp"
@@ -61,6 +62,9 @@ class BoardBench {
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
 
+  // Says hello and sends them all, to begin when all have come: one less than the board takes at once.
+  using Item = std::variant<BoardSegment, BoardOutputs>;
+  void start_items(const std::vector<Item>& items);
   // Says hello and sends as many as the board takes at once.
   void start(const std::vector<BoardSegment>& segments);
   // Lets time pass, whatever the board says.
@@ -84,6 +88,7 @@ class BoardBench {
   // Behind all that was executed.
   void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
+  void send_item(const BoardOutputs& outputs);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
 
   BoardUnderTest board_;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "event_ring.hpp"
+#include "output_actions.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
@@ -37,6 +38,7 @@ class ChipPlayer {
       forget_toggles(0);
     }
     expansion.motors = motors;
+    OutputActions::clear();
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
     turning_ = fresh_ = slipped_ = over_ = false;
@@ -68,9 +70,11 @@ class ChipPlayer {
   }
 
   // Can take the next item.
-  static bool ready() { return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun; }
+  static bool ready() {
+    return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun && !OutputActions::full();
+  }
   // Nothing is played and nothing waits to be.
-  static bool done() { return left_ == 0 && running == 0 && waiting() == 0; }
+  static bool done() { return left_ == 0 && rests(); }
 
   static void load(const BoardSegment& segment) {
     for (uint8_t m = 0; m < motors(); ++m) expansion.increments[m] = segment.increments[m];
@@ -93,12 +97,15 @@ class ChipPlayer {
     }
     SerialLine::breathe();
     most_ahead_ = most_ahead();
-    least_room_ = static_cast<uint8_t>(most_ahead_ / 4);
+    least_room_ = static_cast<uint8_t>(most_ahead_ / 8 * 3);
     SerialLine::breathe();
     remember(segment);
   }
   // An item that takes no time: it is finished with the event before it.
-  static void pass() {
+  static void pass(const BoardOutputs& outputs) {
+    SerialLine::breathe();
+    OutputActions::put(outputs, rests);
+    SerialLine::breathe();
     Item& item = items_[begun_++ & items_mask];
     item.end = made_;
     item.events = 0;
@@ -118,14 +125,9 @@ class ChipPlayer {
     over_ = finished_ != begun_ && left_of_oldest() <= 0;
     return over_;
   }
+  // Its steps have been told, and what they leave of fractions is in `at_start_`.
   static void forget() {
-    const Item& item = items_[finished_ & items_mask];
-    if (item.events != 0) {
-      if (step_port_count > 1) SerialLine::breathe();
-      for (uint8_t m = 0; m < motors(); ++m) {
-        at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
-      }
-    }
+    if (items_[finished_ & items_mask].events == 0) OutputActions::forget();
     over_ = false;
     ++finished_;
     if (step_port_count > 1) SerialLine::breathe();
@@ -141,15 +143,17 @@ class ChipPlayer {
     const Item& item = items_[finished_ & items_mask];
     const uint8_t bit = static_cast<uint8_t>(1U << motor);
     const uint8_t events = over_ ? item.events : played();
-    int16_t steps = carries(at_start_[motor], item.increments[motor], events);
+    uint16_t accumulator = at_start_[motor];
+    int16_t steps = carries(accumulator, item.increments[motor], events);
+    if (over_) at_start_[motor] = accumulator;  // told once, and then forgotten
     SerialLine::breathe();
     if ((item.flips & bit) != 0) steps = static_cast<int16_t>(events - steps);
     return (item.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
   }
 
-  // Additions of `increment` to `accumulator` that overflow. A 16 by 8 bit product, for which LLVM calls one of 32
-  // bits.
-  static uint8_t carries(uint16_t accumulator, uint16_t increment, uint8_t events) {
+  // Makes the additions of `increment` to `accumulator`; how many overflow. A 16 by 8 bit product, for which LLVM calls
+  // one of 32 bits.
+  static uint8_t carries(uint16_t& accumulator, uint16_t increment, uint8_t events) {
     uint8_t count;
     asm volatile(
         "mul %A2, %3\n\t"
@@ -241,6 +245,7 @@ class ChipPlayer {
       *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + 0x100 * p) = 0;
     }
   }
+  static bool rests() { return running == 0 && waiting() == 0; }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
 
   static void set_alarm(uint8_t index) {
@@ -309,7 +314,7 @@ class ChipPlayer {
     const uint8_t behind_this = static_cast<uint8_t>(ring_mask - head_);  // entries, up to the ring's end
     if (count > behind_this) count = static_cast<uint8_t>(behind_this + 1);
     if (count > room) count = room;
-    if (turns_ != 0 && !queue_turn()) return false;
+    if ((turns_ != 0 || OutputActions::riding() != 0) && !queue_turn()) return false;
 
     // The interrupt may come to the end of the ring while these are made.
     if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
@@ -326,6 +331,7 @@ class ChipPlayer {
     const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(pins.flag_special | pins.flag_stop));
     // From here on the interrupt may come to it.
     flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
+    if (turning_) OutputActions::taken();
     turning_ = false;
     return true;
   }
@@ -335,6 +341,7 @@ class ChipPlayer {
     if (head == turns_tail) return false;
     volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_);
     for (uint8_t p = 0; p < step_port_count; ++p) turn[p] = motor_pins.on[p].directions[turns_];
+    turn[0] = static_cast<uint8_t>(turn[0] | OutputActions::riding());
     turns_head_ = head;
     turns_ = 0;
     turning_ = true;
@@ -357,8 +364,10 @@ class ChipPlayer {
     const uint8_t tail = turns_tail;
     const volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail);
     for (uint8_t p = 0; p < step_port_count; ++p) {
-      *reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p])) = turn[p];
+      const uint8_t turning = p == 0 ? static_cast<uint8_t>(turn[p] & turning_bits) : turn[p];
+      *reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p])) = turning;
     }
+    if ((turn[0] & action_bits) != 0) OutputActions::act(turn[0] & action_bits);
     turns_tail = static_cast<uint8_t>((tail + step_port_count) & (turns_address + turns_mask));
     asm volatile("mov r5, %0" ::"r"(static_cast<uint8_t>(toggles & ~pins.flag_special)));
   }

@@ -26,6 +26,23 @@ struct PortBits {
   uint8_t on[step_port_count];
 };
 
+// How the outputs are to be: their two ports as a whole, and the PWM of the spindle, whose pin is not connected to it
+// where the duty is 0: even that would be a pulse of one count.
+struct Action {
+  uint8_t first_port;
+  uint8_t second_port;
+  uint8_t duty;
+  uint8_t control;
+};
+inline constexpr uint8_t action_count = 4;
+inline constexpr uint8_t safe_action = (actions_address & 0xff) + sizeof(Action) * action_count;
+// Of a turn's first byte.
+inline constexpr uint8_t turning_bits = pins.directions_on(pins.step_ports[0]);
+static_assert((turning_bits & action_bits) == 0);
+static_assert((actions_address & 0xff & ~action_bits) == 0 && (safe_action & ~action_bits) == 0);
+static_assert(actions_address >> 8 == turns_address >> 8, "turns and actions are on one page");
+static_assert(first_free_address == actions_address + sizeof(Action) * (action_count + 1));
+
 // The first step port's byte of an entry, with the flags.
 inline volatile uint8_t& flagged_byte(uint8_t index) {
   return *reinterpret_cast<volatile uint8_t*>(toggles_address(index));

@@ -28,6 +28,7 @@ Expansion expansion;
 volatile uint8_t running;
 volatile uint8_t line_is_watched;
 volatile uint8_t turns_tail = turns_address & 0xff;
+volatile uint8_t action_at_end;
 volatile uint8_t received_head;
 volatile uint8_t stop_low_b;
 volatile uint8_t stop_low_d;
@@ -102,43 +103,53 @@ volatile uint8_t halted;
       in r31, %[gpior1]
       reti
 
-      ; the entry just fetched is no plain event
-  2:  push r24
+      ; the entry just fetched is no plain event. Z is free again: what it held is still in the spare registers
+  2:  in r3, %[sreg]
       sbrc r5, %[stop]
       rjmp 4f
-      in r24, %[sreg]               ; pins of directions, long before the event that needs them
-      push r24
-      push r30
-      push r31
-      mov r24, r5
-      andi r24, %[plain]
-      mov r5, r24
+      mov r30, r5                   ; pins of directions, long before the event that needs them
+      andi r30, %[plain]
+      mov r5, r30
       lds r30, turns_tail
       ldi r31, hi8(%[turns])
-      ld r24, Z+
-      out %[port_f], r24
-      ld r24, Z+
-      sts %[port_l], r24
-      ld r24, Z+
-      out %[port_a], r24
-      ld r24, Z+
-      out %[port_c], r24
+      ld r4, Z+
+      ld r6, Z+
+      sts %[port_l], r6
+      ld r6, Z+
+      out %[port_a], r6
+      ld r6, Z+
+      out %[port_c], r6
       andi r30, lo8(%[turns] + %[turns_mask])
       sts turns_tail, r30
-      pop r31
-      pop r30
-      pop r24
-      out %[sreg], r24
-      pop r24
+      mov r30, r4
+      andi r30, %[turning]
+      out %[port_f], r30
+      eor r30, r4
+      breq 7f
+  .Lpasso_act:
+      ldi r31, hi8(%[turns])        ; outputs
+      ld r4, Z+
+      sts %[port_h], r4
+      ld r4, Z+
+      out %[port_b], r4
+      ld r4, Z+
+      sts %[duty], r4
+      ld r4, Z
+      sts %[control], r4
+  7:  out %[sreg], r3
+      in r30, %[gpior0]
+      in r31, %[gpior1]
       rjmp 3b
 
       ; behind the last event
-  4:  ldi r24, 0
-      sts %[timsk], r24
-      sts running, r24
-      sts line_is_watched, r24
-      pop r24
-      rjmp 3b
+  4:  ldi r30, 0
+      sts %[timsk], r30
+      sts running, r30
+      sts line_is_watched, r30
+      lds r30, action_at_end
+      and r30, r30
+      breq 7b
+      rjmp .Lpasso_act
 
       ; a switch: flags first, pins then, so that no change is missed
   5:  push r24
@@ -152,22 +163,22 @@ volatile uint8_t halted;
       com r24
       lds r25, stop_low_d
       and r24, r25
-      brne 7f
+      brne 8f
       in r24, %[pine]
       com r24
       lds r25, stop_low_e
       and r24, r25
-      brne 7f
+      brne 8f
       lds r24, %[pinj]
       com r24
       lds r25, stop_low_j
       and r24, r25
-      brne 7f
+      brne 8f
       in r24, %[pinb]
       com r24
       lds r25, stop_low_b
       and r25, r24
-      brne 7f
+      brne 8f
       lds r25, probe_mask
       and r24, r25
       breq 6f
@@ -179,27 +190,27 @@ volatile uint8_t halted;
       out %[sreg], r24
       pop r24
       rjmp 1b
-  7:  ldi r24, 0
+  8:  ldi r24, 0
       sts %[timsk], r24
       sts running, r24
       sts line_is_watched, r24
       ldi r24, 1
       sts halted, r24
-      in r30, %[gpior0]
-      in r31, %[gpior1]
       pop r25
       pop r24
-      out %[sreg], r24
+      mov r3, r24
       pop r24
-      rjmp 3b
+      ldi r30, %[safe]
+      rjmp .Lpasso_act
   )" ::[port_f] "n"(toggle_f),
       [port_a] "n"(toggle_a), [port_c] "n"(toggle_c), [port_l] "n"(toggle_l), [pcifr] "n"(io(Pcifr::where)),
       [eifr] "n"(io(Eifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
       [pinb] "n"(0x03), [pind] "n"(0x09), [pine] "n"(0x0c), [pinj] "n"(0x103), [special] "n"(4), [stop] "n"(3),
       [padding] "n"(padding), [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
-      [turns_mask] "n"(turns_mask), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
-      [received] "n"(received_address), [page_high] "n"(page(times_high_address)),
+      [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [safe] "n"(safe_action), [port_h] "n"(0x102),
+      [port_b] "n"(0x05), [duty] "n"(Ocr4cl::where), [control] "n"(Tccr4a::where), [ucsra] "n"(Ucsr0a::where),
+      [udr] "n"(Udr0::where), [received] "n"(received_address), [page_high] "n"(page(times_high_address)),
       [page_low] "n"(page(times_low_address)), [page_f] "n"(page(first_toggles_address)),
       [page_l] "n"(page(first_toggles_address + 0x100)), [page_a] "n"(page(first_toggles_address + 0x200)),
       [page_c] "n"(page(first_toggles_address + 0x300)));

@@ -29,7 +29,10 @@ inline constexpr uint8_t turns_mask = 0x3f;
 // and the interrupt takes them all.
 inline constexpr uint16_t often = 500;
 
-inline constexpr uint16_t first_free_address = 0x940;
+inline constexpr uint16_t actions_address = 0x940;
+inline constexpr uint8_t action_bits = 0x7c;
+
+inline constexpr uint16_t first_free_address = 0x954;
 
 inline uint16_t entry_address(uint8_t index) {
   return index;

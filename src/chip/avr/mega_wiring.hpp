@@ -6,16 +6,20 @@
 
 namespace passo::chip {
 
-// PWM of 7.8 kHz at the spindle's pin, off at first: timer 4, eight bits, output C.
+// The ports of an action, its duty and its control register.
+inline constexpr char output_ports[] = {'H', 'B'};
+using SpindleDuty = Ocr4cl;
+using SpindleControl = Tccr4a;
+inline constexpr uint8_t spindle_connected = 1 << 3 | 1 << 0;
+inline constexpr uint8_t spindle_disconnected = 1 << 0;
+
+// PWM of 7.8 kHz at the spindle's pin, off at first: timer 4, eight bits, output C. The high byte goes through a
+// register that nothing else of this timer writes, and stays 0.
 inline void prepare_spindle() {
   Ocr4ch::write(0);
-  Ocr4cl::write(0);
-  Tccr4a::write(1 << 3 | 1 << 0);
+  SpindleDuty::write(0);
+  SpindleControl::write(spindle_disconnected);
   Tccr4b::write(1 << 3 | 1 << 1);
-}
-inline void set_spindle_duty(uint8_t duty) {
-  Ocr4ch::write(0);
-  Ocr4cl::write(duty);
 }
 
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled. Pins of ports D and E

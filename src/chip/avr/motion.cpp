@@ -1,5 +1,6 @@
 // The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
 #include "chip_player.hpp"
+#include "output_actions.hpp"
 #include "serial_line.hpp"
 #include "wiring.hpp"
 
@@ -23,7 +24,7 @@ constexpr uint8_t queue_capacity = (256 - frame_size(MessageType::replace)) / fr
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
-  void outputs(const BoardOutputs& wanted) { Wiring::switch_outputs(wanted); }
+  void outputs(const BoardOutputs&) {}  // the player has switched them, at their event
   void send(uint8_t byte) { line.send(byte); }
   static void breathe() { SerialLine::breathe(); }
 
@@ -58,7 +59,7 @@ void start_watchdog() {
 [[gnu::noinline]] void stop_at_once() {
   const bool pressed = (Wiring::inputs() & input_emergency_stop) != 0;
   board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
-  Wiring::switch_outputs({});
+  OutputActions::make_safe();
   if (pressed) Wiring::enable_motors(false);
   halted = 0;
 }
@@ -100,7 +101,7 @@ void start_watchdog() {
   asm volatile("wdr");
   SerialLine& line = hardware.line;
   line.poll();
-  if (ChipPlayer::wants_more() && !board.starves()) board.settle();
+  if (ChipPlayer::wants_more() && board.ahead() != 0) board.settle();
   for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
     receive();
     SerialLine::breathe();

@@ -28,6 +28,7 @@ extern Expansion expansion;
 extern volatile uint8_t running;          // the interrupt plays
 extern volatile uint8_t line_is_watched;  // by the interrupt, which comes often: the main loop need not look
 extern volatile uint8_t turns_tail;       // low byte of the address of the next turn
+extern volatile uint8_t action_at_end;    // low byte of the address of what to do at the end of the ring; 0: nothing
 extern volatile uint8_t received_head;    // low byte of the address where the next byte off the line goes
 extern volatile uint8_t probe_mask;       // armed: the probe's pin
 extern volatile uint16_t probe_entry;     // the ring's register when it touched

@@ -37,8 +37,13 @@ inline constexpr uint8_t turns_mask = 0x07;
 // takes one.
 inline constexpr uint16_t often = 300;
 
+// What the outputs are switched to, and behind them what they are switched to by a stop. Where such an action lies is
+// told beside the directions of the turn on which it rides: by the low byte of its address, in bits that turn nothing.
+inline constexpr uint16_t actions_address = 0x408;
+inline constexpr uint8_t action_bits = 0x1c;
+
 // From here on the linker places its own (CMakeLists.txt says so to it).
-inline constexpr uint16_t first_free_address = 0x408;
+inline constexpr uint16_t first_free_address = 0x41c;
 
 // Where the expander is to write it.
 inline uint16_t entry_address(uint8_t index) {

@@ -6,14 +6,18 @@
 
 namespace passo::chip {
 
+// The ports of an action, its duty and its control register.
+inline constexpr char output_ports[] = {'B', 'C'};
+using SpindleDuty = Ocr2a;
+using SpindleControl = Tccr2a;
+inline constexpr uint8_t spindle_connected = 1 << 7 | 1 << 1 | 1 << 0;
+inline constexpr uint8_t spindle_disconnected = 1 << 1 | 1 << 0;
+
 // PWM of 7.8 kHz at the spindle's pin, off at first.
 inline void prepare_spindle() {
-  Ocr2a::write(0);
-  Tccr2a::write(1 << 7 | 1 << 1 | 1 << 0);
+  SpindleDuty::write(0);
+  SpindleControl::write(spindle_disconnected);
   Tccr2b::write(1 << 1);
-}
-inline void set_spindle_duty(uint8_t duty) {
-  Ocr2a::write(duty);
 }
 
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled.

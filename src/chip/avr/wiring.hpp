@@ -41,11 +41,20 @@ class Wiring {
     for (const MotorPins& motor : pins.motor) set(motor.enable, !on);
   }
 
-  static void switch_outputs(const BoardOutputs& outputs) {
-    set(pins.spindle_direction, (outputs.switches & spindle_reverse) != 0);
-    set(pins.mist, (outputs.switches & mist_on) != 0);
-    set(pins.flood, (outputs.switches & flood_on) != 0);
-    set_spindle_duty((outputs.switches & spindle_on) != 0 ? duty(outputs.spindle_rpm) : uint8_t{0});
+  // To switch the outputs to this, all else on their ports as it is.
+  static Action action_of(const BoardOutputs& outputs) {
+    const uint8_t duty = (outputs.switches & spindle_on) != 0 ? duty_of(outputs.spindle_rpm) : uint8_t{0};
+    return {.first_port = port_with(output_ports[0], outputs.switches),
+            .second_port = port_with(output_ports[1], outputs.switches),
+            .duty = duty,
+            .control = duty != 0 ? spindle_connected : spindle_disconnected};
+  }
+  // Only while the interrupt does not play: it does the same.
+  static void act(const volatile Action& action) {
+    port_register(output_ports[0], 2) = action.first_port;
+    port_register(output_ports[1], 2) = action.second_port;
+    SpindleDuty::write(action.duty);
+    SpindleControl::write(action.control);
   }
 
   // Bits of BoardInput, set where a switch is closed.
@@ -90,7 +99,21 @@ class Wiring {
       if (plan.outputs != 0) port_register(plan.port, 1) = plan.outputs;
     }
   }
-  static uint8_t duty(uint16_t rpm) {
+  [[gnu::always_inline]] static uint8_t port_with(char port, uint8_t switches) {
+    constexpr struct {
+      Pin pin;
+      uint8_t which;
+    } outputs[] = {{pins.spindle_direction, spindle_reverse}, {pins.mist, mist_on}, {pins.flood, flood_on}};
+    uint8_t value = port_register(port, 2);
+#pragma clang loop unroll(full)
+    for (const auto& output : outputs) {
+      if (output.pin.port != port) continue;
+      value = static_cast<uint8_t>(value & ~output.pin.mask());
+      if ((switches & output.which) != 0) value = static_cast<uint8_t>(value | output.pin.mask());
+    }
+    return value;
+  }
+  static uint8_t duty_of(uint16_t rpm) {
     const uint32_t duty = static_cast<uint32_t>(rpm) * (255 * 65536 / full_rpm + 1) >> 16;
     return duty > 255 ? uint8_t{255} : static_cast<uint8_t>(duty);
   }

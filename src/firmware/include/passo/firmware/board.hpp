@@ -112,12 +112,12 @@ class Board {
       if (item.is_segment) {
         player_.load(item.segment);
       } else {
-        player_.pass();
+        player_.pass(item.outputs);
       }
     } while (true);
   }
-  // The player has begun all that there is.
-  bool starves() const { return begun_ == list_.size(); }
+  // Items that the player has not begun.
+  uint8_t ahead() const { return static_cast<uint8_t>(list_.size() - begun_); }
   SegmentPlayer& player() { return player_; }
 
  private:
