@@ -86,7 +86,7 @@ void BoardBench::hear(std::uint8_t byte) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), status_.emplace());
   } else if (frame.type == MessageType::error) {
     decode(frame, error_.emplace());
-    ++complaints_;
+    if (!before_item || error_->reason != WireError::bad_frame) ++complaints_;
   } else {
     ++complaints_;
   }
@@ -94,6 +94,7 @@ void BoardBench::hear(std::uint8_t byte) {
 }
 
 void BoardBench::send_item(const BoardSegment& segment) {
+  if (before_item) before_item();
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
   uart_->send({frame, size});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
@@ -58,6 +59,9 @@ class BoardBench {
 
   // The next host drives the first `count` motors only.
   void drive_motors(std::size_t count) { board_.motors.resize(count); }
+
+  // Called before each item that play() sends. What the board says of bytes that are no frame is then no complaint.
+  std::function<void()> before_item;
 
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
