@@ -59,10 +59,11 @@ class Board {
       case Decoded::refused: complain(WireError::bad_frame); break;
     }
   }
-  // Items were executed or replaced that the host has not been told of.
-  bool owes_report() const { return owes_report_; }
+  // Items were executed or replaced that the host has not been told of. How many, about.
+  bool owes_report() const { return owed_ != 0; }
+  uint8_t owed() const { return owed_; }
   void report() {
-    owes_report_ = false;
+    owed_ = 0;
     send(Credit{.executed = executed_, .taken = taken(), .free = list_.free()});
   }
   // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
@@ -111,10 +112,12 @@ class Board {
       if (item.is_segment) {
         player_.load(item.segment);
       } else {
-        player_.pass();
+        player_.pass(item.outputs);
       }
     } while (true);
   }
+  // Items that the player has not begun.
+  uint8_t ahead() const { return static_cast<uint8_t>(list_.size() - begun_); }
   SegmentPlayer& player() { return player_; }
 
  private:
@@ -148,7 +151,8 @@ class Board {
     session_ = 0;
     executed_ = frame.sequence;
     expected_ = static_cast<uint16_t>(frame.sequence + 1);
-    complained_ = owes_report_ = false;
+    complained_ = false;
+    owed_ = 0;
     trusted_ = true;
     send(HelloReply{.motors = identity_.motors, .capacity = queue_capacity, .clock = identity_.clock});
   }
@@ -233,7 +237,7 @@ class Board {
     breathe();
     if (list_.gathering()) return;
     if (list_.gathered()) {
-      owes_report_ = true;  // of the room, either way
+      ++owed_;  // of the room, either way
       if (!list_.template complete<Breath>(executed_, begun_)) {
         return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
       }
@@ -250,7 +254,11 @@ class Board {
     const uint32_t change = static_cast<uint32_t>(faster ? -segment.change : segment.change);
     const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
     // Most segments are far from it, and so need no product.
-    return change << 8 <= room || change * static_cast<uint8_t>(segment.events - 1) <= room;
+    return change << 8 <= room || is_within(room, change, segment.events);
+  }
+  // By itself, for the sake of the registers that it needs.
+  [[gnu::noinline]] static bool is_within(uint32_t room, uint32_t change, uint8_t events) {
+    return change * static_cast<uint8_t>(events - 1) <= room;
   }
 
   void accept() {
@@ -269,7 +277,7 @@ class Board {
     executed_ = item.number;
     list_.pop();
     --begun_;
-    owes_report_ = true;
+    ++owed_;
   }
 
   // Between two pieces of work: hardware with a small buffer looks at its line.
@@ -321,7 +329,7 @@ class Board {
   uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte
   uint16_t executed_ = 0;  // of the last item that is done
   uint8_t sent_ = 0;       // the board's own sequence number
-  bool owes_report_ = false;
+  uint8_t owed_ = 0;       // items executed and other news since the last report
   bool complained_ = false;
   bool trusted_ = true;
   uint16_t inputs_ = 0;

@@ -1,4 +1,4 @@
-#include "emulator/emulated_chip.hpp"
+#include "passo/emulator/emulated_chip.hpp"
 
 #include <cstdarg>
 #include <cstdlib>
@@ -78,6 +78,9 @@ void EmulatedChip::step() {
 
 void EmulatedChip::run_for(std::uint64_t cycles) {
   const std::uint64_t end = avr_->cycle + cycles;
+  // simavr runs on until something is due: let it be due there.
+  avr_cycle_timer_register(
+      avr_.get(), cycles, [](avr_t*, avr_cycle_count_t, void*) { return avr_cycle_count_t{0}; }, this);
   stopped_ = false;
   while (!stopped_ && avr_->cycle < end) step();
 }
