@@ -9,9 +9,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr int most_steps = 14;
+constexpr int most_steps = 12;
 constexpr double first_target = 0.02;  // price times slack, in parts of the mean time of a cell
-constexpr double last_target = 3e-5;
+constexpr double last_target = 1e-4;
 constexpr double target_falls = 0.2;     // by this factor from step to step, at best
 constexpr double short_of_limit = 0.95;  // a step goes no nearer to where a slack or a price is nothing
 constexpr double least_share = 1e-3;     // of a step: where it goes no farther, there is no way

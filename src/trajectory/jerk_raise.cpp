@@ -24,7 +24,7 @@ constexpr double lower_cap = 0.9995;
 constexpr double at_cap = 1 - 1e-6;
 constexpr int rounds_of_raising = 7;
 constexpr int rounds_nearby = 3;
-constexpr std::size_t nearby = 24;  // cells raised again on both sides of one
+constexpr std::size_t nearby = 14;  // cells raised again on both sides of one
 constexpr std::size_t fewest_to_raise = 5;
 
 }  // namespace
