@@ -44,7 +44,7 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, std::ui
 int main(int argc, char** argv) {
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
-  if (intervals.empty()) intervals = {300, 200, 160, 145, 133, 120, 114};
+  if (intervals.empty()) intervals = {300, 200, 178, 160, 145, 133, 120, 114};
   try {
     std::puts(
         "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | apart | pulse | set-up | "
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     for (const std::uint8_t motors : {std::uint8_t{4}, std::uint8_t{6}}) {
       const BoardUnderTest mega = mega_under_test(PASSO_MOTION_MEGA, motors);
       for (const bool changing : {false, true}) {
-        sweep(mega, changing ? "Mega, changing" : "Mega, even", changing, motors > 4 ? 200 : 145, intervals);
+        sweep(mega, changing ? "Mega, changing" : "Mega, even", changing, motors > 4 ? 178 : 145, intervals);
       }
     }
   } catch (const std::exception& error) {

@@ -149,11 +149,11 @@ TEST(Mega, turns_four_motors_at_110_kHz_while_it_is_fed) {
   expect_every_edge(bench.play(random_stream(random, 4, kind)), unavoidable_on_mega, apart_on_mega);
 }
 
-TEST(Mega, turns_six_motors_at_80_kHz_while_it_is_fed) {
+TEST(Mega, turns_six_motors_at_90_kHz_while_it_is_fed) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(mega_under_test(PASSO_MOTION_MEGA, 6));
   const StreamKind kind{
-      .shortest_interval = 200, .longest_interval = 225, .shortest_segment = 120, .segments = 120, .ramp = 20};
+      .shortest_interval = 178, .longest_interval = 200, .shortest_segment = 120, .segments = 120, .ramp = 20};
   expect_every_edge(bench.play(random_stream(random, 6, kind)), unavoidable_on_mega, apart_on_mega);
 }
 
