@@ -16,6 +16,8 @@ constexpr int samples_of_a_line = 4;
 // How far about the last place the next one is looked for: tolerances, and steps of the walk.
 constexpr double tolerances_about = 10;
 constexpr double steps_about = 2;
+// Farther back than so many tolerances the path does not go: where it does, it has turned without reaching the tip.
+constexpr double tolerances_back = 2;
 // And how far behind it nothing can be nearer any more.
 constexpr double kept_behind = 8;
 
@@ -56,8 +58,9 @@ void PathDeviation::programmed(const PathItem& item) {
   length_ += curve.length();
 }
 
-// The nearest place between from and to; of places equally near (a drill goes down and up the same way) the one that
-// is nearest to `expected`.
+// The nearest place between from and to. Before all others those within the tolerance that do not lead back, where a
+// path turns and goes beside itself; of places equally near (a drill goes down and up the same way) the one that is
+// nearest to `expected`.
 PathDeviation::Match PathDeviation::match(const Point& point, double from, double to, double expected) const {
   constexpr double nearer = 1e-7;  // mm
   Match best{.at = at_, .distance = INFINITY};
@@ -70,9 +73,12 @@ PathDeviation::Match PathDeviation::match(const Point& point, double from, doubl
     const ExactCurve::Nearest nearest = segment->curve.nearest(point, low, high);
     const double at = segment->begin + nearest.s;
     const bool alike = std::abs(nearest.distance - best.distance) <= nearer;
-    const bool better =
-        alike ? std::abs(at - expected) < std::abs(best.at - expected) : nearest.distance < best.distance;
-    if (better) best = {.at = at, .distance = nearest.distance, .segment = &*segment};
+    const bool onwards =
+        nearest.distance <= segment->tolerance && at >= farthest_ - tolerances_back * segment->tolerance;
+    const bool better = onwards != best.onwards ? onwards
+                        : alike                 ? std::abs(at - expected) < std::abs(best.at - expected)
+                                                : nearest.distance < best.distance;
+    if (better) best = {.at = at, .distance = nearest.distance, .onwards = onwards, .segment = &*segment};
   }
   return best;
 }

@@ -51,6 +51,7 @@ class PathDeviation {
   struct Match {
     double at = 0;
     double distance = 0;
+    bool onwards = false;  // within the tolerance, and not back
     const Programmed* segment = nullptr;
   };
 

@@ -357,6 +357,17 @@ TEST(MotionProof, the_same_way_back_is_no_deviation) {
   EXPECT_LT(proof_of(planned).deviation.value, 1e-9);
 }
 
+// The way back is nearer to the way there than to the programmed way back.
+TEST(MotionProof, a_path_that_turns_short_of_a_tip_is_followed_on_its_way_back) {
+  std::vector<Segment> path = {line(xyz(0, 0), xyz(5.05, 0)), line(xyz(5.05, 0), xyz(0, 0.02))};
+  for (Segment& segment : path) segment.tolerance = Mm(0.1);
+  const std::vector<PlannedMove> planned = {steady(line(xyz(0, 0), xyz(5, 0)), 1),
+                                            steady(line(xyz(5, 0), xyz(0, 0.001)), 1)};
+  const MotionProof proof = proof_of(path, planned);
+  EXPECT_NEAR(proof.deviation.value, 0.05, 1e-3);
+  EXPECT_EQ(proof.deviation.limit, 0.1);
+}
+
 TEST(MotionProof, finds_a_gap) {
   const MotionProof between =
       proof_of({steady(line(xyz(0, 0), xyz(1, 0)), 1), steady(line(xyz(1.001, 0), xyz(2, 0)), 1)});
