@@ -93,7 +93,8 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       good_path_(path_builder_, diagnostics),
       watched_path_(good_path_),
       smoother_(watched_path_, smoothness(machine)),
-      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate),
+      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
+               static_cast<std::size_t>(machine.board.held_items)),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
       drive_(smoother_, limits_, step_options(machine), machine_, board_line(options, line_)),

@@ -1,6 +1,8 @@
 #include "passo/controller/refiller.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <cassert>
 #include <limits>
 #include <utility>
@@ -39,7 +41,7 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
   stages.path.keep();
   stages.planner.limit_moves_to(options.longest_move);
   stages.generator.limit_waiting_to(options.longest_move);
-  stages.generator.loosen_to_one_in(options.looseness);
+  stages.generator.be_exact_to(options.motion);
 }
 
 Refiller::Turn Refiller::advance() {
@@ -169,7 +171,7 @@ void Refiller::gather_tail() {
   for (const PlannedMove& move : plan_) refill_.rest = stages_.path.behind(refill_.rest, move);
   Braking braking(plan_);
   fork(braking, refill_);
-  refill_.rested->loosen_to_one_in(options_.tail_looseness);
+  refill_.rested->be_exact_to(options_.tail);
   while (refill_.rested->next(item_)) items_.emplace_back(std::get<BoardSegment>(item_));
 }
 
@@ -189,6 +191,14 @@ bool Refiller::send() {
     sent_.push_back(sent);
   }
   tail_items_ += items_.size() - motion_items_;
+  if (getenv("DBG")) {  // TEMP
+    double tt = 0, mt = 0; int te = 0, me = 0;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+      if (auto* g = std::get_if<BoardSegment>(&items_[i])) { (i < motion_items_ ? mt : tt) += time_of(items_[i]).value(); (i < motion_items_ ? me : te) += g->events; }
+    }
+    fprintf(stderr, "R motion %zu %.4f s %d ev tail %zu %.4f s %d ev ahead %.4f room %d rec %d\n", motion_items_, mt, me, items_.size() - motion_items_, tt, te, ahead_.value(), stages_.link.room(), recoveries_);
+    if (getenv("DBG")[0] == '2') for (std::size_t i = 0; i < items_.size(); ++i) if (auto* g = std::get_if<BoardSegment>(&items_[i])) fprintf(stderr, "   %s %d ev interval %.1f change %.4f dirs %d flips %d inc %d %d %d\n", i < motion_items_ ? "m" : "t", g->events, g->interval / 65536., g->change / 65536., g->directions, g->flips, g->increments[0], g->increments[1], g->increments[2]);
+  }
   ++refills_;
   most_at_rest_ = std::numeric_limits<std::size_t>::max();
   refills_under_way_.push_back(std::move(refill_));

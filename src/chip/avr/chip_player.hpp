@@ -76,7 +76,9 @@ class ChipPlayer {
     left_ = segment.events;
     // At its slowest, about: at its start or, if it slows down, at its end.
     uint32_t slowest = segment.interval;
-    if (segment.change > 0 && static_cast<uint16_t>(slowest >> 16) < often) {
+    if (segment.change > fine_change) {
+      slowest = largest_interval;
+    } else if (segment.change > 0 && static_cast<uint16_t>(slowest >> 16) < often) {
       slowest += static_cast<uint32_t>(segment.change) << 8;
     }
     if (static_cast<uint16_t>(slowest >> 16) >= often) {

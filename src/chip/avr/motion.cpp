@@ -17,8 +17,7 @@ constexpr uint32_t clock = 16'000'000;
 // Of segments of 120 events and more; docs/boards.md has how it was measured.
 constexpr uint32_t highest_event_rate = 140'000;
 constexpr uint32_t shortest = shortest_interval(clock, highest_event_rate);
-// All that a host may have under way fits into the page of received bytes: 11 frames of 22 bytes and one to replace.
-constexpr uint8_t queue_capacity = 11;
+constexpr uint8_t queue_capacity = 24;
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
@@ -47,7 +46,7 @@ BoardIdentity identity() {
       .shortest_interval = shortest,
       .about = {.firmware = 100, .highest_event_rate = highest_event_rate, .baud = 500'000, .name = "uno cnc shield3"}};
 }
-Board<Hardware, queue_capacity, ChipPlayer> board(hardware, identity());
+Board<Hardware, queue_capacity, ChipPlayer, uno_cnc_shield.motors> board(hardware, identity());
 InputReader reader;
 
 // A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.

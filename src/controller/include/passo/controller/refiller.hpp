@@ -34,8 +34,8 @@ struct TailOptions {
   Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
   // Events may be off by one part in so many of their interval: exact to the tick, the first milliseconds behind a rest
   // would take hundreds of segments a second more than a line can carry.
-  int looseness = 64;
-  int tail_looseness = 4;
+  Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
+  Exactness tail{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
 };
 
 class Refiller {
