@@ -25,7 +25,7 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
 
 // Of a board's list: a stretch of motion with its tail, and the next that takes the place of the tail. Near rest a tail
 // alone may take 19.
-constexpr unsigned fewest_items = 60;
+constexpr unsigned fewest_items = 8;
 
 // So many moves behind a probe move are checked.
 constexpr std::uint64_t most_moves_behind_a_probe = 10'000'000;

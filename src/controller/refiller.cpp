@@ -41,7 +41,8 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
   stages.path.keep();
   stages.planner.limit_moves_to(options.longest_move);
   stages.generator.limit_waiting_to(options.longest_move);
-  stages.generator.be_exact_to(options.motion);
+  if (getenv("ONE")) { options_.motion.one_in = atoi(getenv("ONE")); options_.motion.least_rate = Hertz(atof(getenv("LEAST"))); }
+  stages.generator.be_exact_to(options_.motion);
 }
 
 Refiller::Turn Refiller::advance() {
@@ -71,11 +72,14 @@ void Refiller::note_executed() {
   stages_.path.forget_before(under_way.front().rest.item);
   on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
   if (executed != under_way.front().last) return;
-  const Refill played = std::move(under_way.front());
+  Refill played = std::move(under_way.front());
   under_way.pop_front();
-  if (!on_tail_) return;
-  take_up(played);
-  ++recoveries_;
+  if (on_tail_) {
+    take_up(played);
+    ++recoveries_;
+  } else {
+    origin_ = std::move(played);
+  }
 }
 
 // A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
@@ -119,14 +123,17 @@ void Refiller::fork(Source<MotionItem>& motion, Refill& refill) const {
 }
 
 // Beside what the board holds, with its tail. A refill of next to nothing is not worth its tail, nor is one that leaves
-// no room for the next.
+// no room for the next: as long as there is time, less motion is sent for that.
 std::size_t Refiller::room_for_motion() const {
-  const int tail = static_cast<int>(tail_size_ + tail_size_ / 4 + 4);
-  int room = stages_.link.room() - tail - (ahead_ < options_.refill_at / 2 ? 0 : tail / 2);
-  // From rest it goes on in any case, if only by little.
-  if (refills_under_way_.empty()) room = std::max(room, std::min(stages_.link.room() - tail, 2 * smallest_refill));
-  const int least = ahead_ < options_.refill_at / 2 ? smallest_refill : 4 * smallest_refill;
-  return room < least ? 0 : static_cast<std::size_t>(room);
+  static const int extra = getenv("EXTRA") ? atoi(getenv("EXTRA")) : 2;
+  static const int least_at = getenv("LEASTM") ? atoi(getenv("LEASTM")) : 4;
+  const int tail = static_cast<int>(tail_size_ + tail_size_ / 4) + extra;
+  const int room = stages_.link.room() - 1 - tail;
+  const int for_next = tail + smallest_refill;
+  if (refills_under_way_.empty()) return static_cast<std::size_t>(std::max(room - for_next, 2 * smallest_refill));
+  const bool urgent = ahead_ < options_.refill_at / 2;
+  const int wanted = urgent ? room : room - for_next / 2;
+  return wanted < (urgent ? least_at : 2 * least_at) ? 0 : static_cast<std::size_t>(wanted);
 }
 
 // Motion up to the horizon, and how it would come to rest behind that.
@@ -161,7 +168,12 @@ void Refiller::gather() {
   }
   motion_items_ = items_.size();
   refill_.rest = given_;
-  if (motion_items_ > 0 && !stages_.generator.at_rest()) gather_tail();
+  if (motion_items_ > 0 && !stages_.generator.at_rest()) {
+    gather_tail();
+  } else {
+    Braking none(plan_);
+    fork(none, refill_);
+  }
   tail_size_ = items_.size() - motion_items_;
 }
 
