@@ -62,7 +62,8 @@ void BoardBench::hear(std::uint8_t byte) {
   if (frame.type == MessageType::hello_reply) {
     HelloReply reply;
     decode(frame, reply);
-    capacity_ = reply.capacity;
+    // No more than its page of received bytes has room for: a link would repeat what got lost, this one does not.
+    capacity_ = std::min<std::uint8_t>(reply.capacity, 11);
     greeted_ = true;
   } else if (frame.type == MessageType::credit) {
     Credit credit;

@@ -64,7 +64,9 @@ class ChipPlayer {
   // Nothing is played and nothing waits to be.
   static bool done() { return left_ == 0 && running == 0 && waiting() == 0; }
 
-  static void load(const BoardSegment& segment) {
+  using Segment = SegmentFor<uno_cnc_shield.motors>;
+
+  static void load(const Segment& segment) {
     for (uint8_t m = 0; m < pins.motors; ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
@@ -97,7 +99,7 @@ class ChipPlayer {
     item.events = 0;
   }
 
-  [[gnu::noinline]] static void remember(const BoardSegment& segment) {
+  [[gnu::noinline]] static void remember(const Segment& segment) {
     Item& item = items_[begun_++ & items_mask];
     item.end = static_cast<uint16_t>(made_ + left_);
     item.events = segment.events;
@@ -183,8 +185,8 @@ class ChipPlayer {
   static constexpr const PinMap<3>& pins = uno_cnc_shield;
   static constexpr char port = 'D';
   static constexpr MotorPinSets<pins.motors> motor_pins = motor_pin_sets(pins, port);
-  static constexpr uint8_t items_mask = 7;
-  static constexpr uint8_t most_begun = 8;
+  static constexpr uint8_t items_mask = 3;
+  static constexpr uint8_t most_begun = 4;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
   static constexpr uint8_t most_at_once = 100;

@@ -37,7 +37,7 @@ struct TailOptions {
   std::size_t few_places = 100;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{
-      .one_in = 4, .least_rate = Hertz(2'000), .longest_segment = longest_segment_of_all};
+      .one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
   Exactness tail{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
 };
 

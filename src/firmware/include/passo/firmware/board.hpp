@@ -110,6 +110,8 @@ class Board {
   SegmentPlayer& player() { return player_; }
 
  private:
+  using Segment = SegmentFor<most_motors>;
+
   // By itself, so that a byte amid a frame has not to save all the registers that a whole one needs.
   [[gnu::noinline]] void take(const WireFrame& frame) {
     switch (frame.type) {
@@ -217,14 +219,12 @@ class Board {
     item.number = expected_;
     if (frame.type == MessageType::segment) {
       breathe();
-      decode(frame, motors_, at_hand_);
+      decode(frame, motors_, item.segment);
       breathe();
-      const uint8_t used = at_hand_.directions | at_hand_.flips;
-      if (at_hand_.events == 0 || used >> motors_ != 0 || !is_slow_enough(at_hand_)) {
+      const uint8_t used = item.segment.directions | item.segment.flips;
+      if (item.segment.events == 0 || used >> motors_ != 0 || !is_slow_enough(item.segment)) {
         return complain(WireError::bad_value);
       }
-      item.keep(at_hand_);
-      breathe();
     } else {
       BoardOutputs outputs;
       decode(frame, outputs);
@@ -244,7 +244,7 @@ class Board {
   }
 
   // Its first interval and its last one, and so all between.
-  [[gnu::noinline]] bool is_slow_enough(const BoardSegment& segment) const {
+  [[gnu::noinline]] bool is_slow_enough(const Segment& segment) const {
     const uint32_t interval = segment.interval;
     if (interval < identity_.shortest_interval) return false;
     if (segment.change == 0) return true;
@@ -280,18 +280,22 @@ class Board {
 
   // The next part of the item that was begun last, or the first of the one behind it.
   [[gnu::noinline]] void load() {
-    if (to_load_ == 0) {
-      const auto& next = list_.at(begun_++);
-      if (!next.is_segment()) return player_.pass();
-      to_load_ = next.events();
-    }
-    list_.at(static_cast<uint8_t>(begun_ - 1)).read(at_hand_);
+    const bool begins = to_load_ == 0;
+    if (begins) ++begun_;
+    const auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
+    const uint16_t events = item.segment.events;
+    if (events == 0) return player_.pass();
+    if (events <= longest_part) return player_.load(item.segment);
+    part_ = item.segment;
     breathe();
-    const uint16_t loaded = static_cast<uint16_t>(at_hand_.events - to_load_);
-    if (loaded != 0) at_hand_.interval += static_cast<uint32_t>(at_hand_.change) * loaded;
-    at_hand_.events = to_load_ < longest_part ? to_load_ : longest_part;
-    to_load_ = static_cast<uint16_t>(to_load_ - at_hand_.events);
-    player_.load(at_hand_);
+    if (begins) {
+      to_load_ = events;
+    } else {
+      part_.interval += static_cast<uint32_t>(part_.change) * static_cast<uint16_t>(events - to_load_);
+    }
+    part_.events = to_load_ < longest_part ? to_load_ : longest_part;
+    to_load_ = static_cast<uint16_t>(to_load_ - part_.events);
+    player_.load(part_);
   }
 
   // The oldest item, or a part of it, is done. Outputs are switched here: at the event before them.
@@ -299,7 +303,7 @@ class Board {
     const auto& item = list_.front();
     if (item.is_segment()) {
       count_steps();
-      const uint16_t left = static_cast<uint16_t>(item.events() - done_of_front_);
+      const uint16_t left = static_cast<uint16_t>(item.segment.events - done_of_front_);
       done_of_front_ = static_cast<uint16_t>(done_of_front_ + longest_part);
       if (left > longest_part) return;
     } else {
@@ -371,7 +375,7 @@ class Board {
   uint8_t begun_ = 0;                           // items at its front that the player has, the last one maybe in part
   uint16_t to_load_ = 0;                        // events of that one that the player is still to get
   uint16_t done_of_front_ = 0;                  // events of the front, in parts that are done
-  BoardSegment at_hand_;                        // being taken or loaded: too large for a chip's stack
+  Segment part_;                                // of it, the one that is being loaded: large for a chip's stack
   uint8_t motors_ = 0;             // agreed upon with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte

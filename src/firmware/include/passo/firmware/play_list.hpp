@@ -26,43 +26,17 @@ template <uint8_t motors>
 struct BoardItemSlot {
   uint16_t number = 0;
   uint8_t next = 0;
+  SegmentFor<motors> segment;  // outputs are one without events
 
-  void keep(const BoardSegment& segment) {
-    events_ = segment.events;
-    first_ = segment.directions;
-    flips_ = segment.flips;
-    interval_ = segment.interval;
-    change_ = segment.change;
-    for (uint8_t m = 0; m < motors; ++m) increments_[m] = segment.increments[m];
-  }
+  bool is_segment() const { return segment.events != 0; }
   void keep(const BoardOutputs& outputs) {
-    events_ = 0;
-    first_ = outputs.switches;
-    interval_ = outputs.spindle_rpm;
+    segment.events = 0;
+    segment.directions = outputs.switches;
+    segment.interval = outputs.spindle_rpm;
   }
-
-  // Of a segment; outputs have none.
-  uint16_t events() const { return events_; }
-  bool is_segment() const { return events_ != 0; }
   BoardOutputs outputs() const {
-    return {.switches = first_, .spindle_rpm = static_cast<uint16_t>(interval_)};
+    return {.switches = segment.directions, .spindle_rpm = static_cast<uint16_t>(segment.interval)};
   }
-  void read(BoardSegment& segment) const {
-    segment.events = events_;
-    segment.directions = first_;
-    segment.flips = flips_;
-    segment.interval = interval_;
-    segment.change = change_;
-    for (uint8_t m = 0; m < motors; ++m) segment.increments[m] = increments_[m];
-  }
-
- private:
-  uint16_t events_ = 0;
-  uint8_t first_ = 0;  // directions, or switches
-  uint8_t flips_ = 0;
-  uint32_t interval_ = 0;  // or revolutions a minute
-  int32_t change_ = 0;
-  uint16_t increments_[motors] = {};
 };
 
 template <size_t slot_count, uint8_t motors = max_motors>

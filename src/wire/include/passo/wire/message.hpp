@@ -130,9 +130,6 @@ uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-// The events' highest bit: the change is a large one.
-inline constexpr uint16_t coarse_bit = 0x8000;
-
 template <class Pause = NoPause>
 uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::segment, sequence);
@@ -263,7 +260,9 @@ inline void decode(const WireFrame& frame, Hello& hello) {
   hello = {.version = frame.payload[0], .motors = frame.payload[1]};
 }
 
-inline void decode(const WireFrame& frame, uint8_t motors, BoardSegment& segment) {
+// `motors` is at most `room`.
+template <uint8_t room>
+void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
   const uint8_t* bytes = frame.payload;
   const uint16_t events = load16(bytes);
   segment.events = events & most_events;
@@ -275,7 +274,7 @@ inline void decode(const WireFrame& frame, uint8_t motors, BoardSegment& segment
                                         static_cast<uint32_t>(bytes[10]) << 24);
   if ((events & coarse_bit) == 0) segment.change >>= 8;
   bytes += segment_size;
-  for (uint8_t motor = 0; motor < max_motors; ++motor, bytes += 2) {
+  for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
     segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
   }
 }
