@@ -1,10 +1,7 @@
 #include "passo/controller/refiller.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 #include "board_outputs.hpp"
@@ -211,7 +208,6 @@ void Refiller::send(std::size_t items) {
   }
   tail_items_ += tail.items.size();
   ++refills_;
-  if (getenv("DBG")) fprintf(stderr, "R motion %zu %.4f s %d ev tail %zu %.4f s %d ev ahead %.4f room %d rec %d\n", items, 0., 0, tail.items.size(), 0., 0, ahead_.value(), stages_.link.room(), recoveries_);
   refill.rest = tail.rest;
   refill.rested = std::move(pulled_[items - 1].tail->rested);
   refills_under_way_.push_back(std::move(refill));

@@ -17,7 +17,7 @@ constexpr uint32_t clock = 16'000'000;
 // Of segments of 120 events and more; docs/boards.md has how it was measured.
 constexpr uint32_t highest_event_rate = 140'000;
 constexpr uint32_t shortest = shortest_interval(clock, highest_event_rate);
-constexpr uint8_t queue_capacity = 30;
+constexpr uint8_t queue_capacity = 31;
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}

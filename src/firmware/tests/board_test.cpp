@@ -256,8 +256,14 @@ TEST(SlowBoard, refuses_a_segment_that_is_faster_than_it_states_at_its_start_or_
   EXPECT_TRUE(refused({.events = 9, .interval = shortest - 1, .change = 1000}));
   EXPECT_FALSE(refused({.events = 9, .interval = shortest + 8 * tick, .change = -static_cast<std::int32_t>(tick)}));
   EXPECT_TRUE(refused({.events = 10, .interval = shortest + 8 * tick, .change = -static_cast<std::int32_t>(tick)}));
-  EXPECT_FALSE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff, .change = -largest_change}));
-  EXPECT_TRUE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff - 1, .change = -largest_change}));
+  EXPECT_FALSE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff, .change = -fine_change}));
+  EXPECT_TRUE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff - 1, .change = -fine_change}));
+  // A product of more than 32 bits.
+  EXPECT_FALSE(refused({.events = 1001, .interval = shortest + 1000 * tick, .change = -static_cast<std::int32_t>(tick)}));
+  EXPECT_TRUE(refused({.events = 1002, .interval = shortest + 1000 * tick, .change = -static_cast<std::int32_t>(tick)}));
+  EXPECT_TRUE(refused({.events = 513, .interval = shortest + 4, .change = fine_change}));
+  EXPECT_TRUE(refused({.events = most_events, .interval = shortest + 4, .change = largest_change}));
+  EXPECT_FALSE(refused({.events = 2, .interval = shortest + 4, .change = largest_change}));
   // Beyond 32 bits intervals would begin again at the shortest.
   EXPECT_FALSE(refused({.events = 9, .interval = largest_interval - 8 * tick, .change = tick}));
   EXPECT_TRUE(refused({.events = 9, .interval = largest_interval - 8 * tick + 1, .change = tick}));
