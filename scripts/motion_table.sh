@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # scripts/motion_table.sh [DIR…]: measures the motion of programs on examples/machines/bench.toml, and prints a table.
+# The line is measured on the same machine with a board of 100,000 events a second.
 #
 # Without a DIR: the programs of examples/, whose table goes into docs/motion.md too, between its marks, and, where they
 # are at hand, those of ../shared/peers/motion-mm, which are printed only. Needs build/release/passo, and jq.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1-} == -* ]]; then
-  sed -n '2,5s/^# \{0,1\}//p' scripts/motion_table.sh
+  sed -n '2,6s/^# \{0,1\}//p' scripts/motion_table.sh
   exit 2
 fi
 passo=build/release/passo
@@ -14,21 +15,28 @@ for needed in "$passo" jq; do
   command -v "$needed" >/dev/null || { echo "motion_table.sh: there is no $needed" >&2; exit 1; }
 done
 
+slow_board=$(mktemp --suffix=.toml)
+trap 'rm -f "$slow_board"' EXIT
+sed 's/^max_event_rate_hz = .*/max_event_rate_hz = 100_000/' examples/machines/bench.toml >"$slow_board"
+
 # $1 a folder. A motion beyond its limits (exit code 1) is a row like any other.
 table() {
-  echo "| program | time, s | time / bound | velocity × | acceleration × | in the steps × | velocity jump, mm/s | deviation × | good |"
-  echo "|---|---:|---:|---:|---:|---:|---:|---:|---|"
-  local program json
+  echo "| program | time, s | time / bound | velocity × | acceleration × | in the steps × | velocity jump, mm/s | deviation × | line, kB/s | at most | good |"
+  echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
+  local program json line
   for program in "$1"/*.ngc "$1"/*.nc; do
     [[ -e $program ]] || continue
     json=$("$passo" check "$program" -m examples/machines/bench.toml --motion --json 2>/dev/null) || (($? == 1))
-    jq -r --arg name "$(basename "$program")" '
+    line=$("$passo" run "$program" -m "$slow_board" --json --quiet 2>/dev/null | jq -c .board) || line=null
+    jq -r --argjson line "${line:-null}" --arg name "$(basename "$program")" '
       def shown($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
       def worst(f): [.axes[] | f // 0] | max;
       [$name, (.time_s | shown(3)), (.time_over_bound | shown(4)),
        (worst(.velocity.multiple) | shown(4)), (worst(.acceleration.multiple) | shown(4)),
        (worst(.step_acceleration.multiple) | shown(2)), (worst(.velocity_jump.value) | shown(6)),
-       (.deviation.multiple | if . == null then "none" else shown(4) end), (if .good then "yes" else "no" end)]
+       (.deviation.multiple | if . == null then "none" else shown(4) end),
+       ($line | if . == null then "none" else (.bytes / .end_s / 1000 | shown(1)) end),
+       ($line | if . == null then "none" else (.bytes_in_busiest_second / 1000 | shown(1)) end), (if .good then "yes" else "no" end)]
       | "| " + join(" | ") + " |"' <<<"$json"
   done
 }
@@ -40,7 +48,7 @@ fi
 
 document=docs/motion.md
 new=$(mktemp -d)
-trap 'rm -rf "$new"' EXIT
+trap 'rm -rf "$new" "$slow_board"' EXIT
 table examples >"$new/examples"
 awk -v directory="$new" '
   /^<!-- end of .* -->$/ { skipping = 0 }

@@ -17,7 +17,8 @@ InProcessLink::InProcessLink(BoardPort& port, std::uint8_t motors, const LineCar
 void InProcessLink::say_hello() {
   while (!board_ && !error_) {
     say(Hello{.motors = motors_}, std::uint8_t{0});
-    if (!hear() && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
+    const bool heard = hear_until([this] { return board_.has_value(); });
+    if (!heard && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
   }
   if (error_) return;
   free_ = board_->capacity;
@@ -29,10 +30,11 @@ void InProcessLink::say_hello() {
 }
 
 void InProcessLink::name_session() {
-  while (!error_ && !(status_ && status_->session == care_.session)) {
+  const auto named = [this] { return status_ && status_->session == care_.session; };
+  while (!error_ && !named()) {
     say(Session{.number = care_.session}, std::uint8_t{0});
     ask();
-    if (!hear() && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
+    if (!hear_until(named) && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
   }
 }
 
@@ -102,6 +104,15 @@ bool InProcessLink::listen() {
     ask();
   }
   return !error_;
+}
+
+// An answer comes in pieces, on a slow line byte by byte: what was asked is asked again only when its time is over.
+template <class Done>
+bool InProcessLink::hear_until(Done done) {
+  const Seconds asked = port_.elapsed();
+  bool heard = false;
+  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear()) heard = true;
+  return heard;
 }
 
 bool InProcessLink::hear() {

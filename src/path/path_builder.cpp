@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "plane_arc.hpp"
-#include "spline_chords.hpp"
+#include "spline_pieces.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -19,7 +19,7 @@ constexpr double still = 1e-9;
 // How far the chords of an arc that lies in no plane of the machine may leave it.
 constexpr Mm chord_tolerance{0.001};
 
-// How far the chords of a spline may leave it: this share of the path's tolerance, or where that is 0 as above.
+// How far the pieces of a spline may leave it: this share of the path's tolerance, or where that is 0 as above.
 constexpr double spline_share = 0.1;
 constexpr Mm least_spline_tolerance{1e-5};
 
@@ -89,7 +89,7 @@ PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& optio
     : operations_(operations),
       options_(options),
       diagnostics_(diagnostics),
-      spline_(std::make_unique<SplineChords>()),
+      spline_(std::make_unique<SplinePieces>()),
       position_(options.start),
       tolerance_(options.tolerance),
       merge_(options.tolerance * merge_share) {}
@@ -102,7 +102,7 @@ bool PathBuilder::next(PathItem& item) {
     held_.pop_front();
     return true;
   }
-  bool has_item = take_chord(item) || take_spline_chord(item) || take_probe_step(item);
+  bool has_item = take_chord(item) || take_spline_piece(item) || take_probe_step(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
   // What comes before the item in hand; at the end of the operations there is none.
@@ -348,25 +348,26 @@ bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item)
   }
   spline_tolerance_ =
       tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : chord_tolerance;
-  const auto error = spline_->begin(curve.order - 1, *ChordTolerance::of(spline_tolerance_));
-  if (!error) return take_spline_chord(item);
+  const auto error = spline_->begin(curve.order - 1, spline_tolerance_);
+  if (!error) return take_spline_piece(item);
   report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
   position_ = machine_of(curve.points.back());
   return false;
 }
 
-bool PathBuilder::take_spline_chord(PathItem& item) {
-  Chord chord;
-  while (spline_->next(chord)) {
-    Point end = position_;
-    end[Axis::x] = chord.end.x;
-    end[Axis::y] = chord.end.y;
-    if (!take_curve(Curve::line(position_, end), false, item)) continue;
-    if (!spline_->at_end()) {
-      auto& segment = std::get<Segment>(item);
+// Where pieces meet, the spline goes on: the path does too, whatever the mode. What the pieces leave of the tolerance
+// is for rounding.
+bool PathBuilder::take_spline_piece(PathItem& item) {
+  SplinePiece piece;
+  while (spline_->next(piece)) {
+    if (!take_curve(piece.curve_from(position_), false, item)) continue;
+    auto& segment = std::get<Segment>(item);
+    segment.merge = Mm(0);
+    if (path_mode_ == PathMode::continuous) {
+      segment.tolerance = std::max(tolerance_ - spline_tolerance_, Mm(0));
+    } else if (!spline_->at_end()) {
       segment.mode = PathMode::continuous;
       segment.tolerance = spline_tolerance_;
-      segment.merge = Mm(0);
     }
     return true;
   }

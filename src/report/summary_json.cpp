@@ -46,8 +46,11 @@ void add_board(const RunSummary& summary, const BoardSummary& board, Json& json)
   });
   json["position_mm"] = of_axes(summary, [](const AxisSummary& axis) { return axis.position; });
   json["pulses"] = board.pulses;
-  json["board"] = {
-      {"end_s", board.end.value()}, {"events", board.events}, {"frames", board.frames}, {"bytes", board.bytes}};
+  json["board"] = {{"end_s", board.end.value()},
+                   {"events", board.events},
+                   {"frames", board.frames},
+                   {"bytes", board.bytes},
+                   {"bytes_in_busiest_second", board.busiest_second}};
 }
 
 Json places(const RunSummary& summary, const std::vector<double>& values) {

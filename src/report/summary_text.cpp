@@ -115,6 +115,7 @@ class Text {
     line("end", duration(board.end), "");
     line("pulses", grouped(board.pulses), "  in " + counted(board.events, "event"));
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
+    if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
   }
 
   void holds(const RunSummary& summary) {

@@ -5,7 +5,8 @@
 namespace passo {
 namespace {
 
-constexpr std::string_view expected = ": expected virtual, serial:DEVICE, serial:DEVICE@BAUD or tcp:HOST:PORT";
+constexpr std::string_view expected =
+    ": expected virtual, serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT or sim:BOARD";
 
 Failure<std::string> refuse(std::string_view text) {
   return Failure{"'" + std::string(text) + "' is no board" + std::string(expected)};
@@ -21,6 +22,11 @@ bool read_number(std::string_view text, unsigned low, unsigned high, unsigned& v
 Result<BoardAddress, std::string> parse_board_address(std::string_view text) {
   if (text == "virtual") return BoardAddress();
   BoardAddress address;
+  if (text.starts_with("sim:")) {
+    address.kind = BoardAddress::Kind::emulated;
+    address.place = text.substr(4);
+    return address.place.empty() ? Result<BoardAddress, std::string>(refuse(text)) : address;
+  }
   if (text.starts_with("serial:")) {
     address.kind = BoardAddress::Kind::serial;
     std::string_view device = text.substr(7);

@@ -66,6 +66,21 @@ TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {
   EXPECT_EQ(nlohmann::json::parse(watched.out.substr(0, watched.out.find('\n')))["switches"].size(), 0);
 }
 
+TEST_F(Boards, are_emulated_too) {
+  const Outcome info = passo("board info --json sim:uno");
+  if (info.err.find("was built without") != std::string::npos || info.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << info.err;
+  }
+  ASSERT_EQ(info.code, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_EQ(json["about"]["highest_event_rate_hz"], 140'000) << info.out;
+  EXPECT_EQ(json["status"]["positions"].size(), 8);
+
+  const Outcome none = passo("board info sim:none");
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find("there is an emulator of uno"), std::string::npos) << none.err;
+}
+
 TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {
   const std::string router =
       (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "router.toml").string();

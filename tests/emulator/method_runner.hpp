@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "emulator/emulated_chip.hpp"
 #include "emulator/methods.hpp"
+
+#include "passo/emulator/emulated_chip.hpp"
 
 namespace passo {
 

@@ -9,12 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "emulator/emulated_chip.hpp"
-#include "emulator/emulated_ports.hpp"
-#include "emulator/emulated_timer.hpp"
-#include "emulator/emulated_uart.hpp"
-
 #include "passo/chip/pin_map.hpp"
+#include "passo/emulator/emulated_chip.hpp"
+#include "passo/emulator/emulated_ports.hpp"
+#include "passo/emulator/emulated_timer.hpp"
+#include "passo/emulator/emulated_uart.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
 

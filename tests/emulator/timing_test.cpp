@@ -2,8 +2,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "emulator/emulated_chip.hpp"
 #include <gtest/gtest.h>
+
+#include "passo/emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {

@@ -4,11 +4,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "emulator/emulated_chip.hpp"
-#include "emulator/emulated_ports.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
 #include <simavr/sim_io.h>
+
+#include "passo/emulator/emulated_chip.hpp"
+#include "passo/emulator/emulated_ports.hpp"
 
 namespace passo {
 namespace {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "board_opening.hpp"
 #include "board_words.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
@@ -39,7 +40,7 @@ std::vector<std::string> serial_lines() {
 }
 
 // Null, and said why, where there is no such board. `code`: what to exit with.
-std::unique_ptr<StreamPort> open_named(const std::string& board, int& code) {
+std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
   const auto address = parse_board_address(board);
   if (!address || address->kind == BoardAddress::Kind::virtual_machine) {
     code =
@@ -47,7 +48,7 @@ std::unique_ptr<StreamPort> open_named(const std::string& board, int& code) {
                                        : address.error());
     return nullptr;
   }
-  auto port = open_board(*address);
+  auto port = open_addressed(*address);
   if (port) return std::move(*port);
   code = fail(exit_failed, port.error());
   return nullptr;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "board_opening.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
@@ -90,12 +91,6 @@ Result<unsigned, std::string> size_of_image(const std::string& path) {
   return Failure{path + ": ends before its end record: is it whole?"};
 }
 
-// Where the build puts it, seen from this program.
-std::string built_image(const std::string& board) {
-  std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path() / "src" / "chip" / ("motion_" + board + ".hex");
-}
-
 // No shell in between: names are what they are. Its exit code; 127 where there is no such program.
 int start(const std::vector<std::string>& words) {
   std::fflush(nullptr);
@@ -117,10 +112,9 @@ int start(const std::vector<std::string>& words) {
 int board_flash(const BoardFlashArguments& arguments) {
   const Chip& chip =
       *std::find_if(chips.begin(), chips.end(), [&](const Chip& one) { return one.board == arguments.board; });
-  const std::string image = arguments.image.empty() ? built_image(arguments.board) : arguments.image;
+  const std::string image = arguments.image.empty() ? built_image(arguments.board, ".hex").string() : arguments.image;
   if (arguments.image.empty() && !fs::exists(image)) {
-    return fail(exit_failed,
-                image + " is not there: scripts/test.sh builds the images; docs/boards.md says for which boards");
+    return fail(exit_failed, message_of_missing(image));
   }
   const auto size = size_of_image(image);
   if (!size) return fail(exit_bad_program, size.error());

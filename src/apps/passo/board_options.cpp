@@ -5,13 +5,14 @@
 namespace passo {
 namespace {
 
-constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD or tcp:HOST:PORT";
+constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT or sim:uno";
 
 constexpr const char* examples = R"(Examples:
   passo board list                                        what is on this computer's serial lines
   passo board flash uno --device /dev/ttyACM0             puts Passo's firmware on it, and keeps what was there
   passo board info serial:/dev/ttyACM0                    what it is, and how it is
   passo board monitor serial:/dev/ttyACM0                 its switches and counters, live
+  passo board info sim:uno                                the firmware itself, on an emulated chip
   passo board serve &                                     no board at hand: a virtual one, on 127.0.0.1:7070
   passo board monitor tcp:127.0.0.1:7070 --count 1
 

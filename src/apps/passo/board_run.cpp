@@ -2,11 +2,13 @@
 
 #include <utility>
 
+#include "board_opening.hpp"
 #include "board_words.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 
+#include "passo/emulator/emulated_board.hpp"
 #include "passo/link/in_process_link.hpp"
 
 namespace passo {
@@ -18,7 +20,7 @@ constexpr Seconds answer{2};
 
 }  // namespace
 
-BoardRun::BoardRun(std::unique_ptr<StreamPort> port, std::uint8_t motors) : port_(std::move(port)), motors_(motors) {}
+BoardRun::BoardRun(std::unique_ptr<BoardPort> port, std::uint8_t motors) : port_(std::move(port)), motors_(motors) {}
 
 std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_t motors, int& code) {
   const auto parsed = parse_board_address(address);
@@ -26,7 +28,7 @@ std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_
     code = fail(exit_bad_program, parsed.error());
     return nullptr;
   }
-  auto port = open_board(*parsed);
+  auto port = open_addressed(*parsed);
   if (!port) {
     code = fail(exit_failed, port.error());
     return nullptr;
@@ -53,6 +55,14 @@ std::optional<std::string> BoardRun::compare(const MachineCounts& planned) {
     const std::int64_t counted = std::int64_t{after->positions[motor]} - before_.positions[motor];
     if (counted == planned.motors[motor].position) continue;
     return fmt::format("motor {} stands {} steps from its start, and {} were planned", motor + 1, counted,
+                       planned.motors[motor].position);
+  }
+  const auto* emulated = dynamic_cast<const EmulatedBoard*>(port_.get());
+  if (emulated == nullptr) return {};
+  const std::vector<std::int64_t> seen = emulated->positions();
+  for (unsigned motor = 0; motor < motors_; ++motor) {
+    if (seen.at(motor) == planned.motors[motor].position) continue;
+    return fmt::format("{} steps have come out of the pins of motor {}, and {} were planned", seen[motor], motor + 1,
                        planned.motors[motor].position);
   }
   return {};

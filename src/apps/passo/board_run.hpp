@@ -7,9 +7,9 @@
 #include <string>
 
 #include "passo/controller/refiller.hpp"
+#include "passo/link/board_port.hpp"
 #include "passo/machine/machine_counts.hpp"
 #include "passo/transport/inquiry.hpp"
-#include "passo/transport/stream_port.hpp"
 
 namespace passo {
 
@@ -19,15 +19,16 @@ class BoardRun {
   static std::unique_ptr<BoardRun> open(const std::string& address, std::uint8_t motors, int& code);
 
   BoardPort& port() { return *port_; }
-  // At the end: whether the board has counted the steps that were planned; else what differs.
+  // At the end: whether the board has counted the steps that were planned, and those have come out of its pins where
+  // these are seen; else what differs.
   std::optional<std::string> compare(const MachineCounts& planned);
   // How often it had to brake by itself.
   void tell(const Refiller& refiller) const;
 
  private:
-  BoardRun(std::unique_ptr<StreamPort> port, std::uint8_t motors);
+  BoardRun(std::unique_ptr<BoardPort> port, std::uint8_t motors);
 
-  std::unique_ptr<StreamPort> port_;
+  std::unique_ptr<BoardPort> port_;
   std::uint8_t motors_;
   BoardStatus before_;
 };

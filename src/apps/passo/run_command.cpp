@@ -20,6 +20,7 @@
 
 #include "passo/controller/job.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
 
@@ -85,11 +86,13 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   outputs.watch(job);
   changes.begin(job.drive());
   TailWatch tails;
+  LineLoad load;
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (changes.any()) changes.act(job.drive(), job.machine(), machine);
       if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
+      load.look(job.drive().now(), job.link().bytes_sent());
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
     }
   }
@@ -97,6 +100,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   summary.program = arguments.program.program;
   summary.machine = machine.name;
   add_board(summary, job, machine);
+  summary.board->busiest_second = load.busiest();
   summary.holds = changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();

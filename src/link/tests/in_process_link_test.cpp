@@ -35,14 +35,16 @@ class ScriptedBoard final : public BoardPort {
   }
   Seconds elapsed() const override { return Seconds(0); }
   std::span<const std::uint8_t> replies() override {
-    taken_.clear();
-    taken_.swap(to_host_);
+    const auto end = slow && !to_host_.empty() ? to_host_.begin() + 1 : to_host_.end();
+    taken_.assign(to_host_.begin(), end);
+    to_host_.erase(to_host_.begin(), end);
     return taken_;
   }
 
   HelloReply identity{.motors = 3, .capacity = 4, .clock = 1000};
   bool silent = false;    // does not answer a hello
   bool stuck = false;     // plays nothing
+  bool slow = false;      // its answers come byte by byte
   bool refusing = false;  // complains of what it plays
   std::deque<std::uint16_t> queue;
   std::vector<std::uint16_t> executed;
@@ -98,6 +100,15 @@ TEST(InProcessLink, learns_what_the_board_is) {
   ASSERT_TRUE(link.board());
   EXPECT_EQ(link.board()->capacity, 4);
   EXPECT_EQ(link.board()->clock, 1000U);
+}
+
+TEST(InProcessLink, asks_once_in_however_many_pieces_the_answer_comes) {
+  ScriptedBoard board;
+  board.slow = true;
+  const InProcessLink link(board, 2, {.answer_within = Seconds(0.05)});
+  EXPECT_FALSE(link.error());
+  ASSERT_TRUE(link.board());
+  EXPECT_EQ(board.frames_received, 1U);
 }
 
 TEST(InProcessLink, carries_every_item_in_order) {

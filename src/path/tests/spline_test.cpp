@@ -1,9 +1,14 @@
-// Splines in the path: chords within the tolerance, in machine coordinates.
+// Splines in the path: cubics of their length, within the tolerance, in machine coordinates.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
+#include "kit/seed.hpp"
 #include "path_test.hpp"
+
+#include "passo/geometry/euclid.hpp"
+#include "passo/geometry/nurbs.hpp"
 
 namespace passo {
 namespace {
@@ -26,21 +31,36 @@ Place cubic_at(const std::array<operation::ControlPoint, 4>& control, double u) 
   return {row[0].x, row[0].y};
 }
 
+// The curve is looked at in small steps, and closer around the nearest of them.
 double distance_to(const Place& place, const Segment& segment) {
-  const Point& a = segment.curve.start();
-  const Point& b = segment.curve.end();
-  const double x = b[Axis::x] - a[Axis::x];
-  const double y = b[Axis::y] - a[Axis::y];
-  const double along = ((place.x - a[Axis::x]) * x + (place.y - a[Axis::y]) * y) / (x * x + y * y);
-  const double t = std::clamp(along, 0.0, 1.0);
-  return std::hypot(a[Axis::x] + t * x - place.x, a[Axis::y] + t * y - place.y);
+  const auto distance_at = [&](double s) {
+    const Point point = segment.curve.at(Mm(s));
+    return std::hypot(point[Axis::x] - place.x, point[Axis::y] - place.y);
+  };
+  constexpr int steps = 32;
+  const double step = segment.curve.length().value() / steps;
+  double nearest = 0;
+  for (int i = 0; i <= steps; ++i) {
+    if (distance_at(i * step) < distance_at(nearest)) nearest = i * step;
+  }
+  double low = std::max(nearest - step, 0.0);
+  double high = std::min(nearest + step, steps * step);
+  for (int i = 0; i < 60; ++i) {
+    const double third = (high - low) / 3;
+    if (distance_at(low + third) < distance_at(high - third)) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  return distance_at((low + high) / 2);
 }
 
-double farthest(const std::vector<Segment>& chords, const std::vector<Place>& places) {
+double farthest(const std::vector<Segment>& pieces, const std::vector<Place>& places) {
   double worst = 0;
   for (const Place& place : places) {
     double nearest = 1e9;
-    for (const Segment& chord : chords) nearest = std::min(nearest, distance_to(place, chord));
+    for (const Segment& piece : pieces) nearest = std::min(nearest, distance_to(place, piece));
     worst = std::max(worst, nearest);
   }
   return worst;
@@ -60,29 +80,98 @@ TEST_F(PathTest, a_spline_is_walked_within_a_tenth_of_the_tolerance) {
     add(operation::SetPathMode{tolerance > 0 ? PathMode::continuous : PathMode::exact_stop, Mm(tolerance)});
     feed(10);
     add(operation::NurbsFeed{wave, 4});
-    const std::vector<Segment> chords = segments();
+    const std::vector<Segment> pieces = segments();
     const double allowed = tolerance > 0 ? tolerance / 10 : 0.001;
-    EXPECT_LE(farthest(chords, places_on_wave()), allowed * (1 + 1e-6));
-    EXPECT_GE(farthest(chords, places_on_wave()), allowed * 0.5);
-    EXPECT_EQ(chords.back().curve.end()[Axis::x], 30);
-    EXPECT_EQ(chords.back().curve.end()[Axis::y], 5);
-    EXPECT_EQ(chords.back().mode, tolerance > 0 ? PathMode::continuous : PathMode::exact_stop);
-    EXPECT_EQ(chords.front().mode, PathMode::continuous);
-    for (std::size_t i = 1; i < chords.size(); ++i) EXPECT_EQ(chords[i - 1].curve.end(), chords[i].curve.start());
+    EXPECT_LE(farthest(pieces, places_on_wave()), allowed);
+    EXPECT_LE(pieces.size(), 30U) << "chords would be " << std::sqrt(50 / allowed);
+    EXPECT_EQ(pieces.back().curve.end()[Axis::x], 30);
+    EXPECT_EQ(pieces.back().curve.end()[Axis::y], 5);
+    EXPECT_EQ(pieces.back().mode, tolerance > 0 ? PathMode::continuous : PathMode::exact_stop);
+    EXPECT_EQ(pieces.front().mode, PathMode::continuous);
+    EXPECT_LE(pieces.front().tolerance.value(), tolerance > 0 ? 0.9 * tolerance : 0.001) << "the rest is used up";
+    for (std::size_t i = 1; i < pieces.size(); ++i) EXPECT_EQ(pieces[i - 1].curve.end(), pieces[i].curve.start());
   }
 }
 
-TEST_F(PathTest, the_chords_of_a_spline_are_as_long_as_it) {
+TEST_F(PathTest, a_spline_goes_on_without_a_jump_at_the_speed_that_the_feed_counts) {
+  feed(10);
+  add(operation::NurbsFeed{wave, 4});
+  const std::vector<Segment> pieces = segments();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Curve& curve = pieces[i].curve;
+    for (int at = 0; at <= 20; ++at) EXPECT_NEAR(length_of(curve.tangent(curve.length() * (at / 20.0))), 1, 0.0051);
+    if (i == 0) continue;
+    const Curve& before = pieces[i - 1].curve;
+    EXPECT_LE(length_of(curve.tangent(Mm(0)) - before.tangent(before.length())), 1e-9) << i;
+    EXPECT_LE(length_of(curve.second_derivative(Mm(0)) - before.second_derivative(before.length())), 1e-9) << i;
+  }
+}
+
+TEST_F(PathTest, random_splines_are_walked_within_a_tenth_of_the_tolerance) {
+  std::mt19937_64 random(test::seed());
+  const auto between = [&random](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int n = 0; n < 20; ++n) {
+    SCOPED_TRACE(n);
+    const int degree = 2 + n % 3;
+    Nurbs::Definition definition{.degree = degree};
+    std::vector<operation::ControlPoint> control(static_cast<std::size_t>(degree + 1 + n / 3));
+    for (operation::ControlPoint& point : control) {
+      point.x = between(0, 60);
+      point.y = between(0, 60);
+      point.weight = n % 2 == 0 ? 1 : std::exp(between(-2, 2));
+    }
+    operations_.clear();
+    add(operation::SetPathMode{PathMode::continuous, Mm(0.01)});
+    feed(10);
+    go(control[0].x, control[0].y);
+    for (const operation::ControlPoint& point : control) {
+      definition.control.push_back({point.x, point.y, 0});
+      definition.weights.push_back(point.weight);
+    }
+    const Nurbs curve = *Nurbs::create(definition);
+    std::vector<Place> places;
+    for (int i = 0; i <= 200; ++i) {
+      const Vector3 place = curve.at(curve.range().low + (curve.range().high - curve.range().low) * i / 200);
+      places.push_back({place.x, place.y});
+    }
+    add(operation::NurbsFeed{control, degree + 1});
+    const std::vector<Segment> pieces = segments();
+    EXPECT_TRUE(diagnostics_.all().empty()) << render(diagnostics_, false);
+    EXPECT_LE(farthest({pieces.begin() + 1, pieces.end()}, places), 0.001);
+  }
+}
+
+// Where the parameter stands still the direction turns at once: a cusp, and there and back on
+// a line.
+TEST_F(PathTest, a_spline_with_a_cusp_is_walked_to_its_tip) {
+  constexpr std::array<operation::ControlPoint, 4> cusp = {{{0, 0}, {10, 10}, {0, 10}, {10, 0}}};
+  constexpr std::array<operation::ControlPoint, 3> there_and_back = {{{10, 0}, {30, 0}, {10, 0}}};
+  add(operation::SetPathMode{PathMode::continuous, Mm(0.01)});
+  feed(10);
+  add(operation::NurbsFeed{cusp, 4});
+  std::vector<Place> places;
+  for (int i = 0; i <= 1000; ++i) places.push_back(cubic_at(cusp, i / 1000.0));
+  const std::vector<Segment> pieces = segments();
+  EXPECT_LE(farthest(pieces, places), 0.001);
+  EXPECT_LE(pieces.size(), 200U);
+  operations_.clear();
+  add(operation::NurbsFeed{there_and_back, 3});
+  double reached = 0;
+  for (const Segment& piece : segments()) reached = std::max(reached, piece.curve.end()[Axis::x]);
+  EXPECT_NEAR(reached, 20, 0.001);
+}
+
+TEST_F(PathTest, the_pieces_of_a_spline_are_as_long_as_it) {
   feed(10);
   add(operation::NurbsFeed{wave, 4});
   double walked = 0;
-  for (const Segment& chord : segments()) walked += chord.curve.length().value();
+  for (const Segment& piece : segments()) walked += piece.curve.length().value();
   double length = 0;
   const std::vector<Place> places = places_on_wave();
   for (std::size_t i = 1; i < places.size(); ++i) {
     length += std::hypot(places[i].x - places[i - 1].x, places[i].y - places[i - 1].y);
   }
-  EXPECT_NEAR(walked, length, length * 1e-4);
+  EXPECT_NEAR(walked, length, length * 1e-5);
 }
 
 // A quarter circle is a NURBS of order 3 with the weight sqrt(1/2) in its middle.
@@ -93,15 +182,15 @@ TEST_F(PathTest, weights_make_a_circle_and_the_frame_turns_it) {
   add(operation::SetRotation{90});
   feed(10);
   add(operation::NurbsFeed{quarter, 3});
-  const std::vector<Segment> chords = segments();
-  ASSERT_GT(chords.size(), 10U);
-  for (const Segment& chord : chords) {
-    const Point& end = chord.curve.end();
+  const std::vector<Segment> pieces = segments();
+  ASSERT_GT(pieces.size(), 1U);
+  for (const Segment& piece : pieces) {
+    const Point& end = piece.curve.end();
     EXPECT_NEAR(std::hypot(end[Axis::x] - 100, end[Axis::y] - 50), 5, 1e-9);
     EXPECT_EQ(end[Axis::z], 7);
   }
-  EXPECT_NEAR(chords.back().curve.end()[Axis::x], 95, 1e-9);
-  EXPECT_NEAR(chords.back().curve.end()[Axis::y], 50, 1e-9);
+  EXPECT_NEAR(pieces.back().curve.end()[Axis::x], 95, 1e-9);
+  EXPECT_NEAR(pieces.back().curve.end()[Axis::y], 50, 1e-9);
 }
 
 TEST_F(PathTest, a_nurbs_of_many_points_passes_its_knots) {

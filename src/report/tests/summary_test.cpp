@@ -10,6 +10,7 @@
 #include "motion.hpp"
 #include <nlohmann/json.hpp>
 
+#include "passo/report/line_load.hpp"
 #include "passo/report/summary_builder.hpp"
 
 namespace passo {
@@ -37,8 +38,19 @@ RunSummary small_job() {
   summary.axes[2].net_steps.count = -2400;
   summary.axes[2].total_steps.count = 2400;
   summary.axes[2].position = -1;
-  summary.board = BoardSummary{.end = Seconds(5.25), .pulses = 30400, .events = 41234, .frames = 180, .bytes = 3456};
+  summary.board = BoardSummary{
+      .end = Seconds(5.25), .pulses = 30400, .events = 41234, .frames = 180, .bytes = 3456, .busiest_second = 789};
   return summary;
+}
+
+TEST(LineLoad, is_that_of_the_busiest_second) {
+  LineLoad load;
+  std::uint64_t sent = 5000;                 // the queue is filled at once
+  for (int tick = 0; tick <= 500; ++tick) {  // 5 s; 2 kB/s, in the fourth second 8 kB/s
+    load.look(Seconds(0.01 * tick), sent);
+    sent += tick >= 300 && tick < 400 ? 80 : 20;
+  }
+  EXPECT_NEAR(static_cast<double>(load.busiest()), 8000, 100);
 }
 
 TEST(RunSummary, reads_as_a_person_wants_it) {

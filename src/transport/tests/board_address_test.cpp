@@ -9,6 +9,7 @@ using Kind = BoardAddress::Kind;
 
 TEST(BoardAddress, is_read_as_a_user_writes_it) {
   EXPECT_EQ(*parse_board_address("virtual"), BoardAddress());
+  EXPECT_EQ(*parse_board_address("sim:uno"), (BoardAddress{.kind = Kind::emulated, .place = "uno", .port = ""}));
   EXPECT_EQ(*parse_board_address("serial:/dev/ttyUSB0"),
             (BoardAddress{.kind = Kind::serial, .place = "/dev/ttyUSB0", .port = "", .baud = 500'000}));
   EXPECT_EQ(*parse_board_address("serial:/dev/serial/by-id/a@b@115200"),
@@ -21,7 +22,7 @@ TEST(BoardAddress, is_read_as_a_user_writes_it) {
 TEST(BoardAddress, that_is_none_says_what_was_expected) {
   for (const char* text : {"", "serial", "serial:", "serial:@500000", "serial:/dev/a@", "serial:/dev/a@fast",
                            "serial:/dev/a@99999999", "tcp:", "tcp:host", "tcp:host:", "tcp::1", "tcp:host:0",
-                           "tcp:host:65536", "tcp:::1:80", "tcp:[]:80", "/dev/ttyUSB0", "Virtual"}) {
+                           "tcp:host:65536", "tcp:::1:80", "tcp:[]:80", "/dev/ttyUSB0", "Virtual", "sim:", "sim"}) {
     const auto address = parse_board_address(text);
     ASSERT_FALSE(address) << text;
     EXPECT_NE(address.error().find("expected virtual, serial:DEVICE"), std::string::npos) << address.error();

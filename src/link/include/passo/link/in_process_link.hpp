@@ -72,6 +72,8 @@ class InProcessLink final : public Link {
   void name_session();
   void wait_for_room();
   bool listen();
+  template <class Done>
+  bool hear_until(Done done);
   bool hear();
   bool overdue() const;
   void ask();

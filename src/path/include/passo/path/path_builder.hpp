@@ -1,9 +1,8 @@
 // PathBuilder: operations -> segments. Follows the frame, keeps geometry exact (no chords), checks the travel.
 //
-// Two exceptions: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the
-// machine, and is walked in chords within a thousandth of a millimetre. And until the planner knows every curve by its
-// length, a spline is walked in chords within a tenth of the path's tolerance, or a thousandth of a millimetre where
-// that is 0.
+// One exception: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the machine,
+// and is walked in chords within a thousandth of a millimetre. A spline becomes cubics of its length, which leave it by
+// a tenth of the path's tolerance at most, or a thousandth of a millimetre where that is 0.
 //
 // Between the interpreter and the planner. Segments join without gap: each begins, bit for bit, where the one before
 // ended. Moves shorter than a nanometre's thousandth are rounding, not moves, and are dropped. Outputs (spindle,
@@ -27,7 +26,7 @@
 
 namespace passo {
 
-class SplineChords;
+class SplinePieces;
 
 struct TravelLimit {
   double low = 0;
@@ -68,7 +67,7 @@ class PathBuilder final : public Source<PathItem> {
   bool take_tilted_arc(const operation::ArcFeed& arc, PathItem& item);
   bool take_chord(PathItem& item);
   bool take_spline(const operation::NurbsFeed& curve, PathItem& item);
-  bool take_spline_chord(PathItem& item);
+  bool take_spline_piece(PathItem& item);
   bool take_curve(const Curve& curve, bool rapid, PathItem& item);
 
   Point machine_end(const Point& work_end) const;
@@ -97,15 +96,15 @@ class PathBuilder final : public Source<PathItem> {
   Diagnostics& diagnostics_;
   Frame frame_;
 
-  // An arc in the turned work frame, of which chords are still to come.
+  // An arc in the turned work frame, of which pieces are still to come.
   struct TiltedArc {
     Curve work;
     std::uint32_t next = 0;
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
-  // A spline, of which chords are still to come.
-  std::unique_ptr<SplineChords> spline_;
+  // A spline, of which pieces are still to come.
+  std::unique_ptr<SplinePieces> spline_;
   Mm spline_tolerance_{0};
   // A probe move is three items; and then the path goes on from where the machine came to rest.
   enum class ProbeStep : std::uint8_t { none, move, end, rest };

@@ -39,6 +39,7 @@ struct BoardSummary {
   std::uint64_t events = 0;
   std::uint64_t frames = 0;  // sent down the wire
   std::uint64_t bytes = 0;
+  std::uint64_t busiest_second = 0;  // bytes; 0: it did not take one
 };
 
 // A hold in mid-run. Times of the board.

@@ -3,6 +3,7 @@
 //   virtual                       a virtual machine in this process
 //   serial:/dev/ttyUSB0           a serial line at 500,000 baud
 //   serial:/dev/ttyUSB0@115200    at another rate
+//   sim:uno                       that board's firmware on an emulated chip, in this process
 //   tcp:HOST:PORT                 a board, or `passo board serve`, in the network; [::1] for an address with colons
 #pragma once
 
@@ -16,9 +17,9 @@ namespace passo {
 inline constexpr unsigned usual_baud = 500'000;
 
 struct BoardAddress {
-  enum class Kind : unsigned char { virtual_machine, serial, tcp };
+  enum class Kind : unsigned char { virtual_machine, serial, tcp, emulated };
   Kind kind = Kind::virtual_machine;
-  std::string place;           // device, or host
+  std::string place;           // device, host, or what is emulated
   std::string port;            // tcp
   unsigned baud = usual_baud;  // serial
 

@@ -1,12 +1,13 @@
-#include "emulator/emulated_timer.hpp"
+#include "passo/emulator/emulated_timer.hpp"
 
 #include <stdexcept>
 
-#include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
 #include <simavr/sim_interrupts.h>
 #include <simavr/sim_io.h>
+
+#include "passo/emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {

@@ -1,4 +1,4 @@
-#include "emulator/emulated_chip.hpp"
+#include "passo/emulator/emulated_chip.hpp"
 
 #include <algorithm>
 #include <cstdarg>

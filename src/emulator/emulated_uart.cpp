@@ -1,11 +1,12 @@
-#include "emulator/emulated_uart.hpp"
+#include "passo/emulator/emulated_uart.hpp"
 
 #include <algorithm>
 
-#include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_cycle_timers.h>
 #include <simavr/sim_io.h>
+
+#include "passo/emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {

@@ -1,8 +1,9 @@
-#include "emulator/emulated_ports.hpp"
+#include "passo/emulator/emulated_ports.hpp"
 
-#include "emulator/emulated_chip.hpp"
 #include <simavr/sim_avr.h>
 #include <simavr/sim_io.h>
+
+#include "passo/emulator/emulated_chip.hpp"
 
 namespace passo {
 namespace {

@@ -1,0 +1,22 @@
+// From a board's address to the board.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "passo/base/result.hpp"
+#include "passo/link/board_port.hpp"
+#include "passo/transport/board_address.hpp"
+
+namespace passo {
+
+// Where the build puts the firmware `motion` for `board`, seen from this program. `extension`: ".hex" or ".elf".
+std::filesystem::path built_image(std::string_view board, std::string_view extension);
+std::string message_of_missing(const std::filesystem::path& image);
+
+// Over a line, or in an emulator; not the virtual machine. The error is a sentence with the reason.
+Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address);
+
+}  // namespace passo

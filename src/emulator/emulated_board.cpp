@@ -1,0 +1,114 @@
+#include "passo/emulator/emulated_board.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/emulator/emulated_chip.hpp"
+#include "passo/emulator/emulated_ports.hpp"
+#include "passo/emulator/emulated_timer.hpp"
+#include "passo/emulator/emulated_uart.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double clock_rate = 16e6;
+constexpr std::uint32_t baud = 500'000;
+// Where a board that is silent is waited for without end: so long, in seconds.
+constexpr double longest_silence = 10;
+
+struct Kind {
+  const char* mcu;
+  const char* ports;
+  std::vector<MotorPins> motors;
+};
+
+Kind kind_named(std::string_view name) {
+  static_cast<void>(name);  // one so far
+  return {.mcu = "atmega328p",
+          .ports = "BCD",
+          .motors = {std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor)}};
+}
+
+class AvrBoard final : public EmulatedBoard {
+ public:
+  AvrBoard(Kind kind, const std::string& program)
+      : motors_(std::move(kind.motors)),
+        positions_(motors_.size(), 0),
+        chip_(program, kind.mcu),
+        timer_(chip_),
+        uart_(chip_, baud),
+        ports_(chip_, kind.ports) {
+    uart_.on_byte = [this](std::uint8_t byte) {
+      said_.push_back(byte);
+      chip_.stop();
+    };
+  }
+
+  void receive(std::span<const std::uint8_t> bytes) override { uart_.send(bytes); }
+
+  bool run(Seconds most) override {
+    const double seconds = std::min(most.value(), longest_silence);
+    const std::uint64_t end = chip_.cycles() + static_cast<std::uint64_t>(std::max(seconds, 0.0) * clock_rate);
+    while (said_.empty() && chip_.cycles() < end) {
+      chip_.run_for(std::min<std::uint64_t>(end - chip_.cycles(), look_cycles));
+      count_steps();
+    }
+    return !said_.empty();
+  }
+
+  std::span<const std::uint8_t> replies() override {
+    taken_ = std::exchange(said_, {});
+    return taken_;
+  }
+
+  Seconds elapsed() const override { return Seconds(static_cast<double>(chip_.cycles()) / clock_rate); }
+  std::vector<std::int64_t> positions() const override { return positions_; }
+
+ private:
+  static constexpr std::uint64_t look_cycles = 1'000'000;
+
+  void count_steps() {
+    for (const PortChange& change : ports_.changes()) {
+      const unsigned rose = change.now & ~unsigned{change.before};
+      for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
+        const MotorPins& pins = motors_[motor];
+        if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
+          positions_[motor] += (direction_port(change, pins) & pins.direction.mask()) != 0 ? -1 : 1;
+        }
+      }
+      levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+    }
+    ports_.forget_changes();
+  }
+  std::uint8_t direction_port(const PortChange& change, const MotorPins& pins) const {
+    return pins.direction.port == change.port ? change.now
+                                              : levels_[static_cast<std::size_t>(pins.direction.port - 'A')];
+  }
+
+  std::vector<MotorPins> motors_;
+  std::vector<std::int64_t> positions_;
+  std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
+  EmulatedChip chip_;
+  EmulatedTimer timer_;
+  EmulatedUart uart_;
+  EmulatedPorts ports_;
+  std::vector<std::uint8_t> said_;
+  std::vector<std::uint8_t> taken_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<EmulatedBoard>, std::string> EmulatedBoard::start(std::string_view kind,
+                                                                         const std::string& program) {
+  try {
+    return std::unique_ptr<EmulatedBoard>(std::make_unique<AvrBoard>(kind_named(kind), program));
+  } catch (const std::runtime_error& error) {
+    return Failure<std::string>{error.what()};
+  }
+}
+
+}  // namespace passo

@@ -1,0 +1,34 @@
+// EmulatedBoard: a real board's firmware on the emulated chip, at the other end of its serial line. A link cannot tell
+// it from a board on the desk.
+//
+// Its time is the chip's, and passes only in run(): the same program gives the same figures everywhere. Besides it
+// looks at the pins themselves, as a driver does, and counts the steps that come out of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/base/result.hpp"
+#include "passo/link/board_port.hpp"
+
+namespace passo {
+
+class EmulatedBoard : public BoardPort {
+ public:
+  // `kind`: "uno"; `program`: the firmware's ELF file. The error is a sentence with the reason.
+  static Result<std::unique_ptr<EmulatedBoard>, std::string> start(std::string_view kind, const std::string& program);
+
+  // Of each motor, in steps from the start: a step is a rising edge, backwards while the direction pin is high.
+  virtual std::vector<std::int64_t> positions() const = 0;
+};
+
+// Those that there are, one after the other: for messages.
+inline constexpr std::string_view emulated_boards = "uno";
+constexpr bool is_emulated_board(std::string_view kind) {
+  return kind == "uno";
+}
+
+}  // namespace passo
