@@ -19,14 +19,15 @@ class StepLog final : public MachineObserver {
  public:
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
     for (unsigned m = 0; m < motors; ++m) {
-      if ((stepped >> m & 1U) == 0) continue;
-      const bool down = (directions >> m & 1U) != 0;
-      place[m] += down ? -1 : 1;
-      steps[m].push_back({.tick = time.count, .down = down});
+      if ((stepped >> m & 1U) != 0) add(time.count, m, (directions >> m & 1U) != 0);
     }
     for (unsigned m = 0; m < motors; ++m) {
       if ((stepped >> m & 1U) != 0) steps[m].back().place = place;
     }
+  }
+  void add(std::int64_t tick, unsigned motor, bool down) {
+    place[motor] += down ? -1 : 1;
+    steps[motor].push_back({.tick = tick, .down = down, .place = place});
   }
 
   static constexpr unsigned motors = 3;

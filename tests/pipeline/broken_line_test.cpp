@@ -1,18 +1,16 @@
 // The line to the board breaks, loses, doubles, flips and swaps: the machine stays on the path and within its limits,
 // rests where nothing more comes, and ends where it would have ended.
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/line_trouble.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
@@ -24,6 +22,7 @@ namespace {
 
 using test::expect_same_way;
 using test::expect_within_limits;
+using test::RandomTrouble;
 using test::StepLog;
 
 // With places in plenty, and with few.
@@ -111,50 +110,6 @@ int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std
   }
   return trials;
 }
-
-// Loses, doubles and flips bytes, loses and swaps frames.
-class RandomTrouble {
- public:
-  explicit RandomTrouble(std::uint64_t seed) : random_(seed), rate_(between(0.0001, 0.001)) {}
-
-  Bytes operator()(bool to_board, const Bytes& bytes) {
-    Bytes passed;
-    if (!chance(4 * rate_)) {
-      for (const std::uint8_t byte : bytes) {
-        if (chance(rate_)) {
-          ++faults;
-          const double kind = between(0, 3);
-          if (kind < 1) continue;
-          if (kind < 2) passed.push_back(byte);
-          passed.push_back(kind < 2 ? byte
-                                    : static_cast<std::uint8_t>(byte ^ 1U << static_cast<unsigned>(between(0, 8))));
-          continue;
-        }
-        passed.push_back(byte);
-      }
-    } else {
-      ++faults;
-    }
-    Bytes& late = late_[to_board ? 0 : 1];
-    if (late.empty() && chance(4 * rate_)) {
-      ++faults;
-      late = std::move(passed);
-      return {};
-    }
-    passed.insert(passed.end(), late.begin(), late.end());
-    late.clear();
-    return passed;
-  }
-  int faults = 0;
-
- private:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  bool chance(double share) { return between(0, 1) < share; }
-
-  std::mt19937_64 random_;
-  double rate_;
-  std::array<Bytes, 2> late_;  // swapped with what comes next
-};
 
 void random_faults(const std::string& machine, int trials) {
   const std::uint64_t seed = test::seed();
