@@ -191,15 +191,17 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     }
   }
 
-  segment = BoardSegment{
-      .events = static_cast<std::uint16_t>(count), .interval = timing.interval, .change = count > 1 ? timing.change : 0};
+  segment = BoardSegment{.events = static_cast<std::uint16_t>(count),
+                         .interval = timing.interval,
+                         .change = count > 1 ? timing.change : 0};
   for (unsigned m = 0; m < motors_; ++m) {
     // A motor that stands still keeps its direction line.
     const bool was_down = (kept_directions >> m & 1U) != 0;
     const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
     set_increment(segment, m, sign, advances[m].increment);
   }
-  if (timing.events > 1) guess_ = timing.events;
+  // Next to a rest it is two at most, and then soon many.
+  if (timing.events > 2) guess_ = timing.events;
   return count;
 }
 

@@ -76,9 +76,7 @@ class StepGenerator::Implementation {
   }
 
   // Events for the longest segment and one behind it, or all that may be waited for.
-  bool enough() const {
-    return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_;
-  }
+  bool enough() const { return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_; }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
     board_.play(segment);

@@ -1,5 +1,5 @@
-// StepLog: every step of a run, and what must be true of it where a line is troubled: the machine goes the same way, and
-// within its limits.
+// StepLog: every step of a run, and what must be true of it where a line is troubled: the machine goes the same way,
+// and within its limits.
 #pragma once
 
 #include <array>
@@ -49,8 +49,8 @@ inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& ref
     for (std::size_t i = 0; i < run[m].size(); ++i) {
       ASSERT_EQ(run[m][i].down, reference[m][i].down) << "motor " << m << " step " << i;
       for (unsigned other = 0; other < StepLog::motors; ++other) {
-        ASSERT_NEAR(static_cast<double>(run[m][i].place[other]),
-                    static_cast<double>(reference[m][i].place[other]), beside)
+        ASSERT_NEAR(static_cast<double>(run[m][i].place[other]), static_cast<double>(reference[m][i].place[other]),
+                    beside)
             << "motor " << other << " at step " << i << " of motor " << m;
       }
     }

@@ -57,7 +57,8 @@ Outcome run(const std::string& machine, const std::string& program, bool with_li
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
   // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
-  Job job(ProgramReader::from_text("t", program), machine_named(machine), InterpreterOptions(), diagnostics, {.line = line});
+  Job job(ProgramReader::from_text("t", program), machine_named(machine), InterpreterOptions(), diagnostics,
+          {.line = line});
   StepLog log;
   job.machine().add_observer(log);
   Outcome outcome;
@@ -89,19 +90,20 @@ void expect_as_if_nothing_had_been(const std::string& machine, std::size_t progr
 }
 
 // Cuts at every `stride`-th frame from either side. Returns how many trials that were.
-int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std::uint64_t stride, const std::vector<double>& lasting,
-                            int& recoveries) {
+int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std::uint64_t stride,
+                            const std::vector<double>& lasting, int& recoveries) {
   const Outcome whole = run(machine, programs()[program], true);
   expect_as_if_nothing_had_been(machine, program, whole);
   int trials = 0;
   for (const double seconds : lasting) {
     for (std::uint64_t at = 0; at < whole.frames; at += stride) {
-      SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) + " for " +
-                   std::to_string(seconds) + " s");
-      const Outcome cut = run(machine, programs()[program], true, [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
-        if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
-        return bytes;
-      });
+      SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) +
+                   " for " + std::to_string(seconds) + " s");
+      const Outcome cut =
+          run(machine, programs()[program], true, [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
+            if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
+            return bytes;
+          });
       expect_as_if_nothing_had_been(machine, program, cut);
       recoveries += cut.recoveries;
       ++trials;
@@ -119,9 +121,9 @@ void random_faults(const std::string& machine, int trials) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     const std::size_t program = static_cast<std::size_t>(i) % programs().size();
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
-    const Outcome outcome = run(machine, programs()[program], true, [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) {
-      return trouble(to_board, bytes);
-    });
+    const Outcome outcome =
+        run(machine, programs()[program], true,
+            [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); });
     expect_as_if_nothing_had_been(machine, program, outcome);
     faults += trouble.faults;
     recoveries += outcome.recoveries;

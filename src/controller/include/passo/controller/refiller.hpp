@@ -32,12 +32,11 @@ struct TailOptions {
   Seconds horizon{0.1};         // of motion before the tail, behind a refill
   Seconds refill_at{0.06};      // so much of it being left, the next one is sent
   Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
-  // Exact to the tick, the first milliseconds behind a rest would take hundreds of segments a second more than a line can
-  // carry; and more than a board has places for that has few.
+  // Exact to the tick, the first milliseconds behind a rest would take hundreds of segments a second more than a line
+  // can carry; and more than a board has places for that has few.
   std::size_t few_places = 100;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
-  Exactness motion_in_few_places{
-      .one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
+  Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
   Exactness tail{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
 };
 

@@ -130,7 +130,9 @@ class Board {
     Hello hello;
     decode(frame, hello);
     // The host may not like the answer; then it will not go on. Until the two agree there are no segments.
-    motors_ = hello.version == protocol_version && hello.motors <= identity_.motors && hello.motors <= most_motors ? hello.motors : uint8_t{0};
+    motors_ = hello.version == protocol_version && hello.motors <= identity_.motors && hello.motors <= most_motors
+                  ? hello.motors
+                  : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
     breathe();
@@ -376,7 +378,7 @@ class Board {
   uint16_t to_load_ = 0;                        // events of that one that the player is still to get
   uint16_t done_of_front_ = 0;                  // events of the front, in parts that are done
   Segment part_;                                // of it, the one that is being loaded: large for a chip's stack
-  uint8_t motors_ = 0;             // agreed upon with the host
+  uint8_t motors_ = 0;                          // agreed upon with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte
   uint16_t executed_ = 0;  // of the last item that is done

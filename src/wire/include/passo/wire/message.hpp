@@ -90,7 +90,7 @@ struct BoardStatus {
   uint8_t taken = 0;
   uint8_t free = 0;
   uint16_t event = 0;  // how many events of the item at hand are played
-  uint8_t state = 0;  // bits: BoardState
+  uint8_t state = 0;   // bits: BoardState
   ResetCause reset = ResetCause::power_on;
   uint8_t motors = 0;   // agreed upon; 0: a host has not said hello since the reset
   uint16_t inputs = 0;  // bits: BoardInput
@@ -270,8 +270,8 @@ void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
   segment.flips = bytes[3];
   segment.interval = load32(bytes + 4);
   // 24 bits with a sign: at the top they are a large one, and a small one down again with the sign drawn along.
-  segment.change = static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 8)) << 8 |
-                                        static_cast<uint32_t>(bytes[10]) << 24);
+  segment.change =
+      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 8)) << 8 | static_cast<uint32_t>(bytes[10]) << 24);
   if ((events & coarse_bit) == 0) segment.change >>= 8;
   bytes += segment_size;
   for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
