@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/emulator/emulated_chip.hpp"
 #include "passo/emulator/emulated_ports.hpp"
@@ -27,7 +28,11 @@ struct Kind {
 };
 
 Kind kind_named(std::string_view name) {
-  static_cast<void>(name);  // one so far
+  if (name == "mega") {
+    return {.mcu = "atmega2560",
+            .ports = "ABCDEFGHJKL",
+            .motors = {std::begin(mega_ramps.motor), std::end(mega_ramps.motor)}};
+  }
   return {.mcu = "atmega328p",
           .ports = "BCD",
           .motors = {std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor)}};

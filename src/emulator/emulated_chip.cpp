@@ -23,7 +23,6 @@ namespace passo {
 namespace {
 
 // Memory has something in it when the power comes on.
-constexpr std::uint16_t first_of_ram = 0x100;
 constexpr std::uint8_t never_written = 0xC7;
 
 // simavr tells about every section that it loads; what is wrong it also tells by its results.
@@ -46,7 +45,7 @@ EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
   firmware.frequency = 16'000'000;
   avr_load_firmware(avr_.get(), &firmware);
   std::free(firmware.flash);
-  std::fill(avr_->data + first_of_ram, avr_->data + avr_->ramend + 1, never_written);
+  std::fill(avr_->data + avr_->ioend + 1, avr_->data + avr_->ramend + 1, never_written);
 
   // 1 by default, an instruction a call: six times slower.
   avr_->run_cycle_limit = 1000;
@@ -75,7 +74,7 @@ void EmulatedChip::mend_interrupts() {
 std::size_t EmulatedChip::longest_untouched() const {
   std::size_t longest = 0;
   std::size_t here = 0;
-  for (const std::uint8_t* at = avr_->data + first_of_ram; at <= avr_->data + avr_->ramend; ++at) {
+  for (const std::uint8_t* at = avr_->data + avr_->ioend + 1; at <= avr_->data + avr_->ramend; ++at) {
     here = *at == never_written ? here + 1 : 0;
     longest = std::max(longest, here);
   }
@@ -94,6 +93,9 @@ void EmulatedChip::step() {
 
 void EmulatedChip::run_for(std::uint64_t cycles) {
   const std::uint64_t end = avr_->cycle + cycles;
+  // simavr runs on until something is due: let it be due there.
+  avr_cycle_timer_register(
+      avr_.get(), cycles, [](avr_t*, avr_cycle_count_t, void*) { return avr_cycle_count_t{0}; }, this);
   stopped_ = false;
   while (!stopped_ && avr_->cycle < end) step();
 }

@@ -9,6 +9,11 @@ namespace passo {
 namespace {
 
 constexpr std::uint16_t pcifr = 0x3b;
+constexpr std::uint16_t eifr = 0x3c;
+constexpr std::uint16_t eicra = 0x69;
+constexpr std::uint8_t any_change = 1;  // of the two bits of a pin in EICRA, EICRB
+// Registers from here on are reached as memory: a write comes in the second cycle of its instruction.
+constexpr std::uint16_t first_memory_register = 0x60;
 constexpr std::uint16_t pcmsk0 = 0x6b;
 
 // PINA… of the data sheets; there is no port I.
@@ -44,15 +49,18 @@ EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr
                                             written.all->write(written, value);
                                           }};
   }
-  avr_.io[AVR_DATA_TO_IO(pcifr)].w = {.param = nullptr,
-                                      .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) {
-                                        avr->data[address] = static_cast<std::uint8_t>(avr->data[address] & ~value);
-                                      }};
+  for (const std::uint16_t flags : {pcifr, eifr}) {
+    avr_.io[AVR_DATA_TO_IO(flags)].w = {.param = nullptr,
+                                        .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) {
+                                          avr->data[address] = static_cast<std::uint8_t>(avr->data[address] & ~value);
+                                        }};
+  }
 }
 
 void EmulatedPorts::write(Port& port, std::uint8_t value) {
   std::uint8_t& output = avr_.data[port.pin + 2];
-  if (output != value) changes_.push_back({.cycle = avr_.cycle, .port = port.name, .before = output, .now = value});
+  const std::uint64_t cycle = avr_.cycle + (port.pin >= first_memory_register ? 1 : 0);
+  if (output != value) changes_.push_back({.cycle = cycle, .port = port.name, .before = output, .now = value});
   output = value;
 }
 
@@ -66,6 +74,7 @@ void EmulatedPorts::set_input(char port, std::uint8_t bit, bool high) {
   const auto levels = static_cast<std::uint8_t>(high ? changed.levels | mask : changed.levels & ~mask);
   if (levels == changed.levels) return;
   changed.levels = levels;
+  if (avr_.address_size == 3 && ((port == 'D' && bit < 4) || (port == 'E' && bit >= 4))) set_change_flag(bit);
   // Groups 0 to 2 are ports B, C, D on the 328P; B, (E0 and J), K on the 2560.
   const bool large = avr_.address_size == 3;
   const int group = port == 'B' ? 0 : port == (large ? 'J' : 'C') ? 1 : port == (large ? 'K' : 'D') ? 2 : -1;
@@ -74,6 +83,12 @@ void EmulatedPorts::set_input(char port, std::uint8_t bit, bool high) {
   if ((avr_.data[pcmsk0 + static_cast<unsigned>(group)] & watched) != 0) {
     avr_.data[pcifr] = static_cast<std::uint8_t>(avr_.data[pcifr] | 1U << static_cast<unsigned>(group));
   }
+}
+
+// INT0 to INT3 are on D0 to D3 of the 2560, INT4 to INT7 on E4 to E7: the pin's number is the interrupt's.
+void EmulatedPorts::set_change_flag(std::uint8_t number) {
+  const unsigned sense = avr_.data[eicra + number / 4] >> (number % 4 * 2) & 3U;
+  if (sense == any_change) avr_.data[eifr] = static_cast<std::uint8_t>(avr_.data[eifr] | 1U << number);
 }
 
 }  // namespace passo

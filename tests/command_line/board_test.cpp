@@ -75,10 +75,12 @@ TEST_F(Boards, are_emulated_too) {
   const auto json = nlohmann::json::parse(info.out);
   EXPECT_EQ(json["about"]["highest_event_rate_hz"], 140'000) << info.out;
   EXPECT_EQ(json["status"]["positions"].size(), 8);
+  const auto mega = nlohmann::json::parse(passo("board info --json sim:mega").out);
+  EXPECT_EQ(mega["about"]["highest_event_rate_hz"], 110'000);
 
   const Outcome none = passo("board info sim:none");
   EXPECT_EQ(none.code, 1);
-  EXPECT_NE(none.err.find("there is an emulator of uno"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("there is an emulator of uno and mega"), std::string::npos) << none.err;
 }
 
 TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {

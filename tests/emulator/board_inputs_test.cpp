@@ -3,9 +3,9 @@
 #include <cstdio>
 
 #include "emulator/streamed_run.hpp"
-#include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
+#include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 
 namespace passo {
@@ -16,69 +16,129 @@ std::vector<BoardSegment> long_run(std::uint32_t interval, int segments) {
   return std::vector<BoardSegment>(static_cast<std::size_t>(segments), segment);
 }
 
+// A board, the fastest that it plays, and how its spindle's pin is given to a timer.
+struct SwitchedBoard {
+  BoardUnderTest board;
+  std::uint32_t interval;
+  std::uint16_t spindle_control;
+  std::uint8_t connected;
+};
+
 // Cycles from the switch to the last edge that begins a step.
-std::int64_t last_edge_after(const BoardBench& bench, std::uint64_t switched) {
+std::int64_t last_edge_after(const BoardBench& bench, const BoardUnderTest& board, std::uint64_t switched) {
   std::int64_t last = 0;
   for (const PortChange& change : bench.ports().changes()) {
-    const unsigned risen = change.now & ~change.before & 0x1cU;
-    if (change.port == 'D' && risen != 0) last = static_cast<std::int64_t>(change.cycle - switched);
+    for (const MotorPins& motor : board.motors) {
+      const unsigned risen = change.now & ~change.before & unsigned{motor.step.mask()};
+      if (change.port != motor.step.port || risen == 0) continue;
+      last = std::max(last, static_cast<std::int64_t>(change.cycle - switched));
+    }
   }
   return last;
 }
 
-class UnoInputs : public testing::Test {
- protected:
-  // Starts a motion and closes a switch in the middle of it, at another moment each time. Worst case, in cycles.
-  std::int64_t worst_reaction(Pin pin, FaultReason reason) {
-    std::mt19937_64 random(test::seed());
-    std::int64_t worst = 0;
-    for (int trial = 0; trial < 20; ++trial) {
-      BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
-      bench.start(long_run(114, 10));
-      bench.run(60'000 + random() % 40'000);
-      EXPECT_FALSE(bench.fault().has_value());
-      const std::uint64_t switched = bench.chip().cycles();
-      bench.ports().set_input(pin.port, pin.bit, false);
-      bench.run(200'000);
-      worst = std::max(worst, last_edge_after(bench, switched));
-      EXPECT_EQ(bench.fault().value_or(Fault{.reason = FaultReason::driver}).reason, reason);
-    }
-    return worst;
-  }
+// In cycles after the switch, the worst of them.
+struct Reaction {
+  std::int64_t last_edge = 0;    // that begins a step
+  std::int64_t outputs_off = 0;  // the spindle's pin is let go of
 };
 
-TEST_F(UnoInputs, an_emergency_stop_lets_no_further_step_out) {
-  const std::int64_t worst = worst_reaction(uno_cnc_shield.emergency_stop, FaultReason::emergency_stop);
-  std::printf("emergency stop to last edge: %lld cycles at the most\n", static_cast<long long>(worst));
-  EXPECT_LE(worst, 16);
+// Starts a motion with the spindle on, and closes a switch in the middle of it: at each cycle from one event to the
+// next, or at every few, each time somewhere else in the motion.
+Reaction worst_reaction(const SwitchedBoard& kind, Pin pin, FaultReason reason, std::uint32_t every) {
+  Reaction worst;
+  for (std::uint32_t phase = 0; phase < kind.interval; phase += every) {
+    BoardBench bench(kind.board);
+    std::uint64_t off = 0;
+    bench.chip().on_write(kind.spindle_control, [&](std::uint8_t value) {
+      if ((value & kind.connected) == 0 && off == 0) off = bench.cycles();
+    });
+    std::vector<BoardBench::Item> items = {BoardOutputs{.switches = spindle_on, .spindle_rpm = 12'000}};
+    for (const BoardSegment& segment : long_run(kind.interval, 5)) items.emplace_back(segment);
+    bench.start_items(items);
+    bench.run(90'000 + phase * (kind.interval + 1));
+    EXPECT_FALSE(bench.fault().has_value());
+    EXPECT_FALSE(bench.ports().changes().empty()) << "it moves";
+    const std::uint64_t switched = bench.cycles();
+    off = 0;
+    bench.ports().set_input(pin.port, pin.bit, false);
+    bench.run(100'000);
+    worst.last_edge = std::max(worst.last_edge, last_edge_after(bench, kind.board, switched));
+    EXPECT_GT(off, switched) << "phase " << phase;
+    worst.outputs_off = std::max(worst.outputs_off, static_cast<std::int64_t>(off - switched));
+    EXPECT_EQ(bench.fault().value_or(Fault{.reason = FaultReason::driver}).reason, reason);
+  }
+  return worst;
 }
 
-TEST_F(UnoInputs, a_limit_switch_lets_no_further_step_out) {
-  const std::int64_t worst = worst_reaction(uno_cnc_shield.limits[1], FaultReason::limit);
-  std::printf("limit switch to last edge: %lld cycles at the most\n", static_cast<long long>(worst));
-  EXPECT_LE(worst, 16);
+// Steps that motor 0 has begun up to a cycle.
+std::int32_t steps_until(const BoardBench& bench, const BoardUnderTest& board, std::uint64_t cycle) {
+  const Pin step = board.motors[0].step;
+  return static_cast<std::int32_t>(std::ranges::count_if(bench.ports().changes(), [&](const PortChange& change) {
+    const unsigned risen = change.now & ~change.before & unsigned{step.mask()};
+    return change.port == step.port && change.cycle <= cycle && risen != 0;
+  }));
 }
 
-TEST_F(UnoInputs, a_probe_captures_the_steps_made_when_it_touched) {
-  std::mt19937_64 random(test::seed());
-  for (int trial = 0; trial < 20; ++trial) {
-    BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
-    bench.start(long_run(120, 10));
-    bench.run(60'000 + random() % 40'000);
-    const Pin probe = uno_cnc_shield.probe;
-    const std::uint64_t touched = bench.chip().cycles();
+// Touches the probe at each cycle from one event to the next. `look`: cycles from the interrupt's look at the pins to
+// the edge; a touch between the two counts for the next event.
+void expect_exact_capture(const SwitchedBoard& kind, Pin probe, std::uint64_t look) {
+  std::uint32_t between = 0;
+  for (std::uint32_t phase = 0; phase < kind.interval; ++phase) {
+    BoardBench bench(kind.board);
+    bench.start(long_run(kind.interval, 7));
+    bench.run(90'000 + phase * (kind.interval + 1));
+    const std::uint64_t touched = bench.cycles();
     bench.ports().set_input(probe.port, probe.bit, false);
-    bench.run(400'000);
-    std::int32_t steps = 0;
-    for (const PortChange& change : bench.ports().changes()) {
-      if (change.port == 'D' && change.cycle <= touched && (change.now & ~change.before & 4U) != 0) ++steps;
-    }
+    bench.run(300'000);
     ASSERT_TRUE(bench.captured().has_value());
     EXPECT_EQ(bench.captured()->input, input_probe);
-    // An edge within the few cycles between the pin and the interrupt's look may count either way.
-    EXPECT_NEAR(bench.captured()->positions[0], steps, 0) << "trial " << trial;
-    EXPECT_EQ(bench.captured()->positions[1], bench.captured()->positions[0]);
+    const std::int32_t position = bench.captured()->positions[0];
+    const std::int32_t before = steps_until(bench, kind.board, touched);
+    EXPECT_GE(position, before) << "phase " << phase;
+    EXPECT_LE(position, steps_until(bench, kind.board, touched + look)) << "phase " << phase;
+    between += position != before ? 1U : 0U;
+    EXPECT_EQ(bench.captured()->positions[1], position);
   }
+  std::printf("probe: exact to the event at all of %u phases, %u of them between the look and the edge\n",
+              kind.interval, between);
+}
+
+SwitchedBoard uno() {
+  return {.board = uno_under_test(PASSO_MOTION_UNO), .interval = 114, .spindle_control = 0xb0, .connected = 1 << 7};
+}
+SwitchedBoard mega() {
+  return {
+      .board = mega_under_test(PASSO_MOTION_MEGA, 4), .interval = 145, .spindle_control = 0xa0, .connected = 1 << 3};
+}
+// `edge`: how long a step may still begin; `off`: until the outputs are off, an event's time included.
+void expect_stop_within(std::int64_t edge, std::int64_t off, const SwitchedBoard& kind, Pin pin, FaultReason reason,
+                        std::uint32_t every = 1) {
+  const Reaction worst = worst_reaction(kind, pin, reason, every);
+  std::printf("switch to last edge: %lld cycles at the most, to outputs off: %lld\n",
+              static_cast<long long>(worst.last_edge), static_cast<long long>(worst.outputs_off));
+  EXPECT_LE(worst.last_edge, edge);
+  EXPECT_LE(worst.outputs_off, off);
+}
+
+TEST(UnoInputs, an_emergency_stop_lets_no_further_step_out) {
+  expect_stop_within(4, 240, uno(), uno_cnc_shield.emergency_stop, FaultReason::emergency_stop);
+}
+TEST(UnoInputs, a_limit_switch_lets_no_further_step_out) {
+  expect_stop_within(4, 240, uno(), uno_cnc_shield.limits[1], FaultReason::limit);
+}
+TEST(UnoInputs, a_probe_captures_the_steps_made_when_it_touched) {
+  expect_exact_capture(uno(), uno_cnc_shield.probe, 4);
+}
+
+TEST(MegaInputs, an_emergency_stop_lets_no_further_step_out) {
+  expect_stop_within(20, 300, mega(), mega_ramps.emergency_stop, FaultReason::emergency_stop);
+}
+TEST(MegaInputs, each_limit_switch_lets_no_further_step_out) {
+  for (const Pin limit : mega_ramps.limits) expect_stop_within(20, 300, mega(), limit, FaultReason::limit, 5);
+}
+TEST(MegaInputs, a_probe_captures_the_steps_made_when_it_touched) {
+  expect_exact_capture(mega(), mega_ramps.probe, 18);
 }
 
 }  // namespace

@@ -6,14 +6,15 @@
 
 #include "emulator/streamed_run.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
-
 namespace {
 
 using namespace passo;
 
-void sweep(const BoardUnderTest& board, const char* name, bool changing, const std::vector<std::uint32_t>& intervals) {
+// `fastest`: in ticks; what is faster is left out.
+void sweep(const BoardUnderTest& board, const char* name, bool changing, std::uint32_t fastest,
+           const std::vector<std::uint32_t>& intervals) {
   for (const std::uint32_t interval : intervals) {
+    if (interval < fastest) continue;
     BoardBench bench(board);
     std::mt19937_64 random(1);
     const auto motors = static_cast<std::uint8_t>(board.motors.size());
@@ -30,9 +31,10 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, const s
     const std::vector<BoardSegment> stream = random_stream(random, motors, kind);
     const EdgeCheck check = bench.play(stream);
     const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
-    std::printf("| %s | %zu | %u | %.1f | %s | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
-                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.spread()),
-                number(check.shortest_pulse), number(check.shortest_setup), number(check.overruns));
+    std::printf("| %s | %zu | %u | %.1f | %s | %llu | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
+                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.error),
+                number(check.apart), number(check.shortest_pulse), number(check.shortest_setup),
+                number(check.overruns));
     std::fflush(stdout);
   }
 }
@@ -42,14 +44,21 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, const s
 int main(int argc, char** argv) {
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
-  if (intervals.empty()) intervals = {300, 200, 160, 133, 120, 114};
+  if (intervals.empty()) intervals = {300, 200, 178, 160, 145, 133, 120, 114};
   try {
     std::puts(
-        "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | pulse | set-up | "
+        "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | apart | pulse | set-up | "
         "bytes lost |");
-    std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|");
-    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, even", false, intervals);
-    sweep(uno_under_test(PASSO_MOTION_UNO), "Uno, changing", true, intervals);
+    std::puts("|---|---:|---:|---:|---|---:|---:|---:|---:|---:|");
+    for (const bool changing : {false, true}) {
+      sweep(uno_under_test(PASSO_MOTION_UNO), changing ? "Uno, changing" : "Uno, even", changing, 114, intervals);
+    }
+    for (const std::uint8_t motors : {std::uint8_t{4}, std::uint8_t{6}}) {
+      const BoardUnderTest mega = mega_under_test(PASSO_MOTION_MEGA, motors);
+      for (const bool changing : {false, true}) {
+        sweep(mega, changing ? "Mega, changing" : "Mega, even", changing, motors > 4 ? 178 : 145, intervals);
+      }
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "board_rates: %s\n", error.what());
     return 1;

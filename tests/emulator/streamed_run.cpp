@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/firmware/player.hpp"
 
@@ -46,6 +47,15 @@ BoardUnderTest uno_under_test(const std::string& program) {
   return board;
 }
 
+BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors) {
+  BoardUnderTest board;
+  board.program = program;
+  board.mcu = "atmega2560";
+  board.motors.assign(std::begin(mega_ramps.motor), std::begin(mega_ramps.motor) + motors);
+  board.ports = "ABCDEFGHJKL";
+  return board;
+}
+
 BoardBench::BoardBench(const BoardUnderTest& board)
     : board_(board),
       chip_(std::make_unique<EmulatedChip>(board.program, board.mcu)),
@@ -63,7 +73,8 @@ void BoardBench::hear(std::uint8_t byte) {
     HelloReply reply;
     decode(frame, reply);
     // No more than its page of received bytes has room for: a link would repeat what got lost, this one does not.
-    capacity_ = std::min<std::uint8_t>(reply.capacity, 11);
+    const auto size = static_cast<std::uint8_t>(frame_overhead + segment_size + 2 * board_.motors.size());
+    capacity_ = std::min<std::uint8_t>(reply.capacity, 247 / size);
     greeted_ = true;
   } else if (frame.type == MessageType::credit) {
     Credit credit;
@@ -77,7 +88,7 @@ void BoardBench::hear(std::uint8_t byte) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), status_.emplace());
   } else if (frame.type == MessageType::error) {
     decode(frame, error_.emplace());
-    ++complaints_;
+    if (!before_item || error_->reason != WireError::bad_frame) ++complaints_;
   } else {
     ++complaints_;
   }
@@ -85,9 +96,15 @@ void BoardBench::hear(std::uint8_t byte) {
 }
 
 void BoardBench::send_item(const BoardSegment& segment) {
+  if (before_item) before_item();
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
   uart_->send({frame, size});
+}
+
+void BoardBench::send_item(const BoardOutputs& outputs) {
+  std::uint8_t frame[largest_frame];
+  uart_->send({frame, encode(outputs, ++last_sent_, frame)});
 }
 
 void BoardBench::ask() {
@@ -119,6 +136,12 @@ bool BoardBench::say_hello() {
 void BoardBench::start(const std::vector<BoardSegment>& segments) {
   if (!say_hello()) return;
   for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), capacity_); ++i) send_item(segments[i]);
+}
+
+void BoardBench::start_items(const std::vector<Item>& items) {
+  if (!say_hello()) return;
+  send_replace(static_cast<std::uint8_t>(items.size()));
+  for (const Item& item : items) std::visit([this](const auto& one) { send_item(one); }, item);
 }
 
 void BoardBench::run(std::uint64_t cycles) {
@@ -199,22 +222,26 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) const {
       }
     }
   }
-  std::optional<std::int64_t> start;
+  std::optional<std::int64_t> first;
+  std::optional<std::int64_t> last;
   for (std::uint8_t m = 0; m < motors; ++m) {
     result.steps += seen[m].size();
     result.expected += expected[m].size();
     if (seen[m].size() != expected[m].size()) ++result.wrong_count;
+    std::optional<std::int64_t> earliest;
+    std::optional<std::int64_t> latest;
     for (std::size_t i = 0; i < std::min(seen[m].size(), expected[m].size()); ++i) {
       const std::int64_t late = seen[m][i].time - expected[m][i].time;
-      if (!start) {
-        start = late;
-        result.earliest = result.latest = 0;
-      }
-      result.earliest = std::min(result.earliest, late - *start);
-      result.latest = std::max(result.latest, late - *start);
+      earliest = std::min(earliest.value_or(late), late);
+      latest = std::max(latest.value_or(late), late);
       if (seen[m][i].down != expected[m][i].down) ++result.wrong_direction;
     }
+    if (!earliest) continue;
+    result.error = std::max(result.error, *latest - *earliest);
+    first = std::min(first.value_or(*earliest), *earliest);
+    last = std::max(last.value_or(*earliest), *earliest);
   }
+  if (first) result.apart = *last - *first;
   return result;
 }
 

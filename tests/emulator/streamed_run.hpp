@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "passo/chip/pin_map.hpp"
@@ -28,14 +30,16 @@ struct BoardUnderTest {
 };
 
 BoardUnderTest uno_under_test(const std::string& program);
+// With a host that drives that many motors.
+BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors);
 
 struct EdgeCheck {
   std::uint64_t steps = 0;            // edges seen
   std::uint64_t expected = 0;         // of the model
   std::uint64_t wrong_count = 0;      // motors with another number of edges
   std::uint64_t wrong_direction = 0;  // edges
-  std::int64_t earliest = 0;          // edge against model, in cycles, from the mean start on
-  std::int64_t latest = 0;
+  std::int64_t error = 0;             // the worst motor's edges against the model, peak to peak, in cycles
+  std::int64_t apart = 0;             // the first motor's edge of an event, and the last one's: always in this order
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
@@ -46,7 +50,6 @@ struct EdgeCheck {
   double seconds = 0;  // of the chip's time, playing
   std::uint64_t events = 0;
 
-  std::int64_t spread() const { return latest - earliest; }
   bool exact() const { return finished && wrong_count == 0 && wrong_direction == 0 && steps == expected; }
 };
 
@@ -54,9 +57,18 @@ class BoardBench {
  public:
   explicit BoardBench(const BoardUnderTest& board);
 
+  // The next host drives the first `count` motors only.
+  void drive_motors(std::size_t count) { board_.motors.resize(count); }
+
+  // Called before each item that play() sends. What the board says of bytes that are no frame is then no complaint.
+  std::function<void()> before_item;
+
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
 
+  // Says hello and sends them all, to begin when all have come: one less than the board takes at once.
+  using Item = std::variant<BoardSegment, BoardOutputs>;
+  void start_items(const std::vector<Item>& items);
   // Says hello and sends as many as the board takes at once.
   void start(const std::vector<BoardSegment>& segments);
   // Lets time pass, whatever the board says.
@@ -80,6 +92,7 @@ class BoardBench {
   // Behind all that was executed.
   void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
+  void send_item(const BoardOutputs& outputs);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
 
   BoardUnderTest board_;

@@ -5,7 +5,7 @@
 namespace passo {
 namespace {
 
-constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT or sim:uno";
+constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:uno or sim:mega";
 
 constexpr const char* examples = R"(Examples:
   passo board list                                        what is on this computer's serial lines

@@ -115,7 +115,7 @@ int parse_and_run(int argc, char** argv) {
                          "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
   run_command.add_option(
       "-b,--board", run_arguments.board,
-      "serial:DEVICE[@BAUD], tcp:HOST:PORT or sim:uno, see passo board; without it the virtual machine");
+      "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; without it the virtual machine");
   run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");

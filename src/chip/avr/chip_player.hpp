@@ -9,11 +9,11 @@
 #pragma once
 
 #include "event_ring.hpp"
+#include "output_actions.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/wire/board_segment.hpp"
 
 namespace passo::chip {
@@ -23,25 +23,38 @@ class ChipPlayer {
   explicit ChipPlayer(uint8_t /*motors*/) {}
 
   // At once, whatever it played is broken off. Motors without pins stand still: the board refuses a host with more.
-  static void restart(uint8_t /*motors*/) {
+  static void restart(uint8_t motors) {
     Timsk1::write(0);
     running = 0;
     line_is_watched = 0;
     slow_end_ = 0;
-    head_ = fetched();
-    entry(head_).toggles = pins.flag_special | pins.flag_stop;
+    head_ = fetched_entry();
+    flagged_byte(head_) = pins.flag_special | pins.flag_stop;
+    if (step_port_count > 1 && motors != expansion.motors) {
+      for (uint8_t i = ring_mask; i != 0; --i) {
+        forget_toggles(i);
+        SerialLine::breathe();
+      }
+      forget_toggles(0);
+    }
+    expansion.motors = motors;
+    OutputActions::clear();
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
-    turning_ = fresh_ = slipped_ = false;
+    turning_ = fresh_ = slipped_ = over_ = false;
     made_ = 0;
     begun_ = finished_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
     for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
+    // The host before may have driven more motors.
+    for (uint16_t& increment : expansion.increments) increment = 0;
     expansion.time = 0x8000;
     // Where the pins are; a turn that was queued may not have been made.
     directions_ = 0;
     for (uint8_t m = 0; m < pins.motors; ++m) {
-      if ((Register<0x2b>::read() & pins.motor[m].direction.mask()) != 0) {
+      const Pin pin = pins.motor[m].direction;
+      const uint8_t levels = *reinterpret_cast<volatile uint8_t*>(port_registers(pin.port) + 2);
+      if ((levels & pin.mask()) != 0) {
         directions_ = static_cast<uint8_t>(directions_ | 1U << m);
       }
     }
@@ -49,29 +62,28 @@ class ChipPlayer {
 
   // Once, before anything moves.
   static void prepare() {
-    for (uint8_t i = 0; i < ring_entries; ++i) {
-      const uint16_t next = ring_address + sizeof(EventEntry) * ((i + 1) & ring_mask);
-      entry(i).next_page = static_cast<uint8_t>(next >> 8);
-    }
+    prepare_ring();
     // Free running at the full clock: the interrupt tells when to come back.
     Tccr1a::write(0);
     Tccr1b::write(1);
-    fetch_first(0);
+    fetch_entry(0);
   }
 
   // Can take the next item.
-  static bool ready() { return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun; }
+  static bool ready() {
+    return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun && !OutputActions::full();
+  }
   // Nothing is played and nothing waits to be.
-  static bool done() { return left_ == 0 && running == 0 && waiting() == 0; }
+  static bool done() { return left_ == 0 && rests(); }
 
-  using Segment = SegmentFor<uno_cnc_shield.motors>;
+  using Segment = SegmentFor<pins.motors>;
 
   static void load(const Segment& segment) {
-    for (uint8_t m = 0; m < pins.motors; ++m) expansion.increments[m] = segment.increments[m];
+    for (uint8_t m = 0; m < motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
-    expansion.flips = motor_pins.steps[segment.flips];
-    turns_ = motor_pins.directions[segment.directions ^ directions_];
+    for (uint8_t p = 0; p < step_port_count; ++p) expansion.flips.on[p] = motor_pins.on[p].steps[segment.flips];
+    turns_ = segment.directions ^ directions_;
     SerialLine::breathe();
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
@@ -89,11 +101,15 @@ class ChipPlayer {
     }
     SerialLine::breathe();
     most_ahead_ = most_ahead();
+    least_room_ = static_cast<uint8_t>(most_ahead_ / 8 * 3);
     SerialLine::breathe();
     remember(segment);
   }
   // An item that takes no time: it is finished with the event before it.
-  static void pass() {
+  static void pass(const BoardOutputs& outputs) {
+    SerialLine::breathe();
+    OutputActions::put(outputs, rests);
+    SerialLine::breathe();
     Item& item = items_[begun_++ & items_mask];
     item.end = made_;
     item.events = 0;
@@ -105,39 +121,43 @@ class ChipPlayer {
     item.events = segment.events;
     item.directions = segment.directions;
     item.flips = segment.flips;
-    for (uint8_t m = 0; m < pins.motors; ++m) item.increments[m] = segment.increments[m];
+    for (uint8_t m = 0; m < motors(); ++m) item.increments[m] = segment.increments[m];
   }
 
   // The oldest item that it has is done.
-  static bool finished() { return finished_ != begun_ && left_of_oldest() <= 0; }
+  static bool finished() {
+    over_ = finished_ != begun_ && left_of_oldest() <= 0;
+    return over_;
+  }
+  // Its steps have been told, and what they leave of fractions is in `at_start_`.
   static void forget() {
-    const Item& item = items_[finished_ & items_mask];
-    if (item.events != 0) {
-      for (uint8_t m = 0; m < pins.motors; ++m) {
-        at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
-      }
-    }
+    if (items_[finished_ & items_mask].events == 0) OutputActions::forget();
+    over_ = false;
     ++finished_;
+    if (step_port_count > 1) SerialLine::breathe();
   }
   // Of the oldest item: the events played, and the steps that a motor has made in them, down or up.
   static uint8_t played() {
     const uint8_t events = items_[finished_ & items_mask].events;
+    if (over_) return events;
     const int16_t left = left_of_oldest();
     return left <= 0 ? events : left > events ? uint8_t{0} : static_cast<uint8_t>(events - left);
   }
   [[gnu::noinline]] static int16_t steps(uint8_t motor) {
     const Item& item = items_[finished_ & items_mask];
     const uint8_t bit = static_cast<uint8_t>(1U << motor);
-    const uint8_t events = played();
-    int16_t steps = carries(at_start_[motor], item.increments[motor], events);
+    const uint8_t events = over_ ? item.events : played();
+    uint16_t accumulator = at_start_[motor];
+    int16_t steps = carries(accumulator, item.increments[motor], events);
+    if (over_) at_start_[motor] = accumulator;  // told once, and then forgotten
     SerialLine::breathe();
     if ((item.flips & bit) != 0) steps = static_cast<int16_t>(events - steps);
     return (item.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
   }
 
-  // Additions of `increment` to `accumulator` that overflow. A 16 by 8 bit product, for which LLVM calls one of 32
-  // bits.
-  static uint8_t carries(uint16_t accumulator, uint16_t increment, uint8_t events) {
+  // Makes the additions of `increment` to `accumulator`; how many overflow. A 16 by 8 bit product, for which LLVM calls
+  // one of 32 bits.
+  static uint8_t carries(uint16_t& accumulator, uint16_t increment, uint8_t events) {
     uint8_t count;
     asm volatile(
         "mul %A2, %3\n\t"
@@ -157,7 +177,7 @@ class ChipPlayer {
 
   // Some events, and a start of the timer where it stands still.
   static void refill() {
-    note_capture();
+    if (captured()) note_capture();
     for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
       SerialLine::poll();
     }
@@ -182,22 +202,19 @@ class ChipPlayer {
   static bool slipped() { return slipped_; }
 
  private:
-  static constexpr const PinMap<3>& pins = uno_cnc_shield;
-  static constexpr char port = 'D';
-  static constexpr MotorPinSets<pins.motors> motor_pins = motor_pin_sets(pins, port);
+  static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);
   static constexpr uint8_t items_mask = 3;
   static constexpr uint8_t most_begun = 4;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
   static constexpr uint8_t most_at_once = 100;
   static constexpr uint8_t few_at_once = 8;
-  static constexpr uint16_t often = 300;
   static constexpr uint8_t most_pieces = 8;
   // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
   // after the line meanwhile.
-  static constexpr uint8_t blank_events = 24;
-  static constexpr uint16_t blank_ticks = 250;
-  static constexpr uint16_t start_ticks = 1500;
+  static constexpr uint16_t blank_ticks = often - 50;
+  static constexpr uint8_t blank_events = 6000 / blank_ticks;
+  static constexpr uint16_t start_ticks = 1500;  // about what it takes to write them
   // An alarm nearer than this may be missed.
   static constexpr uint16_t least_lead = 150;
 
@@ -210,39 +227,34 @@ class ChipPlayer {
     uint16_t increments[pins.motors];
   };
 
-  // The entry that the interrupt has in its registers, or the one behind the last event.
-  static uint8_t fetched() {
-    uint16_t next;
-    asm volatile("movw %0, r2" : "=r"(next));
-    return entry_of(next);
-  }
-  static uint8_t entry_of(uint16_t next) {
-    return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & ring_mask);
-  }
+  // On the Uno one loop less is worth more than a motor less.
+  static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
-    note_capture();
+    if (captured()) note_capture();
     const uint16_t played = noted_ ? captured_at_ : static_cast<uint16_t>(made_ - waiting());
     return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
   }
   // Which event it was, told by the entry; in time, before the interrupt has been round the ring once more.
   [[gnu::noinline]] static void note_capture() {
-    if (noted_ || !captured()) return;
-    const uint8_t now = fetched();
+    if (noted_) return;
+    const uint8_t now = fetched_entry();
     const uint8_t since = static_cast<uint8_t>((now - entry_of(probe_entry)) & ring_mask);
     captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
     noted_ = true;
   }
-  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched()) & ring_mask); }
-
-  // Puts an entry into the interrupt's registers. Only while it does not run.
-  static void fetch_first(uint8_t index) {
-    const uint16_t next = ring_address + sizeof(EventEntry) * ((index + 1) & ring_mask);
-    asm volatile("movw r2, %0\n\tmov r5, %1" ::"r"(next), "r"(entry(index).toggles));
+  // An event at which nothing happens.
+  static void clear_toggles(uint8_t index) {
+    for (uint8_t p = 0; p < step_port_count; ++p) {
+      *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + 0x100 * p) = 0;
+    }
   }
+  static bool rests() { return running == 0 && waiting() == 0; }
+  static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
+
   static void set_alarm(uint8_t index) {
-    Ocr1ah::write(entry(index).time_high);
-    Ocr1al::write(entry(index).time_low);
+    Ocr1ah::write(*time_high_of(index));
+    Ocr1al::write(*time_low_of(index));
   }
   static uint16_t now() {
     const uint8_t low = Tcnt1l::read();
@@ -254,16 +266,16 @@ class ChipPlayer {
     uint16_t time = static_cast<uint16_t>(now() + start_ticks);
     for (uint8_t left = blank_events; left != 0; --left) {
       time = static_cast<uint16_t>(time + blank_ticks);
-      volatile EventEntry& blank = entry(head_);
-      blank.time_high = static_cast<uint8_t>(time >> 8);
-      blank.time_low = static_cast<uint8_t>(time);
-      blank.toggles = 0;
+      set_time(head_, time);
+      clear_toggles(head_);
       head_ = static_cast<uint8_t>((head_ + 1) & ring_mask);
       SerialLine::breathe();
     }
-    entry(head_).toggles = pins.flag_special | pins.flag_stop;
+    flagged_byte(head_) = pins.flag_special | pins.flag_stop;
+    slow_end_ = static_cast<uint16_t>(made_ + 1);  // until then the interrupt does not come
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
+    gap_ = start_ticks + blank_ticks;
     fresh_ = true;
     start();
   }
@@ -271,7 +283,7 @@ class ChipPlayer {
   // How many events two milliseconds have, in powers of two: 32,768 ticks.
   static uint8_t most_ahead() {
     uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
-    uint8_t most = ring_entries - 2;
+    uint8_t most = most_events;
     if (high >= 1) most = 64;
     for (; high > 1; high >>= 1) most >>= 1;
     return most < 2 ? uint8_t{2} : most;
@@ -288,6 +300,9 @@ class ChipPlayer {
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
+    // Worth the way only if there is room for many, or if few are ahead.
+    const uint8_t room = static_cast<uint8_t>(most - ahead);
+    if (room < least_room_ && room < left_) return false;
     if (line_is_watched == 0) {
       line_is_watched = is_watched(ahead);
       if (running == 0) line_is_watched = 0;  // it has stopped in between
@@ -300,39 +315,37 @@ class ChipPlayer {
     if (ahead < few_at_once) at_once = few_at_once;
     if (line_is_watched == 0) at_once = few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint8_t to_end = static_cast<uint8_t>(ring_entries - head_);
-    if (count > to_end) count = to_end;
-    const uint8_t room = static_cast<uint8_t>(most - ahead);
-    if (count > room) {
-      // Worth the way only if there is room for many, or if few are ahead.
-      if (room < most / 3) return false;
-      count = room;
-    }
-    if (turns_ != 0 && !queue_turn()) return false;
+    const uint8_t behind_this = static_cast<uint8_t>(ring_mask - head_);  // entries, up to the ring's end
+    if (count > behind_this) count = static_cast<uint8_t>(behind_this + 1);
+    if (count > room) count = room;
+    if ((turns_ != 0 || OutputActions::riding() != 0) && !queue_turn()) return false;
 
     // The interrupt may come to the end of the ring while these are made.
     if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
-    entry(behind).toggles = pins.flag_special | pins.flag_stop;
-    expansion.address = ring_address + sizeof(EventEntry) * first;
+    flagged_byte(behind) = pins.flag_special | pins.flag_stop;
+    expansion.address = entry_address(first);
     SerialLine::breathe();
     expand(count);
     SerialLine::breathe();
     left_ = static_cast<uint8_t>(left_ - count);
     made_ = static_cast<uint16_t>(made_ + count);
     head_ = behind;
-    const uint8_t plain = static_cast<uint8_t>(entry(first).toggles & ~(pins.flag_special | pins.flag_stop));
+    const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(pins.flag_special | pins.flag_stop));
     // From here on the interrupt may come to it.
-    entry(first).toggles = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
+    flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
+    if (turning_) OutputActions::taken();
     turning_ = false;
     return true;
   }
 
   static bool queue_turn() {
-    const uint8_t head = static_cast<uint8_t>((turns_head_ + 1) & (turns_address + turns_mask));
+    const uint8_t head = static_cast<uint8_t>((turns_head_ + step_port_count) & (turns_address + turns_mask));
     if (head == turns_tail) return false;
-    *reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_) = turns_;
+    volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_);
+    for (uint8_t p = 0; p < step_port_count; ++p) turn[p] = motor_pins.on[p].directions[turns_];
+    turn[0] = static_cast<uint8_t>(turn[0] | OutputActions::riding());
     turns_head_ = head;
     turns_ = 0;
     turning_ = true;
@@ -340,11 +353,11 @@ class ChipPlayer {
   }
 
   static void start() {
-    const uint8_t first = fetched();
-    if (!fresh_) catch_up(first);
+    const uint8_t first = fetched_entry();
+    catch_up(first);
     fresh_ = false;
-    fetch_first(first);
-    const uint8_t toggles = entry(first).toggles;
+    fetch_entry(first);
+    const uint8_t toggles = flagged_byte(first);
     if ((toggles & pins.flag_special) != 0) turn_now(toggles);
     set_alarm(first);
     Tifr1::write(compare_match_a);
@@ -353,25 +366,28 @@ class ChipPlayer {
   }
   static void turn_now(uint8_t toggles) {
     const uint8_t tail = turns_tail;
-    Register<0x29>::write(*reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail));
-    turns_tail = static_cast<uint8_t>((tail + 1) & (turns_address + turns_mask));
+    const volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail);
+    for (uint8_t p = 0; p < step_port_count; ++p) {
+      const uint8_t turning = p == 0 ? static_cast<uint8_t>(turn[p] & turning_bits) : turn[p];
+      *reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p])) = turning;
+    }
+    if ((turn[0] & action_bits) != 0) OutputActions::act(turn[0] & action_bits);
+    turns_tail = static_cast<uint8_t>((tail + step_port_count) & (turns_address + turns_mask));
     asm volatile("mov r5, %0" ::"r"(static_cast<uint8_t>(toggles & ~pins.flag_special)));
   }
 
   // Where the interrupt stopped before an event that now is late: that one and all behind it come later still.
   static void catch_up(uint8_t first) {
-    const uint16_t due = static_cast<uint16_t>(entry(first).time_high << 8 | entry(first).time_low);
+    const uint16_t due = time_of(first);
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     // A fraction may have made it one tick longer.
     if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // in time after all
-    slipped_ = true;
+    if (!fresh_) slipped_ = true;
     // Nobody looks after the line until it goes on.
     if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
-      const uint16_t time = static_cast<uint16_t>((entry(i).time_high << 8 | entry(i).time_low) + later);
-      entry(i).time_high = static_cast<uint8_t>(time >> 8);
-      entry(i).time_low = static_cast<uint8_t>(time);
+      set_time(i, static_cast<uint16_t>(time_of(i) + later));
       SerialLine::breathe();
     }
     expansion.time += static_cast<uint32_t>(later) << 16;
@@ -379,8 +395,9 @@ class ChipPlayer {
 
   static inline uint8_t head_ = 0;        // entry behind the last event
   static inline uint8_t most_ahead_ = 0;  // how many events may be in the ring, at the rate of the loaded segment
+  static inline uint8_t least_room_ = 0;  // for which it is worth the way to make some
   static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
-  static inline uint8_t turns_ = 0;       // direction pins to turn over before its first event
+  static inline uint8_t turns_ = 0;       // motors to turn round before its first event
   static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
@@ -394,6 +411,7 @@ class ChipPlayer {
   static inline uint16_t made_ = 0;      // events, ever
   static inline uint8_t begun_ = 0;      // items, ever
   static inline uint8_t finished_ = 0;
+  static inline bool over_ = false;  // the oldest item is known to be done
 
   static inline Item items_[most_begun];
   static inline uint16_t at_start_[pins.motors] = {};  // the accumulators before the oldest item

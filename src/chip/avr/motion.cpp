@@ -1,7 +1,8 @@
 // The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
 #include "chip_player.hpp"
+#include "output_actions.hpp"
 #include "serial_line.hpp"
-#include "uno_wiring.hpp"
+#include "wiring.hpp"
 
 #include "passo/chip/input_reader.hpp"
 #include "passo/firmware/board.hpp"
@@ -14,14 +15,11 @@ namespace passo::chip {
 namespace {
 
 constexpr uint32_t clock = 16'000'000;
-// Of segments of 120 events and more; docs/boards.md has how it was measured.
-constexpr uint32_t highest_event_rate = 140'000;
-constexpr uint32_t shortest = shortest_interval(clock, highest_event_rate);
-constexpr uint8_t queue_capacity = 31;
+constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate);
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
-  void outputs(const BoardOutputs& wanted) { UnoWiring::switch_outputs(wanted); }
+  void outputs(const BoardOutputs&) {}  // the player has switched them, at their event
   void send(uint8_t byte) { line.send(byte); }
   static void breathe() { SerialLine::breathe(); }
 
@@ -40,13 +38,9 @@ ResetCause cause_of_reset() {
 
 BoardIdentity identity() {
   return {
-      .motors = uno_cnc_shield.motors,
-      .clock = clock,
-      .reset = cause_of_reset(),
-      .shortest_interval = shortest,
-      .about = {.firmware = 100, .highest_event_rate = highest_event_rate, .baud = 500'000, .name = "uno cnc shield3"}};
+      .motors = pins.motors, .clock = clock, .reset = cause_of_reset(), .shortest_interval = shortest, .about = about};
 }
-Board<Hardware, queue_capacity, ChipPlayer, uno_cnc_shield.motors> board(hardware, identity());
+Board<Hardware, queue_capacity, ChipPlayer, pins.motors> board(hardware, identity());
 InputReader reader;
 
 // A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.
@@ -58,10 +52,10 @@ void start_watchdog() {
 
 // All at once, and nothing again until a host says hello.
 [[gnu::noinline]] void stop_at_once() {
-  const bool pressed = (UnoWiring::inputs() & input_emergency_stop) != 0;
+  const bool pressed = (Wiring::inputs() & input_emergency_stop) != 0;
   board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
-  UnoWiring::switch_outputs({});
-  if (pressed) UnoWiring::enable_motors(false);
+  OutputActions::make_safe();
+  if (pressed) Wiring::enable_motors(false);
   halted = 0;
 }
 
@@ -69,7 +63,7 @@ void start_watchdog() {
   const bool tick = (Tifr1::read() & timer_overflow) != 0;
   if (tick) Tifr1::write(timer_overflow);
   if (halted != 0) return stop_at_once();
-  uint16_t raw = UnoWiring::inputs();
+  uint16_t raw = Wiring::inputs();
   const bool probed = ChipPlayer::captured();
   // Amid motion it is the interrupt that tells where the probe touched.
   if (running != 0 && ChipPlayer::watches_probe() && !probed) raw &= static_cast<uint16_t>(~input_probe);
@@ -87,7 +81,7 @@ void start_watchdog() {
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   // Watched only while it is open, so that the first touch counts.
   if (probed || (on & input_probe) != 0) ChipPlayer::watch_probe(0);
-  if ((raw & input_probe) == 0 && !ChipPlayer::captured()) ChipPlayer::watch_probe(UnoWiring::probe);
+  if ((raw & input_probe) == 0 && !ChipPlayer::captured()) ChipPlayer::watch_probe(Wiring::probe);
 }
 
 // The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.
@@ -102,6 +96,7 @@ void start_watchdog() {
   asm volatile("wdr");
   SerialLine& line = hardware.line;
   line.poll();
+  if (ChipPlayer::wants_more() && board.ahead() != 0) board.settle();
   for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
     receive();
     SerialLine::breathe();
@@ -118,7 +113,8 @@ void start_watchdog() {
   line.poll();
   // A credit tells what those before it told: while there is more urgent work it can wait.
   if (!board.owes_report() || !line.can_send()) return;
-  if ((line.has_byte() || ChipPlayer::is_short()) && (++patience & 7) != 0) return;
+  const bool can_wait = board.owed() < 3;
+  if (can_wait && (line.has_byte() || ChipPlayer::is_short()) && (++patience & 7) != 0) return;
   board.report();
 }
 
@@ -127,11 +123,11 @@ void start_watchdog() {
 
 extern "C" int main() {
   using namespace passo::chip;
-  UnoWiring::prepare();
+  Wiring::prepare();
   ChipPlayer::prepare();
   board.player().restart(0);
   SerialLine::open(clock, PASSO_BAUD);
-  UnoWiring::enable_motors(true);
+  Wiring::enable_motors(true);
   start_watchdog();
   asm volatile("sei");
   for (;;) turn();

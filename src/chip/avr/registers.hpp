@@ -31,6 +31,7 @@ struct Port {
 
 using Tifr1 = Register<0x36>;
 using Pcifr = Register<0x3b>;
+using Eifr = Register<0x3c>;
 using Gpior0 = Register<0x3e>;
 using Gpior1 = Register<0x4a>;
 using Gpior2 = Register<0x4b>;
@@ -38,6 +39,8 @@ using Mcusr = Register<0x54>;
 using Sreg = Register<0x5f>;
 using Wdtcsr = Register<0x60>;
 using Pcicr = Register<0x68>;
+using Eicra = Register<0x69>;
+using Eicrb = Register<0x6a>;
 using Pcmsk0 = Register<0x6b>;
 using Pcmsk1 = Register<0x6c>;
 using Pcmsk2 = Register<0x6d>;
@@ -48,6 +51,10 @@ using Tcnt1l = Register<0x84>;
 using Tcnt1h = Register<0x85>;
 using Ocr1al = Register<0x88>;
 using Ocr1ah = Register<0x89>;
+using Tccr4a = Register<0xa0>;  // of the ATmega2560 only, as the next three
+using Tccr4b = Register<0xa1>;
+using Ocr4cl = Register<0xac>;
+using Ocr4ch = Register<0xad>;
 using Tccr2a = Register<0xb0>;
 using Tccr2b = Register<0xb1>;
 using Ocr2a = Register<0xb3>;

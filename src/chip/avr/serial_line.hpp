@@ -53,7 +53,7 @@ class SerialLine {
   // The interrupt fetches bytes too, so it must not come between the look and the end. It may not be held back either:
   // that would be late for its edge. So wait, if need be, until it has come and gone: the low bytes of the timer and of
   // its alarm tell whether it is due soon.
-  [[gnu::noinline]] static void fetch() {
+  [[gnu::noinline, gnu::used]] static void fetch() asm("passo_fetch") {
     asm volatile(
         R"(
       1:  lds r24, %[ocr]
@@ -77,7 +77,9 @@ class SerialLine {
   }
 
   static constexpr uint8_t out_mask = 63;
-  static constexpr uint8_t longest = 32;  // about, or a status with three motors
+  // About, or a status.
+  static constexpr uint8_t longest = frame_overhead + (pins.motors < 4 ? 26 : status_size + 4 * pins.motors);
+  static_assert(longest <= out_mask);
 
   static inline uint8_t taken_ = 0;
   static inline uint8_t out_[out_mask + 1] = {};

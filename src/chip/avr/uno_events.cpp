@@ -4,12 +4,9 @@
 #include "registers.hpp"
 #include "step_interrupt.hpp"
 
-#include "passo/chip/uno_cnc_shield.hpp"
-
 namespace passo::chip {
 namespace {
 
-constexpr const PinMap<3>& pins = uno_cnc_shield;
 constexpr uint8_t toggle_port = 0x09;  // PIND
 // A pulse is 19 cycles long by itself.
 constexpr uint8_t padding = pins.shortest_pulse > 19 ? pins.shortest_pulse - 19 : 0;
@@ -25,6 +22,7 @@ Expansion expansion;
 volatile uint8_t running;
 volatile uint8_t line_is_watched;
 volatile uint8_t turns_tail = turns_address & 0xff;
+volatile uint8_t action_at_end;
 volatile uint8_t received_head;
 volatile uint8_t stop_low_b;
 volatile uint8_t stop_low_c;
@@ -36,7 +34,8 @@ volatile uint8_t halted;
 
 // No instruction of the plain way changes a flag, so there is nothing to save but Z.
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {
-  asm volatile(R"(
+  asm volatile(
+      R"(
       .rept 11                      ; the vectors before it
       jmp passo_reset
       .endr
@@ -81,38 +80,50 @@ volatile uint8_t halted;
       in r31, %[gpior1]
       reti
 
-      ; the entry just fetched is no plain event
-  2:  push r24
+      ; the entry just fetched is no plain event. Z is free again: what it held is still in the spare registers
+  2:  in r4, %[sreg]
       sbrc r5, %[stop]
       rjmp 4f
-      in r24, %[sreg]               ; pins of directions, long before the event that needs them
-      push r24
-      push r30
-      push r31
-      mov r24, r5
-      andi r24, %[plain]
-      mov r5, r24
+      mov r30, r5                   ; pins of directions, long before the event that needs them
+      andi r30, %[plain]
+      mov r5, r30
       lds r30, turns_tail
       ldi r31, hi8(%[turns])
-      ld r24, Z
-      out %[port], r24
+      ld r31, Z
       inc r30
       andi r30, lo8(%[turns] + %[turns_mask])
       sts turns_tail, r30
-      pop r31
-      pop r30
+      mov r30, r31
+      andi r30, %[turning]
+      out %[port], r30
+      andi r31, %[action]
+      breq 7f
+      mov r30, r31
+  3:  ldi r31, hi8(%[turns])        ; outputs: 54 cycles after the event's edge they are switched
+      push r24
+      ld r24, Z+
+      out %[port_b], r24
+      ld r24, Z+
+      out %[port_c], r24
+      ld r24, Z+
+      sts %[duty], r24
+      ld r24, Z
+      sts %[control], r24
       pop r24
-      out %[sreg], r24
-      pop r24
+  7:  out %[sreg], r4
+      in r30, %[gpior0]
+      in r31, %[gpior1]
       rjmp 9b
 
       ; behind the last event
-  4:  ldi r24, 0
-      sts %[timsk], r24
-      sts running, r24
-      sts line_is_watched, r24
-      pop r24
-      rjmp 9b
+  4:  ldi r30, 0
+      sts %[timsk], r30
+      sts running, r30
+      sts line_is_watched, r30
+      lds r30, action_at_end
+      and r30, r30
+      breq 7b
+      rjmp 3b
 
       ; a switch: flags first, pins then, so that no change is missed
   5:  push r24
@@ -126,13 +137,13 @@ volatile uint8_t halted;
       eor r24, r25
       lds r25, stop_low_b
       and r24, r25
-      brne 7f
+      brne 8f
       in r24, %[pinc]
       lds r25, quiet_c
       eor r24, r25
       lds r25, stop_low_c
       and r25, r24
-      brne 7f
+      brne 8f
       lds r25, probe_mask
       and r24, r25
       breq 6f
@@ -145,7 +156,7 @@ volatile uint8_t halted;
       out %[sreg], r24
       pop r24
       rjmp 1b
-  7:  ldi r24, 0
+  8:  ldi r24, 0
       sts %[timsk], r24
       sts running, r24
       sts line_is_watched, r24
@@ -153,16 +164,20 @@ volatile uint8_t halted;
       sts halted, r24
       pop r25
       pop r24
-      out %[sreg], r24
+      mov r4, r24
       pop r24
-      rjmp 9b
+      out %[gpior0], r30
+      out %[gpior1], r31
+      ldi r30, %[safe]
+      rjmp 3b
   )" ::[port] "n"(toggle_port),
-               [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
-               [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where),
-               [timsk] "n"(Timsk1::where), [pinb] "n"(0x03), [pinc] "n"(0x06), [special] "n"(1), [padding] "n"(padding),
-               [stop] "n"(0), [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
-               [turns_mask] "n"(turns_mask), [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where),
-               [received] "n"(received_address));
+      [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
+      [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
+      [pinb] "n"(0x03), [pinc] "n"(0x06), [special] "n"(1), [padding] "n"(padding), [stop] "n"(0),
+      [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
+      [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action),
+      [port_b] "n"(0x05), [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where),
+      [ucsra] "n"(Ucsr0a::where), [udr] "n"(Udr0::where), [received] "n"(received_address));
 }
 static_assert(pins.flag_special == 1 << 1 && pins.flag_stop == 1 << 0 && pins.step_ports[0] == 'D');
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 
 namespace passo {
@@ -34,6 +35,18 @@ TEST(PinMap, has_the_pins_of_each_set_of_motors) {
   EXPECT_EQ(sets.steps[0], 0);
   EXPECT_EQ(sets.steps[5], 1 << 2 | 1 << 4);
   EXPECT_EQ(sets.directions[6], 1 << 6 | 1 << 7);
+}
+
+TEST(PinMap, sorts_the_pins_of_scattered_motors_by_their_ports) {
+  constexpr auto sets = motor_pins_by_port<4>(mega_ramps);
+  EXPECT_EQ(mega_ramps.ports(), 4);
+  EXPECT_EQ(sets.on[0].steps[0b111111], 1 << 0 | 1 << 6) << "X and Y on port F";
+  EXPECT_EQ(sets.on[1].steps[0b000100], 1 << 3) << "Z on port L";
+  EXPECT_EQ(sets.on[1].directions[0b100000], 1 << 5) << "the sixth, there too";
+  EXPECT_EQ(sets.on[2].directions[0b001000], 1 << 6) << "E0 on port A";
+  EXPECT_EQ(sets.on[3].steps[0b010000], 1 << 1) << "E1 on port C";
+  EXPECT_EQ(mega_ramps.stops_on('E'), 1 << 4 | 1 << 5);
+  EXPECT_EQ(mega_ramps.outputs_on('K'), 1 << 0);
 }
 
 }  // namespace

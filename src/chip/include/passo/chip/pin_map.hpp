@@ -31,7 +31,7 @@ struct PinMap {
   uint8_t flag_special = 0;     // masks in the first step port
   uint8_t flag_stop = 0;
 
-  Pin limits[most_axis_switches] = {};
+  Pin limits[most_axis_switches] = {};  // of motors 0, 1, 2, then their second ones: at the other end of the travel
   Pin probe = {};
   Pin emergency_stop = {};
   Pin door = {};
@@ -60,6 +60,35 @@ struct PinMap {
     return mask;
   }
 
+  // Pins of one kind on a port. All inputs are pulled up: a switch connects to ground.
+  constexpr uint8_t enables_on(char port) const {
+    uint8_t mask = 0;
+    for (const MotorPins& one : motor)
+      mask = static_cast<uint8_t>(mask | (one.enable.port == port ? one.enable.mask() : 0));
+    return mask;
+  }
+  constexpr uint8_t limits_on(char port) const {
+    uint8_t mask = 0;
+    for (const Pin one : limits) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    return mask;
+  }
+  // These stop the machine at once.
+  constexpr uint8_t stops_on(char port) const {
+    return static_cast<uint8_t>(limits_on(port) | (emergency_stop.port == port ? emergency_stop.mask() : 0));
+  }
+  constexpr uint8_t inputs_on(char port) const {
+    const Pin others[] = {probe, door, feed_hold, cycle_start};
+    uint8_t mask = stops_on(port);
+    for (const Pin one : others) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    return mask;
+  }
+  constexpr uint8_t outputs_on(char port) const {
+    const Pin others[] = {spindle_pwm, spindle_direction, mist, flood};
+    uint8_t mask = static_cast<uint8_t>(steps_on(port) | directions_on(port) | enables_on(port));
+    for (const Pin one : others) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    return mask;
+  }
+
   // No pin has two jobs; but for the enable pins, which motors may share with each other only.
   constexpr bool without_conflict() const {
     constexpr uint8_t most = 2 * motor_count + most_axis_switches + 9;
@@ -85,6 +114,11 @@ struct PinMap {
     return true;
   }
 
+  constexpr uint8_t ports() const {
+    uint8_t count = 0;
+    while (count < most_step_ports && step_ports[count] != 0) ++count;
+    return count;
+  }
   constexpr bool has_step_port(char port) const {
     for (const char one : step_ports) {
       if (one != 0 && one == port) return true;
@@ -116,6 +150,18 @@ constexpr MotorPinSets<motor_count> motor_pin_sets(const PinMap<motor_count>& pi
     sets.directions[motors] = pins.directions_on(port, motors);
   }
   return sets;
+}
+
+template <uint8_t motor_count, uint8_t port_count>
+struct MotorPinsByPort {
+  MotorPinSets<motor_count> on[port_count];
+};
+// In the order of the map's step ports.
+template <uint8_t port_count, uint8_t motor_count>
+constexpr MotorPinsByPort<motor_count, port_count> motor_pins_by_port(const PinMap<motor_count>& pins) {
+  MotorPinsByPort<motor_count, port_count> all;
+  for (uint8_t p = 0; p < port_count; ++p) all.on[p] = motor_pin_sets(pins, pins.step_ports[p]);
+  return all;
 }
 
 }  // namespace passo

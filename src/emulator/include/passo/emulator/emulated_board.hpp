@@ -19,7 +19,7 @@ namespace passo {
 
 class EmulatedBoard : public BoardPort {
  public:
-  // `kind`: "uno"; `program`: the firmware's ELF file. The error is a sentence with the reason.
+  // `kind`: "uno" or "mega"; `program`: the firmware's ELF file. The error is a sentence with the reason.
   static Result<std::unique_ptr<EmulatedBoard>, std::string> start(std::string_view kind, const std::string& program);
 
   // Of each motor, in steps from the start: a step is a rising edge, backwards while the direction pin is high.
@@ -29,9 +29,9 @@ class EmulatedBoard : public BoardPort {
 };
 
 // Those that there are, one after the other: for messages.
-inline constexpr std::string_view emulated_boards = "uno";
+inline constexpr std::string_view emulated_boards = "uno and mega";
 constexpr bool is_emulated_board(std::string_view kind) {
-  return kind == "uno";
+  return kind == "uno" || kind == "mega";
 }
 
 }  // namespace passo

@@ -2,7 +2,7 @@
 // want it, and know no flags of pin changes that can be cleared one by one.
 //
 // As in silicon: a one written to PINx turns the output over; a pin change sets its port's flag in PCIFR where the mask
-// has that pin.
+// has that pin. On the ATmega2560 the pins INT0 to INT7 set theirs in EIFR where EICRA and EICRB ask for any change.
 #pragma once
 
 #include <array>
@@ -44,6 +44,7 @@ class EmulatedPorts {
     std::uint8_t levels = 0xff;  // that something outside gives it
   };
   void write(Port& port, std::uint8_t value);
+  void set_change_flag(std::uint8_t number);
 
   avr_t& avr_;
   std::array<Port, 12> ports_;

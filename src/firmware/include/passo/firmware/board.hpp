@@ -63,10 +63,11 @@ class Board {
       case Decoded::refused: complain(WireError::bad_frame); break;
     }
   }
-  // Items were executed or replaced that the host has not been told of.
-  bool owes_report() const { return owes_report_; }
+  // Items were executed or replaced that the host has not been told of. How many, about.
+  bool owes_report() const { return owed_ != 0; }
+  uint8_t owed() const { return owed_; }
   void report() {
-    owes_report_ = false;
+    owed_ = 0;
     send(Credit{.executed = executed_, .taken = taken(), .free = list_.free()});
   }
   // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
@@ -107,6 +108,8 @@ class Board {
       load();
     } while (true);
   }
+  // Items that the player has not begun.
+  uint8_t ahead() const { return static_cast<uint8_t>(list_.size() - begun_); }
   SegmentPlayer& player() { return player_; }
 
  private:
@@ -142,7 +145,8 @@ class Board {
     session_ = 0;
     executed_ = frame.sequence;
     expected_ = static_cast<uint16_t>(frame.sequence + 1);
-    complained_ = owes_report_ = false;
+    complained_ = false;
+    owed_ = 0;
     trusted_ = true;
     send(HelloReply{.motors = identity_.motors, .capacity = places(), .clock = identity_.clock});
   }
@@ -237,7 +241,7 @@ class Board {
     breathe();
     if (list_.gathering()) return;
     if (list_.gathered()) {
-      owes_report_ = true;  // of the room, either way
+      ++owed_;  // of the room, either way
       if (!list_.template complete<Breath>(executed_, begun_)) {
         return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
       }
@@ -286,7 +290,7 @@ class Board {
     if (begins) ++begun_;
     const auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
-    if (events == 0) return player_.pass();
+    if (events == 0) return player_.pass(item.outputs());
     if (events <= longest_part) return player_.load(item.segment);
     part_ = item.segment;
     breathe();
@@ -315,7 +319,7 @@ class Board {
     executed_ = item.number;
     list_.pop();
     --begun_;
-    owes_report_ = true;
+    ++owed_;
   }
   // Events of the item at hand.
   uint16_t played() const {
@@ -383,7 +387,7 @@ class Board {
   uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte
   uint16_t executed_ = 0;  // of the last item that is done
   uint8_t sent_ = 0;       // the board's own sequence number
-  bool owes_report_ = false;
+  uint8_t owed_ = 0;       // items executed and other news since the last report
   bool complained_ = false;
   bool trusted_ = true;
   uint16_t inputs_ = 0;

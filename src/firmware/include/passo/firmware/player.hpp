@@ -27,7 +27,7 @@ class Player {
     for (uint8_t motor = 0; motor < motors_; ++motor) at_start_[motor] = accumulators_[motor];
   }
   // Takes an item that is not its own to play: it is finished when all that came before it is. Only when ready().
-  void pass() { ++finished_; }
+  void pass(const BoardOutputs& /*outputs*/) { ++finished_; }
   // The oldest item that it has is done: what played() and steps() say is final. Then forget() it.
   bool finished() const { return finished_ != 0; }
   void forget() { --finished_; }

@@ -12,10 +12,15 @@ namespace passo {
 inline constexpr uint16_t crc16_start = 0xFFFF;
 
 constexpr uint16_t crc16(uint16_t crc, uint8_t byte) {
-  // Eight steps of the division at once: the quotient's bits are the byte and its own shift by four.
-  uint8_t quotient = static_cast<uint8_t>(byte ^ crc);
-  quotient = static_cast<uint8_t>(quotient ^ quotient << 4);
-  return static_cast<uint16_t>((quotient << 8 | crc >> 8) ^ quotient >> 4 ^ quotient << 3);
+  // Eight steps of the division at once: the quotient's bits are the byte and its own shift by four. All in single
+  // bytes: half the work on a chip that has no others.
+  const uint8_t first = static_cast<uint8_t>(byte ^ static_cast<uint8_t>(crc));
+  const uint8_t quotient = static_cast<uint8_t>(first ^ static_cast<uint8_t>(first << 4));
+  const uint8_t across =
+      static_cast<uint8_t>(static_cast<uint8_t>(quotient >> 4) ^ static_cast<uint8_t>(quotient << 3));
+  const uint8_t low = static_cast<uint8_t>(static_cast<uint8_t>(crc >> 8) ^ across);
+  const uint8_t high = static_cast<uint8_t>(quotient ^ static_cast<uint8_t>(quotient >> 5));
+  return static_cast<uint16_t>(high << 8 | low);
 }
 
 }  // namespace passo

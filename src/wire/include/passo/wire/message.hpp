@@ -260,6 +260,23 @@ inline void decode(const WireFrame& frame, Hello& hello) {
   hello = {.version = frame.payload[0], .motors = frame.payload[1]};
 }
 
+// By themselves, for the sake of the registers that they need on a chip.
+template <uint8_t room>
+[[gnu::noinline]] void load_increments(const uint8_t* bytes, uint8_t motors, SegmentFor<room>& segment) {
+  for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
+    segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
+  }
+}
+
+template <uint8_t room>
+[[gnu::noinline]] void load_times(const uint8_t* bytes, bool coarse, SegmentFor<room>& segment) {
+  segment.interval = load32(bytes);
+  // 24 bits with a sign: at the top they are a large one, and a small one down again with the sign drawn along.
+  segment.change =
+      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 4)) << 8 | static_cast<uint32_t>(bytes[6]) << 24);
+  if (!coarse) segment.change >>= 8;
+}
+
 // `motors` is at most `room`.
 template <uint8_t room>
 void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
@@ -268,15 +285,8 @@ void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
   segment.events = events & most_events;
   segment.directions = bytes[2];
   segment.flips = bytes[3];
-  segment.interval = load32(bytes + 4);
-  // 24 bits with a sign: at the top they are a large one, and a small one down again with the sign drawn along.
-  segment.change =
-      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 8)) << 8 | static_cast<uint32_t>(bytes[10]) << 24);
-  if ((events & coarse_bit) == 0) segment.change >>= 8;
-  bytes += segment_size;
-  for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
-    segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
-  }
+  load_times(bytes + 4, (events & coarse_bit) != 0, segment);
+  load_increments(bytes + segment_size, motors, segment);
 }
 
 inline void decode(const WireFrame& frame, BoardOutputs& outputs) {

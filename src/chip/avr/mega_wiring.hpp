@@ -1,0 +1,49 @@
+// What of the Mega's wiring is the chip's: which timer makes the spindle's PWM, which flags tell that a switch moved.
+#pragma once
+
+#include "registers.hpp"
+#include "step_interrupt.hpp"
+
+namespace passo::chip {
+
+// The ports of an action, its duty and its control register.
+inline constexpr char output_ports[] = {'H', 'B'};
+using SpindleDuty = Ocr4cl;
+using SpindleControl = Tccr4a;
+inline constexpr uint8_t spindle_connected = 1 << 3 | 1 << 0;
+inline constexpr uint8_t spindle_disconnected = 1 << 0;
+
+// PWM of 7.8 kHz at the spindle's pin, off at first: timer 4, eight bits, output C. The high byte goes through a
+// register that nothing else of this timer writes, and stays 0.
+inline void prepare_spindle() {
+  Ocr4ch::write(0);
+  SpindleDuty::write(0);
+  SpindleControl::write(spindle_disconnected);
+  Tccr4b::write(1 << 3 | 1 << 1);
+}
+
+// The interrupt looks at these flags before every step. No interrupt of their own is enabled. Pins of ports D and E
+// have flags of their own, INT2 to INT5; those of B and J one for the port.
+inline void watch_switches() {
+  constexpr uint8_t b = pins.stops_on('B');
+  constexpr uint8_t d = pins.stops_on('D');
+  constexpr uint8_t e = pins.stops_on('E');
+  constexpr uint8_t j = pins.stops_on('J');
+  stop_low_b = b;
+  stop_low_d = d;
+  stop_low_e = e;
+  stop_low_j = j;
+  Eicra::write(1 << 6 | 1 << 4);  // any change of INT3 and INT2
+  Eicrb::write(1 << 2 | 1 << 0);  // of INT5 and INT4
+  Pcmsk0::write(static_cast<uint8_t>(b | pins.probe.mask()));
+  Pcmsk1::write(static_cast<uint8_t>(j << 1));
+  Pcifr::write(7);
+  Eifr::write(0xff);
+}
+static_assert(pins.spindle_pwm == Pin{'H', 5} && pins.probe.port == 'B');
+// The interrupt compares PCIFR with EIFR: equal only where both are 0. So no bit may be used in both; PCIFR has 0
+// and 1.
+static_assert((pins.stops_on('D') & ~0x0c) == 0 && (pins.stops_on('E') & ~0x30) == 0);
+static_assert(pins.stops_on('K') == 0 && pins.stops_on('A') == 0 && pins.stops_on('H') == 0);
+
+}  // namespace passo::chip

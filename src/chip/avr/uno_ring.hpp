@@ -1,0 +1,91 @@
+// The Uno's event ring: one step port, so an entry is four bytes. It ends with the high byte of the next entry's
+// address, which takes the interrupt from one page to the next, and from the end to the start.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/wire/message.hpp"
+
+namespace passo::chip {
+
+inline constexpr const PinMap<3>& pins = uno_cnc_shield;
+inline constexpr About about = {
+    .firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"};
+
+// Lies at the start of RAM, before everything that the linker places.
+struct EventEntry {
+  uint8_t time_high;
+  uint8_t time_low;
+  uint8_t toggles;
+  uint8_t next_page;
+};
+
+inline constexpr uint16_t ring_address = 0x100;
+inline constexpr uint8_t ring_entries = 128;
+inline constexpr uint8_t most_events = 126;  // in the ring: what is there will be played
+// In the list of items. More would take from the stack (check_program.sh).
+inline constexpr uint8_t queue_capacity = 31;
+
+// Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low
+// byte of the address and wraps by itself. All that the host may have under way fits.
+inline constexpr uint16_t received_address = 0x300;
+
+// Direction bits to turn over, one for each flagged event that waits.
+inline constexpr uint16_t turns_address = 0x400;
+inline constexpr uint8_t turns_mask = 0x07;
+
+// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, and the interrupt
+// takes one.
+inline constexpr uint16_t often = 300;
+
+// What the outputs are switched to, and behind them what they are switched to by a stop. Where such an action lies is
+// told beside the directions of the turn on which it rides: by the low byte of its address, in bits that turn nothing.
+inline constexpr uint16_t actions_address = 0x408;
+inline constexpr uint8_t action_bits = 0x1c;
+
+// From here on the linker places its own (CMakeLists.txt says so to it).
+inline constexpr uint16_t first_free_address = 0x41c;
+
+// Where the expander is to write it.
+inline uint16_t entry_address(uint8_t index) {
+  return ring_address + sizeof(EventEntry) * index;
+}
+inline volatile EventEntry& entry(uint8_t index) {
+  return reinterpret_cast<volatile EventEntry*>(ring_address)[index];
+}
+inline volatile uint8_t* time_high_of(uint8_t index) {
+  return &entry(index).time_high;
+}
+inline volatile uint8_t* time_low_of(uint8_t index) {
+  return &entry(index).time_low;
+}
+inline uint16_t toggles_address(uint8_t index) {
+  return static_cast<uint16_t>(entry_address(index) + 2);
+}
+
+inline void prepare_ring() {
+  for (uint8_t i = 0; i < ring_entries; ++i) {
+    entry(i).next_page = static_cast<uint8_t>(entry_address((i + 1) & (ring_entries - 1)) >> 8);
+  }
+}
+// No event turns anything over on a port of motors that the host does not know.
+inline void forget_toggles(uint8_t /*index*/) {}
+
+// r3:r2 is behind the bytes of the entry that the interrupt has fetched, so at the next one.
+inline uint8_t entry_of(uint16_t next) {
+  return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & (ring_entries - 1));
+}
+// The entry that the interrupt has in its registers, or the one behind the last event.
+inline uint8_t fetched_entry() {
+  uint16_t next;
+  asm volatile("movw %0, r2" : "=r"(next));
+  return entry_of(next);
+}
+// Puts an entry into the interrupt's registers. Only while it does not run.
+inline void fetch_entry(uint8_t index) {
+  const uint16_t next = entry_address((index + 1) & (ring_entries - 1));
+  asm volatile("movw r2, %0\n\tmov r5, %1" ::"r"(next), "r"(entry(index).toggles));
+}
+
+}  // namespace passo::chip

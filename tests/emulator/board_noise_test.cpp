@@ -1,0 +1,135 @@
+// Whatever comes over its line, the emulated board moves by no more than what valid frames say, finds the next valid
+// frame, and does not start anew.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "emulator/streamed_run.hpp"
+#include "kit/seed.hpp"
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes random_frame(std::mt19937_64& random, std::uint8_t motors) {
+  std::uint8_t frame[largest_frame];
+  const auto number = static_cast<std::uint8_t>(random());
+  std::uint8_t size = 0;
+  switch (random() % 4) {
+    case 0: size = encode(Hello{.motors = motors}, number, frame); break;
+    case 1: size = encode(BoardSegment{.events = 200, .flips = 7, .interval = 200 << 16}, motors, number, frame); break;
+    case 2: size = encode(Replace{.after = number, .count = 3}, number, frame); break;
+    default: size = encode(BoardOutputs{.switches = 15, .spindle_rpm = 9'000}, number, frame); break;
+  }
+  return {frame, frame + size};
+}
+
+// Random bytes, bytes that look like the start of a frame, and frames cut short, with a byte lost, doubled or wrong.
+Bytes garbage(std::mt19937_64& random, std::uint8_t motors) {
+  if (random() % 3 == 0) {
+    Bytes bytes(1 + random() % 200);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? sync_byte : random());
+    return bytes;
+  }
+  Bytes frame = random_frame(random, motors);
+  const auto at = static_cast<std::ptrdiff_t>(random() % frame.size());
+  const auto bit = static_cast<std::uint8_t>(1U << (random() % 8));
+  switch (random() % 4) {
+    case 0: frame.resize(static_cast<std::size_t>(at)); break;
+    case 1: frame.erase(frame.begin() + at); break;
+    case 2:
+      frame.insert(frame.begin() + at, static_cast<std::uint8_t>(frame[static_cast<std::size_t>(at)] ^ bit));
+      break;
+    default: frame[static_cast<std::size_t>(at)] ^= bit; break;
+  }
+  return frame;
+}
+
+// By chance there is a whole frame in it: one of 65,536 that look like one. Or there will be, with the first byte of
+// the next frame in the place of the one that it lost.
+bool is_valid_anywhere(Bytes bytes, std::uint8_t motors) {
+  Decoder decoder;
+  decoder.set_motors(motors);
+  bytes.push_back(sync_byte);
+  return std::ranges::any_of(bytes, [&](std::uint8_t byte) { return decoder.feed(byte) == Decoded::frame; });
+}
+
+class Noise {
+ public:
+  explicit Noise(const BoardUnderTest& board)
+      : motors_(static_cast<std::uint8_t>(board.motors.size())), bench_(board), random_(test::seed()) {
+    bench_.start({});
+  }
+
+  // A burst of garbage, then a question, which is answered.
+  void burst() {
+    Bytes bytes;
+    const std::size_t size = 50 + random_() % 400;
+    while (bytes.size() < size) {
+      const Bytes more = garbage(random_, motors_);
+      bytes.insert(bytes.end(), more.begin(), more.end());
+    }
+    if (is_valid_anywhere(bytes, motors_)) return;
+    bench_.ports().forget_changes();
+    bench_.uart().send(bytes);
+    bench_.ask();
+    bench_.run((bytes.size() + 100) * 320 + 50'000);
+    ASSERT_TRUE(bench_.status().has_value()) << "it has not found the question behind the garbage";
+    EXPECT_EQ(bench_.status()->reset, ResetCause::power_on) << "the watchdog has fired";
+    EXPECT_TRUE(bench_.ports().changes().empty()) << "nothing of that was a frame";
+    bytes_ += bytes.size();
+    ++bursts_;
+  }
+  // A motion with garbage between its frames.
+  void motion() {
+    const StreamKind kind{.shortest_interval = 400, .longest_interval = 500, .shortest_segment = 100, .segments = 12};
+    const std::vector<BoardSegment> stream = random_stream(random_, motors_, kind);
+    bench_.before_item = [this] {
+      Bytes bytes = garbage(random_, motors_);
+      bytes.resize(std::min<std::size_t>(bytes.size(), 40));
+      if (is_valid_anywhere(bytes, motors_)) return;
+      bench_.uart().send(bytes);
+      bytes_ += bytes.size();
+    };
+    const EdgeCheck check = bench_.play(stream);
+    bench_.before_item = nullptr;
+    EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps";
+    EXPECT_LE(check.error, 4);
+    EXPECT_EQ(check.overruns, 0U);
+    ++motions_;
+  }
+  void report() const {
+    std::printf("%zu bytes of garbage, %d bursts, %d motions amid them\n", bytes_, bursts_, motions_);
+  }
+
+ private:
+  std::uint8_t motors_;
+  BoardBench bench_;
+  std::mt19937_64 random_;
+  std::size_t bytes_ = 0;
+  int bursts_ = 0;
+  int motions_ = 0;
+};
+
+void expect_no_harm(const BoardUnderTest& board) {
+  const char* const runs = std::getenv("PASSO_RUNS");
+  const int rounds = runs == nullptr ? 6 : std::atoi(runs);
+  Noise noise(board);
+  for (int round = 0; round < rounds && !testing::Test::HasFailure(); ++round) {
+    for (int i = 0; i < 10 && !testing::Test::HasFatalFailure(); ++i) noise.burst();
+    noise.motion();
+  }
+  noise.report();
+}
+
+TEST(UnoNoise, moves_nothing_and_is_forgotten_with_the_next_frame) {
+  expect_no_harm(uno_under_test(PASSO_MOTION_UNO));
+}
+TEST(MegaNoise, moves_nothing_and_is_forgotten_with_the_next_frame) {
+  expect_no_harm(mega_under_test(PASSO_MOTION_MEGA, 4));
+}
+
+}  // namespace
+}  // namespace passo
