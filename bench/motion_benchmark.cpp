@@ -140,11 +140,10 @@ class Raster final : public Source<PathItem> {
   explicit Raster(std::size_t moves) : moves_(moves) {}
   [[nodiscard]] bool next(PathItem& item) override {
     if (given_ == moves_) return false;
-    const Point from = place(given_);
-    item = Segment{.curve = Curve::line(from, place(++given_)),
-                   .speed = MmPerSecond(50),
-                   .tolerance = Mm(0.01),
-                   .merge = Mm(0.0005)};
+    const Point end = place(++given_);
+    item = Segment{
+        .curve = Curve::line(position_, end), .speed = MmPerSecond(50), .tolerance = Mm(0.01), .merge = Mm(0.0005)};
+    position_ = end;
     return true;
   }
 
@@ -162,6 +161,7 @@ class Raster final : public Source<PathItem> {
   }
   std::size_t moves_;
   std::size_t given_ = 0;
+  Point position_ = place(0);
 };
 
 // What a program of such moves costs from path to phases: smoothed, and planned with limits of acceleration, or of jerk

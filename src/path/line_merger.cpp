@@ -58,23 +58,53 @@ bool LineMerger::pull() {
   return has_ahead_;
 }
 
-bool LineMerger::takes_in(const Segment& line) const {
-  if (!are_alike(line_, line)) return false;
-  const Point& anchor = line_.curve.start();
-  const Point travel = line.curve.end() - anchor;
+LineMerger::Chord::Chord(const Point& way) : travel(way), length(length_of(way)), direction(way * (1 / length)) {}
+
+bool LineMerger::takes_in(const Segment& merged, const Segment& line, const Chord& chord) const {
+  if (!are_alike(merged, line)) return false;
   const Point own = line.curve.end() - line.curve.start();
-  const Point before = line_.curve.end() - anchor;
+  const Point before = end_ - merged.curve.start();
   if (!(dot(own, before) > 0)) return false;
-  if (counted_group(own) != counted_group(before) || counted_group(travel) != counted_group(own)) return false;
-  return cone_.has(travel * (1 / length_of(travel)));
+  const CountedGroup group = counted_group(own);
+  if (group != counted_group(before) || group != counted_group(chord.travel)) return false;
+  if (!cone_.has(chord.direction)) return false;
+  return !(length_in(chord.travel, group) < least_length * (programmed_ + line.curve.length().value()));
 }
 
 // Not more than half of what the junction before allows: the rest is for rounding it.
-double LineMerger::merge_tolerance() const {
-  double tolerance = line_.merge.value();
+double LineMerger::merge_tolerance(const Segment& merged) const {
+  double tolerance = merged.merge.value();
   if (mode_before_ == PathMode::exact_path) tolerance = 0;
   if (mode_before_ == PathMode::continuous) tolerance = std::min(tolerance, tolerance_before_ / 2);
   return std::max(tolerance, rounding);
+}
+
+void LineMerger::begin(const Segment& merged) {
+  end_ = merged.curve.end();
+  taken_ = 1;
+  programmed_ = merged.curve.length().value();
+}
+
+// Whether the line ahead became part of the one that is being merged.
+bool LineMerger::extend(Segment& merged, double& deviation) {
+  const Segment& line = std::get<Segment>(ahead_);
+  const Point& start = merged.curve.start();
+  if (taken_ == 1) {
+    const Chord first(end_ - start);
+    cone_.begin(first.direction, first.length, merge_tolerance(merged));
+    exact_.begin(first.direction, first.length, rounding);
+  }
+  const Chord chord(line.curve.end() - start);
+  if (!takes_in(merged, line, chord)) return false;
+  if (!exact_.has(chord.direction)) deviation = cone_.tolerance;
+  if (deviation == 0) exact_.narrow(chord.direction, chord.length);
+  cone_.narrow(chord.direction, chord.length);
+  programmed_ += line.curve.length().value();
+  merged.mode = line.mode;
+  end_ = line.curve.end();
+  ++taken_;
+  has_ahead_ = false;
+  return true;
 }
 
 bool LineMerger::next(PathItem& item, double& deviation) {
@@ -88,35 +118,14 @@ bool LineMerger::next(PathItem& item, double& deviation) {
     tolerance_before_ = segment != nullptr ? segment->tolerance.value() : 0;
     return true;
   }
-  line_ = std::get<Segment>(ahead_);
-  double programmed = line_.curve.length().value();
-  const Point start = line_.curve.start();
-  for (int count = 1; count < most_merged && pull() && is_line(ahead_); ++count) {
-    const Segment& line = std::get<Segment>(ahead_);
-    if (count == 1) {
-      const Point travel = line_.curve.end() - start;
-      const double length = length_of(travel);
-      cone_.begin(travel * (1 / length), length, merge_tolerance());
-      exact_.begin(cone_.center, length, rounding);
-    }
-    if (!takes_in(line)) break;
-    const Curve merged = Curve::line(start, line.curve.end());
-    programmed += line.curve.length().value();
-    if (merged.length().value() < least_length * programmed) break;
-
-    const Point travel = line.curve.end() - start;
-    const double length = length_of(travel);
-    const Point direction = travel * (1 / length);
-    if (!exact_.has(direction)) deviation = cone_.tolerance;
-    if (deviation == 0) exact_.narrow(direction, length);
-    cone_.narrow(direction, length);
-    line_.curve = merged;
-    line_.mode = line.mode;
-    has_ahead_ = false;
+  item = ahead_;
+  auto& merged = std::get<Segment>(item);
+  begin(merged);
+  while (taken_ < most_merged && pull() && is_line(ahead_) && extend(merged, deviation)) {
   }
-  mode_before_ = line_.mode;
-  tolerance_before_ = line_.tolerance.value();
-  item = line_;
+  if (taken_ > 1) merged.curve = Curve::line(merged.curve.start(), end_);
+  mode_before_ = merged.mode;
+  tolerance_before_ = merged.tolerance.value();
   return true;
 }
 

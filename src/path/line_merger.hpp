@@ -35,16 +35,30 @@ class LineMerger {
     void narrow(const Point& direction, double length);
   };
 
+  // From the start of the merged line to a vertex.
+  struct Chord {
+    explicit Chord(const Point& way);
+    Point travel;
+    double length = 0;
+    Point direction;
+  };
+
   bool pull();
-  bool takes_in(const Segment& line) const;
-  double merge_tolerance() const;
+  // `merged`: the first line, with the mode of the last; `line` is the next.
+  bool takes_in(const Segment& merged, const Segment& line, const Chord& chord) const;
+  void begin(const Segment& merged);
+  bool extend(Segment& merged, double& deviation);
+  double merge_tolerance(const Segment& merged) const;
 
   Source<PathItem>& path_;
   PathItem ahead_;  // read and not yet given
   bool has_ahead_ = false;
   bool at_end_ = false;
 
-  Segment line_;  // being merged
+  // Of the line that is being merged: where its last one ends, how many they are, and the sum of their lengths.
+  Point end_;
+  int taken_ = 0;
+  double programmed_ = 0;
   // Of the junction before it.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;

@@ -14,6 +14,11 @@ namespace {
 // Of the tube: how far the chords of an arc may leave it.
 constexpr double chord_share = 0.01;
 
+Segment& segment_in(PathItem& item) {
+  auto* const segment = std::get_if<Segment>(&item);
+  return segment != nullptr ? *segment : item.emplace<Segment>();
+}
+
 }  // namespace
 
 class PathSmoother::Implementation {
@@ -29,7 +34,7 @@ class PathSmoother::Implementation {
   bool give_span(PathItem& item);
   void cut_span();
   void add_chord(const Piece& path, const Point& end);
-  Segment segment_of(const TubeSpline::Span& span) const;
+  void write_span(const TubeSpline::Span& span, Segment& segment) const;
   void stop_at_the_end(const Knot& knot, Segment& segment) const;
 
   RunReader reader_;
@@ -88,22 +93,22 @@ void PathSmoother::Implementation::stop_at_the_end(const Knot& knot, Segment& se
 
 void PathSmoother::Implementation::give_exact(const ExactPiece& exact, PathItem& item) {
   const Piece& whole = piece(exact.piece);
-  Segment segment = whole.segment;
+  Segment& segment = segment_in(item);
+  segment = whole.segment;
   segment.curve = whole.segment.curve.part(Mm(exact.from), Mm(exact.to));
   segment.mode = PathMode::continuous;
   stop_at_the_end({.s = 0, .piece = exact.piece, .along = exact.to}, segment);
-  item = segment;
   reader_.drop_before(exact.piece);
 }
 
 // As the path in its middle, but not faster than any of it. Where |dP/ds| is above 1 (the smoothed path cuts a corner
 // of s) the speed along s is less, so that the tool keeps to the feed.
-Segment PathSmoother::Implementation::segment_of(const TubeSpline::Span& span) const {
+void PathSmoother::Implementation::write_span(const TubeSpline::Span& span, Segment& segment) const {
   const double middle = (span.from.knot.s + span.to.knot.s) / 2;
   std::uint64_t number = span.from.knot.piece;
   while (number < span.to.knot.piece && piece(number).end() <= middle) ++number;
   const CountedGroup group = counted_group(piece(number).first_tangent);
-  Segment segment = piece(number).segment;
+  segment = piece(number).segment;
   for (std::uint64_t i = span.from.knot.piece; i <= span.to.knot.piece; ++i) {
     if (i > span.from.knot.piece && piece(i).start >= span.to.knot.s) break;
     segment.speed = std::min(segment.speed, piece(i).segment.speed);
@@ -122,14 +127,13 @@ Segment PathSmoother::Implementation::segment_of(const TubeSpline::Span& span) c
   if (steepest > 1) segment.speed = segment.speed / steepest;
   segment.mode = span.goes_on ? PathMode::continuous : PathMode::exact_stop;
   stop_at_the_end(span.to.knot, segment);
-  return segment;
 }
 
 // Whether it wrote an item; else chords are to be given.
 bool PathSmoother::Implementation::give_span(PathItem& item) {
   const bool smooth = span_.in_tube && !broken_;
   if (smooth) {
-    item = segment_of(span_);
+    write_span(span_, segment_in(item));
   } else {
     cut_span();
   }

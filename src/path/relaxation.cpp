@@ -124,8 +124,9 @@ void Relaxation::take_step(std::size_t at, std::array<double, axes>& step) {
   move<axes>(at, step);
 }
 
+// Flattened: a step and its factors stay in registers from one part of the work to the next.
 template <std::size_t axes>
-void Relaxation::relax_bending(std::int64_t k) {
+[[gnu::flatten]] void Relaxation::relax_bending(std::int64_t k) {
   const std::size_t at = slot(k);
   const Four& pull = factors_[at].pull;
   std::array<double, axes> step;
@@ -137,7 +138,7 @@ void Relaxation::relax_bending(std::int64_t k) {
 }
 
 template <std::size_t axes>
-void Relaxation::relax_change(std::int64_t k) {
+[[gnu::flatten]] void Relaxation::relax_change(std::int64_t k) {
   const std::size_t at = slot(k);
   const std::array<double, 5>& pull = factors_[at].change_pull;
   std::array<double, axes> step;

@@ -57,7 +57,7 @@ void RunReader::read_piece() {
   const bool begins = junction_tolerance_ == 0;
   const double start = begins ? 0 : pieces_.back().end();
   Piece& piece = pieces_.append();
-  std::swap(piece.segment, std::get<Segment>(ahead_));
+  piece.segment = std::get<Segment>(ahead_);
   const double deviation = ahead_deviation_;
   has_ahead_ = false;
 

@@ -8,7 +8,8 @@
 #include <optional>
 
 #include "line_merger.hpp"
-#include "window.hpp"
+
+#include "passo/base/window.hpp"
 
 namespace passo {
 

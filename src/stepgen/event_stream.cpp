@@ -81,17 +81,16 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
 }
 
 // Where events come neither so slowly nor so fast that another division would be better.
-EventStream::FittingRates EventStream::fitting_rates() const {
+EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
-  const double slow = slow_rate_ * static_cast<double>(stretch_.grid);
-  return {.above = stretch_.grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
-          .most = stretch_.grid == whole_step || slow == 0 ? infinity : squared(rate_before_coarser * slow)};
+  const double slow = slow_rate_ * static_cast<double>(grid);
+  return {.above = grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
+          .most = grid == whole_step || slow == 0 ? infinity : squared(rate_before_coarser * slow)};
 }
 
 bool EventStream::rate_fits() const {
   const double rate = rate_squared(std::fabs(path_.slope(stretch_.master, spot_)));
-  const FittingRates rates = fitting_rates();
-  return rates.hold(rate) || (rate > rates.most && stretch_.grid >= coarsest_grid(stretch_.master));
+  return rates_.hold(rate) || (rate > rates_.most && stretch_.grid >= coarsest_grid(stretch_.master));
 }
 
 // A step, but on an arc of few steps so little that its direction hardly changes from event to event.
@@ -132,6 +131,7 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   stretch_ = {.master = master, .sign = path_.rises(master, spot_) ? 1 : -1, .grid = coarsest_grid(master)};
   double rate = std::sqrt(rate_squared(slope)) / static_cast<double>(stretch_.grid);
   for (; rate < slow_rate_ && stretch_.grid > finest_grid; rate *= 2) stretch_.grid /= 2;
+  rates_ = fitting_rates(stretch_.grid);
   target_ = next_target(path_.place(master, spot_));
   if (path_.crossing(master, target_, spot_) == infinity) {
     // It turns back before the next line: what comes first is on the way back.
@@ -179,19 +179,18 @@ void EventStream::go_to(double s) {
 }
 
 // Going down, the step is the crossing itself: from here on the place lies below the line.
-void EventStream::leave_master_line() {
-  if (stretch_.sign < 0) here_[stretch_.master] -= 0.5;
-  at_last_event_ = here_;
+double EventStream::behind_line(double target) const {
+  return stretch_.sign < 0 ? target - 0.5 : target;
 }
 
 void EventStream::push_master(double target, const MotorPath::Spot& spot, EventBuffer& events) {
   moment_ = clock_.at(spot.s);
   spot_ = spot;
   for (unsigned m = 0; m < options_.motor_count; ++m) {
-    here_[m] = m == stretch_.master ? target : path_.place(m, spot);
+    here_[m] = at_last_event_[m] = m == stretch_.master ? target : path_.place(m, spot);
   }
   push(fixed_time(moment_.time), events);
-  leave_master_line();
+  here_[stretch_.master] = at_last_event_[stretch_.master] = behind_line(target);
   target_ = target + stretch_.sign * static_cast<double>(stretch_.grid);
   in_stretch_ = rate_fits();
 }
@@ -203,7 +202,6 @@ bool EventStream::fill_line(EventBuffer& events, std::size_t enough) {
   const MotorPath::Line master = path_.line(stretch_.master);
   const double step = stretch_.sign * static_cast<double>(stretch_.grid);
   const double slope = std::fabs(master.slope);
-  const FittingRates rates = fitting_rates();
   const double first_target = target_;
   bool fits = true;
   double s = spot_.s;
@@ -216,10 +214,11 @@ bool EventStream::fill_line(EventBuffer& events, std::size_t enough) {
     here_[stretch_.master] = target_;
     push(fixed_time(moment_.time), events);
     target_ += step;
-    fits = rates.hold(rate_squared(slope));
+    fits = rates_.hold(rate_squared(slope));
   }
   if (target_ == first_target) return false;
-  leave_master_line();
+  here_[stretch_.master] = behind_line(here_[stretch_.master]);
+  at_last_event_ = here_;
   spot_ = path_.at(s);
   in_stretch_ = fits;
   return true;

@@ -112,42 +112,44 @@ SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place
 // The longest stretch of events that one increment can serve, when the straight guess fails. It should end where the
 // motor ought to be: an increment that is pushed to a bound leaves it ahead or behind, and the next segment pays for
 // that with a short one.
+//
+// Whether a quotient would be beyond a bound is asked by a product: few of them are needed.
 SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned count) const {
   std::int64_t low = 0;
   std::int64_t high = whole_step;
   Advance pushed{.increment = std::clamp<std::int64_t>(ideal_[1] - place, 0, whole_step), .events = 1};
-  Advance straight;
+  unsigned straight = 0;  // events
   for (unsigned k = 1; k <= count; ++k) {
-    const std::int64_t due = ideal_[k] >> 16 << 16;                           // not late
-    const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1;  // not more than one event early
-    low = std::max(low, ceil_divide(due - place, k));
-    high = std::min(high, floor_divide(early - place, k));
+    const std::int64_t due = (ideal_[k] >> 16 << 16) - place;                         // not late
+    const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1 - place;  // not more than one event early
+    if (due > low * k) low = ceil_divide(due, k);
+    if (early < high * k) high = floor_divide(early, k);
     if (low > high) break;
-    const std::int64_t increment = ceil_divide(ideal_[k] - place, k);
-    pushed = {.increment = std::clamp(increment, low, high), .events = k};
-    if (pushed.increment == increment) straight = pushed;
+    const std::int64_t way = ideal_[k] - place;
+    const bool is_low = way <= (low - 1) * k;
+    const bool is_high = way > high * k;
+    pushed = {.increment = is_low ? low : high, .events = k};
+    if (!is_low && !is_high) straight = k;
   }
   // Far behind or ahead of it, there is none: what can be done is done.
-  return straight.events > 0 ? straight : pushed;
+  if (straight == 0) return pushed;
+  return {.increment = ceil_divide(ideal_[straight] - place, straight), .events = straight};
 }
 
 SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,
                                                     unsigned count) {
   const double* places = events.places(motor);
-  int sign = 0;
+  unsigned first = 1;
+  while (first <= count && std::fabs(places[first] - places[first - 1]) < still) ++first;
+  if (first > count) return settle(position, places[count], count);
+  const int sign = places[first] > places[first - 1] ? 1 : -1;
   for (unsigned k = 1; k <= count; ++k) {
-    const double moved = places[k] - places[k - 1];
-    if (std::fabs(moved) < still) continue;
-    const int direction = moved > 0 ? 1 : -1;
-    if (sign == 0) sign = direction;
-    if (direction != sign) {  // turns back here: the rest is for the next segment
+    if (sign * (places[k] - places[k - 1]) <= -still) {  // turns back here: the rest is for the next segment
       count = k - 1;
       break;
     }
+    ideal_[k] = floor_to_int(sign * places[k]);
   }
-  if (sign == 0) return settle(position, places[count], count);
-
-  for (unsigned k = 1; k <= count; ++k) ideal_[k] = floor_to_int(sign * places[k]);
   const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
   ideal_[count + 1] = goes_on ? floor_to_int(sign * places[count + 1]) : ideal_[count];
 

@@ -20,6 +20,8 @@ constexpr double turn_a_cell_of_cubic = 0.025;
 constexpr double braking_share = 1.0 / 64;
 constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
+// About half a cell is lost where an arc's speed is highest between two slow ends.
+constexpr double least_cells_of_arc = 32;
 
 // Where limits fall with the speed: by what part of the top speed it changes in a cell, at most.
 constexpr double speed_share = 1.0 / 64;
@@ -33,39 +35,58 @@ double squared(double value) {
   return value * value;
 }
 
-// The largest k for which k·|direction| stays within `limit` on every axis.
-template <class Unit>
-double largest_multiple(const Point& direction, const PerAxis<Unit>& limit) {
-  double k = infinity;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const double part = std::abs(direction.values[i]);
-    const double most = limit.values[i].value();
-    if (part > 0 && most > 0) k = std::min(k, most / part);
-  }
-  return k;
+// Lowers `top`, along the path, to what an axis can follow that goes so large a part of it. No limit is 0 or less. The
+// product is cheaper than the quotient, and where it is less that would be no less than `top`.
+void lower(double& top, double limit, double part) {
+  if (limit > 0 && !(top * part < limit)) top = std::min(top, limit / part);
 }
 
 }  // namespace
 
+CellCutter::CellCutter(const MotionLimits& limits) {
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const AxisLimits axis{.axis = i,
+                          .velocity = limits.velocity.values[i].value(),
+                          .acceleration = limits.acceleration.values[i].value(),
+                          .falling = &limits.falling.values[i]};
+    if (axis.velocity > 0 || axis.acceleration > 0 || !axis.falling->empty()) limited_.push_back(axis);
+  }
+}
+
+std::size_t CellCutter::most_demands() const {
+  const auto axes = std::ranges::count_if(limited_, [](const AxisLimits& axis) { return axis.acceleration > 0; });
+  return static_cast<std::size_t>(axes) + 1;
+}
+std::size_t CellCutter::most_falling() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(limited_, [](const AxisLimits& axis) { return !axis.falling->empty(); }));
+}
+
 void CellCutter::begin(const Segment& segment) {
   segment_ = &segment;
-  at_ = 0;
   const Curve& curve = segment.curve;
+  at_ = place_at(curve, 0);
   const double length = curve.length().value();
   longest_ = shortest_ = length;
   grade_ = 0;
   const Point steepest = curve.steepest();
-  const double top = std::min({segment.speed.value(), largest_multiple(steepest, limits_.velocity), fastest});
-  const double strength = std::min(largest_multiple(steepest, limits_.acceleration), strongest);
-  const double braking = top * top / (2 * strength);
-  if (flat_top(steepest) < room_for_override * top) {
+  moving_.clear();
+  for (const AxisLimits& axis : limited_) {
+    if (steepest.values[axis.axis] > 0) moving_.push_back(axis);
+  }
+  const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
+  const double braking = top * top / (2 * top_acceleration(moving_, steepest));
+  if (flat_top(moving_, steepest) < room_for_override * top) {
     grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_graded);
   }
   if (curve.shape() == Curve::Shape::line) return;
   if (curve.shape() == Curve::Shape::arc) {
     const double by_turn = length * turn_a_cell_of_arc / std::abs(curve.arc_data().sweep);
-    longest_ = std::min({length / 2, by_turn, std::max(braking * braking_share, length * length_share)});
-    shortest_ = std::clamp(braking * braking_share, longest_ / 64, longest_);
+    longest_ =
+        std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
+    // Turning takes all of the acceleration at a speed from which braking takes but a radius.
+    const double slowing = std::min(braking, 1 / curve.curvature());
+    shortest_ = std::clamp(slowing * braking_share, longest_ / 64, longest_);
   } else {
     const double turn = length * curve.curvature();
     const double by_turn = length * turn_a_cell_of_cubic / std::max(turn, turn_a_cell_of_cubic);
@@ -74,12 +95,11 @@ void CellCutter::begin(const Segment& segment) {
   }
 }
 
-bool CellCutter::next(Piece& piece) {
+void CellCutter::next(const CellPlace& to) {
   const double length = segment_->curve.length().value();
-  if (!(at_ < length)) return false;
   // Cells grow away from both ends.
-  const double near_start = std::max(shortest_, at_ * (growth - 1));
-  const double left = length - at_;
+  const double near_start = std::max(shortest_, at_.s * (growth - 1));
+  const double left = length - at_.s;
   double size = std::min(longest_, near_start);
   if (left <= 2 * shortest_) {
     size = left <= shortest_ * 1.5 ? left : left / 2;
@@ -87,125 +107,164 @@ bool CellCutter::next(Piece& piece) {
     size = left / growth;
   }
   if (grade_ > 0) size = graded(size, left);
-  double to = at_ + size;
-  if (length - to < size * 1e-6) to = length;
-  cut(*segment_, at_, to, piece);
-  at_ = to;
-  return true;
+  double end = at_.s + size;
+  if (length - end < size * 1e-6) end = length;
+  if (cut_line(*segment_, moving_, at_.s, end, to)) {
+    at_.s = end;
+  } else {
+    const Place there = place_at(segment_->curve, end);
+    cut_curve(*segment_, moving_, at_, there, to);
+    at_ = there;
+  }
+}
+
+void CellCutter::cut(const Segment& segment, double from, double to, const CellPlace& place) const {
+  if (cut_line(segment, limited_, from, to, place)) return;
+  cut_curve(segment, limited_, place_at(segment.curve, from), place_at(segment.curve, to), place);
 }
 
 // From rest the speed grows with the root of s: so do the cells, and each end of the segment may be a rest. At least
 // two: between two rests one would have no speed.
 double CellCutter::graded(double size, double left) const {
-  const double near_start = grade_ * (grade_ + 2 * std::sqrt(at_));
+  const double near_start = grade_ * (grade_ + 2 * std::sqrt(at_.s));
   const double root = std::sqrt(left);
   const double near_end = root <= 1.5 * grade_ ? left : grade_ * (2 * root - grade_);
-  return std::min({size, near_start, near_end, at_ == 0 ? left / 2 : left});
+  return std::min({size, near_start, near_end, at_.s == 0 ? left / 2 : left});
 }
 
-// The speed along the path up to which every limit is constant.
-double CellCutter::flat_top(const Point& direction) const {
+// The largest speed, and the largest acceleration, along a path of this slope that every axis can follow.
+double CellCutter::top_speed(const Axes& axes, const Point& slope) {
+  double top = fastest;
+  for (const AxisLimits& axis : axes) lower(top, axis.velocity, std::abs(slope.values[axis.axis]));
+  return top;
+}
+double CellCutter::top_acceleration(const Axes& axes, const Point& slope) {
+  double top = strongest;
+  for (const AxisLimits& axis : axes) lower(top, axis.acceleration, std::abs(slope.values[axis.axis]));
+  return top;
+}
+// The speed up to which every limit is constant.
+double CellCutter::flat_top(const Axes& axes, const Point& slope) {
   double top = infinity;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const AccelerationCurve& curve = limits_.falling.values[i];
-    const double part = std::abs(direction.values[i]);
-    if (!curve.empty() && part > 0) top = std::min(top, std::sqrt(curve.shoulder()) / part);
+  for (const AxisLimits& axis : axes) {
+    const double part = std::abs(slope.values[axis.axis]);
+    if (!axis.falling->empty() && part > 0) top = std::min(top, std::sqrt(axis.falling->shoulder()) / part);
   }
   return top;
 }
 
-// Bounds of the derivatives between two places: of a cubic the third is constant; on an arc each derivative turns the
-// one before, so that its size is that of the slope in the plane times the turn a millimetre.
-CellCutter::Bend CellCutter::bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out) {
-  Bend bend;
-  if (curve.shape() == Curve::Shape::line) return bend;
-  if (curve.shape() == Curve::Shape::cubic) {
-    for (std::size_t i = 0; i < axis_count; ++i) {
-      bend.third.values[i] = 6 * std::abs(curve.cubic_data().third.values[i]);
-    }
-    return bend;
-  }
+CellCutter::Place CellCutter::place_at(const Curve& curve, double s) {
+  return {.s = s, .slope = curve.tangent(Mm(s)), .bend = curve.second_derivative(Mm(s))};
+}
+
+// On an arc each derivative turns the one before, so that its size is that of the slope in the plane times the turn a
+// millimetre.
+CellCutter::Bend CellCutter::bend_of_arc(const Curve& curve, const Place& in, const Place& out) {
   const Curve::ArcData& arc = curve.arc_data();
   const double turn = std::abs(arc.sweep) / curve.length().value();
   // A growing radius adds to every derivative; three times its share covers the binomial terms.
   const double growing = 3 * std::abs(arc.end_radius - arc.start_radius) / curve.length().value();
-  const double around = growing + std::max(std::hypot(slope_in[arc.first], slope_in[arc.second]),
-                                           std::hypot(slope_out[arc.first], slope_out[arc.second]));
-  bend.third[arc.first] = bend.third[arc.second] = around * turn * turn;
-  bend.fourth[arc.first] = bend.fourth[arc.second] = around * turn * turn * turn;
-  return bend;
+  const double around = growing + std::max(std::hypot(in.slope[arc.first], in.slope[arc.second]),
+                                           std::hypot(out.slope[arc.first], out.slope[arc.second]));
+  return {.third = around * turn * turn, .fourth = around * turn * turn * turn};
+}
+
+// Of a cubic the third derivative is constant.
+CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis) {
+  switch (curve.shape()) {
+    case Curve::Shape::cubic: return {.third = 6 * std::abs(curve.cubic_data().third.values[axis])};
+    case Curve::Shape::arc: {
+      const Curve::ArcData& arc = curve.arc_data();
+      if (axis == static_cast<std::size_t>(arc.first) || axis == static_cast<std::size_t>(arc.second)) return of_arc;
+      break;
+    }
+    case Curve::Shape::line: break;
+  }
+  return {};
+}
+
+// Whether a line is one cell, with no demands but its acceleration.
+bool CellCutter::cut_line(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place) {
+  // Member by member: a cell that is put together elsewhere and copied in one go waits for its bytes to be written.
+  Cell& cell = place.cell;
+  cell.start = from;
+  cell.end = to;
+  cell.length = to - from;
+  cell.feed_squared = squared(segment.speed.value());
+  cell.heeds = segment.heeds;
+  cell.lock = segment.lock;
+  cell.demand_count = cell.falling_count = 0;
+  cell.straight = false;
+  if (segment.curve.shape() != Curve::Shape::line) return false;
+  const Point slope = segment.curve.tangent(Mm(from));
+  const double flat = flat_top(axes, slope);
+  const double top = top_speed(axes, slope);
+  if (flat < room_for_override * std::min(top, segment.speed.value())) return false;
+  cell.top_squared = squared(std::min(top, flat));
+  cell.acceleration = top_acceleration(axes, slope);
+  cell.straight = true;
+  return true;
 }
 
 // Between the ends the demand f(s) = q' a + q'' v² has f'' = q'''' v² + 5 a q''', since (v²)' = 2a. It leaves the
 // larger of its end values by at most h²/8 times the largest |f''|: that much is taken off the limit.
-void CellCutter::cut(const Segment& segment, double from, double to, Piece& piece) const {
-  const Curve& curve = segment.curve;
-  const double h = to - from;
-  const Point slope_in = curve.tangent(Mm(from));
-  piece.cell = {.start = from,
-                .end = to,
-                .length = h,
-                .feed_squared = squared(segment.speed.value()),
-                .heeds = segment.heeds,
-                .lock = segment.lock};
-  piece.demand_count = 0;
-  piece.falling_count = 0;
-
-  const double flat = flat_top(slope_in);
-  const double top_in = std::min(largest_multiple(slope_in, limits_.velocity), fastest);
-  if (curve.shape() == Curve::Shape::line && !(flat < room_for_override * std::min(top_in, segment.speed.value()))) {
-    piece.cell.top_squared = squared(std::min(top_in, flat));
-    piece.cell.acceleration = std::min(largest_multiple(slope_in, limits_.acceleration), strongest);
-    piece.cell.straight = true;
-    return;
-  }
-
-  const Point slope_out = curve.tangent(Mm(to));
-  const Point bend_in = curve.second_derivative(Mm(from));
-  const Point bend_out = curve.second_derivative(Mm(to));
-  const Bend bend = bend_between(curve, slope_in, slope_out);
+void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
+                           const CellPlace& place) {
+  Cell& cell = place.cell;
+  const double h = out.s - in.s;
   const double eighth = h * h / 8;
-
-  Point steepest;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    steepest.values[i] =
-        std::max(std::abs(slope_in.values[i]), std::abs(slope_out.values[i])) + eighth * bend.third.values[i];
+  const Curve& curve = segment.curve;
+  const Bend of_arc = curve.shape() == Curve::Shape::arc ? bend_of_arc(curve, in, out) : Bend{};
+  const auto steepest = [&](std::size_t i, const Bend& bend) {
+    return std::max(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])) + eighth * bend.third;
+  };
+  double top = fastest;
+  double strength = strongest;
+  for (const AxisLimits& axis : axes) {
+    const std::size_t i = axis.axis;
+    lower(top, axis.velocity, steepest(i, bend_on(curve, of_arc, i)));
+    lower(strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
   }
-  const double top = std::min(largest_multiple(steepest, limits_.velocity), fastest);
-  piece.cell.top_squared = top * top;
-  Point least_steep;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    least_steep.values[i] = std::min(std::abs(slope_in.values[i]), std::abs(slope_out.values[i]));
-  }
+  cell.top_squared = top * top;
   // Turning may hide as much again of an axis's acceleration along its slope.
-  const double strength =
-      std::min({2 * largest_multiple(least_steep, limits_.acceleration), top * top / (2 * h), strongest});
+  strength = std::min({2 * strength, top * top / (2 * h), strongest});
 
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const double limit = limits_.acceleration.values[i].value();
-    if (!(limit > 0) || (steepest.values[i] == 0 && bend_in.values[i] == 0 && bend_out.values[i] == 0)) continue;
-    const double slack = eighth * (bend.fourth.values[i] * top * top + 5 * strength * bend.third.values[i]);
-    const double in = slope_in.values[i] / (2 * h);
-    const double out = slope_out.values[i] / (2 * h);
-    piece.demands[piece.demand_count++] = {.entry_x = bend_in.values[i] - in,
-                                           .entry_y = in,
-                                           .exit_x = -out,
-                                           .exit_y = bend_out.values[i] + out,
-                                           .limit = std::max(limit - slack, limit / 2)};
-    const AccelerationCurve& falling = limits_.falling.values[i];
-    const double steep = steepest.values[i];
-    if (falling.empty() || !(squared(steep * top) > falling.shoulder())) continue;
+  for (const AxisLimits& axis : axes) {
+    const std::size_t i = axis.axis;
+    const Bend bend = bend_on(curve, of_arc, i);
+    const double steep = steepest(i, bend);
+    if (!(axis.acceleration > 0) || (steep == 0 && in.bend.values[i] == 0 && out.bend.values[i] == 0)) continue;
+    const double slack = eighth * (bend.fourth * top * top + 5 * strength * bend.third);
+    const double slope_in = in.slope.values[i] / (2 * h);
+    const double slope_out = out.slope.values[i] / (2 * h);
+    place.demands[cell.demand_count++] = {.entry_x = in.bend.values[i] - slope_in,
+                                          .entry_y = slope_in,
+                                          .exit_x = -slope_out,
+                                          .exit_y = out.bend.values[i] + slope_out,
+                                          .limit = std::max(axis.acceleration - slack, axis.acceleration / 2)};
+    if (axis.falling->empty() || !(squared(steep * top) > axis.falling->shoulder())) continue;
     // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
-    const double second =
-        std::max(std::abs(bend_in.values[i]), std::abs(bend_out.values[i])) + h * bend.third.values[i];
-    const double bending =
-        2 * (second * second + steep * bend.third.values[i]) * top * top + 8 * steep * second * strength;
-    piece.falling[piece.falling_count++] = {.curve = &falling,
-                                            .demand = static_cast<std::uint32_t>(piece.demand_count - 1),
-                                            .entry_weight = squared(slope_in.values[i]),
-                                            .exit_weight = squared(slope_out.values[i]),
-                                            .slack = slack,
-                                            .slack_of_fall = eighth * bending};
+    const double second = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i])) + h * bend.third;
+    const double bending = 2 * (second * second + steep * bend.third) * top * top + 8 * steep * second * strength;
+    place.falling[cell.falling_count++] = {.curve = axis.falling,
+                                           .demand = static_cast<std::uint32_t>(cell.demand_count - 1),
+                                           .entry_weight = squared(in.slope.values[i]),
+                                           .exit_weight = squared(out.slope.values[i]),
+                                           .slack = slack,
+                                           .slack_of_fall = eighth * bending};
+  }
+  const double fastest_squared = std::min(top * top, squared(room_for_override) * cell.feed_squared);
+  const auto is_sure = [&](const AxisLimits& axis) {
+    const std::size_t i = axis.axis;
+    const double turning = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i]));
+    const double along = std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i]));
+    return axis.acceleration > 0 && axis.acceleration + turning * fastest_squared <= strength * along;
+  };
+  if (strength < top * top / (2 * h) && std::ranges::none_of(axes, is_sure)) {
+    // It may hide more, where the turning of all axes that go along is undone by speeding up: not beyond this.
+    const double half = 1 / (2 * h);
+    place.demands[cell.demand_count++] = {
+        .entry_x = -half, .entry_y = half, .exit_x = -half, .exit_y = half, .limit = strength};
   }
 }
 

@@ -32,6 +32,9 @@ struct AxisDemand {
   double limit = 0;
 };
 
+// One of each axis, and one of the acceleration along the path.
+inline constexpr std::size_t most_demands_of_cell = axis_count + 1;
+
 // Of an axis whose limit falls with its speed. In the cell the square of that is about entry_weight x at the entry and
 // exit_weight y at the exit; with each line of the curve, at both ends,
 //
@@ -56,41 +59,71 @@ struct Cell {
   double feed_squared = 0;  // as programmed; infinite for a rapid
   double acceleration = 0;  // of a straight cell: along the path, either way; its speed may also rise and fall within
   bool straight = false;
-  Heeds heeds = {};
+  std::uint8_t demand_count = 0;
+  std::uint8_t falling_count = 0;
   SpindleLock lock = SpindleLock::none;
+  Heeds heeds = {};
+};
+
+// A cell with what it demands, where it is kept: room for a demand of each axis.
+struct CellPlace {
+  Cell& cell;
+  AxisDemand* demands;
+  FallingDemand* falling;
 };
 
 // Cuts segments into cells. The straight ones are whole segments and make no demands but their acceleration; lines on
-// which a limit falls with the speed are cut like curves.
+// which a limit falls with the speed are cut like curves. About 100 ns a cell of a cubic with three axes.
 class CellCutter {
  public:
-  explicit CellCutter(const MotionLimits& limits) : limits_(limits) {}
+  // The limits must live as long.
+  explicit CellCutter(const MotionLimits& limits);
+  // Of a cell, and how many of them fall with the speed.
+  std::size_t most_demands() const;
+  std::size_t most_falling() const;
 
-  struct Piece {
-    Cell cell;
-    std::array<AxisDemand, axis_count> demands;
-    std::size_t demand_count = 0;
-    std::array<FallingDemand, axis_count> falling;
-    std::size_t falling_count = 0;
-  };
-  // Begins with a segment; next() then gives its cells in order.
+  // Begins with a segment, which must stay where it is; next() then gives its cells in order, up to its end.
   void begin(const Segment& segment);
-  bool next(Piece& piece);
+  bool at_end() const { return !(at_.s < segment_->curve.length().value()); }
+  void next(const CellPlace& to);
   // A cell of a segment that is not the one at hand: what is left of one that was given in part.
-  void cut(const Segment& segment, double from, double to, Piece& piece) const;
+  void cut(const Segment& segment, double from, double to, const CellPlace& place) const;
 
  private:
-  struct Bend {  // of the whole curve: bounds of |q'''| and |q''''|
-    Point third;
-    Point fourth;
+  // What an axis can do; of 0 or less: anything.
+  struct AxisLimits {
+    std::size_t axis = 0;
+    double velocity = 0;
+    double acceleration = 0;
+    const AccelerationCurve* falling = nullptr;
   };
+  using Axes = std::vector<AxisLimits>;
+  // A place on the curve. Where one cell ends the next begins: each is found once.
+  struct Place {
+    double s = 0;
+    Point slope;
+    Point bend;
+  };
+  // Bounds of |q'''| and |q''''| between two places.
+  struct Bend {
+    double third = 0;
+    double fourth = 0;
+  };
+  static double top_speed(const Axes& axes, const Point& slope);
+  static double top_acceleration(const Axes& axes, const Point& slope);
+  static double flat_top(const Axes& axes, const Point& slope);
+  static Place place_at(const Curve& curve, double s);
+  static Bend bend_of_arc(const Curve& curve, const Place& in, const Place& out);
+  static Bend bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis);
+  static bool cut_line(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place);
+  static void cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
+                        const CellPlace& place);
   double graded(double size, double left) const;
-  double flat_top(const Point& direction) const;
-  static Bend bend_between(const Curve& curve, const Point& slope_in, const Point& slope_out);
 
-  const MotionLimits& limits_;
+  Axes limited_;  // all axes that have a limit
+  Axes moving_;   // those of them that move on the segment
   const Segment* segment_ = nullptr;
-  double at_ = 0;        // s up to which it is cut
+  Place at_;             // up to where it is cut
   double longest_ = 0;   // cells in the middle
   double shortest_ = 0;  // and at the ends, from where they grow
   double grade_ = 0;     // where limits fall with the speed: what each cell adds to the root of s, from a rest on

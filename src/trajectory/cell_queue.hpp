@@ -1,7 +1,8 @@
-// CellQueue: the cells that the planner has in hand, with their demands, in a ring of fixed size. Private to
-// trajectory/.
+// CellQueue: the cells that the planner has in hand, with their demands, in a ring that grows up to a fixed size.
+// Private to trajectory/.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <span>
 #include <vector>
@@ -14,79 +15,93 @@ class CellQueue {
  public:
   struct Entry {
     Cell cell;
-    std::size_t demand_count = 0;
-    std::size_t falling_count = 0;
     bool begins_at_rest = false;
     double top_squared = 0;    // of the cell, with the override of the feed
     double entry_cap = 0;      // squared: by the tops on both sides, 0 at a rest
     double entry_if_rest = 0;  // how fast it may be entered if the path came to rest behind the queue
     double entry_if_open = 0;  // the same if the path went straight on there for ever
+    // Of a cell that is decided: how it is left, if it is entered like this. Below 0: it was changed since.
+    double decided_entry = -1;
+    double decided_exit = 0;
   };
 
   // `axes`: the most demands a cell makes; the limits of `falling_axes` of them fall with the speed.
   CellQueue(std::size_t capacity, std::size_t axes, std::size_t falling_axes)
-      : axes_(axes),
-        falling_axes_(falling_axes),
-        entries_(capacity + 1),
-        demands_((capacity + 1) * axes),
-        falling_((capacity + 1) * falling_axes) {}
+      : capacity_(capacity), axes_(axes), falling_axes_(falling_axes) {
+    resize(std::min(capacity, first_capacity) + 1);
+  }
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   // One place is left for push_front().
-  bool full() const { return size_ + 1 >= entries_.size(); }
+  bool full() const { return size_ >= capacity_; }
   Entry& operator[](std::size_t i) { return entries_[slot(i)]; }
   const Entry& operator[](std::size_t i) const { return entries_[slot(i)]; }
   Entry& back() { return (*this)[size_ - 1]; }
   std::span<const AxisDemand> demands(std::size_t i) const {
     const std::size_t at = slot(i);
-    return {demands_.data() + at * axes_, entries_[at].demand_count};
+    return {demands_.data() + at * axes_, entries_[at].cell.demand_count};
   }
   std::span<FallingDemand> falling(std::size_t i) {
     const std::size_t at = slot(i);
-    return {falling_.data() + at * falling_axes_, entries_[at].falling_count};
+    return {falling_.data() + at * falling_axes_, entries_[at].cell.falling_count};
   }
   std::span<const FallingDemand> falling(std::size_t i) const {
     const std::size_t at = slot(i);
-    return {falling_.data() + at * falling_axes_, entries_[at].falling_count};
+    return {falling_.data() + at * falling_axes_, entries_[at].cell.falling_count};
   }
 
-  Entry& push(const CellCutter::Piece& piece) {
+  // Where one more cell, or one before all others, is to be cut to, and the first one anew. Until the next call.
+  CellPlace push() {
     assert(!full());
-    const std::size_t at = slot(size_++);
-    entries_[at] = {};
-    return put(piece, at);
+    if (size_ + 1 == entries_.size()) grow();
+    return new_place(slot(size_++));
   }
   // Once between two calls of pop().
-  void push_front(const CellCutter::Piece& piece) {
+  CellPlace push_front() {
     head_ = (head_ == 0 ? entries_.size() : head_) - 1;
     ++size_;
-    entries_[head_] = {};
-    replace_front(piece);
+    return new_place(head_);
   }
-  // The first cell, cut anew.
-  void replace_front(const CellCutter::Piece& piece) { put(piece, head_); }
+  CellPlace front_again() { return place(head_); }
   void pop() {
     head_ = head_ + 1 == entries_.size() ? 0 : head_ + 1;
     --size_;
   }
 
  private:
-  Entry& put(const CellCutter::Piece& piece, std::size_t at) {
-    assert(piece.demand_count <= axes_ && piece.falling_count <= falling_axes_);
-    for (std::size_t k = 0; k < piece.demand_count; ++k) demands_[at * axes_ + k] = piece.demands[k];
-    for (std::size_t k = 0; k < piece.falling_count; ++k) falling_[at * falling_axes_ + k] = piece.falling[k];
-    Entry& entry = entries_[at];
-    entry.cell = piece.cell;
-    entry.demand_count = piece.demand_count;
-    entry.falling_count = piece.falling_count;
-    return entry;
+  static constexpr std::size_t first_capacity = 256;
+
+  CellPlace new_place(std::size_t at) {
+    entries_[at].begins_at_rest = false;
+    entries_[at].entry_if_rest = entries_[at].entry_if_open = 0;
+    return place(at);
+  }
+  CellPlace place(std::size_t at) {
+    entries_[at].decided_entry = -1;
+    return {entries_[at].cell, demands_.data() + at * axes_, falling_.data() + at * falling_axes_};
+  }
+  void grow() {
+    const auto turn = [this](auto& ring, std::size_t each) {
+      std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(head_ * each), ring.end());
+    };
+    turn(entries_, 1);
+    turn(demands_, axes_);
+    turn(falling_, falling_axes_);
+    head_ = 0;
+    resize(std::min(2 * size_, capacity_) + 1);
+  }
+  void resize(std::size_t places) {
+    entries_.resize(places);
+    demands_.resize(places * axes_);
+    falling_.resize(places * falling_axes_);
   }
   std::size_t slot(std::size_t i) const {
     const std::size_t at = head_ + i;
     return at < entries_.size() ? at : at - entries_.size();
   }
 
+  std::size_t capacity_;
   std::size_t axes_;
   std::size_t falling_axes_;
   std::vector<Entry> entries_;

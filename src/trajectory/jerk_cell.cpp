@@ -9,7 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double cells_a_ramp = 12;      // while the acceleration goes from 0 to its limit
+constexpr double cells_a_ramp = 10;      // while the acceleration goes from 0 to its limit
 constexpr double cells_a_braking = 128;  // at least this fine against the time that braking takes
 constexpr double turn_a_cell = 0.1;      // radians
 constexpr double most_cells = 20'000;    // of a segment

@@ -5,7 +5,7 @@
 //
 //     velocity q' v      acceleration q' a + q'' v²      jerk q' j + 3 q'' v a + q''' v³
 //
-// Cells are so short that about twelve of them are passed while the acceleration rises from nothing to its limit.
+// Cells are so short that about ten of them are passed while the acceleration rises from nothing to its limit.
 #pragma once
 
 #include <vector>

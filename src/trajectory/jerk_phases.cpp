@@ -36,7 +36,7 @@ double highest_through(const std::array<double, 3>& values) {
 
 }  // namespace
 
-JerkProfile::State JerkProfile::state(std::size_t node) const {
+JerkProfile::State JerkProfile::planned_state(std::size_t node) const {
   const std::size_t n = cells_.size();
   if (node == 0 && frozen_ > 0) return start_;
   if (node == 0 || node == n || x_[node] <= 0) return {};
@@ -100,7 +100,7 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const State to = state(i + 1);
   const JerkCell& cell = cells_[i];
   // Straight pieces are rounded above the low place between them: where a jump is to stay unseen, too much.
-  if (from.speed * from.speed > most_above_cap * cap_[i]) return {2, 0};
+  if (from.speed * from.speed > most_above_cap * passing_cap_[i]) return {2, 0};
   const double top =
       std::max({to.speed, highest(from, pair.first, pair.half), highest(pair.middle, pair.second, pair.half)});
   if (cell.straight) {

@@ -11,6 +11,9 @@
 //   ----------------------- s    Concave corners are cut: with the most that a slope may drop at each node added up,
 //                                the profile below them is a convex hull, found in linear time (chords).
 //
+// What is decided of that is then raised (JerkLift, jerk_raise.cpp): the acceleration may go on falling into a bend and
+// rise out of it, which the caps, those of a constant speed, do not see.
+//
 // What remains is checked against every axis on the very phases that are given, and where a limit is exceeded the
 // speed is lowered and the window planned again. Where that does not help, the plan before goes on, which was checked
 // and ends at rest; from rest the window is slowed as a whole. So no plan is given that was not found good.
@@ -23,6 +26,7 @@
 #include <vector>
 
 #include "jerk_cell.hpp"
+#include "jerk_lift.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -32,7 +36,7 @@ class JerkProfile {
  public:
   // `most_repairs`: of a plan, before it is slowed as a whole.
   explicit JerkProfile(const std::vector<LimitedAxis>& axes, int most_repairs = 80)
-      : axes_(axes), most_repairs_(most_repairs) {}
+      : axes_(axes), most_repairs_(most_repairs), lift_(axes) {}
 
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
@@ -58,13 +62,12 @@ class JerkProfile {
   bool fell_back() const { return fell_back_; }
 
  private:
+  static constexpr double planned_velocity = 0.9999;  // of the limit
+
   struct Range {
     double low, high;
   };
-  struct State {  // at a node
-    double speed = 0;
-    double acceleration = 0;
-  };
+  using State = NodeState;
   struct Pair {  // of phases of a cell, each of half the time
     double half = 0;
     double first = 0;  // jerk
@@ -92,7 +95,8 @@ class JerkProfile {
   void cut_corners();
   void find_drops(std::size_t from);
   double drop_at(std::size_t node) const;
-  State state(std::size_t node) const;
+  State state(std::size_t node) const { return is_raised_ ? states_[node] : planned_state(node); }
+  State planned_state(std::size_t node) const;
   Pair pair_of(std::size_t i) const;
   void add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const;
   struct Excess {      // multiples of the limits
@@ -120,6 +124,16 @@ class JerkProfile {
   void flatten(std::size_t i);
   bool is_as_checked(std::size_t i) const;
   bool is_calm(std::size_t node) const;
+  void find_passing_caps();
+  void raise(std::size_t last);
+  void find_fixed(std::size_t last);
+  void raise_between(std::size_t first, std::size_t last);
+  struct Stretch {  // nodes
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+  void find_raised_too_far(const Stretch& raised);
+  void put_back(std::size_t first, std::size_t last);
 
   std::vector<LimitedAxis> axes_;
   int most_repairs_;
@@ -153,6 +167,18 @@ class JerkProfile {
   std::size_t planned_ = 0;  // cells for which x_ is a plan to rest
   std::vector<double> kept_;
   bool fell_back_ = false;
+
+  // What is raised above x_: from there on the states are what is played.
+  JerkLift lift_;
+  std::vector<double> passing_cap_;  // of the nodes
+  std::vector<bool> jumps_;          // the bend, and limits the speed
+  std::vector<bool> fixed_;
+  std::vector<double> lift_share_;  // of the limits, in each cell
+  std::vector<double> lift_cap_;
+  std::vector<State> states_;
+  std::vector<State> unraised_;
+  std::vector<Stretch> again_;  // raised once more
+  bool is_raised_ = false;
 };
 
 }  // namespace passo

@@ -7,7 +7,9 @@
 namespace passo {
 namespace {
 
-constexpr std::size_t first_window = 200;
+// Cells. What is raised at once ends as it was planned, so that short windows cost time.
+constexpr std::size_t first_window = 2400;
+constexpr std::size_t fewest_queued = 400;
 constexpr std::size_t phases_a_cell = 2;
 constexpr std::size_t fewest_in_motion = 32;  // cells from which a start in motion is planned
 
@@ -17,7 +19,7 @@ JerkWindow::JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, st
     : path_(path),
       cutter_(axes),
       profile_(axes),
-      most_queued_(std::max<std::size_t>(most_queued, 2 * first_window)),
+      most_queued_(std::max(most_queued, fewest_queued)),
       shapes_(axes.size()) {}
 
 void JerkWindow::begin_at(const Start& start, const FeedFactors& feeds) {

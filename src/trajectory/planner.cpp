@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -14,6 +13,8 @@
 #include "rest.hpp"
 #include "speed_profile.hpp"
 #include "speed_window.hpp"
+
+#include "passo/base/window.hpp"
 
 namespace passo {
 namespace {
@@ -34,19 +35,9 @@ double squared(double value) {
   return value * value;
 }
 
-std::size_t limited_axes(const MotionLimits& limits) {
-  return static_cast<std::size_t>(std::count_if(limits.acceleration.values.begin(), limits.acceleration.values.end(),
-                                                [](MmPerSecond2 limit) { return limit > MmPerSecond2(0); }));
-}
-
 bool has_jerk_limit(const MotionLimits& limits) {
   return std::any_of(limits.jerk.values.begin(), limits.jerk.values.end(),
                      [](MmPerSecond3 limit) { return limit > MmPerSecond3(0); });
-}
-
-std::size_t falling_axes(const MotionLimits& limits) {
-  return static_cast<std::size_t>(std::count_if(limits.falling.values.begin(), limits.falling.values.end(),
-                                                [](const AccelerationCurve& curve) { return !curve.empty(); }));
 }
 
 }  // namespace
@@ -58,7 +49,7 @@ class Planner::Implementation {
         limits_(limits),
         most_queued_(most_queued),
         cutter_(limits_),
-        cells_(std::max<std::size_t>(most_queued, 2), limited_axes(limits), falling_axes(limits)) {
+        cells_(std::max<std::size_t>(most_queued, 2), cutter_.most_demands(), cutter_.most_falling()) {
     if (has_jerk_limit(limits)) jerk_limited_.emplace(path, limits_, most_queued_);
   }
 
@@ -112,13 +103,13 @@ class Planner::Implementation {
     plan.clear();
     if (jerk_limited_) return false;
     double speed_squared = speed_squared_;
-    auto segment = segments_.begin();
+    std::uint64_t segment = segments_.first();
     for (std::size_t i = 0; speed_squared > 0; ++i) {
       const Cell& cell = cells_[i].cell;
       const bool begins = plan.empty() || plan.back().to >= plan.back().segment.curve.length();
       if (begins && !plan.empty()) ++segment;
       if (begins || plan.back().phase_count == PlannedMove::most_phases) {
-        plan.push_back({.segment = *segment, .phases = {}});
+        plan.push_back({.segment = segments_[segment], .phases = {}});
       }
       PlannedMove& move = plan.back();
       const Ride ride = shortest_ride(i, speed_squared);
@@ -169,11 +160,10 @@ class Planner::Implementation {
 
   // One more cell, or the end of the stretch.
   void pull() {
-    if (cutting_ && cutter_.next(piece_)) {
-      append(piece_);
+    if (cutting_) {
+      append();
       return;
     }
-    cutting_ = false;
     if (!path_.next(pulled_)) {
       closed_ = true;
     } else if (const auto* action = std::get_if<Action>(&pulled_)) {
@@ -186,14 +176,16 @@ class Planner::Implementation {
 
   void begin(const Segment& segment) {
     at_rest_ = segments_.empty() || rests_between(segments_.back(), segment);
-    segments_.push_back(segment);
+    segments_.append() = segment;
     cutter_.begin(segments_.back());
     cutting_ = true;
   }
 
-  void append(const CellCutter::Piece& piece) {
+  void append() {
     const bool at_rest = std::exchange(at_rest_, false) || cells_.empty();
-    cells_.push(piece).begins_at_rest = at_rest;
+    cutter_.next(cells_.push());
+    cutting_ = !cutter_.at_end();
+    cells_.back().begins_at_rest = at_rest;
     set_caps(cells_.size() - 1);
   }
 
@@ -211,7 +203,7 @@ class Planner::Implementation {
     const Cell& cell = entry.cell;
     if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
     const double most = std::min(exit_most, entry.top_squared);
-    if (entry.falling_count == 0) return largest_entry(cells_.demands(i), entry.entry_cap, most);
+    if (entry.cell.falling_count == 0) return largest_entry(cells_.demands(i), entry.entry_cap, most);
     return largest_entry(cells_.demands(i), cells_.falling(i), entry.entry_cap, most);
   }
   // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
@@ -219,7 +211,7 @@ class Planner::Implementation {
     if (exit_most == 0) return 0;  // whatever came before left room for it
     const CellQueue::Entry& queued = cells_[i];
     const double most = std::min(exit_most, queued.top_squared);
-    if (queued.falling_count > 0) {
+    if (queued.cell.falling_count > 0) {
       return largest_exit(cells_.demands(i), cells_.falling(i), entry, most, queued.top_squared);
     }
     if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
@@ -244,18 +236,19 @@ class Planner::Implementation {
 
   // A cell's exit is decided where both agree, or where accelerating as it may does not even reach the lower one.
   void decide_forwards() {
+    // A queue that is full and holds hardly more than the braking distance is played to its middle as if the path came
+    // to rest at its end: slower, and safe, and still linear.
+    const std::size_t at_least = cells_.full() ? cells_.size() / 2 : 0;
     double entry = speed_squared_;
     for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
       const bool last = decided_ + 1 == cells_.size();
       const double if_rest = last ? 0 : cells_[decided_ + 1].entry_if_rest;
       const double if_open = last ? (closed_ ? 0 : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
       const double exit = exit_from(decided_, entry, if_rest);
-      if (if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
-      entry = exit;
+      if (decided_ >= at_least && if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
+      cells_[decided_].decided_entry = std::exchange(entry, exit);
+      cells_[decided_].decided_exit = exit;
     }
-    // A queue that is full and holds hardly more than the braking distance is played to its middle as if the path came
-    // to rest at its end: slower, and safe, and still linear.
-    if (cells_.full()) decided_ = std::max(decided_, cells_.size() / 2);
   }
 
   PlannedMove& begin_move(MotionItem& item) const {
@@ -277,7 +270,8 @@ class Planner::Implementation {
     bool complete = false;
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
       const Cell& cell = cells_[0].cell;
-      const double exit = planned_exit(0, speed_squared_);
+      const bool as_decided = cells_[0].decided_entry == speed_squared_;
+      const double exit = as_decided ? cells_[0].decided_exit : planned_exit(0, speed_squared_);
       // The feed was lowered: down to it at once, and not where the cell ends.
       const double too_fast = speed_squared_ - cells_[0].top_squared;
       const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
@@ -347,17 +341,22 @@ class Planner::Implementation {
     const bool shortened = shorten(move);
     if (move.to.value() < cell_end - smallest_rest) {
       // How the rest of the cell is left, is as decided as it was for the whole.
-      cutter_.cut(segment, move.to.value(), cell_end, piece_at_hand_);
-      allow(speed_squared_, ride.exit, piece_at_hand_);
-      cells_.replace_front(piece_at_hand_);
+      cut_front_again(segment, move.to.value(), cell_end, ride.exit);
       return true;
     }
     decided_ -= std::min<std::size_t>(decided_, 1);
     move.to = Mm(cell_end);
     cells_.pop();
     const bool ended = cell_end >= segment_end;
-    if (ended) segments_.pop_front();
+    if (ended) segments_.drop_front();
     return shortened || ended;
+  }
+
+  // The first cell from the place where the path is now, to be left as it was.
+  void cut_front_again(const Segment& segment, double from, double to, double exit) {
+    const CellPlace front = cells_.front_again();
+    cutter_.cut(segment, from, to, front);
+    allow(speed_squared_, exit, front);
   }
 
   // A curved cell either speeds up or brakes: from a rest in the last one of a stretch it takes two to the next rest.
@@ -367,12 +366,12 @@ class Planner::Implementation {
     const double middle = start + cells_[0].cell.length / 2;
     const double exit = planned_exit(0, speed_squared_);
     const double halfway = (speed_squared_ + exit) / 2;
-    cutter_.cut(segments_.front(), middle, end, piece_at_hand_);
-    allow(halfway, exit, piece_at_hand_);
-    cells_.replace_front(piece_at_hand_);
-    cutter_.cut(segments_.front(), start, middle, piece_at_hand_);
-    allow(speed_squared_, halfway, piece_at_hand_);
-    cells_.push_front(piece_at_hand_);
+    const CellPlace second = cells_.front_again();
+    cutter_.cut(segments_.front(), middle, end, second);
+    allow(halfway, exit, second);
+    const CellPlace first = cells_.push_front();
+    cutter_.cut(segments_.front(), start, middle, first);
+    allow(speed_squared_, halfway, first);
     cells_[1].begins_at_rest = false;
     cells_[1].entry_if_rest = halfway;
     set_caps(0);
@@ -381,9 +380,9 @@ class Planner::Implementation {
 
   // In the middle of a cell an axis may demand more than is asked for at the ends of one, which leaves room for what is
   // between. What was to be done from here on may be done still.
-  static void allow(double entry, double exit, CellCutter::Piece& piece) {
-    for (std::size_t k = 0; k < piece.demand_count; ++k) {
-      AxisDemand& demand = piece.demands[k];
+  static void allow(double entry, double exit, const CellPlace& place) {
+    for (std::size_t k = 0; k < place.cell.demand_count; ++k) {
+      AxisDemand& demand = place.demands[k];
       demand.limit = std::max({demand.limit, std::abs(demand.entry_x * entry + demand.entry_y * exit),
                                std::abs(demand.exit_x * entry + demand.exit_y * exit)});
     }
@@ -421,7 +420,7 @@ class Planner::Implementation {
   const std::size_t most_queued_;
   CellCutter cutter_;
 
-  std::deque<Segment> segments_;  // whose cells are in the queue, or are being cut
+  Window<Segment> segments_;  // whose cells are in the queue, or are being cut
   CellQueue cells_;
   bool cutting_ = false;
   bool at_rest_ = true;       // the next cell begins at rest
@@ -430,14 +429,12 @@ class Planner::Implementation {
   bool closed_ = false;       // an action or the program's end follows the queue: it ends at rest
   std::optional<Action> action_;
   PathItem pulled_;
-  CellCutter::Piece piece_;
 
   // What may change in mid-run.
   MidRunWishes wishes_;
   bool braking_ = false;
   Seconds longest_move_{std::numeric_limits<double>::infinity()};
   OutputState outputs_;  // after the last action
-  CellCutter::Piece piece_at_hand_;
 
   std::optional<JerkPlanner> jerk_limited_;  // takes over where an axis has a limit of jerk
 };

@@ -13,19 +13,30 @@ namespace {
 // Of squares of speeds, relative: less is what arithmetic makes of equal ones.
 constexpr double rounding = 1e-9;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Not set to anything before it is needed: most of those that there is room for are not.
 struct Corner {
-  double x = 0;
-  double y = 0;
+  double x;
+  double y;
 };
 
 // A convex region: the rectangle, cut by one half plane after the other (Sutherland and Hodgman).
 template <std::size_t most_corners>
 class Region {
  public:
-  Region(double width, double height) : corners_{{{0, 0}, {width, 0}, {width, height}, {0, height}}} {}
+  Region(double width, double height) {
+    corners_[0] = {0, 0};
+    corners_[1] = {width, 0};
+    corners_[2] = {width, height};
+    corners_[3] = {0, height};
+  }
 
-  // Keeps p x + q y <= limit.
+  // Keeps p x + q y <= limit. Most cuts take nothing away.
   void cut(double p, double q, double limit) {
+    const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto is_beyond = [&](const Corner& corner) { return p * corner.x + q * corner.y - limit > 0; };
+    if (std::none_of(corners_.begin(), end, is_beyond)) return;
     std::array<Corner, most_corners> kept;
     std::size_t count = 0;
     Corner from = corners_[count_ - 1];
@@ -42,7 +53,7 @@ class Region {
       excess_from = excess;
     }
     // The origin meets every demand: something is always left.
-    corners_ = kept;
+    std::copy_n(kept.begin(), count, corners_.begin());
     count_ = count;
   }
 
@@ -57,26 +68,24 @@ class Region {
   std::size_t count_ = 4;
 };
 
-// What one demand leaves of x for a given y, and how its upper end moves with y.
+// What the demands leave of x for a given y. Most of them leave everything, which is seen without a division: what is
+// larger than a rounded product is, divided by one factor, not less than the other.
 struct Interval {
   double low = 0;
   double high = 0;
-  double growth = 0;  // d high / d y
+  bool shrinks = false;  // whether a larger y makes the upper end less
 
-  // |p x + q y| <= limit
+  // |p x + q y| <= limit; with p = 0 nothing is left where that does not hold.
   void meet(double p, double q, double limit, double y) {
-    if (p == 0) {
-      if (std::max(q * y, -q * y) > limit) high = -1;
-      return;
-    }
-    const double toward = p > 0 ? 1 : -1;
-    const double up = (toward * limit - q * y) / p;
-    const double down = (-toward * limit - q * y) / p;
-    low = std::max(low, down);
-    if (up < high) {
-      high = up;
-      growth = -q / p;
-    }
+    const double toward = std::copysign(1.0, p);
+    const double steep = toward * p;
+    const double shift = toward * q;
+    const double up = limit - shift * y;
+    const double down = -limit - shift * y;
+    if (!(down < low * steep)) low = std::max(low, down / steep);
+    if (up > high * steep || !(up / steep < high)) return;
+    high = up / steep;
+    shrinks = shift > 0;
   }
   // p x + q y <= limit
   void keep(double p, double q, double limit, double y) {
@@ -87,13 +96,13 @@ struct Interval {
       low = std::max(low, bound / p);
     } else if (bound / p < high) {
       high = bound / p;
-      growth = -q / p;
+      shrinks = q > 0;
     }
   }
 };
 
-// Each cut adds a corner at most; an axis makes four.
-constexpr std::size_t corners_of_stripes = 4 + 4 * axis_count;
+// Each cut adds a corner at most; a demand makes four.
+constexpr std::size_t corners_of_stripes = 4 + 4 * most_demands_of_cell;
 
 template <class AnyRegion>
 void cut_stripes(std::span<const AxisDemand> demands, AnyRegion& region) {
@@ -105,11 +114,23 @@ void cut_stripes(std::span<const AxisDemand> demands, AnyRegion& region) {
   }
 }
 
-void meet_stripes(std::span<const AxisDemand> demands, double y, Interval& x) {
+// Of x up to `most` for this y.
+inline Interval entries(std::span<const AxisDemand> demands, double y, double most) {
+  Interval left{.high = most};
   for (const AxisDemand& demand : demands) {
-    x.meet(demand.entry_x, demand.entry_y, demand.limit, y);
-    x.meet(demand.exit_x, demand.exit_y, demand.limit, y);
+    left.meet(demand.entry_x, demand.entry_y, demand.limit, y);
+    left.meet(demand.exit_x, demand.exit_y, demand.limit, y);
   }
+  return left;
+}
+// Of y up to `most` for this x: what does not depend on y is as it is.
+inline Interval exits(std::span<const AxisDemand> demands, double x, double most) {
+  Interval left{.high = most};
+  for (const AxisDemand& demand : demands) {
+    if (demand.entry_y != 0) left.meet(demand.entry_y, demand.entry_x, demand.limit, x);
+    if (demand.exit_y != 0) left.meet(demand.exit_y, demand.exit_x, demand.limit, x);
+  }
+  return left;
 }
 
 // The line of each curve in use.
@@ -155,11 +176,10 @@ void for_each_demand(std::span<const AxisDemand> demands, std::span<const Fallin
 
 double largest_entry_with(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling,
                           const Lines& lines, double entry_most, double exit_most) {
-  Interval at_most{.high = entry_most};
-  meet_stripes(demands, exit_most, at_most);
+  Interval at_most = entries(demands, exit_most, entry_most);
   for_each_demand(demands, falling, lines,
                   [&](double p, double q, double limit) { at_most.keep(p, q, limit, exit_most); });
-  if (at_most.low <= at_most.high && at_most.growth >= 0) return at_most.high;
+  if (at_most.low <= at_most.high && !at_most.shrinks) return at_most.high;
 
   Region<corners_of_stripes + 4 * axis_count> region(entry_most, exit_most);
   cut_stripes(demands, region);
@@ -182,48 +202,26 @@ constexpr int most_rounds = 5;
 double largest_entry(std::span<const AxisDemand> demands, double entry_most, double exit_most) {
   // Mostly what is left by braking as hard as can be: the best point lies on y = Y. The upper end of x is concave in y,
   // so that it is the best of all where it does not fall there.
-  Interval at_most{.high = entry_most};
-  meet_stripes(demands, exit_most, at_most);
-  if (at_most.low <= at_most.high && at_most.growth >= 0) return at_most.high;
+  const Interval at_most = entries(demands, exit_most, entry_most);
+  if (at_most.low <= at_most.high && !at_most.shrinks) return at_most.high;
 
   Region<corners_of_stripes> region(entry_most, exit_most);
   cut_stripes(demands, region);
   return region.largest_x();
 }
 
-namespace {
-
-// What the demands leave of y for a given x.
-struct Exits {
-  double least = 0;
-  double most = std::numeric_limits<double>::infinity();
-};
-Exits exits(std::span<const AxisDemand> demands, double entry) {
-  Exits left;
-  for (const AxisDemand& demand : demands) {
-    for (const auto& [p, q] : {std::pair(demand.entry_x, demand.entry_y), std::pair(demand.exit_x, demand.exit_y)}) {
-      if (q == 0) continue;
-      const double toward = q > 0 ? 1 : -1;
-      left.most = std::min(left.most, (toward * demand.limit - p * entry) / q);
-      left.least = std::max(left.least, (-toward * demand.limit - p * entry) / q);
-    }
-  }
-  return left;
-}
-
-}  // namespace
-
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most) {
-  const Exits left = exits(demands, entry);
-  // On the edge of what is possible rounding may leave nothing at all; then what is slower is right.
-  const double least = std::min(left.least, left.most);
-  const double most = std::min(left.most, exit_most);
-  return std::max(0.0, least > most + rounding * entry ? least : most);
+  const Interval left = exits(demands, entry, exit_most);
+  const double at_most = std::max(0.0, left.high);
+  if (left.low <= left.high + rounding * entry) return at_most;
+  // Too fast for that. On the edge of what is possible rounding may leave nothing at all; then what is slower is right.
+  const double least = least_exit(demands, entry);
+  return least > left.high + rounding * entry ? least : at_most;
 }
 
 double least_exit(std::span<const AxisDemand> demands, double entry) {
-  const Exits left = exits(demands, entry);
-  return std::max(0.0, std::min(left.least, left.most));
+  const Interval left = exits(demands, entry, infinity);
+  return std::max(0.0, std::min(left.low, left.high));
 }
 
 double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry) {
@@ -255,8 +253,7 @@ double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDeman
 
 double largest_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry,
                     double exit_most, double top) {
-  const Exits constant = exits(demands, entry);
-  const Interval all{.low = constant.least, .high = std::min(constant.most, top)};
+  const Interval all = exits(demands, entry, top);
   double exit = all.high;
   double best = -1;
   Lines used{};

@@ -50,6 +50,20 @@ TEST(JerkLimitedPlanner, a_line_takes_hardly_longer_than_the_best_s_curve) {
   EXPECT_LE(time, best * 1.01);
 }
 
+// So short that it reaches no constant speed, and the shortest no constant acceleration either. With a peak speed v the
+// ramps take v/a + a/j, or twice the root of v/j.
+TEST(JerkLimitedPlanner, short_lines_take_hardly_longer_than_the_best_s_curve) {
+  const double a = 500;
+  const double j = 25'000;
+  for (const double v : {2.0, 9.0, 12.0, 25.0, 60.0}) {
+    SCOPED_TRACE(v);
+    const double ramp = v > a * a / j ? v / a + a / j : 2 * std::sqrt(v / j);
+    const double time = total_time(plan({line(xyz(0, 0), xyz(v * ramp, 0), 90)}, jerk_limits(100, a, j)));
+    EXPECT_GE(time, 2 * ramp);
+    EXPECT_LE(time, 2 * ramp * 1.04);
+  }
+}
+
 TEST(JerkLimitedPlanner, the_acceleration_goes_on_across_joints) {
   std::vector<PathItem> whole{line(xyz(0, 0), xyz(20, 0), 80)};
   std::vector<PathItem> pieces;

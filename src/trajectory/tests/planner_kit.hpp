@@ -122,8 +122,7 @@ inline Motion motion_at(const Curve& curve, Real s, Real v, Real a) {
   return motion;
 }
 
-// Known: in dust of nine axes (pieces of a thousandth of a millimetre) an axis was found at 1.005 times its limit.
-inline void expect_within_limits(const PlannedMove& move, const MotionLimits& limits, Real slack = 6e-3L) {
+inline void expect_within_limits(const PlannedMove& move, const MotionLimits& limits, Real slack = 1e-6L) {
   for (const Phase& phase : move) {
     for (int k = 0; k <= 16; ++k) {
       const Real t = Real(phase.duration.value()) * k / 16;
@@ -168,10 +167,18 @@ inline void expect_continuous(const std::vector<MotionItem>& motion) {
   ASSERT_EQ(speed, 0) << "the program does not end at rest";
 }
 
+// A cell by itself.
+struct LoneCell {
+  Cell cell;
+  std::array<AxisDemand, most_demands_of_cell> demands;
+  std::array<FallingDemand, axis_count> falling;
+  CellPlace place() { return {cell, demands.data(), falling.data()}; }
+};
+
 // The whole program at once: backwards over all cells, then forwards. The squares of the speeds at their ends.
 inline std::vector<double> exits_offline(const std::vector<PathItem>& path, const MotionLimits& limits) {
   struct Whole {
-    CellCutter::Piece piece;
+    LoneCell piece;
     double top = 0;
     double entry = 0;
   };
@@ -188,7 +195,8 @@ inline std::vector<double> exits_offline(const std::vector<PathItem>& path, cons
     }
     before = segment;
     Whole cell;
-    while (segment != nullptr && cutter.next(cell.piece)) {
+    while (segment != nullptr && !cutter.at_end()) {
+      cutter.next(cell.piece.place());
       cell.top = std::min(cell.piece.cell.top_squared, cell.piece.cell.feed_squared);
       cell.entry = rest || cells.empty() ? 0 : std::min(cell.top, cells.back().top);
       rest = false;
@@ -198,7 +206,7 @@ inline std::vector<double> exits_offline(const std::vector<PathItem>& path, cons
   double exit = 0;
   for (auto cell = cells.rbegin(); cell != cells.rend(); ++cell) {
     const Cell& data = cell->piece.cell;
-    const std::span demands(cell->piece.demands.data(), cell->piece.demand_count);
+    const std::span demands(cell->piece.demands.data(), cell->piece.cell.demand_count);
     exit = cell->entry = data.straight ? std::min(cell->entry, exit + 2 * data.acceleration * data.length)
                                        : largest_entry(demands, cell->entry, std::min(exit, cell->top));
   }
@@ -206,7 +214,7 @@ inline std::vector<double> exits_offline(const std::vector<PathItem>& path, cons
   double speed = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const Cell& data = cells[i].piece.cell;
-    const std::span demands(cells[i].piece.demands.data(), cells[i].piece.demand_count);
+    const std::span demands(cells[i].piece.demands.data(), cells[i].piece.cell.demand_count);
     const double most = std::min(cells[i].top, i + 1 < cells.size() ? cells[i + 1].entry : 0);
     const double change = 2 * data.acceleration * data.length;
     speed = data.straight ? std::min(most, speed + change) : largest_exit(demands, speed, most);

@@ -23,15 +23,18 @@ inline double distance(const Point& a, const Point& b) {
 
 // The group of axes whose travel is the length s: X Y Z, else U V W, else A B C (Curve).
 enum class CountedGroup : std::uint8_t { xyz, uvw, abc };
-inline double length_in(const Point& travel, CountedGroup group) {
+inline double square_in(const Point& travel, CountedGroup group) {
   const std::size_t first = group == CountedGroup::xyz ? 0 : group == CountedGroup::uvw ? 6 : 3;
   double sum = 0;
   for (std::size_t i = first; i < first + 3; ++i) sum += travel.values[i] * travel.values[i];
-  return std::sqrt(sum);
+  return sum;
+}
+inline double length_in(const Point& travel, CountedGroup group) {
+  return std::sqrt(square_in(travel, group));
 }
 inline CountedGroup counted_group(const Point& travel) {
-  if (length_in(travel, CountedGroup::xyz) > 0) return CountedGroup::xyz;
-  return length_in(travel, CountedGroup::uvw) > 0 ? CountedGroup::uvw : CountedGroup::abc;
+  if (square_in(travel, CountedGroup::xyz) > 0) return CountedGroup::xyz;
+  return square_in(travel, CountedGroup::uvw) > 0 ? CountedGroup::uvw : CountedGroup::abc;
 }
 inline double counted_length(const Point& travel) {
   return length_in(travel, counted_group(travel));

@@ -29,7 +29,8 @@ namespace passo {
 
 class Planner final : public Source<MotionItem> {
  public:
-  // About 120 bytes each, 40 for each axis, and 500 for each segment: 23 MiB when full of short segments of three axes.
+  // About 110 bytes each, 40 for each axis and 40 more, and 570 for each segment: 26 MiB when full of short segments of
+  // three axes. It grows as it is needed.
   static constexpr std::size_t most_queued_cells = 30'000;
 
   Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued = most_queued_cells);

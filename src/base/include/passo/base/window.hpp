@@ -24,6 +24,8 @@ class Window {
     assert(number >= first_ && number < end_);
     return elements_[number & (elements_.size() - 1)];
   }
+  T& front() { return (*this)[first_]; }
+  const T& front() const { return (*this)[first_]; }
   T& back() { return (*this)[end_ - 1]; }
 
   // The new last element, to be filled; what it holds is left over.
@@ -35,6 +37,8 @@ class Window {
   void drop_before(std::uint64_t number) {
     if (number > first_) first_ = number < end_ ? number : end_;
   }
+  void drop_front() { drop_before(first_ + 1); }
+  void clear() { first_ = end_; }
 
  private:
   void grow() {

@@ -1,0 +1,357 @@
+#include "jerk_lift.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr int most_steps = 12;
+constexpr double first_target = 0.02;  // price times slack, in parts of the mean time of a cell
+constexpr double last_target = 1e-4;
+constexpr double target_falls = 0.2;     // by this factor from step to step, at best
+constexpr double short_of_limit = 0.95;  // a step goes no nearer to where a slack or a price is nothing
+constexpr double least_share = 1e-3;     // of a step: where it goes no farther, there is no way
+constexpr double passable = 0.05;        // of a limit beyond it: the check decides
+constexpr double outer_part = 0.65;  // of x at the node, for the mean speed of half a cell; the rest is the middle's
+constexpr double least_slack = 0.3;  // of the limit, at the start
+
+double times(const std::array<double, 4>& factors, const double* values) {
+  return factors[0] * values[0] + factors[1] * values[1] + factors[2] * values[2] + factors[3] * values[3];
+}
+
+std::array<double, 4> sum(const std::array<double, 4>& a, double factor_a, const std::array<double, 4>& b,
+                          double factor_b) {
+  return {a[0] * factor_a + b[0] * factor_b, a[1] * factor_a + b[1] * factor_b, a[2] * factor_a + b[2] * factor_b,
+          a[3] * factor_a + b[3] * factor_b};
+}
+
+struct Forms {  // of a cell, in x0, a0, x1, a1
+  explicit Forms(double h)
+      : middle_x{0.5, h / 4, 0.5, -h / 4},
+        middle_a{-1 / h, -0.5, 1 / h, -0.5},
+        first{-2 / (h * h), -3 / h, 2 / (h * h), -1 / h},
+        second{2 / (h * h), 1 / h, -2 / (h * h), 3 / h} {}
+  std::array<double, 4> middle_x;
+  std::array<double, 4> middle_a;
+  std::array<double, 4> first;  // j / v
+  std::array<double, 4> second;
+};
+
+constexpr std::array<double, 4> x_in = {1, 0, 0, 0};
+constexpr std::array<double, 4> a_in = {0, 1, 0, 0};
+constexpr std::array<double, 4> x_out = {0, 0, 1, 0};
+constexpr std::array<double, 4> a_out = {0, 0, 0, 1};
+
+}  // namespace
+
+void JerkLift::add_straight_rows(const JerkCell& cell, double share, bool is_first) {
+  const Forms forms(cell.length);
+  if (cell.acceleration < infinity) {
+    const double limit = cell.acceleration * share;
+    if (!is_first) rows_.push_back({.along = a_in, .limit = limit});
+    rows_.push_back({.along = forms.middle_a, .limit = limit});
+  }
+  if (cell.jerk < infinity) {
+    const double limit = cell.jerk * share;
+    jolt_rows_.push_back(
+        {.along = forms.first, .square = sum(x_in, outer_part, forms.middle_x, 1 - outer_part), .limit = limit});
+    jolt_rows_.push_back(
+        {.along = forms.second, .square = sum(x_out, outer_part, forms.middle_x, 1 - outer_part), .limit = limit});
+  }
+}
+
+void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first) {
+  const JerkCell& own = stretch.cells[cell];
+  const double share = stretch.share[cell];
+  const Forms forms(own.length);
+  const double half_cap = stretch.cap[cell] / 2;
+  const double in_cap = cell > 0 ? std::min(half_cap, stretch.cap[cell - 1] / 2) : half_cap;
+  if (!is_first) rows_.push_back({.along = x_in, .offset = in_cap, .limit = in_cap});
+  rows_.push_back({.along = forms.middle_x, .offset = half_cap, .limit = half_cap});
+  if (own.straight) {
+    add_straight_rows(own, share, is_first);
+    return;
+  }
+  // The jerk is the same all over half a cell.
+  const double* const at = &at_[at_.size() - 4];
+  const double middle = std::max(times(forms.middle_x, at), std::min(at[0], at[2]) / 4);
+  const double first = outer_part * at[0] + (1 - outer_part) * middle;
+  const double second = outer_part * at[2] + (1 - outer_part) * middle;
+  const AxisShape* shape = &stretch.shapes[cell * axes_.size()];
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double third = (shape->third_in + shape->third_out) / 2;
+    const double slope = (shape->slope_in + shape->slope_out) / 2 - own.length * own.length / 8 * third;
+    const double bend = (shape->bend_in + shape->bend_out) / 2;
+    if (slope == 0 && bend == 0 && third == 0) continue;
+    if (axes_[k].acceleration < infinity) {
+      const double limit = axes_[k].acceleration * share;
+      if (!is_first) rows_.push_back({.along = sum(a_in, shape->slope_in, x_in, shape->bend_in), .limit = limit});
+      rows_.push_back({.along = sum(forms.middle_a, slope, forms.middle_x, bend), .limit = limit});
+    }
+    if (axes_[k].jerk == infinity) continue;
+    const double limit = axes_[k].jerk * share;
+    const auto add_place = [&](const Four& j, const Four& a, const Four& x, double q1, double q2, double q3) {
+      jolt_rows_.push_back({.along = sum(sum(j, q1, a, 3 * q2), 1, x, q3), .square = x, .limit = limit});
+    };
+    add_place(forms.first, a_in, x_in, shape->slope_in * std::sqrt(first / at[0]), shape->bend_in, shape->third_in);
+    add_place(forms.first, forms.middle_a, forms.middle_x, slope * std::sqrt(first / middle), bend, third);
+    add_place(forms.second, forms.middle_a, forms.middle_x, slope * std::sqrt(second / middle), bend, third);
+    add_place(forms.second, a_out, x_out, shape->slope_out * std::sqrt(second / at[2]), shape->bend_out,
+              shape->third_out);
+  }
+}
+
+void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t last,
+                      const std::vector<NodeState>& states) {
+  at_.clear();
+  cells_.clear();
+  rows_.clear();
+  jolt_rows_.clear();
+  const auto put = [&](const NodeState& state) {
+    at_.push_back(state.speed * state.speed);
+    at_.push_back(state.acceleration);
+  };
+  put(states[first]);
+  for (std::size_t k = first; k < last; ++k) {
+    put(states[k + 1]);
+    const double h = stretch.cells[k].length;
+    add_rows(stretch, k, k == first);
+    cells_.push_back(
+        {.middle = Forms(h).middle_x, .length = h, .rows_end = rows_.size(), .jolt_rows_end = jolt_rows_.size()});
+  }
+}
+
+// What is left of each limit.
+void JerkLift::measure(bool first_time) {
+  const auto put = [first_time](Side& side, double left, double limit) {
+    if (first_time) side.slack = std::max(left, least_slack * limit);
+    side.missing = side.slack - left;
+    side.by_slack = 1 / side.slack;
+  };
+  std::size_t r = 0;
+  std::size_t t = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double* const at = &at_[2 * c];
+    for (; r < cells_[c].rows_end; ++r) {
+      Row& row = rows_[r];
+      const double value = times(row.along, at) - row.offset;
+      put(row.up, row.limit - value, row.limit);
+      put(row.down, row.limit + value, row.limit);
+    }
+    for (; t < cells_[c].jolt_rows_end; ++t) {
+      JoltRow& row = jolt_rows_[t];
+      const double value = times(row.along, at);
+      const double by_square = 1 / times(row.square, at);
+      const double limit = row.limit * std::sqrt(by_square);
+      row.fall = 0.5 * limit * by_square;
+      put(row.up, limit - value, limit);
+      put(row.down, limit + value, limit);
+    }
+  }
+}
+
+// What a cell adds to the system.
+struct JerkLift::Block {
+  Four first{};  // products with x0, and so on
+  Four second{};
+  Four third{};
+  Four fourth{};
+  Four pull{};
+
+  void add(const Four& g, double weight, double pulled) {
+    const Four by = {weight * g[0], weight * g[1], weight * g[2], weight * g[3]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      first[k] += by[0] * g[k];
+      second[k] += by[1] * g[k];
+      third[k] += by[2] * g[k];
+      fourth[k] += by[3] * g[k];
+      pull[k] += pulled * g[k];
+    }
+  }
+};
+
+void JerkLift::add_to_system(std::size_t at, const Block& block) {
+  const std::array<const Four*, 4> rows = {&block.first, &block.second, &block.third, &block.fourth};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t k = i; k < 4; ++k) system_[at + i][k - i] += (*rows[i])[k];
+    step_[at + i] += block.pull[i];
+  }
+}
+
+// The integral of 1/v by Simpson's rule.
+void JerkLift::add_time(std::size_t c, Block& block) const {
+  const double* const at = &at_[2 * c];
+  const Cell& cell = cells_[c];
+  const auto put = [&](const Four& square, double weight) {
+    const double x = times(square, at);
+    const double by = weight / (x * std::sqrt(x));
+    block.add(square, 0.75 * by / x, 0.5 * by);
+  };
+  put(x_in, cell.length / 6);
+  put(cell.middle, cell.length * 2 / 3);
+  put(x_out, cell.length / 6);
+}
+
+double JerkLift::time() const {
+  double sum = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double* const at = &at_[2 * c];
+    sum += cells_[c].length / 6 *
+           (1 / std::sqrt(at[0]) + 4 / std::sqrt(times(cells_[c].middle, at)) + 1 / std::sqrt(at[2]));
+  }
+  return sum;
+}
+
+// The step's system. Where a side has slack s, price p and gradient g, and the product of both is to be t, it adds
+// p/s g g' on the left and (t + p * missing) / s g on the right.
+void JerkLift::assemble(double target) {
+  system_.assign(at_.size() + 4, Four{});
+  step_.assign(at_.size() + 4, 0.0);
+  std::size_t r = 0;
+  std::size_t t = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    Block block;
+    add_time(c, block);
+    for (; r < cells_[c].rows_end; ++r) {
+      const Row& row = rows_[r];
+      const double up = row.up.by_slack;
+      const double down = row.down.by_slack;
+      block.add(row.along, row.up.price * up + row.down.price * down,
+                (target + row.down.price * row.down.missing) * down - (target + row.up.price * row.up.missing) * up);
+    }
+    for (; t < cells_[c].jolt_rows_end; ++t) {
+      const JoltRow& row = jolt_rows_[t];
+      const auto put = [&](const Four& gradient, const Side& side) {
+        block.add(gradient, side.price * side.by_slack, (target + side.price * side.missing) * side.by_slack);
+      };
+      put(sum(row.along, -1, row.square, -row.fall), row.up);
+      put(sum(row.along, 1, row.square, -row.fall), row.down);
+    }
+    add_to_system(2 * c, block);
+  }
+}
+
+// Of what moves: all but the first and the last two.
+void JerkLift::solve() {
+  const std::size_t end = at_.size() - 2;
+  for (std::size_t i = std::max<std::size_t>(end, 5) - 3; i < end; ++i) {
+    for (std::size_t k = end - i; k < 4; ++k) system_[i][k] = 0;
+  }
+  for (std::size_t i = 2; i < end; ++i) {
+    Four& own = system_[i];
+    const double by = 1 / own[0];
+    const Four factor = {0, own[1] * by, own[2] * by, own[3] * by};
+    for (std::size_t k = 1; k < 4; ++k) {
+      for (std::size_t l = k; l < 4; ++l) system_[i + k][l - k] -= factor[k] * own[l];
+      step_[i + k] -= factor[k] * step_[i];
+    }
+    step_[i] *= by;
+    own = factor;
+  }
+  for (std::size_t i = end; i < step_.size(); ++i) step_[i] = 0;
+  step_[0] = step_[1] = 0;
+  for (std::size_t i = end; i-- > 2;) {
+    step_[i] -= system_[i][1] * step_[i + 1] + system_[i][2] * step_[i + 2] + system_[i][3] * step_[i + 3];
+  }
+}
+
+// How far the step may be gone.
+double JerkLift::look_along() {
+  double back = 0;  // 1 / the way to where the first slack is nothing
+  const auto put = [&back](Side& side, double change) {
+    side.change = change - side.missing;
+    back = std::max(back, -side.change * side.by_slack);
+  };
+  std::size_t r = 0;
+  std::size_t t = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double* const at = &at_[2 * c];
+    const double* const step = &step_[2 * c];
+    back = std::max(back, -1.2 * times(cells_[c].middle, step) / times(cells_[c].middle, at));
+    back = std::max(back, -1.2 * step[0] / at[0]);
+    for (; r < cells_[c].rows_end; ++r) {
+      const double change = times(rows_[r].along, step);
+      put(rows_[r].up, -change);
+      put(rows_[r].down, change);
+    }
+    for (; t < cells_[c].jolt_rows_end; ++t) {
+      JoltRow& row = jolt_rows_[t];
+      const double fall = row.fall * times(row.square, step);
+      const double change = times(row.along, step);
+      put(row.up, -change - fall);
+      put(row.down, change - fall);
+    }
+  }
+  return back > short_of_limit ? short_of_limit / back : 1;
+}
+
+template <class Visit>
+void JerkLift::for_each_side(const Visit& visit) {
+  for (Row& row : rows_) {
+    visit(row.up);
+    visit(row.down);
+  }
+  for (JoltRow& row : jolt_rows_) {
+    visit(row.up);
+    visit(row.down);
+  }
+}
+
+void JerkLift::go(double share, double target) {
+  double back = 0;
+  for_each_side([&](Side& side) {
+    // `missing` is no longer needed: the price's change.
+    side.missing = (target - side.price * side.change) * side.by_slack - side.price;
+    if (-side.missing > back * side.price) back = -side.missing / side.price;
+  });
+  const double price_share = back > short_of_limit ? short_of_limit / back : 1;
+  for_each_side([&](Side& side) {
+    side.slack += share * side.change;
+    side.price += price_share * side.missing;
+  });
+  for (std::size_t i = 2; i + 2 < at_.size(); ++i) at_[i] += share * step_[i];
+}
+
+bool JerkLift::is_allowed() const {
+  const auto is_kept = [](const auto& row) {
+    const double far = passable * (row.up.slack + row.down.slack);
+    return row.up.missing - row.up.slack < far && row.down.missing - row.down.slack < far;
+  };
+  return std::all_of(rows_.begin(), rows_.end(), is_kept) && std::all_of(jolt_rows_.begin(), jolt_rows_.end(), is_kept);
+}
+
+bool JerkLift::raise(const Stretch& stretch, std::size_t first, std::size_t last, std::vector<NodeState>& states) {
+  set_up(stretch, first, last, states);
+  measure(true);
+  const double unit = time() / static_cast<double>(cells_.size());
+  double target = first_target * unit;
+  for_each_side([target](Side& side) { side.price = target / side.slack; });
+  for (int step = 0; step < most_steps; ++step) {
+    assemble(target);
+    solve();
+    const double share = look_along();
+    if (!(share > least_share)) break;
+    go(share, target);
+    measure(false);
+    if (target <= last_target * unit && share > 0.5) break;
+    double product = 0;
+    std::size_t sides = 0;
+    for_each_side([&](const Side& side) {
+      product += side.slack * side.price;
+      ++sides;
+    });
+    product /= static_cast<double>(sides);
+    target = std::max(product * (1 - share * (1 - target_falls)), last_target * unit);
+  }
+  if (!is_allowed()) return false;
+  for (std::size_t k = first + 1; k < last; ++k) {
+    states[k] = {.speed = std::sqrt(at_[2 * (k - first)]), .acceleration = at_[2 * (k - first) + 1]};
+  }
+  return true;
+}
+
+}  // namespace passo
