@@ -23,10 +23,6 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
-// Of a board's list: a stretch of motion with its tail, and the next that takes the place of the tail. Near rest a tail
-// alone may take 19.
-constexpr unsigned fewest_items = 60;
-
 // So many moves behind a probe move are checked.
 constexpr std::uint64_t most_moves_behind_a_probe = 10'000'000;
 
@@ -93,7 +89,8 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       good_path_(path_builder_, diagnostics),
       watched_path_(good_path_),
       smoother_(watched_path_, smoothness(machine)),
-      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate),
+      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
+               static_cast<std::size_t>(machine.board.held_items)),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
       drive_(smoother_, limits_, step_options(machine), machine_, board_line(options, line_)),
@@ -147,9 +144,6 @@ std::optional<std::string> Job::unsuited() const {
   if (static_cast<double>(board->clock) != clock_.value()) {
     return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", board->clock,
                        clock_.value());
-  }
-  if (board->capacity < fewest_items) {
-    return fmt::format("it holds {} items; motion that always ends at rest takes {}", board->capacity, fewest_items);
   }
   return {};
 }

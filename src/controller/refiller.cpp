@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 #include "board_outputs.hpp"
@@ -10,7 +9,11 @@
 namespace passo {
 namespace {
 
-constexpr int smallest_refill = 4;  // items
+// Between two places where a refill may end lies at least so much motion, or so many items: a tail takes time to find.
+constexpr Seconds between_tails{0.0025};
+constexpr std::size_t items_between_tails = 3;
+// As long as there is time, a refill has so many at least, and leaves as many places for the next.
+constexpr std::size_t worth_sending = 8;
 
 // The planner's braking, handed out as motion.
 class Braking final : public Source<MotionItem> {
@@ -34,24 +37,31 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       steps_(steps),
       options_(options),
       behind_(stages.link.executed()),
-      places_(stages.link.room()),
-      tail_size_(static_cast<std::size_t>(places_ / 4)) {
+      places_(static_cast<std::size_t>(std::max(stages.link.room(), 0))) {
   stages.path.keep();
   stages.planner.limit_moves_to(options.longest_move);
   stages.generator.limit_waiting_to(options.longest_move);
-  stages.generator.loosen_to_one_in(options.looseness);
+  stages.generator.be_exact_to(places_ < options.few_places ? options.motion_in_few_places : options.motion);
 }
 
 Refiller::Turn Refiller::advance() {
   if (stages_.link.error()) return Turn::ended;
   note_executed();
-  if (items_.empty() && !on_tail_ && !holds_ && !ended_ && ahead_ < options_.refill_at && room_for_motion() > 0)
-    gather();
-  if (!items_.empty() && send()) return Turn::goes_on;
-  if (!items_.empty() && refills_under_way_.empty() && stages_.link.room() == places_) return gather_less();
-  const bool idle = items_.empty() && refills_under_way_.empty();
-  if (idle && ended_) return Turn::ended;
-  if (idle && std::exchange(holds_, false)) return Turn::rests_in_hold;
+  if (!on_tail_) {
+    pull();
+    if (const std::size_t items = size_of_refill(); items > 0) {
+      send(items);
+      return Turn::goes_on;
+    }
+  }
+  if (refills_under_way_.empty()) {
+    if (pulled_.empty() && ended_) return Turn::ended;
+    if (pulled_.empty() && std::exchange(holds_, false)) return Turn::rests_in_hold;
+    if (!pulled_.empty() && free_places() + 1 == places_) {
+      stages_.link.fail(LinkError::too_few_places);
+      return Turn::ended;
+    }
+  }
   stages_.link.wait();
   return Turn::goes_on;
 }
@@ -89,8 +99,8 @@ void Refiller::take_up(const Refill& refill) {
   refills_under_way_.clear();
   sent_.clear();
   motion_.clear();
-  items_.clear();
-  ahead_ = Seconds(0);
+  pulled_.clear();
+  ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
   behind_ = refill.last;
   given_ = refill.rest;
@@ -99,101 +109,109 @@ void Refiller::take_up(const Refill& refill) {
   stages_.generator.assume(*refill.rested);
 }
 
-// What was gathered from rest does not fit, though all places are free: once more from there, with half of the motion.
-Refiller::Turn Refiller::gather_less() {
-  most_at_rest_ = motion_items_ / 2;
-  if (most_at_rest_ == 0) {
-    stages_.link.fail(LinkError::too_few_places);
-    return Turn::ended;
-  }
-  take_up(origin_);
-  return Turn::goes_on;
-}
-
-// Its generator goes on as the one at hand, with other motion.
-void Refiller::fork(Source<MotionItem>& motion, Refill& refill) const {
-  refill.rested = std::make_unique<StepGenerator>(motion, steps_);
-  refill.rested->assume(stages_.generator);
-}
-
-// Beside what the board holds, with its tail. A refill of next to nothing is not worth its tail, nor is one that leaves
-// no room for the next.
-std::size_t Refiller::room_for_motion() const {
-  const int tail = static_cast<int>(tail_size_ + tail_size_ / 4 + 4);
-  int room = stages_.link.room() - tail - (ahead_ < options_.refill_at / 2 ? 0 : tail / 2);
-  // From rest it goes on in any case, if only by little.
-  if (refills_under_way_.empty()) room = std::max(room, std::min(stages_.link.room() - tail, 2 * smallest_refill));
-  const int least = ahead_ < options_.refill_at / 2 ? smallest_refill : 4 * smallest_refill;
-  return room < least ? 0 : static_cast<std::size_t>(room);
-}
-
-// Motion up to the horizon, and how it would come to rest behind that.
-void Refiller::gather() {
-  refill_ = {};
-  Seconds time{0};
-  std::size_t most = room_for_motion();
-  if (refills_under_way_.empty()) {
-    most = std::min(most, most_at_rest_);
-    Braking none(plan_);
-    origin_.last = behind_;
-    origin_.rest = given_;
-    fork(none, origin_);
-  }
-  // Where what was pulled comes to rest by itself, that is the end of the refill: it needs no tail.
+// Motion up to the horizon, and further to where a refill may end.
+void Refiller::pull() {
   const auto wanted = [&] {
-    const StepGenerator& generator = stages_.generator;
-    return (ahead_ + time < options_.horizon && items_.size() < most) ||
-           (generator.ends_at_rest() && !generator.at_rest());
+    if (!pulled_.empty() && !pulled_.back().tail) return true;
+    return ahead_ + pulled_time_ < options_.horizon && pulled_.size() < places_;
   };
   while (!holds_ && !ended_ && wanted()) {
     if (!stages_.items.next(item_)) {
       ended_ = true;
     } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
-      items_.emplace_back(*segment);
-      time += time_of(items_.back());
+      add(*segment);
     } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
       holds_ = true;
     } else {
-      items_.emplace_back(board_outputs(action.outputs));
+      add(board_outputs(action.outputs));
     }
   }
-  motion_items_ = items_.size();
-  refill_.rest = given_;
-  if (motion_items_ > 0 && !stages_.generator.at_rest()) gather_tail();
-  tail_size_ = items_.size() - motion_items_;
+  if ((ended_ || holds_) && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = Tail{.rest = given_};
 }
 
-void Refiller::gather_tail() {
+void Refiller::add(const LinkItem& item) {
+  pulled_.push_back({.item = item, .time = time_of(item)});
+  pulled_time_ += pulled_.back().time;
+  const StepGenerator& generator = stages_.generator;
+  if (generator.at_rest()) {
+    pulled_.back().tail = Tail{.rest = given_};
+  } else if (generator.ends_at_rest()) {
+    return;  // it is to come to rest by itself
+  } else if (is_far_from_last_tail()) {
+    pulled_.back().tail = find_tail();
+  }
+}
+
+bool Refiller::is_far_from_last_tail() const {
+  Seconds time{0};
+  std::size_t items = 0;
+  for (auto at = pulled_.rbegin(); at != pulled_.rend() && !at->tail; ++at, ++items) time += at->time;
+  return items >= items_between_tails || time >= between_tails;
+}
+
+// How the machine would come to rest behind what was pulled.
+Refiller::Tail Refiller::find_tail() {
   [[maybe_unused]] const bool known = stages_.planner.braking_plan(plan_);
   assert(known);
-  for (const PlannedMove& move : plan_) refill_.rest = stages_.path.behind(refill_.rest, move);
+  Tail tail{.rest = given_};
+  for (const PlannedMove& move : plan_) tail.rest = stages_.path.behind(tail.rest, move);
   Braking braking(plan_);
-  fork(braking, refill_);
-  refill_.rested->loosen_to_one_in(options_.tail_looseness);
-  while (refill_.rested->next(item_)) items_.emplace_back(std::get<BoardSegment>(item_));
+  tail.rested = std::make_unique<StepGenerator>(braking, steps_);
+  tail.rested->assume(stages_.generator);
+  tail.rested->be_exact_to(options_.tail);
+  while (tail.rested->next(item_)) tail.items.emplace_back(std::get<BoardSegment>(item_));
+  return tail;
 }
 
-// False while there is no room.
-bool Refiller::send() {
-  if (stages_.link.room() <= static_cast<int>(items_.size())) return false;
-  refill_.first = stages_.link.replace(behind_, items_);
-  for (std::size_t i = 0; i < motion_items_; ++i) {
-    motion_.push_back({.number = static_cast<ItemNumber>(refill_.first + i), .time = time_of(items_[i])});
-    ahead_ += motion_.back().time;
+// One is for what replaces.
+std::size_t Refiller::free_places() const {
+  return static_cast<std::size_t>(std::max(stages_.link.room() - 1, 0));
+}
+
+// How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
+// one's tail begins.
+std::size_t Refiller::size_of_refill() const {
+  if (pulled_.empty() || ahead_ >= options_.refill_at) return 0;
+  const std::size_t room = free_places();
+  std::size_t fits = 0;
+  std::size_t fits_well = 0;
+  for (std::size_t i = 1; i <= pulled_.size() && i <= room; ++i) {
+    if (!pulled_[i - 1].tail) continue;
+    const std::size_t tail = pulled_[i - 1].tail->items.size();
+    if (i + tail <= room) fits = i;
+    if (i + 2 * tail + (tail > 0 ? worth_sending : 0) <= room) fits_well = i;
   }
-  refill_.last_of_motion = behind_ = static_cast<ItemNumber>(refill_.first + motion_items_ - 1);
-  refill_.last = static_cast<ItemNumber>(refill_.first + items_.size() - 1);
+  if (refills_under_way_.empty()) return fits_well > 0 ? fits_well : fits;
+  if (fits_well >= std::min(worth_sending, pulled_.size())) return fits_well;
+  if (ahead_ >= options_.refill_at / 2) return 0;
+  return fits;
+}
+
+void Refiller::send(std::size_t items) {
+  const Tail& tail = *pulled_[items - 1].tail;
+  items_.clear();
+  for (std::size_t i = 0; i < items; ++i) items_.push_back(pulled_[i].item);
+  items_.insert(items_.end(), tail.items.begin(), tail.items.end());
+  Refill refill;
+  refill.first = stages_.link.replace(behind_, items_);
+  for (std::size_t i = 0; i < items; ++i) {
+    motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i), .time = pulled_[i].time});
+    ahead_ += pulled_[i].time;
+    pulled_time_ -= pulled_[i].time;
+  }
+  refill.last_of_motion = behind_ = static_cast<ItemNumber>(refill.first + items - 1);
+  refill.last = static_cast<ItemNumber>(refill.first + items_.size() - 1);
   for (std::size_t i = 0; executed_watcher_ && i < items_.size(); ++i) {
-    Sent sent{.number = static_cast<ItemNumber>(refill_.first + i), .item = items_[i]};
-    if (i >= motion_items_) sent.end_of_tail = refill_.last;
+    Sent sent{.number = static_cast<ItemNumber>(refill.first + i), .item = items_[i]};
+    if (i >= items) sent.end_of_tail = refill.last;
     sent_.push_back(sent);
   }
-  tail_items_ += items_.size() - motion_items_;
+  tail_items_ += tail.items.size();
   ++refills_;
-  most_at_rest_ = std::numeric_limits<std::size_t>::max();
-  refills_under_way_.push_back(std::move(refill_));
-  items_.clear();
-  return true;
+  refill.rest = tail.rest;
+  refill.rested = std::move(pulled_[items - 1].tail->rested);
+  refills_under_way_.push_back(std::move(refill));
+  pulled_.erase(pulled_.begin(), pulled_.begin() + static_cast<std::ptrdiff_t>(items));
 }
 
 Seconds Refiller::time_of(const LinkItem& item) const {

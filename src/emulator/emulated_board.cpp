@@ -82,7 +82,9 @@ class AvrBoard final : public EmulatedBoard {
       for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
         const MotorPins& pins = motors_[motor];
         if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
-          positions_[motor] += (direction_port(change, pins) & pins.direction.mask()) != 0 ? -1 : 1;
+          const bool down = (direction_port(change, pins) & pins.direction.mask()) != 0;
+          positions_[motor] += down ? -1 : 1;
+          if (on_step) on_step(change.cycle, motor, down);
         }
       }
       levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;

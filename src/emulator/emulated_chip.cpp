@@ -1,5 +1,6 @@
 #include "passo/emulator/emulated_chip.hpp"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdlib>
 #include <stdexcept>
@@ -21,6 +22,9 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reser
 namespace passo {
 namespace {
 
+// Memory has something in it when the power comes on.
+constexpr std::uint8_t never_written = 0xC7;
+
 // simavr tells about every section that it loads; what is wrong it also tells by its results.
 void keep_silent(avr_t* /*avr*/, int /*level*/, const char* /*format*/, std::va_list /*values*/) {}
 
@@ -41,6 +45,7 @@ EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
   firmware.frequency = 16'000'000;
   avr_load_firmware(avr_.get(), &firmware);
   std::free(firmware.flash);
+  std::fill(avr_->data + avr_->ioend + 1, avr_->data + avr_->ramend + 1, never_written);
 
   // 1 by default, an instruction a call: six times slower.
   avr_->run_cycle_limit = 1000;
@@ -64,6 +69,16 @@ void EmulatedChip::mend_interrupts() {
         },
         this);
   }
+}
+
+std::size_t EmulatedChip::longest_untouched() const {
+  std::size_t longest = 0;
+  std::size_t here = 0;
+  for (const std::uint8_t* at = avr_->data + avr_->ioend + 1; at <= avr_->data + avr_->ramend; ++at) {
+    here = *at == never_written ? here + 1 : 0;
+    longest = std::max(longest, here);
+  }
+  return longest;
 }
 
 void EmulatedChip::step() {

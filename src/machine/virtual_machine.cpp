@@ -9,19 +9,20 @@ namespace passo {
 
 namespace {
 
-BoardIdentity identity_of(std::uint8_t motors, Hertz clock, Hertz highest_event_rate) {
+BoardIdentity identity_of(std::uint8_t motors, Hertz clock, Hertz highest_event_rate, std::size_t places) {
   const auto ticks = static_cast<std::uint32_t>(std::llround(clock.value()));
   const auto rate = static_cast<std::uint32_t>(std::ceil(highest_event_rate.value()));
   return {.motors = motors,
           .clock = ticks,
           .shortest_interval = shortest_interval(ticks, rate),
-          .about = {.highest_event_rate = rate, .name = "virtual machine"}};
+          .about = {.highest_event_rate = rate, .name = "virtual machine"},
+          .places = static_cast<std::uint8_t>(places)};
 }
 
 }  // namespace
 
-VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate)
-    : board_(hardware_, identity_of(motors, clock, highest_event_rate)), clock_(clock), motor_count_(motors) {
+VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate, std::size_t places)
+    : board_(hardware_, identity_of(motors, clock, highest_event_rate, places)), clock_(clock), motor_count_(motors) {
   hardware_.seconds_a_tick = 1 / clock.value();
 }
 

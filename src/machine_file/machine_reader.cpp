@@ -17,6 +17,7 @@ constexpr NumberKey path_tolerance_key{"path_tolerance_mm", 1e-4, 10, "0.02"};
 constexpr NumberKey clock_key{"clock_hz", 1e3, 1e9, "16_000_000"};
 constexpr NumberKey event_rate_key{"max_event_rate_hz", 10, 1e7, "50_000"};
 constexpr NumberKey step_pulse_key{"step_pulse_us", 0.05, 1000, "2.5"};
+constexpr NumberKey items_key{"held_items", 8, 240, "240"};
 
 constexpr NumberKey rpm_key{"max_rpm", 0, 65535, "10000"};
 constexpr NumberKey diameter_key{"diameter_mm", 0, 1000, "3"};
@@ -129,6 +130,7 @@ void MachineReader::read_board(const TomlEntry& entry) {
   auto rate = reader.number(event_rate_key, Need::required);
   const bool pulse_is_given = reader.has(step_pulse_key.name);
   const auto pulse = reader.number(step_pulse_key, Need::optional);
+  if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
   finish(reader);
 
   if (clock && rate) {

@@ -51,6 +51,10 @@ void add_board(const RunSummary& summary, const BoardSummary& board, Json& json)
                    {"frames", board.frames},
                    {"bytes", board.bytes},
                    {"bytes_in_busiest_second", board.busiest_second}};
+  if (board.held_items > 0) {
+    json["board"]["held_items"] = board.held_items;
+    json["board"]["rests"] = board.rests;
+  }
 }
 
 Json places(const RunSummary& summary, const std::vector<double>& values) {

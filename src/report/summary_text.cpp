@@ -56,6 +56,10 @@ std::string sizes(std::uint64_t bytes) {
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
+std::string so_often(int count) {
+  return count == 0 ? "never" : count == 1 ? "once" : fmt::format("{} times", count);
+}
+
 class Text {
  public:
   explicit Text(bool colour) : colour_(colour) {}
@@ -116,6 +120,10 @@ class Text {
     line("pulses", grouped(board.pulses), "  in " + counted(board.events, "event"));
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
     if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
+    if (board.held_items > 0) {
+      line("holds", counted(static_cast<std::uint64_t>(board.held_items), "item"),
+           fmt::format("  and rested {} for want of more", so_often(board.rests)));
+    }
   }
 
   void holds(const RunSummary& summary) {

@@ -59,7 +59,7 @@ class EventBuffer {
   }
 
  private:
-  static constexpr std::size_t capacity = 1024;
+  static constexpr std::size_t capacity = 2048;  // twice what is needed at once, and so seldom moved
 
   void make_room() {
     std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),

@@ -13,13 +13,11 @@ constexpr double rate_before_finer = 0.5;
 constexpr double rate_before_coarser = 4;
 // Where the grid is made finer: a share of the board's highest event rate, but not above what is fine enough anyway.
 constexpr double slow_share = 1.0 / 16;
-constexpr double fine_enough = 10'000;
 constexpr std::int64_t finest_grid = whole_step / 256;
 constexpr double turn_an_event = 0.25;  // radians
 // Another motor must be this much faster before it becomes the master.
 constexpr double takeover = 1 + 1e-6;
 constexpr double smallest_distance = place_per_step / 256;
-constexpr std::size_t enough_events = 256;  // one segment, and one event to look ahead
 
 }  // namespace
 
@@ -27,7 +25,8 @@ EventStream::EventStream(const StepOptions& options)
     : options_(options),
       tick_rate_(options.clock.tick_rate.value()),
       shortest_interval_(std::llround(options.clock.tick_rate / options.clock.highest_event_rate * whole_tick)),
-      slow_rate_(std::min(options.clock.highest_event_rate.value() * slow_share, fine_enough)) {
+      slowest_share_(options.clock.highest_event_rate.value() * slow_share) {
+  divide_below(Exactness{}.least_rate);
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     end_[m] = place_of(options_.motors[m], options_.start);
   }
@@ -85,8 +84,8 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
 EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
   const double slow = slow_rate_ * static_cast<double>(grid);
-  return {.above = grid == finest_grid ? -1 : squared(rate_before_finer * slow),
-          .most = grid == whole_step ? infinity : squared(rate_before_coarser * slow)};
+  return {.above = grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
+          .most = grid == whole_step || slow == 0 ? infinity : squared(rate_before_coarser * slow)};
 }
 
 bool EventStream::rate_fits() const {
@@ -198,7 +197,7 @@ void EventStream::push_master(double target, const MotorPath::Spot& spot, EventB
 
 // What the loop of fill() does with a line, event by event, as long as its stretch and its phase last: the motors go in
 // proportion and none turns back, so that little is left to do. False when there is nothing of the kind.
-bool EventStream::fill_line(EventBuffer& events) {
+bool EventStream::fill_line(EventBuffer& events, std::size_t enough) {
   const double end = std::min(path_.end(), clock_.phase_end());
   const MotorPath::Line master = path_.line(stretch_.master);
   const double step = stretch_.sign * static_cast<double>(stretch_.grid);
@@ -206,7 +205,7 @@ bool EventStream::fill_line(EventBuffer& events) {
   const double first_target = target_;
   bool fits = true;
   double s = spot_.s;
-  for (std::size_t room = enough_events - events.size(); room > 0 && fits; --room) {
+  for (std::size_t room = enough - events.size(); room > 0 && fits; --room) {
     const double next = std::max(s, (target_ - master.base) / master.slope);
     if (next > end) break;
     s = next;
@@ -232,15 +231,15 @@ EventStream::Stop EventStream::finish_move() {
   return rests ? Stop::rest : Stop::move_end;
 }
 
-EventStream::Stop EventStream::fill(EventBuffer& events) {
-  while (events.size() < enough_events) {
+EventStream::Stop EventStream::fill(EventBuffer& events, std::size_t enough) {
+  while (events.size() < enough) {
     if (!in_stretch_) {
       if (!events.empty() || push_border(events)) return Stop::stretch_end;
       const Start start = start_stretch(events);
       if (start == Start::nothing_moves) return finish_move();
       if (start == Start::turned) continue;
     }
-    if (path_.is_straight() && fill_line(events)) continue;
+    if (path_.is_straight() && fill_line(events, enough)) continue;
     const double s = path_.crossing(stretch_.master, target_, spot_);
     if (s == infinity) {  // turns back before: choose again
       in_stretch_ = false;

@@ -39,10 +39,12 @@ class EventStream {
     path_.curve_lives_in(move.segment.curve);
     clock_.move_lives_in(move);
   }
-  // Adds events of the current move.
-  Stop fill(EventBuffer& events);
+  // Adds events of the current move, until there are `enough`.
+  Stop fill(EventBuffer& events, std::size_t enough);
   // The next event chooses its master anew. Events that still wait are of the stretch before.
   void end_stretch() { in_stretch_ = false; }
+  // Below this rate of events, or the board's if that is lower, the grid is made finer. 0: never.
+  void divide_below(Hertz rate) { slow_rate_ = std::min(rate.value(), slowest_share_); }
   void wait(Seconds time) { advance(time.value()); }
 
   const Stretch& stretch() const { return stretch_; }
@@ -70,7 +72,7 @@ class EventStream {
   Fastest fastest() const;
   Start start_stretch(EventBuffer& events);
   bool push_border(EventBuffer& events);
-  bool fill_line(EventBuffer& events);
+  bool fill_line(EventBuffer& events, std::size_t enough);
   double behind_line(double target) const;
   void push_master(double target, const MotorPath::Spot& spot, EventBuffer& events);
   void push(std::int64_t time, EventBuffer& events);
@@ -88,7 +90,8 @@ class EventStream {
   StepOptions options_;
   double tick_rate_;
   std::int64_t shortest_interval_;
-  double slow_rate_;  // events a second under which the grid is made finer
+  double slowest_share_;  // of the board's highest rate
+  double slow_rate_;      // events a second under which the grid is made finer
 
   // Time of the start of the current move: whole ticks and the rest, so that nothing is lost over hours.
   std::int64_t ticks_ = 0;

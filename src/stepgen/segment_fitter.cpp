@@ -79,7 +79,8 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
     const unsigned m2 = std::max(m1 + 1, static_cast<unsigned>(std::lround(second_node * n)));
     const double slope1 = static_cast<double>(events.time(m1 - 1) - now) / m1;
     const double slope2 = static_cast<double>(events.time(m2 - 1) - now) / m2;
-    const double change = std::round(2 * (slope2 - slope1) / (m2 - m1));
+    double change = std::round(2 * (slope2 - slope1) / (m2 - m1));
+    if (std::fabs(change) > fine_change) change = std::round(change / coarse_change) * coarse_change;
     if (std::fabs(change) > largest_change) continue;
     // With the change rounded, the interval still brings the far node where it belongs.
     const double interval = std::round(slope2 - change * (m2 - 1) / 2);
@@ -170,7 +171,7 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
 unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
                             BoardSegment& segment) {
   const std::uint8_t kept_directions = segment.directions;
-  const auto most = static_cast<unsigned>(std::min<std::size_t>(events.size(), longest));
+  const auto most = static_cast<unsigned>(std::min<std::size_t>(events.size(), longest_));
   const Timing timing = fit_time(events, board.time(), most);
   if (timing.events == 0) return 0;
 
@@ -192,15 +193,17 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     }
   }
 
-  segment = BoardSegment{
-      .events = static_cast<std::uint8_t>(count), .interval = timing.interval, .change = count > 1 ? timing.change : 0};
+  segment = BoardSegment{.events = static_cast<std::uint16_t>(count),
+                         .interval = timing.interval,
+                         .change = count > 1 ? timing.change : 0};
   for (unsigned m = 0; m < motors_; ++m) {
     // A motor that stands still keeps its direction line.
     const bool was_down = (kept_directions >> m & 1U) != 0;
     const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
     set_increment(segment, m, sign, advances[m].increment);
   }
-  if (timing.events > 1) guess_ = timing.events;
+  // Next to a rest it is two at most, and then soon many.
+  if (timing.events > 2) guess_ = timing.events;
   return count;
 }
 

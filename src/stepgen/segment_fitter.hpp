@@ -23,16 +23,17 @@ namespace passo {
 
 class SegmentFitter {
  public:
-  // Events in one segment.
-  static constexpr unsigned longest = 255;
-
   SegmentFitter(std::uint8_t motors, std::int64_t shortest_interval)
       : motors_(motors), shortest_interval_(shortest_interval) {}
 
   // How far an event may be from its exact time, in 1/65536 tick. Half a tick more comes from playing whole ticks.
   static constexpr std::int64_t exact = whole_tick * 9 / 20;
-  // Instead, by so much of its interval, one part in `share`; 0: exact.
-  void loosen_to(std::int64_t share) { share_ = share; }
+  // Instead, by so much of its interval, one part in `share`, 0: exact; and how many events a segment may have.
+  void loosen_to(std::int64_t share, unsigned longest) {
+    share_ = share;
+    longest_ = longest;
+  }
+  unsigned longest() const { return longest_; }
 
   // Makes a segment of the first events of `events` (not empty; the last of them is followed by nothing known) and
   // returns how many it plays: 0 when the first event is too far away for one interval (wait first).
@@ -60,9 +61,10 @@ class SegmentFitter {
   std::uint8_t motors_;
   std::int64_t shortest_interval_;
   std::int64_t share_ = 0;
-  unsigned guess_ = longest;  // how many events the last segment played: the next will be alike
+  unsigned longest_ = 255;
+  unsigned guess_ = 255;  // how many events the last segment played: the next will be alike
   // Exact places of the motor at hand in whole units, in its direction of travel; [0] is unused.
-  std::array<std::int64_t, longest + 2> ideal_{};
+  std::array<std::int64_t, longest_segment_of_all + 2> ideal_{};
 };
 
 // The place at which a motor rests when its exact place is `place`: the step count is the exact position rounded,

@@ -30,16 +30,17 @@ class StepGenerator::Implementation {
     longest_wait_ = std::isfinite(time.value()) ? std::llround(tick_rate_ * time * whole_tick) : INT64_MAX;
   }
 
-  void loosen_to_one_in(int share) {
-    share_ = share;
-    fitter_.loosen_to(share);
+  void be_exact_to(const Exactness& exactness) {
+    exactness_ = exactness;
+    fitter_.loosen_to(exactness.one_in, static_cast<unsigned>(exactness.longest_segment));
+    stream_.divide_below(exactness.least_rate);
   }
 
   void assume(const Implementation& other) {
-    const auto own = std::tuple(motion_, longest_wait_, share_);
+    const auto own = std::tuple(motion_, longest_wait_, exactness_);
     *this = other;
-    std::tie(motion_, longest_wait_, share_) = own;
-    fitter_.loosen_to(share_);
+    std::tie(motion_, longest_wait_, exactness_) = own;
+    be_exact_to(exactness_);
     finished_ = false;
     if (stream_.in_move()) stream_.move_lives_in(std::get<PlannedMove>(motion_item_));
   }
@@ -75,9 +76,7 @@ class StepGenerator::Implementation {
   }
 
   // Events for the longest segment and one behind it, or all that may be waited for.
-  bool enough() const {
-    return events_.size() > SegmentFitter::longest || stream_.now() - board_.time() >= longest_wait_;
-  }
+  bool enough() const { return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_; }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
     board_.play(segment);
@@ -89,11 +88,13 @@ class StepGenerator::Implementation {
   bool wait_until(std::int64_t time, BoardItem& item) {
     constexpr std::int64_t idle = 32768 * whole_tick;
     const std::int64_t gap = time - board_.time();
-    const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, SegmentFitter::longest);
-    return send(without_steps(static_cast<std::uint8_t>(events), std::min(idle, gap)), item);
+    // Where what is given is to be little, so are waits.
+    const std::int64_t most = exactness_.one_in > 0 ? most_events : fitter_.longest();
+    const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, most);
+    return send(without_steps(static_cast<std::uint16_t>(events), std::min(idle, gap)), item);
   }
 
-  BoardSegment without_steps(std::uint8_t events, std::int64_t interval) {
+  BoardSegment without_steps(std::uint16_t events, std::int64_t interval) {
     last_ = BoardSegment{
         .events = events, .directions = last_.directions, .interval = static_cast<std::uint32_t>(interval)};
     for (unsigned m = 0; m < motors_; ++m) set_increment(last_, m, 1, 0);
@@ -135,7 +136,7 @@ class StepGenerator::Implementation {
       stream_.start_move(std::get<PlannedMove>(motion_item_));
       rests_ = false;
     }
-    switch (stream_.fill(events_)) {
+    switch (stream_.fill(events_, fitter_.longest() + 1)) {
       case EventStream::Stop::full: more_ = play_ = true; break;
       case EventStream::Stop::stretch_end:
         more_ = false;
@@ -181,7 +182,7 @@ class StepGenerator::Implementation {
   MotionItem motion_item_;
   BoardSegment last_;
   std::int64_t longest_wait_ = INT64_MAX;  // 1/65536 tick
-  int share_ = 0;
+  Exactness exactness_;
 
   bool play_ = false;  // events wait to be played
   bool more_ = false;  // and more of the same stretch may follow
@@ -202,8 +203,8 @@ bool StepGenerator::next(BoardItem& item) {
 void StepGenerator::limit_waiting_to(Seconds time) {
   implementation_->limit_waiting_to(time);
 }
-void StepGenerator::loosen_to_one_in(int share) {
-  implementation_->loosen_to_one_in(share);
+void StepGenerator::be_exact_to(const Exactness& exactness) {
+  implementation_->be_exact_to(exactness);
 }
 void StepGenerator::assume(const StepGenerator& other) {
   implementation_->assume(*other.implementation_);

@@ -63,6 +63,24 @@ TEST(Uno, turns_three_motors_at_140_kHz_while_it_is_fed) {
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
 }
 
+// At its deepest: amid motion, asked for all it knows, and stopped by a switch.
+TEST(Uno, leaves_room_on_its_stack) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  static_cast<void>(bench.play(random_stream(random, 3, {.shortest_interval = 114, .longest_interval = 300})));
+  bench.start(random_stream(random, 3, {.shortest_interval = 200, .longest_interval = 900, .segments = 10}));
+  for (int i = 0; i < 40; ++i) {
+    bench.ask();
+    bench.run(20'000);
+  }
+  bench.ports().set_input('C', 0, false);
+  bench.run(200'000);
+  EXPECT_TRUE(bench.fault().has_value());
+  const std::size_t left = bench.chip().longest_untouched();
+  std::printf("%zu bytes that were never written\n", left);
+  EXPECT_GE(left, 24U);
+}
+
 // One step in ten seconds: no interval is that long, so events without a step come between.
 TEST(Uno, is_as_exact_when_it_is_slow) {
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));

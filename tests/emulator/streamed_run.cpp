@@ -72,7 +72,9 @@ void BoardBench::hear(std::uint8_t byte) {
   if (frame.type == MessageType::hello_reply) {
     HelloReply reply;
     decode(frame, reply);
-    capacity_ = reply.capacity;
+    // No more than its page of received bytes has room for: a link would repeat what got lost, this one does not.
+    const auto size = static_cast<std::uint8_t>(frame_overhead + segment_size + 2 * board_.motors.size());
+    capacity_ = std::min<std::uint8_t>(reply.capacity, 247 / size);
     greeted_ = true;
   } else if (frame.type == MessageType::credit) {
     Credit credit;
@@ -269,8 +271,8 @@ std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t mo
     if (i < kind.ramp) target += target / 100 * static_cast<std::uint32_t>(400 * (kind.ramp - 1 - i) / kind.ramp);
     segment.interval = interval;
     const std::int64_t change = (static_cast<std::int64_t>(target) - interval) / segment.events;
-    segment.change = static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(change, -std::int64_t{largest_change}, std::int64_t{largest_change}));
+    segment.change = static_cast<std::int32_t>(change);
+    if (!is_fine(segment.change)) segment.change -= segment.change % coarse_change;
     interval = static_cast<std::uint32_t>(interval + static_cast<std::int64_t>(segment.change) * segment.events);
     segments.push_back(segment);
   }

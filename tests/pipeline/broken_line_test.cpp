@@ -1,19 +1,18 @@
 // The line to the board breaks, loses, doubles, flips and swaps: the machine stays on the path and within its limits,
 // rests where nothing more comes, and ends where it would have ended.
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <map>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/line_trouble.hpp"
 #include "kit/seed.hpp"
+#include "kit/step_log.hpp"
 #include <gtest/gtest.h>
 
 #include "passo/controller/job.hpp"
@@ -21,9 +20,16 @@
 namespace passo {
 namespace {
 
-const MachineDescription& router() {
-  static const MachineDescription machine = test::example_machine("router");
-  return machine;
+using test::expect_same_way;
+using test::expect_within_limits;
+using test::RandomTrouble;
+using test::StepLog;
+
+// With places in plenty, and with few.
+const MachineDescription& machine_named(const std::string& name) {
+  static std::map<std::string, MachineDescription> known;
+  const auto found = known.find(name);
+  return found != known.end() ? found->second : known.emplace(name, test::example_machine(name)).first->second;
 }
 
 const std::vector<std::string>& programs() {
@@ -36,33 +42,8 @@ const std::vector<std::string>& programs() {
   return all;
 }
 
-// Every step of a run as the machine made it.
-class StepLog final : public MachineObserver {
- public:
-  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
-    for (unsigned m = 0; m < motors; ++m) {
-      if ((stepped >> m & 1U) == 0) continue;
-      const bool down = (directions >> m & 1U) != 0;
-      place[m] += down ? -1 : 1;
-      steps[m].push_back({.tick = time.count, .down = down});
-    }
-    for (unsigned m = 0; m < motors; ++m) {
-      if ((stepped >> m & 1U) != 0) steps[m].back().place = place;
-    }
-  }
-
-  static constexpr unsigned motors = 3;
-  struct Step {
-    std::int64_t tick = 0;
-    bool down = false;
-    std::array<std::int64_t, motors> place{};  // of all motors behind it
-  };
-  std::array<std::int64_t, motors> place{};
-  std::array<std::vector<Step>, motors> steps;
-};
-
 struct Outcome {
-  std::array<std::vector<StepLog::Step>, StepLog::motors> steps;
+  StepLog::Steps steps;
   std::vector<int> outputs;
   std::uint64_t frames = 0;  // both ways
   int recoveries = 0;
@@ -72,11 +53,12 @@ using Bytes = VirtualLine::Bytes;
 // Sees each frame with its number, and gives back what passes.
 using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
 
-Outcome run(const std::string& program, bool with_line, const Trouble& trouble = nullptr) {
+Outcome run(const std::string& machine, const std::string& program, bool with_line, const Trouble& trouble = nullptr) {
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
   // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
-  Job job(ProgramReader::from_text("t", program), router(), InterpreterOptions(), diagnostics, {.line = line});
+  Job job(ProgramReader::from_text("t", program), machine_named(machine), InterpreterOptions(), diagnostics,
+          {.line = line});
   StepLog log;
   job.machine().add_observer(log);
   Outcome outcome;
@@ -95,69 +77,34 @@ Outcome run(const std::string& program, bool with_line, const Trouble& trouble =
   return outcome;
 }
 
-// The same steps in the same order as without trouble, each with the other motors where they were then.
-void expect_same_way(const Outcome& run, const Outcome& reference) {
-  constexpr std::int64_t beside = 3;  // steps of another motor: both come to rest at times
-  for (unsigned m = 0; m < StepLog::motors; ++m) {
-    ASSERT_EQ(run.steps[m].size(), reference.steps[m].size()) << "motor " << m;
-    for (std::size_t i = 0; i < run.steps[m].size(); ++i) {
-      ASSERT_EQ(run.steps[m][i].down, reference.steps[m][i].down) << "motor " << m << " step " << i;
-      for (unsigned other = 0; other < StepLog::motors; ++other) {
-        ASSERT_NEAR(static_cast<double>(run.steps[m][i].place[other]),
-                    static_cast<double>(reference.steps[m][i].place[other]), beside)
-            << "motor " << other << " at step " << i << " of motor " << m;
-      }
-    }
-  }
+const Outcome& reference_of(const std::string& machine, std::size_t program) {
+  static std::map<std::pair<std::string, std::size_t>, Outcome> known;
+  const auto found = known.find({machine, program});
+  if (found != known.end()) return found->second;
+  return known.emplace(std::pair(machine, program), run(machine, programs()[program], false)).first->second;
 }
 
-// Three places at equal times apart: where the acceleration is bounded, so is their second difference.
-void expect_within_limits(const Outcome& run) {
-  const double window = router().board.clock.value() * 0.008;
-  for (unsigned m = 0; m < StepLog::motors; ++m) {
-    const AxisDescription& axis = router().axes[m];
-    const auto& steps = run.steps[m];
-    if (steps.empty()) continue;
-    std::array<std::size_t, 3> at{};
-    const auto place = [&](std::size_t k, double tick) {
-      while (at[k] < steps.size() && static_cast<double>(steps[at[k]].tick) <= tick) ++at[k];
-      return at[k] == 0 ? 0.0 : static_cast<double>(steps[at[k] - 1].place[m]);
-    };
-    const double most = axis.acceleration.value() * std::fabs(axis.steps_per_unit) * 0.008 * 0.008;
-    const auto end = static_cast<double>(steps.back().tick);
-    for (double tick = static_cast<double>(steps.front().tick) - 2 * window; tick < end; tick += window / 8) {
-      const double bend = place(0, tick) - 2 * place(1, tick + window) + place(2, tick + 2 * window);
-      ASSERT_LE(std::fabs(bend), most * 1.02 + 4) << "motor " << m << " at tick " << tick;
-    }
-  }
-}
-
-void expect_as_if_nothing_had_been(const Outcome& outcome, const Outcome& reference) {
-  expect_same_way(outcome, reference);
-  expect_within_limits(outcome);
-}
-
-const Outcome& reference_of(std::size_t program) {
-  static std::map<std::size_t, Outcome> known;
-  const auto found = known.find(program);
-  return found != known.end() ? found->second : known.emplace(program, run(programs()[program], false)).first->second;
+void expect_as_if_nothing_had_been(const std::string& machine, std::size_t program, const Outcome& outcome) {
+  expect_same_way(outcome.steps, reference_of(machine, program).steps);
+  expect_within_limits(machine_named(machine), outcome.steps);
 }
 
 // Cuts at every `stride`-th frame from either side. Returns how many trials that were.
-int cut_at_frame_boundaries(std::size_t program, std::uint64_t stride, const std::vector<double>& lasting,
-                            int& recoveries) {
-  const Outcome whole = run(programs()[program], true);
-  expect_as_if_nothing_had_been(whole, reference_of(program));
+int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std::uint64_t stride,
+                            const std::vector<double>& lasting, int& recoveries) {
+  const Outcome whole = run(machine, programs()[program], true);
+  expect_as_if_nothing_had_been(machine, program, whole);
   int trials = 0;
   for (const double seconds : lasting) {
     for (std::uint64_t at = 0; at < whole.frames; at += stride) {
-      SCOPED_TRACE("program " + std::to_string(program) + ", cut before frame " + std::to_string(at) + " for " +
-                   std::to_string(seconds) + " s");
-      const Outcome cut = run(programs()[program], true, [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
-        if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
-        return bytes;
-      });
-      expect_as_if_nothing_had_been(cut, reference_of(program));
+      SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) +
+                   " for " + std::to_string(seconds) + " s");
+      const Outcome cut =
+          run(machine, programs()[program], true, [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
+            if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
+            return bytes;
+          });
+      expect_as_if_nothing_had_been(machine, program, cut);
       recoveries += cut.recoveries;
       ++trials;
       if (testing::Test::HasFatalFailure()) return trials;
@@ -166,51 +113,7 @@ int cut_at_frame_boundaries(std::size_t program, std::uint64_t stride, const std
   return trials;
 }
 
-// Loses, doubles and flips bytes, loses and swaps frames.
-class RandomTrouble {
- public:
-  explicit RandomTrouble(std::uint64_t seed) : random_(seed), rate_(between(0.0001, 0.001)) {}
-
-  Bytes operator()(bool to_board, const Bytes& bytes) {
-    Bytes passed;
-    if (!chance(4 * rate_)) {
-      for (const std::uint8_t byte : bytes) {
-        if (chance(rate_)) {
-          ++faults;
-          const double kind = between(0, 3);
-          if (kind < 1) continue;
-          if (kind < 2) passed.push_back(byte);
-          passed.push_back(kind < 2 ? byte
-                                    : static_cast<std::uint8_t>(byte ^ 1U << static_cast<unsigned>(between(0, 8))));
-          continue;
-        }
-        passed.push_back(byte);
-      }
-    } else {
-      ++faults;
-    }
-    Bytes& late = late_[to_board ? 0 : 1];
-    if (late.empty() && chance(4 * rate_)) {
-      ++faults;
-      late = std::move(passed);
-      return {};
-    }
-    passed.insert(passed.end(), late.begin(), late.end());
-    late.clear();
-    return passed;
-  }
-  int faults = 0;
-
- private:
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  bool chance(double share) { return between(0, 1) < share; }
-
-  std::mt19937_64 random_;
-  double rate_;
-  std::array<Bytes, 2> late_;  // swapped with what comes next
-};
-
-void random_faults(int trials) {
+void random_faults(const std::string& machine, int trials) {
   const std::uint64_t seed = test::seed();
   int faults = 0;
   int recoveries = 0;
@@ -218,10 +121,10 @@ void random_faults(int trials) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     const std::size_t program = static_cast<std::size_t>(i) % programs().size();
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
-    const Outcome outcome = run(programs()[program], true, [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) {
-      return trouble(to_board, bytes);
-    });
-    expect_as_if_nothing_had_been(outcome, reference_of(program));
+    const Outcome outcome =
+        run(machine, programs()[program], true,
+            [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); });
+    expect_as_if_nothing_had_been(machine, program, outcome);
     faults += trouble.faults;
     recoveries += outcome.recoveries;
     if (testing::Test::HasFatalFailure()) return;
@@ -230,37 +133,42 @@ void random_faults(int trials) {
   std::printf("%d trials with %d faults, %d recoveries from a tail\n", trials, faults, recoveries);
 }
 
-TEST(BrokenLine, every_frame_boundary_in_part) {
+class BrokenLine : public testing::TestWithParam<std::string> {};
+class BrokenLineInFull : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  }
+};
+
+TEST_P(BrokenLine, every_frame_boundary_in_part) {
   int recoveries = 0;
-  const int trials = cut_at_frame_boundaries(1, 29, {0.5}, recoveries);
+  const int trials = cut_at_frame_boundaries(GetParam(), 1, 29, {0.5}, recoveries);
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
   EXPECT_GT(recoveries, trials / 2);
 }
 
-TEST(BrokenLine, random_faults_in_part) {
-  random_faults(40);
+TEST_P(BrokenLine, random_faults_in_part) {
+  random_faults(GetParam(), 40);
 }
 
-bool in_full() {
-  return std::getenv("PASSO_IN_FULL") != nullptr;
-}
-
-TEST(BrokenLineInFull, every_frame_boundary) {
-  if (!in_full()) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+TEST_P(BrokenLineInFull, every_frame_boundary) {
   int trials = 0;
   int recoveries = 0;
   for (std::size_t program = 0; program < programs().size(); ++program) {
-    trials += cut_at_frame_boundaries(program, 1, {0.05, 0.5}, recoveries);
+    trials += cut_at_frame_boundaries(GetParam(), program, 1, {0.05, 0.5}, recoveries);
     if (HasFatalFailure()) return;
   }
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
-  EXPECT_GE(trials, 8000);
+  EXPECT_GE(trials, 5000);
 }
 
-TEST(BrokenLineInFull, random_faults) {
-  if (!in_full()) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  random_faults(4000);
+TEST_P(BrokenLineInFull, random_faults) {
+  random_faults(GetParam(), 4000);
 }
+
+INSTANTIATE_TEST_SUITE_P(Board, BrokenLine, testing::Values("router", "uno"));
+INSTANTIATE_TEST_SUITE_P(Board, BrokenLineInFull, testing::Values("router", "uno"));
 
 }  // namespace
 }  // namespace passo

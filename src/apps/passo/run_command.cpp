@@ -42,6 +42,10 @@ void add_board(RunSummary& summary, Job& job, const MachineDescription& machine)
   board.events = static_cast<std::uint64_t>(counts.events);
   board.frames = job.link().frames_sent();
   board.bytes = job.link().bytes_sent();
+  if (const Refiller* refiller = job.drive().refiller(); refiller != nullptr && job.link().board()) {
+    board.held_items = job.link().board()->capacity;
+    board.rests = refiller->recoveries();
+  }
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;

@@ -76,7 +76,9 @@ class ChipPlayer {
   // Nothing is played and nothing waits to be.
   static bool done() { return left_ == 0 && rests(); }
 
-  static void load(const BoardSegment& segment) {
+  using Segment = SegmentFor<pins.motors>;
+
+  static void load(const Segment& segment) {
     for (uint8_t m = 0; m < motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
@@ -88,7 +90,9 @@ class ChipPlayer {
     left_ = segment.events;
     // At its slowest, about: at its start or, if it slows down, at its end.
     uint32_t slowest = segment.interval;
-    if (segment.change > 0 && static_cast<uint16_t>(slowest >> 16) < often) {
+    if (segment.change > fine_change) {
+      slowest = largest_interval;
+    } else if (segment.change > 0 && static_cast<uint16_t>(slowest >> 16) < often) {
       slowest += static_cast<uint32_t>(segment.change) << 8;
     }
     if (static_cast<uint16_t>(slowest >> 16) >= often) {
@@ -111,7 +115,7 @@ class ChipPlayer {
     item.events = 0;
   }
 
-  [[gnu::noinline]] static void remember(const BoardSegment& segment) {
+  [[gnu::noinline]] static void remember(const Segment& segment) {
     Item& item = items_[begun_++ & items_mask];
     item.end = static_cast<uint16_t>(made_ + left_);
     item.events = segment.events;
@@ -199,8 +203,8 @@ class ChipPlayer {
 
  private:
   static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);
-  static constexpr uint8_t items_mask = 7;
-  static constexpr uint8_t most_begun = 8;
+  static constexpr uint8_t items_mask = 3;
+  static constexpr uint8_t most_begun = 4;
   // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
   // comes so often that it sees every byte.
   static constexpr uint8_t most_at_once = 100;

@@ -20,6 +20,8 @@ inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
 inline constexpr uint8_t most_events = 220;  // two milliseconds at the highest rate: what is there will be played
+// In the list of items; from 100 on the host fits motion finely.
+inline constexpr uint8_t queue_capacity = 100;
 
 // As on the Uno; a turn has a byte for each step port.
 inline constexpr uint16_t received_address = 0x800;

@@ -16,11 +16,6 @@ namespace {
 
 constexpr uint32_t clock = 16'000'000;
 constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate);
-// All that a host may have under way fits into the page of received bytes: so many segments, and one frame to replace.
-constexpr uint8_t frame_size(MessageType type) {
-  return frame_overhead + payload_size(static_cast<uint8_t>(type), pins.motors);
-}
-constexpr uint8_t queue_capacity = (256 - frame_size(MessageType::replace)) / frame_size(MessageType::segment);
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
@@ -45,7 +40,7 @@ BoardIdentity identity() {
   return {
       .motors = pins.motors, .clock = clock, .reset = cause_of_reset(), .shortest_interval = shortest, .about = about};
 }
-Board<Hardware, queue_capacity, ChipPlayer> board(hardware, identity());
+Board<Hardware, queue_capacity, ChipPlayer, pins.motors> board(hardware, identity());
 InputReader reader;
 
 // A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.

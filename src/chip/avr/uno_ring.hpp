@@ -24,6 +24,8 @@ struct EventEntry {
 inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
 inline constexpr uint8_t most_events = 126;  // in the ring: what is there will be played
+// In the list of items. More would take from the stack (check_program.sh).
+inline constexpr uint8_t queue_capacity = 31;
 
 // Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low
 // byte of the address and wraps by itself. All that the host may have under way fits.

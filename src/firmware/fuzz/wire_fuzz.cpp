@@ -55,7 +55,7 @@ class Bench {
   }
 
  private:
-  static constexpr unsigned most_events = 255U * places + 1;
+  static constexpr unsigned most_events = 65535U * places + 1;
 
   void play(unsigned events) {
     for (unsigned i = 0; i < events && !board_.idle(); ++i) {

@@ -1,79 +1,9 @@
-#include "passo/firmware/board.hpp"
-
 #include <cstring>
-#include <string>
-#include <vector>
+
+#include "board_bench.hpp"
 
 namespace passo {
 namespace {
-
-// Writes down what the board does, with the ticks since the start.
-struct Bench {
-  void step(std::uint8_t stepped, std::uint8_t directions) {
-    log.push_back(std::to_string(now) + " step " + std::to_string(stepped) + " down " + std::to_string(directions));
-  }
-  void outputs(const BoardOutputs& outputs) {
-    log.push_back(std::to_string(now) + " outputs " + std::to_string(outputs.switches) + " rpm " +
-                  std::to_string(outputs.spindle_rpm));
-  }
-  void send(std::uint8_t byte) {
-    if (decoder.feed(byte) == Decoded::frame) replies.push_back(decoder.frame());
-  }
-
-  std::int64_t now = 0;
-  std::vector<std::string> log;
-  Decoder decoder;
-  std::vector<WireFrame> replies;
-};
-
-constexpr std::size_t capacity = 4;
-
-class BoardTest : public testing::Test {
- protected:
-  template <class... What>
-  void send(const What&... what) {
-    std::uint8_t frame[largest_frame];
-    send_bytes(frame, encode(what..., frame));
-  }
-  void send_bytes(const std::uint8_t* frame, std::uint8_t size) {
-    for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
-  }
-  void greet(std::uint8_t sequence = 0) {
-    send(Hello{.motors = 3}, sequence);
-    bench_.replies.clear();
-  }
-  void send_segment(std::uint8_t sequence, std::uint8_t events = 1, std::uint32_t ticks = 10) {
-    send(BoardSegment{.events = events, .flips = 1, .interval = ticks << 16}, std::uint8_t{3}, sequence);
-  }
-  void event() {
-    bench_.now += board_.ticks_to_next_event();
-    board_.on_event();
-  }
-  void play_to_the_end() {
-    while (!board_.idle()) event();
-  }
-  ErrorReport last_error() {
-    ErrorReport error;
-    EXPECT_FALSE(bench_.replies.empty());
-    if (bench_.replies.empty()) return error;
-    EXPECT_EQ(bench_.replies.back().type, MessageType::error);
-    decode(bench_.replies.back(), error);
-    return error;
-  }
-  Credit last_credit() {
-    Credit credit;
-    EXPECT_FALSE(bench_.replies.empty());
-    if (bench_.replies.empty()) return credit;
-    EXPECT_EQ(bench_.replies.back().type, MessageType::credit);
-    decode(bench_.replies.back(), credit);
-    return credit;
-  }
-
-  Bench bench_;
-  Board<Bench, capacity> board_{
-      bench_,
-      {.motors = 4, .clock = 16'000'000, .about = {.highest_event_rate = 100'000, .baud = 500'000, .name = "bench"}}};
-};
 
 TEST_F(BoardTest, answers_a_hello_with_what_it_is) {
   send(Hello{.motors = 3}, std::uint8_t{9});
@@ -256,8 +186,16 @@ TEST(SlowBoard, refuses_a_segment_that_is_faster_than_it_states_at_its_start_or_
   EXPECT_TRUE(refused({.events = 9, .interval = shortest - 1, .change = 1000}));
   EXPECT_FALSE(refused({.events = 9, .interval = shortest + 8 * tick, .change = -static_cast<std::int32_t>(tick)}));
   EXPECT_TRUE(refused({.events = 10, .interval = shortest + 8 * tick, .change = -static_cast<std::int32_t>(tick)}));
-  EXPECT_FALSE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff, .change = -largest_change}));
-  EXPECT_TRUE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff - 1, .change = -largest_change}));
+  EXPECT_FALSE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff, .change = -fine_change}));
+  EXPECT_TRUE(refused({.events = 255, .interval = shortest + 254 * 0x7fffff - 1, .change = -fine_change}));
+  // A product of more than 32 bits.
+  EXPECT_FALSE(
+      refused({.events = 1001, .interval = shortest + 1000 * tick, .change = -static_cast<std::int32_t>(tick)}));
+  EXPECT_TRUE(
+      refused({.events = 1002, .interval = shortest + 1000 * tick, .change = -static_cast<std::int32_t>(tick)}));
+  EXPECT_TRUE(refused({.events = 513, .interval = shortest + 4, .change = fine_change}));
+  EXPECT_TRUE(refused({.events = most_events, .interval = shortest + 4, .change = largest_change}));
+  EXPECT_FALSE(refused({.events = 2, .interval = shortest + 4, .change = largest_change}));
   // Beyond 32 bits intervals would begin again at the shortest.
   EXPECT_FALSE(refused({.events = 9, .interval = largest_interval - 8 * tick, .change = tick}));
   EXPECT_TRUE(refused({.events = 9, .interval = largest_interval - 8 * tick + 1, .change = tick}));

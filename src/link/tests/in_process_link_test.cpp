@@ -155,7 +155,7 @@ TEST(InProcessLink, counts_the_frames_and_bytes_that_it_sends) {
   for (std::uint32_t i = 0; i < 10; ++i) link.send(numbered(i));
   link.send(BoardOutputs());
   EXPECT_EQ(link.frames_sent(), 12U);
-  EXPECT_EQ(link.bytes_sent(), 8U + 10 * 22 + 9);
+  EXPECT_EQ(link.bytes_sent(), 8U + 10 * 23 + 9);
   EXPECT_EQ(link.frames_sent(), board.frames_received);
   EXPECT_EQ(link.bytes_sent(), board.bytes_received);
 }

@@ -164,6 +164,44 @@ TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
   EXPECT_LE(played.segments, played.events / 250);
 }
 
+// How a machine brakes where few segments are to do it: each step within an interval of its time, the end exact.
+TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
+  const StepOptions options = machine({640, 640});
+  // 61,440 steps a second to rest, in 3,840 steps.
+  const MotionItem move = planned(Curve::line(xyz(0, 0), xyz(6, 1.75)), 100, 100, 0, 800);
+  test::ListSource<MotionItem> source({move});
+  StepGenerator generator(source, options);
+  generator.be_exact_to({.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all});
+  int segments = 0;
+  std::int64_t time = 0;
+  std::array<std::int64_t, 2> place = {whole_step / 2, whole_step / 2};
+  BoardItem item;
+  while (generator.next(item)) {
+    const auto& segment = std::get<BoardSegment>(item);
+    ++segments;
+    ASSERT_LE(segment.events, longest_segment_of_all);
+    std::int64_t interval = segment.interval;
+    for (unsigned k = 0; k < segment.events; ++k, interval += segment.change) {
+      time += interval;
+      for (unsigned m = 0; m < 2; ++m) {
+        const bool flipped = (segment.flips >> m & 1U) != 0;
+        const std::int64_t carry = (place[m] & 0xffff) + segment.increments[m] >= whole_step ? 1 : 0;
+        const bool stepped = (carry != 0) != flipped;
+        place[m] = (place[m] >> 16 << 16) + (stepped ? whole_step : 0) + ((place[m] + segment.increments[m]) & 0xffff);
+      }
+      // s = v t - a t^2 / 2, at the end of which the speed is nothing.
+      const double along = static_cast<double>(place[0] - whole_step / 2) / whole_step;
+      const double left = 3840 - along;
+      if (left < 1) continue;
+      const double due = (1 - std::sqrt(left / 3840)) * 0.125 * 16e6;
+      ASSERT_NEAR(static_cast<double>(time) / whole_tick, due, static_cast<double>(interval) / whole_tick + 1) << along;
+    }
+  }
+  EXPECT_EQ(place[0] >> 16, 3840);
+  EXPECT_EQ(place[1] >> 16, 1120);
+  EXPECT_LE(segments, 14);
+}
+
 TEST(BoardText, a_short_move_from_rest_to_rest_and_a_dwell_read_as_they_are_played) {
   const StepOptions options = machine({100, 100, 100}, 50e3);
   const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(0.4, -0.1)), 0, 10, 0, 200), dwell(0.5)};

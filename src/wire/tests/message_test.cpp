@@ -40,7 +40,8 @@ TEST(Message, a_segment_keeps_every_field_for_every_number_of_motors) {
 }
 
 TEST(Message, a_change_keeps_its_sign_at_both_ends_of_its_range) {
-  for (const std::int32_t change : {0, 1, -1, largest_change, -largest_change, 0xA5A5, -0x5A5A5B}) {
+  for (const std::int32_t change : {0, 1, -1, fine_change, -fine_change, fine_change + 1, -fine_change - 1,
+                                    largest_change, -largest_change, 0xA5A5, -0x5A5A5B, -0x5A5A5B00}) {
     std::uint8_t frame[largest_frame];
     BoardSegment received;
     decode(carried(frame, encode(BoardSegment{.events = 1, .change = change}, 1, 0, frame), 1), 1, received);

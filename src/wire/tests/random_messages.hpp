@@ -38,7 +38,8 @@ class RandomMessages {
     segment.directions = byte();
     segment.flips = byte();
     segment.interval = static_cast<std::uint32_t>(word()) << 16 | word();
-    segment.change = static_cast<std::int32_t>(below(2 * largest_change + 1)) - largest_change;
+    segment.change = static_cast<std::int32_t>(below(2 * fine_change + 1)) - fine_change;
+    if (below(4) == 0) segment.change *= coarse_change;
     for (unsigned m = 0; m < motors; ++m) segment.increments[m] = word();
     return segment;
   }

@@ -31,10 +31,10 @@ std::vector<std::string> example_session() {
   line(encode(About{.firmware = 100, .highest_event_rate = 140'000, .baud = 1'000'000, .name = "uno cnc3"}, 1, frame));
   line(encode(BoardOutputs{.switches = spindle_on | flood_on, .spindle_rpm = 12000}, 1, frame));
   line(encode(Credit{.executed = 1, .taken = 1, .free = 32}, 2, frame));
-  // Behind item 1: 200 events, the first after 160.5 ticks and each next one a 256th of a tick sooner: X down at every
+  // Behind item 1: 300 events, the first after 160.5 ticks and each next one a 256th of a tick sooner: X down at every
   // event, Y up at 0x4BA5/65536 of them. Then a tail that brings both to rest.
   const BoardSegment segment{
-      .events = 200, .directions = 1, .flips = 1, .interval = 0x00A08000, .change = -256, .increments = {0, 0x4BA5}};
+      .events = 300, .directions = 1, .flips = 1, .interval = 0x00A08000, .change = -256, .increments = {0, 0x4BA5}};
   const BoardSegment tail{
       .events = 50, .directions = 1, .flips = 1, .interval = 0x009FB800, .change = 0x40000, .increments = {0, 0x4BA5}};
   line(encode(Replace{.after = 1, .count = 2}, 2, frame));
@@ -52,7 +52,7 @@ std::vector<std::string> example_session() {
                            .state = board_trusted,
                            .motors = 2,
                            .inputs = input_probe,
-                           .positions = {-250, 74}};
+                           .positions = {-350, 103}};
   line(encode(status, 2, 7, frame));
   return lines;
 }

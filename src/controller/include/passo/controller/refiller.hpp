@@ -32,10 +32,12 @@ struct TailOptions {
   Seconds horizon{0.1};         // of motion before the tail, behind a refill
   Seconds refill_at{0.06};      // so much of it being left, the next one is sent
   Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
-  // Events may be off by one part in so many of their interval: exact to the tick, the first milliseconds behind a rest
-  // would take hundreds of segments a second more than a line can carry.
-  int looseness = 64;
-  int tail_looseness = 4;
+  // Exact to the tick, the first milliseconds behind a rest would take hundreds of segments a second more than a line
+  // can carry; and more than a board has places for that has few.
+  std::size_t few_places = 100;
+  Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
+  Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
+  Exactness tail{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
 };
 
 class Refiller {
@@ -62,8 +64,8 @@ class Refiller {
   void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
   // Who wants to see each item that the board has told to have executed, tails that were played included.
   void watch_executed(std::function<void(const LinkItem&)> watcher) { executed_watcher_ = std::move(watcher); }
-  // The motion that was sent and is, as far as we know, not executed. The tail does not count.
-  Seconds ahead() const { return ahead_; }
+  // The motion that was pulled and is, as far as we know, not executed. The tail does not count.
+  Seconds ahead() const { return ahead_ + pulled_time_; }
   // How often a tail was played to its end, and the path taken up again there.
   int recoveries() const { return recoveries_; }
   // Of the items sent, those that were tails.
@@ -86,18 +88,30 @@ class Refiller {
     ItemNumber last = 0;  // of the tail; without one, of the motion
     PathPlace rest;       // where the tail ends, and the generator there
     std::unique_ptr<StepGenerator> rested;
-    bool has_tail() const { return last != last_of_motion; }
+  };
+
+  // How the machine would come to rest, and the generator there. At rest there is nothing to it.
+  struct Tail {
+    PathPlace rest = {};
+    std::unique_ptr<StepGenerator> rested = {};
+    std::vector<LinkItem> items = {};
+  };
+  struct Pulled {
+    LinkItem item;
+    Seconds time{0};
+    std::optional<Tail> tail = {};  // behind it; none: no refill ends here
   };
 
   void note_executed();
   void show_executed(ItemNumber executed);
   void take_up(const Refill& refill);
-  void gather();
-  std::size_t room_for_motion() const;
-  void gather_tail();
-  Turn gather_less();
-  void fork(Source<MotionItem>& motion, Refill& refill) const;
-  bool send();
+  void pull();
+  void add(const LinkItem& item);
+  bool is_far_from_last_tail() const;
+  Tail find_tail();
+  std::size_t free_places() const;
+  std::size_t size_of_refill() const;
+  void send(std::size_t items);
   Seconds time_of(const LinkItem& item) const;
 
   Stages stages_;
@@ -107,25 +121,21 @@ class Refiller {
   std::deque<Motion> motion_;             // sent and not executed
   std::deque<Refill> refills_under_way_;  // the first is being played; of the others, nothing yet
   ItemNumber behind_ = 0;                 // the next refill goes behind this item
-  int places_;                            // that the board has for items, as far as we use them
-  std::size_t tail_size_;                 // of the last refill: the next one will be alike
+  std::size_t places_;                    // that the board has for items, as far as we use them
   std::function<void(const LinkItem&)> executed_watcher_;
   std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
   PathPlace given_;       // by the planner
   bool on_tail_ = false;  // the board plays one: nothing is sent before it rests
 
-  // The refill at hand: gathered and not sent.
-  std::vector<LinkItem> items_;
-  std::size_t motion_items_ = 0;
-  Refill refill_;
-  Refill origin_;  // from where it was gathered, if that was a rest
-  std::size_t most_at_rest_ = std::numeric_limits<std::size_t>::max();
+  std::deque<Pulled> pulled_;  // and not sent
+  Seconds pulled_time_{0};
   bool holds_ = false;  // behind it, the planner holds
   bool ended_ = false;  // behind it, the path has ended
 
   BoardItem item_;
   std::vector<PlannedMove> plan_;
+  std::vector<LinkItem> items_;  // of a refill
   int recoveries_ = 0;
   std::uint64_t tail_items_ = 0;
   std::uint64_t refills_ = 0;

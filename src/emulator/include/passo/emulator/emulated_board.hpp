@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,6 +24,8 @@ class EmulatedBoard : public BoardPort {
 
   // Of each motor, in steps from the start: a step is a rising edge, backwards while the direction pin is high.
   virtual std::vector<std::int64_t> positions() const = 0;
+  // Called with each of these steps, in the order of its pins, and the cycle of its edge.
+  std::function<void(std::uint64_t cycle, std::size_t motor, bool down)> on_step;
 };
 
 // Those that there are, one after the other: for messages.

@@ -37,6 +37,9 @@ class EmulatedChip {
   // Runs until at least that many cycles have passed, or stop() is called. Throws where the program crashes.
   void run_for(std::uint64_t cycles);
 
+  // Bytes of memory, one after the other, that the program has not written since it started: what the stack has left.
+  std::size_t longest_untouched() const;
+
   // For what stands in for simavr's own peripherals.
   avr_t& avr() { return *avr_; }
 

@@ -35,6 +35,7 @@ struct BoardIdentity {
   ResetCause reset = ResetCause::power_on;
   uint32_t shortest_interval = 0;  // of a segment that it takes; shortest_interval() tells which goes with a rate
   About about = {};
+  uint8_t places = 0xFF;  // for items, where it is to have fewer than there is memory for
 };
 
 // The interval at this many events a second, and a whole tick less: the host fits its segments that closely. 0: any.
@@ -46,10 +47,13 @@ constexpr uint32_t shortest_interval(uint32_t clock, uint32_t highest_event_rate
          static_cast<uint32_t>(whole_tick);
 }
 
-template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player>
+// `most_motors`: what a place for an item has room for.
+template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
 class Board {
  public:
-  Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {}
+  Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {
+    list_.clear(places());
+  }
 
   // The main loop's side. One byte off the wire.
   void receive(uint8_t byte) {
@@ -69,21 +73,14 @@ class Board {
   // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
     inputs_ = inputs;
-    if (captured == 0 || motors_ == 0) return;
-    Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = player_.played()};
-    for (uint8_t motor = 0; motor < motors_; ++motor) {
-      breathe();
-      message.positions[motor] = position(motor);
-    }
-    send_for_motors(message, motors_);
+    if (captured != 0 && motors_ != 0) tell_captured(captured);
   }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
-    const Fault fault{.reason = reason, .event = player_.played(), .executed = executed_};
+    const Fault fault{.reason = reason, .event = played(), .executed = executed_};
     if (begun_ != 0) count_steps();
     player_.restart(motors_);
-    begun_ = 0;
-    list_.clear();
+    drop_all();
     trusted_ = false;
     send(fault);
   }
@@ -107,13 +104,8 @@ class Board {
         player_.forget();
         breathe();
       }
-      if (begun_ == list_.size() || !player_.ready()) return;
-      const BoardItemSlot& item = list_.at(begun_++);
-      if (item.is_segment) {
-        player_.load(item.segment);
-      } else {
-        player_.pass(item.outputs);
-      }
+      if (!player_.ready() || (to_load_ == 0 && begun_ == list_.size())) return;
+      load();
     } while (true);
   }
   // Items that the player has not begun.
@@ -121,6 +113,8 @@ class Board {
   SegmentPlayer& player() { return player_; }
 
  private:
+  using Segment = SegmentFor<most_motors>;
+
   // By itself, so that a byte amid a frame has not to save all the registers that a whole one needs.
   [[gnu::noinline]] void take(const WireFrame& frame) {
     switch (frame.type) {
@@ -139,22 +133,22 @@ class Board {
     Hello hello;
     decode(frame, hello);
     // The host may not like the answer; then it will not go on. Until the two agree there are no segments.
-    motors_ = hello.version == protocol_version && hello.motors <= identity_.motors ? hello.motors : uint8_t{0};
+    motors_ = hello.version == protocol_version && hello.motors <= identity_.motors && hello.motors <= most_motors
+                  ? hello.motors
+                  : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
     breathe();
     player_.restart(motors_);
     breathe();
-    list_.clear();
-    breathe();
-    begun_ = 0;
+    drop_all();
     session_ = 0;
     executed_ = frame.sequence;
     expected_ = static_cast<uint16_t>(frame.sequence + 1);
     complained_ = false;
     owed_ = 0;
     trusted_ = true;
-    send(HelloReply{.motors = identity_.motors, .capacity = queue_capacity, .clock = identity_.clock});
+    send(HelloReply{.motors = identity_.motors, .capacity = places(), .clock = identity_.clock});
   }
 
   void name_session(const WireFrame& frame) {
@@ -184,7 +178,7 @@ class Board {
                        .executed = executed_,
                        .taken = taken(),
                        .free = list_.free(),
-                       .event = begun_ == 0 ? uint8_t{0} : player_.played(),
+                       .event = played(),
                        .state = static_cast<uint8_t>(state),
                        .reset = identity_.reset,
                        .motors = motors_,
@@ -195,6 +189,15 @@ class Board {
     }
     breathe();
     send_for_motors(status, motors);
+  }
+
+  [[gnu::noinline]] void tell_captured(uint16_t captured) {
+    Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
+    for (uint8_t motor = 0; motor < motors_; ++motor) {
+      breathe();
+      message.positions[motor] = position(motor);
+    }
+    send_for_motors(message, motors_);
   }
 
   void take_in_order(const WireFrame& frame) {
@@ -218,10 +221,9 @@ class Board {
 
   void enqueue(const WireFrame& frame) {
     if (list_.free() == 0) return complain(WireError::queue_full);
-    BoardItemSlot& item = list_.space();
+    auto& item = list_.space();
     item.number = expected_;
-    item.is_segment = frame.type == MessageType::segment;
-    if (item.is_segment) {
+    if (frame.type == MessageType::segment) {
       breathe();
       decode(frame, motors_, item.segment);
       breathe();
@@ -230,7 +232,9 @@ class Board {
         return complain(WireError::bad_value);
       }
     } else {
-      decode(frame, item.outputs);
+      BoardOutputs outputs;
+      decode(frame, outputs);
+      item.keep(outputs);
     }
     accept();
     list_.append();
@@ -246,7 +250,7 @@ class Board {
   }
 
   // Its first interval and its last one, and so all between.
-  [[gnu::noinline]] bool is_slow_enough(const BoardSegment& segment) const {
+  [[gnu::noinline]] bool is_slow_enough(const Segment& segment) const {
     const uint32_t interval = segment.interval;
     if (interval < identity_.shortest_interval) return false;
     if (segment.change == 0) return true;
@@ -254,11 +258,22 @@ class Board {
     const uint32_t change = static_cast<uint32_t>(faster ? -segment.change : segment.change);
     const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
     // Most segments are far from it, and so need no product.
-    return change << 8 <= room || is_within(room, change, segment.events);
+    const uint16_t times = static_cast<uint16_t>(segment.events - 1);
+    return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits(change, times, room);
   }
-  // By itself, for the sake of the registers that it needs.
-  [[gnu::noinline]] static bool is_within(uint32_t room, uint32_t change, uint8_t events) {
-    return change * static_cast<uint8_t>(events - 1) <= room;
+  // change * times <= room, bit by bit: the product has 39 bits.
+  [[gnu::noinline]] static bool product_fits(uint32_t change, uint16_t times, uint32_t room) {
+    while (true) {
+      if ((times & 1U) != 0) {
+        if (change > room) return false;
+        room -= change;
+      }
+      times >>= 1;
+      if (times == 0) return true;
+      if (change >> 31 != 0) return false;
+      change <<= 1;
+      breathe();
+    }
   }
 
   void accept() {
@@ -266,19 +281,57 @@ class Board {
     complained_ = false;
   }
 
-  // The oldest item is done. Outputs are switched here: at the event before them.
-  void retire() {
-    const BoardItemSlot& item = list_.front();
-    if (item.is_segment) {
-      count_steps();
+  // The player gets an item in parts of so many events as it counts, and each is to it a segment.
+  static constexpr uint8_t longest_part = 0xFF;
+
+  // The next part of the item that was begun last, or the first of the one behind it.
+  [[gnu::noinline]] void load() {
+    const bool begins = to_load_ == 0;
+    if (begins) ++begun_;
+    const auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
+    const uint16_t events = item.segment.events;
+    if (events == 0) return player_.pass(item.outputs());
+    if (events <= longest_part) return player_.load(item.segment);
+    part_ = item.segment;
+    breathe();
+    if (begins) {
+      to_load_ = events;
     } else {
-      hardware_.outputs(item.outputs);
+      part_.interval += static_cast<uint32_t>(part_.change) * static_cast<uint16_t>(events - to_load_);
     }
+    part_.events = to_load_ < longest_part ? to_load_ : longest_part;
+    to_load_ = static_cast<uint16_t>(to_load_ - part_.events);
+    player_.load(part_);
+  }
+
+  // The oldest item, or a part of it, is done. Outputs are switched here: at the event before them.
+  [[gnu::noinline]] void retire() {
+    const auto& item = list_.front();
+    if (item.is_segment()) {
+      count_steps();
+      const uint16_t left = static_cast<uint16_t>(item.segment.events - done_of_front_);
+      done_of_front_ = static_cast<uint16_t>(done_of_front_ + longest_part);
+      if (left > longest_part) return;
+    } else {
+      hardware_.outputs(item.outputs());
+    }
+    done_of_front_ = 0;
     executed_ = item.number;
     list_.pop();
     --begun_;
     ++owed_;
   }
+  // Events of the item at hand.
+  uint16_t played() const {
+    return begun_ == 0 ? uint16_t{0} : static_cast<uint16_t>(done_of_front_ + player_.played());
+  }
+
+  void drop_all() {
+    list_.template clear<Breath>(places());
+    begun_ = 0;
+    to_load_ = done_of_front_ = 0;
+  }
+  uint8_t places() const { return identity_.places < queue_capacity ? identity_.places : uint8_t{queue_capacity}; }
 
   // Between two pieces of work: hardware with a small buffer looks at its line.
   struct Breath {
@@ -288,11 +341,12 @@ class Board {
   };
   static void breathe() { Breath{}(); }
 
-  // Of the segment that has just come to its end, or is broken off.
+  // Of the part that has just come to its end, or is broken off.
   void count_steps() {
     for (uint8_t motor = 0; motor < motors_; ++motor) positions_[motor] += player_.steps(motor);
   }
   [[gnu::noinline]] int32_t position(uint8_t motor) const {
+    if (motor >= most_motors) return 0;
     return positions_[motor] + (begun_ == 0 || motor >= motors_ ? int16_t{0} : player_.steps(motor));
   }
   uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
@@ -304,8 +358,9 @@ class Board {
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }
 
+  // By themselves, both: a frame is a lot for a chip's stack, and there must be no two.
   template <class Message>
-  void send(const Message& message) {
+  [[gnu::noinline]] void send(const Message& message) {
     uint8_t frame[largest_frame];
     put_on_line(frame, encode<Breath>(message, sent_++, frame));
   }
@@ -322,9 +377,12 @@ class Board {
   BoardIdentity identity_;
   Decoder decoder_;
   SegmentPlayer player_{0};
-  PlayList<queue_capacity> list_;  // its front is what is being played
-  uint8_t begun_ = 0;              // items at its front that the player has
-  uint8_t motors_ = 0;             // agreed upon with the host
+  PlayList<queue_capacity, most_motors> list_;  // its front is what is being played
+  uint8_t begun_ = 0;                           // items at its front that the player has, the last one maybe in part
+  uint16_t to_load_ = 0;                        // events of that one that the player is still to get
+  uint16_t done_of_front_ = 0;                  // events of the front, in parts that are done
+  Segment part_;                                // of it, the one that is being loaded: large for a chip's stack
+  uint8_t motors_ = 0;                          // agreed upon with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte
   uint16_t executed_ = 0;  // of the last item that is done
@@ -333,7 +391,7 @@ class Board {
   bool complained_ = false;
   bool trusted_ = true;
   uint16_t inputs_ = 0;
-  int32_t positions_[max_motors] = {};  // at the end of the last segment
+  int32_t positions_[most_motors] = {};  // at the end of the last segment
 };
 
 }  // namespace passo

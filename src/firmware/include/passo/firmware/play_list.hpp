@@ -3,7 +3,7 @@
 //
 // Items lie in slots, and each slot says which is next: an item is written once and never moved. A replacement gathers
 // in slots of its own; when it is complete, one link changes, from the old tail to the new one. What is cut short
-// changes nothing.
+// changes nothing. Chains of slots are given back as a whole.
 //
 //     front -> item -> item k -> tail -> tail          before: the tail brings the motors to rest
 //                        |
@@ -21,27 +21,44 @@
 
 namespace passo {
 
+// An item in as few bytes as a board with little memory has for it: 15, and two for each of its motors.
+template <uint8_t motors>
 struct BoardItemSlot {
   uint16_t number = 0;
-  bool is_segment = false;
   uint8_t next = 0;
-  BoardSegment segment;
-  BoardOutputs outputs;
+  SegmentFor<motors> segment;  // outputs are one without events
+
+  bool is_segment() const { return segment.events != 0; }
+  void keep(const BoardOutputs& outputs) {
+    segment.events = 0;
+    segment.directions = outputs.switches;
+    segment.interval = outputs.spindle_rpm;
+  }
+  BoardOutputs outputs() const {
+    return {.switches = segment.directions, .spindle_rpm = static_cast<uint16_t>(segment.interval)};
+  }
 };
 
-template <size_t slot_count>
+template <size_t slot_count, uint8_t motors = max_motors>
 class PlayList {
   static constexpr uint8_t none = 0xFF;
   static_assert(slot_count > 0 && slot_count < none);
 
  public:
+  using Slot = BoardItemSlot<motors>;
+
   PlayList() { clear(); }
 
-  void clear() {
-    for (uint8_t i = 0; i < slot_count; ++i) slots_[i].next = static_cast<uint8_t>(i + 1);
-    slots_[slot_count - 1].next = none;
-    unused_ = 0;
-    free_ = slot_count;
+  // From now on it has no more than `places`.
+  template <class Pause = NoPause>
+  void clear(uint8_t places = slot_count) {
+    unused_ = none;
+    for (uint8_t i = places; i-- != 0;) {
+      slots_[i].next = unused_;
+      unused_ = i;
+      Pause{}();
+    }
+    free_ = places;
     front_ = last_ = none;
     size_ = 0;
     staged_ = {};
@@ -49,9 +66,9 @@ class PlayList {
 
   uint8_t free() const { return free_; }
   bool empty() const { return front_ == none; }
-  const BoardItemSlot& front() const { return slots_[front_]; }
+  const Slot& front() const { return slots_[front_]; }
   // Counted from the front, without what is gathered beside; a walk.
-  const BoardItemSlot& at(uint8_t place) const {
+  const Slot& at(uint8_t place) const {
     uint8_t slot = front_;
     for (; place != 0; --place) slot = slots_[slot].next;
     return slots_[slot];
@@ -62,12 +79,11 @@ class PlayList {
     --size_;
     front_ = slots_[slot].next;
     if (front_ == none) last_ = none;
-    give_back(slot);
+    give_back(slot, slot, 1);
   }
 
-  // Where the next item is to be written, all but its `next`: a copy is a lot of work for a small chip. Only while
-  // free() > 0.
-  BoardItemSlot& space() { return slots_[unused_]; }
+  // Where the next item is to be written, all but its `next`. Only while free() > 0.
+  Slot& space() { return slots_[unused_]; }
   // Takes it: into the replacement if one is being gathered, else behind the last.
   void append() {
     const uint8_t slot = unused_;
@@ -85,8 +101,8 @@ class PlayList {
 
   // The next `count` items are to replace all behind item `after`. One that was gathered so far is dropped.
   void begin_replacement(uint16_t after, uint8_t count) {
-    drop(staged_.front);
-    staged_ = {.after = after, .missing = count};
+    drop_staged();
+    staged_ = {.after = after, .count = count, .missing = count};
   }
   bool gathering() const { return staged_.missing > 0; }
   // All items have come: now complete() it.
@@ -98,28 +114,31 @@ class PlayList {
   bool complete(uint16_t executed, uint8_t begun) {
     uint8_t slot = front_;
     uint8_t place = 1;
-    for (; slot != none && slots_[slot].number != staged_.after; slot = slots_[slot].next) ++place;
+    for (; slot != none && slots_[slot].number != staged_.after; slot = slots_[slot].next) {
+      ++place;
+      Pause{}();
+    }
     const bool behind_all = slot == none && begun == 0 && executed == staged_.after;
     Pause{}();
     const bool in_time = behind_all || (slot != none && place >= begun);
-    if (in_time) {
-      uint8_t& end = slot == none ? front_ : slots_[slot].next;
-      drop(end);
-      Pause{}();
-      end = staged_.front;
-      last_ = staged_.last;
-      size_ = 0;
-      for (uint8_t left = front_; left != none; left = slots_[left].next) ++size_;
-    } else {
-      drop(staged_.front);
+    if (!in_time) {
+      drop_staged();
+      return false;
     }
+    const uint8_t kept = slot == none ? uint8_t{0} : place;
+    uint8_t& end = slot == none ? front_ : slots_[slot].next;
+    if (end != none) give_back(end, last_, static_cast<uint8_t>(size_ - kept));
+    end = staged_.front;
+    last_ = staged_.last;
+    size_ = static_cast<uint8_t>(kept + staged_.count);
     staged_ = {};
-    return in_time;
+    return true;
   }
 
  private:
   struct Replacement {
     uint16_t after = 0;
+    uint8_t count = 0;
     uint8_t missing = 0;
     uint8_t front = none;
     uint8_t last = none;
@@ -133,20 +152,20 @@ class PlayList {
     }
     last = slot;
   }
-  void give_back(uint8_t slot) {
-    slots_[slot].next = unused_;
-    unused_ = slot;
-    ++free_;
+  // A chain of `count` slots.
+  void give_back(uint8_t first, uint8_t last, uint8_t count) {
+    slots_[last].next = unused_;
+    unused_ = first;
+    free_ = static_cast<uint8_t>(free_ + count);
   }
-  void drop(uint8_t slot) {
-    while (slot != none) {
-      const uint8_t next = slots_[slot].next;
-      give_back(slot);
-      slot = next;
+  void drop_staged() {
+    if (staged_.front != none) {
+      give_back(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
     }
+    staged_ = {};
   }
 
-  BoardItemSlot slots_[slot_count];
+  Slot slots_[slot_count];
   uint8_t front_ = none;
   uint8_t last_ = none;
   uint8_t unused_ = none;  // the first free slot

@@ -14,10 +14,16 @@ class Player {
 
   // Can take the next item.
   bool ready() const { return done(); }
-  // Takes the next segment. Only when ready().
-  void load(const BoardSegment& segment) {
-    segment_ = segment;
-    left_ = segment.events;
+  // Takes the next segment, of 255 events at most. Only when ready().
+  template <uint8_t room>
+  void load(const SegmentFor<room>& segment) {
+    segment_.events = segment.events;
+    segment_.directions = segment.directions;
+    segment_.flips = segment.flips;
+    segment_.interval = segment.interval;
+    segment_.change = segment.change;
+    for (uint8_t motor = 0; motor < motors_; ++motor) segment_.increments[motor] = segment.increments[motor];
+    left_ = static_cast<uint8_t>(segment.events);
     for (uint8_t motor = 0; motor < motors_; ++motor) at_start_[motor] = accumulators_[motor];
   }
   // Takes an item that is not its own to play: it is finished when all that came before it is. Only when ready().

@@ -28,8 +28,9 @@ class VirtualMachine final : public BoardPort {
   static constexpr std::size_t items_held = 240;
 
   // `clock`: the board's timer, a whole number of hertz below 2^32. Segments faster than the highest event rate it
-  // refuses; 0: none.
-  VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate = Hertz(0));
+  // refuses; 0: none. `places`: for items, items_held at most.
+  VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate = Hertz(0),
+                 std::size_t places = items_held);
   VirtualMachine(const VirtualMachine&) = delete;
   VirtualMachine& operator=(const VirtualMachine&) = delete;
 

@@ -49,6 +49,7 @@ struct BoardDescription {
   Hertz clock{16e6};               // ticks a second
   Hertz highest_event_rate{50e3};  // events a second
   Seconds step_pulse{2.5e-6};
+  int held_items = 240;  // places in its list, as the virtual machine plays it; a real board tells its own
 
   // An interval is at most 65535 whole ticks. Slower motion is played all the same: the events go on at this rate or
   // above, and most of them are without a step.

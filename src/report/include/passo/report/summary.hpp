@@ -40,6 +40,9 @@ struct BoardSummary {
   std::uint64_t frames = 0;  // sent down the wire
   std::uint64_t bytes = 0;
   std::uint64_t busiest_second = 0;  // bytes; 0: it did not take one
+  // Over a line, where what it holds always ends at rest.
+  int held_items = 0;  // places in its list; 0: no line
+  int rests = 0;       // because nothing more had come in time
 };
 
 // A hold in mid-run. Times of the board.

@@ -34,6 +34,20 @@ struct StepOptions {
 // segments without steps.
 using BoardItem = std::variant<BoardSegment, Action>;
 
+// How exact the times of events are. Looser, motion takes far fewer segments close to a rest; no step less, and none in
+// another place.
+struct Exactness {
+  // An event may be off its exact time by this part of its interval; 0: only as far as it shows in no whole tick.
+  int one_in = 0;
+  // Where events would come more seldom they divide the steps of the fastest motor, on a slow board from a sixteenth of
+  // its highest rate on. 0: they never divide more finely than they do.
+  Hertz least_rate{10'000};
+  // Events of a segment. So many as are exact to the tick are seldom more than 255.
+  int longest_segment = 255;
+  friend bool operator==(const Exactness&, const Exactness&) = default;
+};
+inline constexpr int longest_segment_of_all = 1023;
+
 class StepGenerator final : public Source<BoardItem> {
  public:
   StepGenerator(Source<MotionItem>& motion, const StepOptions& options);
@@ -44,12 +58,10 @@ class StepGenerator final : public Source<BoardItem> {
   // From now on events wait no longer than this for later ones that would make a longer board segment: what motion is
   // pulled ahead of the segment given is at most this and a move. Segments get shorter, no step less exact.
   void limit_waiting_to(Seconds time);
-  // From now on an event may be off its exact time by this part of its interval: far fewer segments close to a rest. No
-  // step less, or in another place.
-  void loosen_to_one_in(int share);
+  void be_exact_to(const Exactness& exactness);
 
   // From now on goes on as `other` would, which was made with the same options, but with its own motion, waiting and
-  // tolerance. So a fork tells what another motion from here on would be, and its end is a place to go on from.
+  // exactness. So a fork tells what another motion from here on would be, and its end is a place to go on from.
   void assume(const StepGenerator& other);
   // All the motion that was pulled ends at rest; and it is given, too.
   bool ends_at_rest() const;

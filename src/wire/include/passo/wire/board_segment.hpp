@@ -25,16 +25,26 @@ namespace passo {
 
 inline constexpr uint8_t max_motors = 8;
 
-struct BoardSegment {
-  uint8_t events = 0;      // 1…255
+template <uint8_t motors>
+struct SegmentFor {
+  uint16_t events = 0;     // 1 to most_events
   uint8_t directions = 0;  // bit m: motor m counts down
   uint8_t flips = 0;       // bit m: flip motor m's carry
   uint32_t interval = 0;   // 16.16 ticks
-  int32_t change = 0;      // 16.16 ticks an event; on the wire 24 bits
-  uint16_t increments[max_motors] = {};
+  int32_t change = 0;      // 16.16 ticks an event: fine_change at most, or a multiple of coarse_change
+  uint16_t increments[motors] = {};
 };
+using BoardSegment = SegmentFor<max_motors>;
 
-inline constexpr int32_t largest_change = 0x7fffff;
+inline constexpr uint16_t most_events = 0x7fff;
+// On the wire a change has 24 bits, a large one without its last eight.
+inline constexpr int32_t fine_change = 0x7fffff;
+inline constexpr int32_t coarse_change = 0x100;
+inline constexpr uint16_t coarse_bit = 0x8000;  // beside the number of events: the change is a large one
+inline constexpr int32_t largest_change = fine_change * coarse_change;
+constexpr bool is_fine(int32_t change) {
+  return change <= fine_change && change >= -fine_change;
+}
 inline constexpr uint32_t largest_interval = 0xffffffff;
 // One whole step in accumulator units, and one whole tick in interval units.
 inline constexpr int32_t whole_step = 65536;

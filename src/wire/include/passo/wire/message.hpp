@@ -89,8 +89,8 @@ struct BoardStatus {
   uint16_t executed = 0;  // as in a credit, as the next two
   uint8_t taken = 0;
   uint8_t free = 0;
-  uint8_t event = 0;  // how many events of the item at hand are played
-  uint8_t state = 0;  // bits: BoardState
+  uint16_t event = 0;  // how many events of the item at hand are played
+  uint8_t state = 0;   // bits: BoardState
   ResetCause reset = ResetCause::power_on;
   uint8_t motors = 0;   // agreed upon; 0: a host has not said hello since the reset
   uint16_t inputs = 0;  // bits: BoardInput
@@ -101,7 +101,7 @@ struct BoardStatus {
 struct Captured {
   uint16_t input = 0;  // BoardInput
   uint8_t item = 0;    // low byte of the number of the item that was played
-  uint8_t event = 0;   // how many of its events were
+  uint16_t event = 0;  // how many of its events were
   int32_t positions[max_motors] = {};
 };
 
@@ -109,7 +109,7 @@ struct Captured {
 enum class FaultReason : uint8_t { emergency_stop = 1, limit = 2, driver = 3 };
 struct Fault {
   FaultReason reason = FaultReason::emergency_stop;
-  uint8_t event = 0;
+  uint16_t event = 0;
   uint16_t executed = 0;
 };
 
@@ -130,15 +130,15 @@ uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-// The change fits in 24 bits: at most largest_change, up or down.
 template <class Pause = NoPause>
 uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::segment, sequence);
-  encoder.put8(segment.events);
+  const bool fine = is_fine(segment.change);
+  encoder.put16(fine ? segment.events : static_cast<uint16_t>(segment.events | coarse_bit));
   encoder.put8(segment.directions);
   encoder.put8(segment.flips);
   encoder.put32(segment.interval);
-  encoder.put24(static_cast<uint32_t>(segment.change));
+  encoder.put24(static_cast<uint32_t>(fine ? segment.change : segment.change / coarse_change));
   for (uint8_t motor = 0; motor < motors; ++motor) encoder.put16(segment.increments[motor]);
   return encoder.finish();
 }
@@ -202,7 +202,7 @@ uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint
   encoder.put16(status.executed);
   encoder.put8(status.taken);
   encoder.put8(status.free);
-  encoder.put8(status.event);
+  encoder.put16(status.event);
   encoder.put8(status.state);
   encoder.put8(static_cast<uint8_t>(status.reset));
   encoder.put8(status.motors);
@@ -216,7 +216,7 @@ uint8_t encode(const Captured& captured, uint8_t motors, uint8_t sequence, uint8
   Encoder<Pause> encoder(frame, MessageType::captured, sequence);
   encoder.put16(captured.input);
   encoder.put8(captured.item);
-  encoder.put8(captured.event);
+  encoder.put16(captured.event);
   for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(captured.positions[motor]));
   return encoder.finish();
 }
@@ -225,7 +225,7 @@ template <class Pause = NoPause>
 uint8_t encode(const Fault& fault, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::fault, sequence);
   encoder.put8(static_cast<uint8_t>(fault.reason));
-  encoder.put8(fault.event);
+  encoder.put16(fault.event);
   encoder.put16(fault.executed);
   return encoder.finish();
 }
@@ -260,19 +260,33 @@ inline void decode(const WireFrame& frame, Hello& hello) {
   hello = {.version = frame.payload[0], .motors = frame.payload[1]};
 }
 
-inline void decode(const WireFrame& frame, uint8_t motors, BoardSegment& segment) {
-  const uint8_t* bytes = frame.payload;
-  segment.events = bytes[0];
-  segment.directions = bytes[1];
-  segment.flips = bytes[2];
-  segment.interval = load32(bytes + 3);
-  // 24 bits with a sign: up to the top, and down again with the sign drawn along.
-  segment.change =
-      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 7)) << 8 | static_cast<uint32_t>(bytes[9]) << 24) >> 8;
-  bytes += 10;
-  for (uint8_t motor = 0; motor < max_motors; ++motor, bytes += 2) {
+// By themselves, for the sake of the registers that they need on a chip.
+template <uint8_t room>
+[[gnu::noinline]] void load_increments(const uint8_t* bytes, uint8_t motors, SegmentFor<room>& segment) {
+  for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
     segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
   }
+}
+
+template <uint8_t room>
+[[gnu::noinline]] void load_times(const uint8_t* bytes, bool coarse, SegmentFor<room>& segment) {
+  segment.interval = load32(bytes);
+  // 24 bits with a sign: at the top they are a large one, and a small one down again with the sign drawn along.
+  segment.change =
+      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 4)) << 8 | static_cast<uint32_t>(bytes[6]) << 24);
+  if (!coarse) segment.change >>= 8;
+}
+
+// `motors` is at most `room`.
+template <uint8_t room>
+void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
+  const uint8_t* bytes = frame.payload;
+  const uint16_t events = load16(bytes);
+  segment.events = events & most_events;
+  segment.directions = bytes[2];
+  segment.flips = bytes[3];
+  load_times(bytes + 4, (events & coarse_bit) != 0, segment);
+  load_increments(bytes + segment_size, motors, segment);
 }
 
 inline void decode(const WireFrame& frame, BoardOutputs& outputs) {
@@ -314,25 +328,25 @@ inline void decode(const WireFrame& frame, uint8_t motors, BoardStatus& status) 
   status.executed = load16(bytes + 2);
   status.taken = bytes[4];
   status.free = bytes[5];
-  status.event = bytes[6];
-  status.state = bytes[7];
-  status.reset = static_cast<ResetCause>(bytes[8]);
-  status.motors = bytes[9];
-  status.inputs = load16(bytes + 10);
+  status.event = load16(bytes + 6);
+  status.state = bytes[8];
+  status.reset = static_cast<ResetCause>(bytes[9]);
+  status.motors = bytes[10];
+  status.inputs = load16(bytes + 11);
   load_positions(bytes + status_size, motors, status.positions);
 }
 
 inline void decode(const WireFrame& frame, uint8_t motors, Captured& captured) {
   captured.input = load16(frame.payload);
   captured.item = frame.payload[2];
-  captured.event = frame.payload[3];
+  captured.event = load16(frame.payload + 3);
   load_positions(frame.payload + captured_size, motors, captured.positions);
 }
 
 inline void decode(const WireFrame& frame, Fault& fault) {
   fault = {.reason = static_cast<FaultReason>(frame.payload[0]),
-           .event = frame.payload[1],
-           .executed = load16(frame.payload + 2)};
+           .event = load16(frame.payload + 1),
+           .executed = load16(frame.payload + 3)};
 }
 
 inline void decode(const WireFrame& frame, About& about) {

@@ -15,7 +15,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 2;
+inline constexpr uint8_t protocol_version = 3;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
 enum class MessageType : uint8_t {
@@ -37,8 +37,9 @@ enum class MessageType : uint8_t {
 };
 
 inline constexpr uint8_t frame_overhead = 6;
-inline constexpr uint8_t status_size = 12;  // without the positions
-inline constexpr uint8_t captured_size = 4;
+inline constexpr uint8_t segment_size = 11;  // without what is there for each motor
+inline constexpr uint8_t status_size = 13;
+inline constexpr uint8_t captured_size = 5;
 inline constexpr uint8_t largest_payload = status_size + 4 * max_motors;
 inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
 
@@ -60,11 +61,11 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::outputs:
     case MessageType::replace:
     case MessageType::ask: return 3;
-    case MessageType::credit:
-    case MessageType::fault: return 4;
+    case MessageType::credit: return 4;
+    case MessageType::fault: return 5;
     case MessageType::hello_reply: return 7;
     case MessageType::about: return 26;
-    case MessageType::segment: return with_motors(10, 2);
+    case MessageType::segment: return with_motors(segment_size, 2);
     case MessageType::status: return with_motors(status_size, 4);
     case MessageType::captured: return with_motors(captured_size, 4);
   }

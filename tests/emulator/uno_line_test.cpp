@@ -1,0 +1,177 @@
+// The Uno's own firmware, emulated, at the end of a bad line: what comes out of its pins is the program, whatever the
+// line does; and it rests where nothing more comes.
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "kit/example_machine.hpp"
+#include "kit/line_trouble.hpp"
+#include "kit/seed.hpp"
+#include "kit/step_log.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+#include "passo/emulator/emulated_board.hpp"
+
+namespace passo {
+namespace {
+
+using test::Bytes;
+using test::RandomTrouble;
+using test::StepLog;
+
+const std::string program =
+    "G21 G90 G64 P.02 G1 F4000\nX2\nY1.5\nX.5 Y2 Z-.4\nG2 X1.5 Y1 I.5 J-.5 F1500\nM3 S1000\nG0 X0 Y0 Z0\nM2\n";
+
+const MachineDescription& uno() {
+  static const MachineDescription machine = test::example_machine("uno");
+  return machine;
+}
+
+// Between a link and a board: silence from one frame on for a time, or random faults.
+class BadLine final : public BoardPort {
+ public:
+  explicit BadLine(EmulatedBoard& board) : board_(board) {}
+
+  void go_bad(std::uint64_t seed) { trouble_.emplace(seed); }
+  void cut_at(std::uint64_t frame, Seconds time) {
+    cut_frame_ = frame;
+    missing_ = time;
+  }
+  std::uint64_t frames() const { return frames_; }
+  int faults() const { return trouble_ ? trouble_->faults : 0; }
+
+  void receive(std::span<const std::uint8_t> bytes) override {
+    if (frames_++ == cut_frame_) cut_to_ = board_.elapsed() + missing_;
+    if (is_cut()) return;
+    const Bytes sent(bytes.begin(), bytes.end());
+    board_.receive(trouble_ ? (*trouble_)(true, sent) : sent);
+  }
+  bool run(Seconds most) override {
+    const bool said = board_.run(most);
+    const auto bytes = board_.replies();
+    Bytes heard(bytes.begin(), bytes.end());
+    if (trouble_ && !heard.empty()) heard = (*trouble_)(false, heard);
+    if (!is_cut()) heard_.insert(heard_.end(), heard.begin(), heard.end());
+    return said;
+  }
+  std::span<const std::uint8_t> replies() override {
+    taken_ = std::exchange(heard_, {});
+    return taken_;
+  }
+  Seconds elapsed() const override { return board_.elapsed(); }
+
+ private:
+  bool is_cut() const { return board_.elapsed() < cut_to_; }
+
+  EmulatedBoard& board_;
+  std::optional<RandomTrouble> trouble_;
+  std::uint64_t frames_ = 0;
+  std::uint64_t cut_frame_ = UINT64_MAX;
+  Seconds missing_{0};
+  Seconds cut_to_{0};
+  Bytes heard_;
+  Bytes taken_;
+};
+
+struct Outcome {
+  StepLog::Steps steps;
+  std::uint64_t frames = 0;
+  int faults = 0;
+  int recoveries = 0;
+};
+
+// On the virtual machine, and no line.
+const StepLog::Steps& reference() {
+  static const StepLog::Steps steps = [] {
+    Diagnostics diagnostics;
+    Job job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics);
+    StepLog log;
+    job.machine().add_observer(log);
+    while (job.advance()) {
+    }
+    return log.steps;
+  }();
+  return steps;
+}
+
+template <class Spoil>
+Outcome run_on_uno(const Spoil& spoil) {
+  auto board = EmulatedBoard::start("uno", PASSO_MOTION_UNO);
+  EXPECT_TRUE(board);
+  StepLog log;
+  (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
+    log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
+  };
+  BadLine line(**board);
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics, {.board = &line});
+  EXPECT_FALSE(job.unsuited()) << *job.unsuited();
+  spoil(line);
+  while (job.advance()) {
+  }
+  EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
+  // The last edges are counted with the time that passes next.
+  static_cast<void>((*board)->run(Seconds(0.01)));
+  test::expect_same_way(log.steps, reference());
+  test::expect_within_limits(uno(), log.steps);
+  return {.steps = log.steps,
+          .frames = line.frames(),
+          .faults = line.faults(),
+          .recoveries = job.drive().refiller()->recoveries()};
+}
+
+void cut_at_every(std::uint64_t stride) {
+  const Outcome whole = run_on_uno([](BadLine&) {});
+  int trials = 0;
+  int recoveries = 0;
+  for (std::uint64_t frame = 3; frame < whole.frames && !testing::Test::HasFatalFailure(); frame += stride, ++trials) {
+    SCOPED_TRACE("cut before frame " + std::to_string(frame));
+    recoveries += run_on_uno([&](BadLine& line) { line.cut_at(line.frames() + frame, Seconds(0.3)); }).recoveries;
+  }
+  std::printf("%llu frames, %d rests without need; cut before %d of them: %d rests\n",
+              static_cast<unsigned long long>(whole.frames), whole.recoveries, trials, recoveries);
+  EXPECT_GT(recoveries, trials / 2);
+}
+
+void random_faults(int trials) {
+  const std::uint64_t seed = test::seed();
+  int faults = 0;
+  int recoveries = 0;
+  for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
+    const Outcome outcome = run_on_uno([&](BadLine& line) { line.go_bad(seed + static_cast<std::uint64_t>(i)); });
+    faults += outcome.faults;
+    recoveries += outcome.recoveries;
+  }
+  std::printf("%d trials with %d faults, %d rests\n", trials, faults, recoveries);
+  EXPECT_GT(faults, trials);
+}
+
+class UnoOnABadLineInFull : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  }
+};
+
+TEST(UnoOnABadLine, goes_on_from_where_it_rests_when_the_line_was_cut) {
+  cut_at_every(37);
+}
+
+TEST(UnoOnABadLine, makes_no_wrong_step_of_random_faults) {
+  random_faults(5);
+}
+
+TEST_F(UnoOnABadLineInFull, cut_before_every_frame) {
+  cut_at_every(1);
+}
+
+TEST_F(UnoOnABadLineInFull, random_faults) {
+  random_faults(400);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,57 @@
+// RandomTrouble: what a bad line does to what goes over it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace passo::test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// Loses, doubles and flips bytes, loses and swaps frames.
+class RandomTrouble {
+ public:
+  explicit RandomTrouble(std::uint64_t seed) : random_(seed), rate_(between(0.0001, 0.001)) {}
+
+  Bytes operator()(bool to_board, const Bytes& bytes) {
+    Bytes passed;
+    if (!chance(4 * rate_)) {
+      for (const std::uint8_t byte : bytes) {
+        if (chance(rate_)) {
+          ++faults;
+          const double kind = between(0, 3);
+          if (kind < 1) continue;
+          if (kind < 2) passed.push_back(byte);
+          passed.push_back(kind < 2 ? byte
+                                    : static_cast<std::uint8_t>(byte ^ 1U << static_cast<unsigned>(between(0, 8))));
+          continue;
+        }
+        passed.push_back(byte);
+      }
+    } else {
+      ++faults;
+    }
+    Bytes& late = late_[to_board ? 0 : 1];
+    if (late.empty() && chance(4 * rate_)) {
+      ++faults;
+      late = std::move(passed);
+      return {};
+    }
+    passed.insert(passed.end(), late.begin(), late.end());
+    late.clear();
+    return passed;
+  }
+  int faults = 0;
+
+ private:
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  bool chance(double share) { return between(0, 1) < share; }
+
+  std::mt19937_64 random_;
+  double rate_;
+  std::array<Bytes, 2> late_;  // swapped with what comes next
+};
+
+}  // namespace passo::test
