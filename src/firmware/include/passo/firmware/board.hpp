@@ -255,7 +255,8 @@ class Board {
     if (interval < identity_.shortest_interval) return false;
     if (segment.change == 0) return true;
     const bool faster = segment.change < 0;
-    const uint32_t change = static_cast<uint32_t>(faster ? -segment.change : segment.change);
+    const uint32_t given = static_cast<uint32_t>(segment.change);
+    const uint32_t change = faster ? 0 - given : given;  // a coarse change has no opposite in 32 bits with a sign
     const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
     // Most segments are far from it, and so need no product.
     const uint16_t times = static_cast<uint16_t>(segment.events - 1);
