@@ -83,6 +83,19 @@ TEST_F(Boards, are_emulated_too) {
   EXPECT_NE(none.err.find("there is an emulator of uno and mega"), std::string::npos) << none.err;
 }
 
+TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
+  const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
+  const std::string program = write("p.ngc", "G21 G90 F3000\nG1 X3 Y1\nG2 X5 Y1 I1 J0\nG1 X1 Z-1\nM2\n");
+  const std::string command = "run " + program + " --json -m " + uno;
+  const Outcome outcome = passo(command + " --board sim:uno");
+  if (outcome.err.find("was built without") != std::string::npos ||
+      outcome.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << outcome.err;
+  }
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
+}
+
 TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {
   const std::string router =
       (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "router.toml").string();
