@@ -95,7 +95,11 @@ class Noise {
     };
     const EdgeCheck check = bench_.play(stream);
     bench_.before_item = nullptr;
-    EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps";
+    EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps, " << check.complaints
+                               << " complaints"
+                               << (bench_.error()
+                                       ? ", the last one " + std::to_string(static_cast<int>(bench_.error()->reason))
+                                       : "");
     EXPECT_LE(check.error, 4);
     EXPECT_EQ(check.overruns, 0U);
     ++motions_;
