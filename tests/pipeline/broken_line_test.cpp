@@ -164,7 +164,7 @@ TEST_P(BrokenLineInFull, every_frame_boundary) {
 }
 
 // A CRC of 16 bits lets one damaged frame in 65,536 pass. With the usual seed that happens on the router in trial 2365
-// (a step is missing) and on the Uno in trial 3657 (the board refuses what it reads).
+// (a segment that was never sent, and a step is missing) and on the Uno in trial 3657 (such a one is refused).
 TEST_P(BrokenLineInFull, random_faults) {
   random_faults(GetParam(), 2000);
 }
