@@ -121,16 +121,20 @@ TEST(Uno, refuses_a_segment_faster_than_it_states) {
   EXPECT_TRUE(bench.ports().changes().empty());
 }
 
+void expect_nothing_of_garbage(BoardBench& bench, std::mt19937_64& random) {
+  std::vector<std::uint8_t> garbage(2'000);
+  for (std::uint8_t& byte : garbage) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xA5 : random());
+  bench.ports().forget_changes();
+  bench.uart().send(garbage);
+  bench.run(garbage.size() * 320 + 100'000);
+  EXPECT_TRUE(bench.ports().changes().empty()) << "nothing of that was a segment";
+}
+
 TEST(Uno, steps_right_after_any_garbage_on_its_line) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
   for (int trial = 0; trial < 5; ++trial) {
-    std::vector<std::uint8_t> garbage(2'000);
-    for (std::uint8_t& byte : garbage) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xA5 : random());
-    bench.ports().forget_changes();
-    bench.uart().send(garbage);
-    bench.run(garbage.size() * 320 + 100'000);
-    EXPECT_TRUE(bench.ports().changes().empty()) << "nothing of that was a segment";
+    expect_nothing_of_garbage(bench, random);
     StreamKind kind{.shortest_interval = 200, .longest_interval = 300, .shortest_segment = 60, .segments = 20};
     expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
   }
@@ -196,12 +200,7 @@ TEST(Mega, leaves_motors_alone_that_the_host_does_not_know) {
 TEST(Mega, steps_right_after_any_garbage_on_its_line) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(mega_under_test(PASSO_MOTION_MEGA, 4));
-  std::vector<std::uint8_t> garbage(2'000);
-  for (std::uint8_t& byte : garbage) byte = static_cast<std::uint8_t>(random() % 4 == 0 ? 0xA5 : random());
-  bench.ports().forget_changes();
-  bench.uart().send(garbage);
-  bench.run(garbage.size() * 320 + 100'000);
-  EXPECT_TRUE(bench.ports().changes().empty()) << "nothing of that was a segment";
+  expect_nothing_of_garbage(bench, random);
   const StreamKind kind{.shortest_interval = 200, .longest_interval = 300, .shortest_segment = 100, .segments = 20};
   expect_every_edge(bench.play(random_stream(random, 4, kind)), unavoidable_on_mega, apart_on_mega);
 }
