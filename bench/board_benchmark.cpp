@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "passo/firmware/player.hpp"
-#include "passo/link/in_process_link.hpp"
+#include "passo/link/board_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/report/trace_csv.hpp"
 #include "passo/report/trace_vcd.hpp"
@@ -74,7 +74,7 @@ void play(benchmark::State& state, MachineObserver* observer) {
   for (auto _ : state) {
     VirtualMachine machine(3, Hertz(16e6));
     if (observer != nullptr) machine.add_observer(*observer);
-    InProcessLink link(machine, 3);
+    BoardLink link(machine, 3);
     for (const BoardSegment& segment : segments) link.send(segment);
     link.drain();
     bytes = link.bytes_sent();

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "passo/emulator/emulated_board.hpp"
-#include "passo/link/in_process_link.hpp"
+#include "passo/link/board_link.hpp"
 
 namespace passo {
 namespace {
@@ -42,7 +42,7 @@ std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_
     return nullptr;
   }
   // The greeting has kept its form in all versions: what does not answer a question may answer that.
-  const InProcessLink greeting(run->port(), motors, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
+  const BoardLink greeting(run->port(), motors, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
   const LinkError error = greeting.error().value_or(LinkError::wrong_version);
   code = fail(exit_failed, fmt::format("{}: {}", address, message_of(error)));
   return nullptr;

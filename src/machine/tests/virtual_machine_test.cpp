@@ -10,7 +10,7 @@
 
 #include "kit/seed.hpp"
 
-#include "passo/link/in_process_link.hpp"
+#include "passo/link/board_link.hpp"
 
 namespace passo {
 namespace {
@@ -57,7 +57,7 @@ TEST(VirtualMachine, stands_still_until_it_is_told_to_move) {
 
 TEST(VirtualMachine, counts_net_and_total_steps_reversals_and_intervals) {
   VirtualMachine machine(1, clock);
-  InProcessLink link(machine, 1);
+  BoardLink link(machine, 1);
   link.send(every_event(200, 160));
   link.send(every_event(50, 100, true));
   link.send(every_event(10, 500));
@@ -77,7 +77,7 @@ TEST(VirtualMachine, counts_net_and_total_steps_reversals_and_intervals) {
 
 TEST(VirtualMachine, a_first_step_downwards_is_no_reversal) {
   VirtualMachine machine(1, clock);
-  InProcessLink link(machine, 1);
+  BoardLink link(machine, 1);
   link.send(every_event(1, 100, true));
   link.drain();
   EXPECT_EQ(machine.counts().motors[0].reversals, 0);
@@ -91,7 +91,7 @@ TEST(VirtualMachine, events_without_steps_take_time_and_are_not_shown) {
   VirtualMachine machine(1, clock);
   Recorder recorder;
   machine.add_observer(recorder);
-  InProcessLink link(machine, 1);
+  BoardLink link(machine, 1);
   link.send(BoardSegment{.events = 100, .interval = 32768U << 16});
   link.send(every_event(1, 10));
   link.drain();
@@ -107,7 +107,7 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
   body.motors[0] = {.low = 120, .high = 130};
   machine.add_body(far);
   machine.add_body(body);
-  InProcessLink link(machine, 1);
+  BoardLink link(machine, 1);
   link.send(every_event(20, 100));
   link.watch_probe(ProbeUntil::touched);
   EXPECT_FALSE(link.probe_report().touched);
@@ -134,7 +134,7 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
 
 TEST(VirtualMachine, time_goes_on_past_32_bits) {
   VirtualMachine machine(1, clock);
-  InProcessLink link(machine, 1);
+  BoardLink link(machine, 1);
   for (int i = 0; i < 1000; ++i) link.send(BoardSegment{.events = 255, .interval = largest_interval});
   link.drain();
   // 65535.99998 ticks each; the fractions of all the intervals make whole ticks too.
@@ -146,7 +146,7 @@ TEST(VirtualMachine, switches_outputs_between_segments) {
   VirtualMachine machine(1, clock);
   Recorder recorder;
   machine.add_observer(recorder);
-  InProcessLink link(machine, 1);
+  BoardLink link(machine, 1);
   link.send(BoardOutputs{.switches = spindle_on, .spindle_rpm = 9000});
   link.send(every_event(3, 100));
   link.send(BoardOutputs{.switches = spindle_on | mist_on, .spindle_rpm = 9000});
@@ -164,7 +164,7 @@ TEST(VirtualMachine, does_the_same_whether_or_not_it_is_watched) {
     VirtualMachine machine(2, clock);
     Recorder recorder;
     if (watched) machine.add_observer(recorder);
-    InProcessLink link(machine, 2);
+    BoardLink link(machine, 2);
     for (std::uint32_t i = 0; i < 500; ++i) {
       BoardSegment segment = every_event(static_cast<std::uint8_t>(1 + i % 255), 160 + i % 9, i % 3 == 0);
       segment.increments[1] = static_cast<std::uint16_t>(i * 131);
@@ -213,7 +213,7 @@ TEST(VirtualMachine, makes_the_very_steps_that_random_segments_ask_for) {
     VirtualMachine machine(motors, clock);
     Recorder recorder;
     machine.add_observer(recorder);
-    InProcessLink link(machine, motors);
+    BoardLink link(machine, motors);
     Oracle oracle(motors);
     for (int i = 0; i < 300; ++i) {
       BoardSegment segment{.events = static_cast<std::uint8_t>(1 + random() % 255),

@@ -79,7 +79,7 @@ class Job {
   VirtualMachine& machine() { return machine_; }
   // To spoil what goes over it; only of a job that has one.
   VirtualLine& line() { return *line_; }
-  const InProcessLink& link() const { return drive_.link(); }
+  const BoardLink& link() const { return drive_.link(); }
   const Frame& frame() const { return path_builder_.frame(); }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
   const ToolTable& tools() const { return interpreter_.tools(); }
@@ -106,7 +106,7 @@ class Job {
   std::optional<VirtualLine> line_;
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
   Hertz clock_;
-  std::optional<InProcessLink> shadow_;  // to the machine, where it is not the board
+  std::optional<BoardLink> shadow_;  // to the machine, where it is not the board
 
   Seconds nominal_time_{0};
 };

@@ -21,7 +21,7 @@
 #include "passo/controller/rewindable_path.hpp"
 #include "passo/controller/spindle_follower.hpp"
 #include "passo/controller/tap.hpp"
-#include "passo/link/in_process_link.hpp"
+#include "passo/link/board_link.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -100,7 +100,7 @@ class MotionDrive {
   // Who wants to watch, before the first advance().
   Tap<MotionItem>& motion() { return watched_motion_; }
   Tap<BoardItem>& board() { return watched_board_; }
-  const InProcessLink& link() const { return link_; }
+  const BoardLink& link() const { return link_; }
 
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }
@@ -132,7 +132,7 @@ class MotionDrive {
   Tap<MotionItem> watched_motion_;
   StepGenerator step_generator_;  // phases -> board segments
   Tap<BoardItem> watched_board_;
-  InProcessLink link_;  // board segments -> wire
+  BoardLink link_;  // board segments -> wire
   StepOptions steps_;
   std::optional<Refiller> refiller_;
   ProbeMove probe_;

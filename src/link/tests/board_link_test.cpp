@@ -1,4 +1,4 @@
-#include "passo/link/in_process_link.hpp"
+#include "passo/link/board_link.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -93,27 +93,27 @@ BoardSegment numbered(std::uint32_t number) {
   return segment;
 }
 
-TEST(InProcessLink, learns_what_the_board_is) {
+TEST(BoardLink, learns_what_the_board_is) {
   ScriptedBoard board;
-  const InProcessLink link(board, 2);
+  const BoardLink link(board, 2);
   EXPECT_FALSE(link.error());
   ASSERT_TRUE(link.board());
   EXPECT_EQ(link.board()->capacity, 4);
   EXPECT_EQ(link.board()->clock, 1000U);
 }
 
-TEST(InProcessLink, asks_once_in_however_many_pieces_the_answer_comes) {
+TEST(BoardLink, asks_once_in_however_many_pieces_the_answer_comes) {
   ScriptedBoard board;
   board.slow = true;
-  const InProcessLink link(board, 2, {.answer_within = Seconds(0.05)});
+  const BoardLink link(board, 2, {.answer_within = Seconds(0.05)});
   EXPECT_FALSE(link.error());
   ASSERT_TRUE(link.board());
   EXPECT_EQ(board.frames_received, 1U);
 }
 
-TEST(InProcessLink, carries_every_item_in_order) {
+TEST(BoardLink, carries_every_item_in_order) {
   ScriptedBoard board;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   for (std::uint32_t i = 0; i < 1000; ++i) {
     link.send(numbered(i));
     if (i % 100 == 0) link.send(BoardOutputs{.spindle_rpm = static_cast<std::uint16_t>(i)});
@@ -131,16 +131,16 @@ TEST(InProcessLink, carries_every_item_in_order) {
   }
 }
 
-TEST(InProcessLink, never_has_more_under_way_than_the_board_has_room_for) {
+TEST(BoardLink, never_has_more_under_way_than_the_board_has_room_for) {
   ScriptedBoard board;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   for (std::uint32_t i = 0; i < 100; ++i) link.send(numbered(i));
   EXPECT_EQ(board.most_queued, board.identity.capacity);
 }
 
-TEST(InProcessLink, lets_the_board_play_only_when_it_has_to_wait) {
+TEST(BoardLink, lets_the_board_play_only_when_it_has_to_wait) {
   ScriptedBoard board;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   for (std::uint32_t i = 0; i < 4; ++i) link.send(numbered(i));
   EXPECT_EQ(board.runs, 0);
   link.send(numbered(4));
@@ -149,9 +149,9 @@ TEST(InProcessLink, lets_the_board_play_only_when_it_has_to_wait) {
   EXPECT_TRUE(board.queue.empty());
 }
 
-TEST(InProcessLink, counts_the_frames_and_bytes_that_it_sends) {
+TEST(BoardLink, counts_the_frames_and_bytes_that_it_sends) {
   ScriptedBoard board;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   for (std::uint32_t i = 0; i < 10; ++i) link.send(numbered(i));
   link.send(BoardOutputs());
   EXPECT_EQ(link.frames_sent(), 12U);
@@ -160,37 +160,37 @@ TEST(InProcessLink, counts_the_frames_and_bytes_that_it_sends) {
   EXPECT_EQ(link.bytes_sent(), board.bytes_received);
 }
 
-TEST(InProcessLink, tells_when_nobody_answers) {
+TEST(BoardLink, tells_when_nobody_answers) {
   ScriptedBoard board;
   board.silent = true;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   EXPECT_EQ(link.error(), LinkError::no_answer);
   link.send(numbered(0));
   EXPECT_TRUE(board.segments.empty());
 }
 
-TEST(InProcessLink, tells_when_the_board_comes_to_a_halt_with_items_under_way) {
+TEST(BoardLink, tells_when_the_board_comes_to_a_halt_with_items_under_way) {
   ScriptedBoard board;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   link.send(numbered(0));
   board.stuck = true;
   link.drain();
   EXPECT_EQ(link.error(), LinkError::no_answer);
 }
 
-TEST(InProcessLink, does_not_go_on_with_a_board_that_does_not_suit) {
+TEST(BoardLink, does_not_go_on_with_a_board_that_does_not_suit) {
   ScriptedBoard other_version;
   other_version.identity.version = 1;
-  EXPECT_EQ(InProcessLink(other_version, 3).error(), LinkError::wrong_version);
+  EXPECT_EQ(BoardLink(other_version, 3).error(), LinkError::wrong_version);
   ScriptedBoard small;
   small.identity.motors = 2;
-  EXPECT_EQ(InProcessLink(small, 3).error(), LinkError::too_few_motors);
+  EXPECT_EQ(BoardLink(small, 3).error(), LinkError::too_few_motors);
 }
 
-TEST(InProcessLink, stops_at_the_first_item_that_the_board_refuses) {
+TEST(BoardLink, stops_at_the_first_item_that_the_board_refuses) {
   ScriptedBoard board;
   board.refusing = true;
-  InProcessLink link(board, 3);
+  BoardLink link(board, 3);
   for (std::uint32_t i = 0; i < 100; ++i) link.send(numbered(i));
   link.drain();
   EXPECT_EQ(link.error(), LinkError::refused);

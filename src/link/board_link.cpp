@@ -1,4 +1,4 @@
-#include "passo/link/in_process_link.hpp"
+#include "passo/link/board_link.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,14 +7,14 @@
 
 namespace passo {
 
-InProcessLink::InProcessLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
+BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
     : port_(port), motors_(motors), care_(care), heard_(port.elapsed()) {
   decoder_.set_motors(motors);
   say_hello();
   if (care_.session != 0 && !error_) name_session();
 }
 
-void InProcessLink::say_hello() {
+void BoardLink::say_hello() {
   while (!board_ && !error_) {
     say(Hello{.motors = motors_}, std::uint8_t{0});
     const bool heard = hear_until([this] { return board_.has_value(); });
@@ -29,7 +29,7 @@ void InProcessLink::say_hello() {
   }
 }
 
-void InProcessLink::name_session() {
+void BoardLink::name_session() {
   const auto named = [this] { return status_ && status_->session == care_.session; };
   while (!error_ && !named()) {
     say(Session{.number = care_.session}, std::uint8_t{0});
@@ -38,18 +38,18 @@ void InProcessLink::name_session() {
   }
 }
 
-void InProcessLink::send(const BoardSegment& segment) {
+void BoardLink::send(const BoardSegment& segment) {
   assert(segment.events > 0 && std::abs(segment.change) <= largest_change);
   wait_for_room();
   send_counted(segment, motors_);
 }
 
-void InProcessLink::send(const BoardOutputs& outputs) {
+void BoardLink::send(const BoardOutputs& outputs) {
   wait_for_room();
   send_counted(outputs);
 }
 
-ItemNumber InProcessLink::replace(ItemNumber after, std::span<const LinkItem> items) {
+ItemNumber BoardLink::replace(ItemNumber after, std::span<const LinkItem> items) {
   assert(!items.empty() && room() >= static_cast<int>(items.size()));
   send_counted(Replace{.after = after, .count = static_cast<std::uint8_t>(items.size())});
   const auto first = static_cast<ItemNumber>(sent_ + 1);
@@ -63,18 +63,18 @@ ItemNumber InProcessLink::replace(ItemNumber after, std::span<const LinkItem> it
   return first;
 }
 
-void InProcessLink::drain() {
+void BoardLink::drain() {
   while (!error_ && busy() && listen()) {
   }
 }
 
-void InProcessLink::wait() {
+void BoardLink::wait() {
   news_ = false;
   while (!error_ && !news_ && listen()) {
   }
 }
 
-void InProcessLink::watch_probe(ProbeUntil until) {
+void BoardLink::watch_probe(ProbeUntil until) {
   drain();
   probe_until_ = until;
   probe_report_ = {};
@@ -87,13 +87,13 @@ void InProcessLink::watch_probe(ProbeUntil until) {
   std::copy_n(status_->positions, probed_from_.size(), probed_from_.begin());
 }
 
-void InProcessLink::wait_for_room() {
+void BoardLink::wait_for_room() {
   while (!error_ && room() <= 0 && listen()) {
   }
 }
 
 // Waits for what the board has to say, for as long as it may take. False when it is no use to wait any longer.
-bool InProcessLink::listen() {
+bool BoardLink::listen() {
   const bool heard = hear();
   if (error_) return false;
   if (!may_lose()) {
@@ -108,14 +108,14 @@ bool InProcessLink::listen() {
 
 // An answer comes in pieces, on a slow line byte by byte: what was asked is asked again only when its time is over.
 template <class Done>
-bool InProcessLink::hear_until(Done done) {
+bool BoardLink::hear_until(Done done) {
   const Seconds asked = port_.elapsed();
   bool heard = false;
   while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear()) heard = true;
   return heard;
 }
 
-bool InProcessLink::hear() {
+bool BoardLink::hear() {
   std::span<const std::uint8_t> bytes = port_.replies();
   if (bytes.empty() && port_.run(care_.answer_within)) bytes = port_.replies();
   for (const std::uint8_t byte : bytes) {
@@ -127,17 +127,17 @@ bool InProcessLink::hear() {
 }
 
 // It takes too long until the board has what was sent.
-bool InProcessLink::overdue() const {
+bool BoardLink::overdue() const {
   return !kept_.empty() && port_.elapsed() - moved_on_ > care_.answer_within;
 }
 
-void InProcessLink::ask() {
+void BoardLink::ask() {
   moved_on_ = port_.elapsed();
   asked_behind_ = sent_;
   say(Ask{.motors = motors_}, std::uint8_t{0});
 }
 
-void InProcessLink::take(const WireFrame& frame) {
+void BoardLink::take(const WireFrame& frame) {
   switch (frame.type) {
     case MessageType::hello_reply: return decode(frame, board_.emplace());
     case MessageType::credit: {
@@ -167,7 +167,7 @@ void InProcessLink::take(const WireFrame& frame) {
 }
 
 // One that was overtaken by a later one tells nothing.
-void InProcessLink::take(const Credit& credit) {
+void BoardLink::take(const Credit& credit) {
   const int more = later_by(credit.executed, executed_);
   if (more < 0 || later_by(credit.executed, sent_) > 0) return;
   const ItemNumber before = taken_;
@@ -179,7 +179,7 @@ void InProcessLink::take(const Credit& credit) {
   news_ = true;
 }
 
-void InProcessLink::take(const BoardStatus& status) {
+void BoardLink::take(const BoardStatus& status) {
   status_ = status;
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
@@ -193,7 +193,7 @@ void InProcessLink::take(const BoardStatus& status) {
 }
 
 // Each tells of a change, and is told once.
-void InProcessLink::take(const Captured& captured) {
+void BoardLink::take(const Captured& captured) {
   if ((captured.input & input_probe) == 0) return;
   probe_report_.touched = !probe_report_.touched;
   const bool waited_for = probe_until_ == (probe_report_.touched ? ProbeUntil::touched : ProbeUntil::released);
@@ -203,7 +203,7 @@ void InProcessLink::take(const Captured& captured) {
   news_ = true;
 }
 
-void InProcessLink::take(const ErrorReport& error) {
+void BoardLink::take(const ErrorReport& error) {
   switch (error.reason) {
     case WireError::bad_frame:
     case WireError::out_of_sequence:
@@ -218,7 +218,7 @@ void InProcessLink::take(const ErrorReport& error) {
 }
 
 // `sequence`: the low byte of a number between the last one known to be taken and the last one sent; else it is old.
-void InProcessLink::note_taken(std::uint8_t sequence) {
+void BoardLink::note_taken(std::uint8_t sequence) {
   const auto more = static_cast<std::uint8_t>(sequence - static_cast<std::uint8_t>(taken_));
   if (more == 0 || more > later_by(sent_, taken_)) return;
   taken_ = static_cast<ItemNumber>(taken_ + more);
@@ -228,20 +228,20 @@ void InProcessLink::note_taken(std::uint8_t sequence) {
 }
 
 // All that the board does not have, in order.
-void InProcessLink::repeat() {
+void BoardLink::repeat() {
   if (error_) return;
   for (const Frame& frame : kept_) put_on_wire(frame.bytes, frame.size);
   frames_repeated_ += kept_.size();
 }
 
 template <class Message, class... More>
-void InProcessLink::say(const Message& message, More... more) {
+void BoardLink::say(const Message& message, More... more) {
   std::uint8_t frame[largest_frame];
   put_on_wire(frame, encode(message, more..., frame));
 }
 
 template <class Message, class... More>
-void InProcessLink::send_counted(const Message& message, More... more) {
+void BoardLink::send_counted(const Message& message, More... more) {
   if (error_) return;
   Frame frame{.number = ++sent_};
   frame.size = encode(message, more..., static_cast<std::uint8_t>(sent_), frame.bytes);
@@ -250,7 +250,7 @@ void InProcessLink::send_counted(const Message& message, More... more) {
   put_on_wire(frame.bytes, frame.size);
 }
 
-void InProcessLink::put_on_wire(const std::uint8_t* frame, std::uint8_t size) {
+void BoardLink::put_on_wire(const std::uint8_t* frame, std::uint8_t size) {
   ++frames_sent_;
   bytes_sent_ += size;
   port_.receive({frame, size});

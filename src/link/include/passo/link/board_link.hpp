@@ -1,4 +1,5 @@
-// InProcessLink: a link to a board in this very process. The bytes are those that a serial line would carry.
+// BoardLink: the link to a board behind a port, in this process or at the end of a line. The bytes are the same in
+// both.
 //
 // The board plays only when the host has to wait for it: with no room left, in wait() and in drain(). So its queue is
 // as full as the host wants it, and a run gives the same bytes every time.
@@ -31,10 +32,10 @@ struct LineCare {
   std::uint16_t session = 0;                                       // by which the board is known again; not 0
 };
 
-class InProcessLink final : public Link {
+class BoardLink final : public Link {
  public:
   // Says hello: from here on both sides count the motors' fractions from the start. The port outlives the link.
-  InProcessLink(BoardPort& port, std::uint8_t motors, const LineCare& care = {});
+  BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care = {});
 
   void send(const BoardSegment& segment) override;
   void send(const BoardOutputs& outputs) override;
