@@ -4,8 +4,21 @@
 #include <cassert>
 #include <cstdlib>
 #include <span>
+#include <utility>
+
+#include "passo/wire/announcement.hpp"
 
 namespace passo {
+namespace {
+
+// Frames that are sent again before the board is asked what it has of them.
+constexpr std::size_t repeated_at_once = 16;
+
+// The board may hear what was never sent, and so may we: both are believed when they come again.
+constexpr int most_refusals = 8;  // of one frame
+constexpr int sure_of_status = 2;
+
+}  // namespace
 
 BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
     : port_(port), motors_(motors), care_(care), heard_(port.elapsed()) {
@@ -51,16 +64,23 @@ void BoardLink::send(const BoardOutputs& outputs) {
 
 ItemNumber BoardLink::replace(ItemNumber after, std::span<const LinkItem> items) {
   assert(!items.empty() && room() >= static_cast<int>(items.size()));
-  send_counted(Replace{.after = after, .count = static_cast<std::uint8_t>(items.size())});
-  const auto first = static_cast<ItemNumber>(sent_ + 1);
+  const auto number = static_cast<ItemNumber>(sent_ + 1);
+  Announcement announcement(number, after, motors_);
+  frames_.clear();
   for (const LinkItem& item : items) {
+    Frame& frame = frames_.emplace_back();
+    frame.number = static_cast<ItemNumber>(number + frames_.size());
+    const auto sequence = static_cast<std::uint8_t>(frame.number);
     if (const auto* segment = std::get_if<BoardSegment>(&item)) {
-      send_counted(*segment, motors_);
+      frame.size = encode(*segment, motors_, sequence, frame.bytes);
     } else {
-      send_counted(std::get<BoardOutputs>(item));
+      frame.size = encode(std::get<BoardOutputs>(item), sequence, frame.bytes);
     }
+    announcement.add(frame.bytes, frame.size);
   }
-  return first;
+  send_counted(announcement.replace());
+  for (const Frame& frame : frames_) send_frame(frame);
+  return static_cast<ItemNumber>(number + 1);
 }
 
 void BoardLink::drain() {
@@ -134,7 +154,7 @@ bool BoardLink::overdue() const {
 void BoardLink::ask() {
   moved_on_ = port_.elapsed();
   asked_behind_ = sent_;
-  say(Ask{.motors = motors_}, std::uint8_t{0});
+  say(Ask{.motors = motors_}, ++question_);
 }
 
 void BoardLink::take(const WireFrame& frame) {
@@ -162,17 +182,21 @@ void BoardLink::take(const WireFrame& frame) {
       return take(captured);
     }
     case MessageType::about: break;
-    default: error_ = LinkError::refused; break;
+    default:
+      if (!may_lose()) error_ = LinkError::refused;
+      break;
   }
 }
 
-// One that was overtaken by a later one tells nothing.
+// One that was overtaken by a later one tells nothing, and neither does one that cannot be.
 void BoardLink::take(const Credit& credit) {
   const int more = later_by(credit.executed, executed_);
-  if (more < 0 || later_by(credit.executed, sent_) > 0) return;
+  const auto more_taken = static_cast<std::uint8_t>(credit.taken - static_cast<std::uint8_t>(taken_));
+  const auto taken = static_cast<ItemNumber>(taken_ + more_taken);
+  if (more < 0 || later_by(taken, sent_) > 0 || later_by(credit.executed, taken) > 0) return;
+  if (credit.free > board_->capacity) return;
   const ItemNumber before = taken_;
   note_taken(credit.taken);
-  if (static_cast<std::uint8_t>(taken_) != credit.taken) return;
   if (more == 0 && taken_ == before && credit.free <= free_) return;
   executed_ = credit.executed;
   free_ = credit.free;
@@ -183,13 +207,23 @@ void BoardLink::take(const BoardStatus& status) {
   status_ = status;
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
-    if (care_.session != 0 && sent_ != 0) error_ = LinkError::was_reset;
+    if (care_.session != 0 && sent_ != 0) doubt(LinkError::was_reset);
     return;
   }
-  if ((status.state & board_trusted) == 0) error_ = LinkError::stopped;
+  if ((status.state & board_trusted) == 0) return doubt(LinkError::stopped);
+  doubts_ = 0;
   take(Credit{.executed = status.executed, .taken = status.taken, .free = status.free});
+  if (status.answers != question_) return;
   // What was sent before the question, and has not arrived before it, is lost.
-  if (later_by(asked_behind_, taken_) > 0) repeat();
+  if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) repeat();
+}
+
+void BoardLink::doubt(LinkError error) {
+  if (++doubts_ == sure_of_status) {
+    error_ = error;
+  } else {
+    ask();
+  }
 }
 
 // Each tells of a change, and is told once.
@@ -207,14 +241,20 @@ void BoardLink::take(const ErrorReport& error) {
   switch (error.reason) {
     case WireError::bad_frame:
     case WireError::out_of_sequence:
-    case WireError::queue_full:
-      if (!may_lose()) break;
-      note_taken(static_cast<std::uint8_t>(error.expected - 1));
-      return repeat();
-    case WireError::too_late: return;  // what is executed will tell
-    default: break;
+    case WireError::queue_full: break;
+    case WireError::too_late:
+    case WireError::wrong_sums: return;  // what is executed will tell
+    default:
+      // Of what we sent, or of what it heard in its place?
+      refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;
+      refused_ = error.expected;
+      if (refusals_ == most_refusals) error_ = LinkError::refused;
+      break;
   }
-  error_ = LinkError::refused;
+  if (!may_lose()) error_ = LinkError::refused;
+  note_taken(static_cast<std::uint8_t>(error.expected - 1));
+  // What it complains of while something is being repeated is older, or else the answer to the question behind tells.
+  if (!repeating_) repeat();
 }
 
 // `sequence`: the low byte of a number between the last one known to be taken and the last one sent; else it is old.
@@ -227,11 +267,16 @@ void BoardLink::note_taken(std::uint8_t sequence) {
   while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
 }
 
-// All that the board does not have, in order.
+// Some of what the board does not have, in order, and a question behind, whose answer tells what is to be repeated
+// next. Nothing else is sent meanwhile. All of it each time that the board complains: on a bad line each of many frames
+// would bring many more.
 void BoardLink::repeat() {
-  if (error_) return;
-  for (const Frame& frame : kept_) put_on_wire(frame.bytes, frame.size);
-  frames_repeated_ += kept_.size();
+  if (error_ || kept_.empty()) return;
+  const std::size_t count = std::min(kept_.size(), repeated_at_once);
+  for (std::size_t i = 0; i < count; ++i) put_on_wire(kept_[i].bytes, kept_[i].size);
+  frames_repeated_ += count;
+  ask();
+  repeating_ = care_.session != 0;  // else nobody tells
 }
 
 template <class Message, class... More>
@@ -243,11 +288,18 @@ void BoardLink::say(const Message& message, More... more) {
 template <class Message, class... More>
 void BoardLink::send_counted(const Message& message, More... more) {
   if (error_) return;
-  Frame frame{.number = ++sent_};
-  frame.size = encode(message, more..., static_cast<std::uint8_t>(sent_), frame.bytes);
+  Frame frame{.number = static_cast<ItemNumber>(sent_ + 1)};
+  frame.size = encode(message, more..., static_cast<std::uint8_t>(frame.number), frame.bytes);
+  send_frame(frame);
+}
+
+// The next one that is counted.
+void BoardLink::send_frame(const Frame& frame) {
+  if (error_) return;
+  sent_ = frame.number;
   if (may_lose()) kept_.push_back(frame);
   moved_on_ = port_.elapsed();
-  put_on_wire(frame.bytes, frame.size);
+  if (!repeating_) put_on_wire(frame.bytes, frame.size);
 }
 
 void BoardLink::put_on_wire(const std::uint8_t* frame, std::uint8_t size) {

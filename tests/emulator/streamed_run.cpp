@@ -8,6 +8,7 @@
 #include "passo/chip/mega_ramps.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/firmware/player.hpp"
+#include "passo/wire/announcement.hpp"
 
 namespace passo {
 namespace {
@@ -113,10 +114,18 @@ void BoardBench::ask() {
   uart_->send({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
 }
 
-void BoardBench::send_replace(std::uint8_t count) {
+void BoardBench::send_replace(std::span<const Item> items) {
   std::uint8_t frame[largest_frame];
-  const Replace replace{.after = last_executed_, .count = count};
-  uart_->send({frame, encode(replace, ++last_sent_, frame)});
+  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
+  Announcement announcement(static_cast<std::uint16_t>(last_sent_ + 1), last_executed_, motors);
+  for (const Item& item : items) {
+    if (const auto* segment = std::get_if<BoardSegment>(&item)) {
+      announcement.add(frame, encode(*segment, motors, 0, frame));
+    } else {
+      announcement.add(frame, encode(std::get<BoardOutputs>(item), 0, frame));
+    }
+  }
+  uart_->send({frame, encode(announcement.replace(), ++last_sent_, frame)});
 }
 
 bool BoardBench::say_hello() {
@@ -140,7 +149,7 @@ void BoardBench::start(const std::vector<BoardSegment>& segments) {
 
 void BoardBench::start_items(const std::vector<Item>& items) {
   if (!say_hello()) return;
-  send_replace(static_cast<std::uint8_t>(items.size()));
+  send_replace(items);
   for (const Item& item : items) std::visit([this](const auto& one) { send_item(one); }, item);
 }
 
@@ -160,7 +169,7 @@ EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   const auto under_way = [this] { return static_cast<std::uint8_t>(last_sent_ - last_executed_); };
   // A replacement begins when all of it has come: else the line would be too slow for short segments at the start.
   const std::size_t first = std::min<std::size_t>(segments.size(), capacity_ - 1U);
-  send_replace(static_cast<std::uint8_t>(first));
+  send_replace(std::vector<Item>(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(first)));
   while (sent < first) send_item(segments[sent++]);
   while (sent < segments.size() || under_way() > 0) {
     while (sent < segments.size() && under_way() < capacity_) send_item(segments[sent++]);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -89,8 +90,8 @@ class BoardBench {
  private:
   void hear(std::uint8_t byte);
   bool say_hello();
-  // Behind all that was executed.
-  void send_replace(std::uint8_t count);
+  // Behind all that was executed; just behind a hello.
+  void send_replace(std::span<const Item> items);
   void send_item(const BoardSegment& segment);
   void send_item(const BoardOutputs& outputs);
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;

@@ -21,6 +21,7 @@ struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs&) {}  // the player has switched them, at their event
   void send(uint8_t byte) { line.send(byte); }
+  uint8_t room() { return line.room(); }
   static void breathe() { SerialLine::breathe(); }
 
   SerialLine line;

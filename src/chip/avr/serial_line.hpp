@@ -41,8 +41,9 @@ class SerialLine {
     return byte;
   }
 
+  static uint8_t room() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask); }
   // There is room for one of the board's frames.
-  static bool can_send() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask) >= longest; }
+  static bool can_send() { return room() >= longest; }
   static void send(uint8_t byte) {
     breathe();
     out_[to_send_] = byte;

@@ -1,11 +1,14 @@
 // Any bytes off the wire: the board loses no place for items, turns no motor that is not there, and comes to rest. The
 // first byte of the input chooses: bytes as they are, or contents of frames that get a right CRC, so that they are
 // listened to.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "passo/firmware/board.hpp"
+#include "passo/wire/announcement.hpp"
 #include "passo/wire/decoder.hpp"
 
 namespace passo {
@@ -75,19 +78,56 @@ void check_bytes(const std::uint8_t* data, std::size_t size) {
   bench.come_to_rest();
 }
 
-// Type, sequence number and payload, one frame after the other.
-void check_frames(const std::uint8_t* data, std::size_t size) {
-  Bench bench;
-  std::size_t at = 0;
-  while (at + 2 <= size) {
+std::vector<WireFrame> frames_in(const std::uint8_t* data, std::size_t size) {
+  std::vector<WireFrame> frames;
+  for (std::size_t at = 0; at + 2 <= size;) {
+    WireFrame frame{.type = static_cast<MessageType>(data[at]), .sequence = data[at + 1]};
     const std::uint8_t payload = payload_size(data[at], motors);
-    std::uint8_t frame[largest_frame];
-    Encoder encoder(frame, static_cast<MessageType>(data[at]), data[at + 1]);
     at += 2;
     if (payload == 0 || at + payload > size) continue;
-    for (std::uint8_t i = 0; i < payload; ++i) encoder.put8(data[at++]);
-    const std::uint8_t whole = encoder.finish();
-    for (std::uint8_t i = 0; i < whole; ++i) bench.take(frame[i]);
+    std::copy_n(data + at, payload, frame.payload);
+    at += payload;
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::uint8_t bytes_of(const WireFrame& frame, std::uint8_t* bytes) {
+  Encoder encoder(bytes, frame.type, frame.sequence);
+  const std::uint8_t payload = payload_size(static_cast<std::uint8_t>(frame.type), motors);
+  for (std::uint8_t i = 0; i < payload; ++i) encoder.put8(frame.payload[i]);
+  return encoder.finish();
+}
+
+// With the right sums for what follows it: else hardly ever anything would be replaced.
+WireFrame announced(const std::vector<WireFrame>& frames, std::size_t at, std::uint8_t hello) {
+  WireFrame frame = frames[at];
+  Replace replace;
+  decode(frame, replace);
+  const auto number = static_cast<std::uint16_t>(hello + static_cast<std::uint8_t>(frame.sequence - hello));
+  Announcement announcement(number, replace.after, motors);
+  std::uint8_t bytes[largest_frame];
+  for (std::size_t i = 1; i <= replace.count && at + i < frames.size(); ++i) {
+    announcement.add(bytes, bytes_of(frames[at + i], bytes));
+  }
+  const Replace right = announcement.replace();
+  const std::uint16_t sums[2] = {right.sums.first, right.sums.second};
+  for (unsigned i = 0; i < 4; ++i) frame.payload[3 + i] = static_cast<std::uint8_t>(sums[i / 2] >> i % 2 * 8);
+  return frame;
+}
+
+// Type, sequence number and payload, one frame after the other. The last byte of a replacement's sums chooses whether
+// they are as they are or right.
+void check_frames(const std::uint8_t* data, std::size_t size) {
+  Bench bench;
+  const std::vector<WireFrame> frames = frames_in(data, size);
+  std::uint8_t hello = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].type == MessageType::hello) hello = frames[i].sequence;
+    const bool right = frames[i].type == MessageType::replace && frames[i].payload[6] < 0x80;
+    std::uint8_t bytes[largest_frame];
+    const std::uint8_t whole = bytes_of(right ? announced(frames, i, hello) : frames[i], bytes);
+    for (std::uint8_t k = 0; k < whole; ++k) bench.take(bytes[k]);
   }
   bench.come_to_rest();
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/firmware/board.hpp"
+#include "passo/wire/announcement.hpp"
 
 namespace passo {
 
@@ -46,8 +47,11 @@ class BoardTest : public testing::Test {
     send(Hello{.motors = 3}, sequence);
     bench_.replies.clear();
   }
+  static BoardSegment segment_of(std::uint8_t events, std::uint32_t ticks) {
+    return {.events = events, .flips = 1, .interval = ticks << 16};
+  }
   void send_segment(std::uint8_t sequence, std::uint8_t events = 1, std::uint32_t ticks = 10) {
-    send(BoardSegment{.events = events, .flips = 1, .interval = ticks << 16}, std::uint8_t{3}, sequence);
+    send(segment_of(events, ticks), std::uint8_t{3}, sequence);
   }
   void event() {
     bench_.now += board_.ticks_to_next_event();

@@ -94,7 +94,8 @@ TEST(Message, what_version_2_brings_keeps_every_field) {
     decode(carried(frame, encode(status, motors, 1, frame), motors), motors, heard);
     ASSERT_EQ(std::tie(heard.session, heard.executed, heard.taken, heard.free, heard.event, heard.state),
               std::tie(status.session, status.executed, status.taken, status.free, status.event, status.state));
-    ASSERT_EQ(std::tie(heard.reset, heard.motors, heard.inputs), std::tie(status.reset, status.motors, status.inputs));
+    ASSERT_EQ(std::tie(heard.reset, heard.motors, heard.inputs, heard.answers),
+              std::tie(status.reset, status.motors, status.inputs, status.answers));
     for (unsigned m = 0; m < max_motors; ++m) ASSERT_EQ(heard.positions[m], m < motors ? status.positions[m] : 0);
 
     const Captured captured = random.captured();
@@ -110,10 +111,11 @@ TEST(Message, what_version_2_brings_keeps_every_field) {
               std::tie(about.firmware, about.highest_event_rate, about.baud));
     ASSERT_TRUE(std::equal(std::begin(about.name), std::end(about.name), std::begin(read.name)));
 
-    const Replace replace{.after = random.word(), .count = random.byte()};
+    const Replace replace = random.replace();
     Replace told;
     decode(carried(frame, encode(replace, 4, frame)), told);
     ASSERT_EQ(std::tie(told.after, told.count), std::tie(replace.after, replace.count));
+    ASSERT_EQ(std::tie(told.sums.first, told.sums.second), std::tie(replace.sums.first, replace.sums.second));
 
     const Fault fault{.reason = FaultReason::limit, .event = random.byte(), .executed = random.word()};
     Fault known;

@@ -54,9 +54,16 @@ class RandomMessages {
                        .state = byte(),
                        .reset = static_cast<ResetCause>(byte()),
                        .motors = byte(),
-                       .inputs = word()};
+                       .inputs = word(),
+                       .answers = byte()};
     for (std::int32_t& place : status.positions) place = position();
     return status;
+  }
+  Replace replace() {
+    Replace replace{.after = word(), .count = byte()};
+    replace.sums.first = word();
+    replace.sums.second = word();
+    return replace;
   }
   Captured captured() {
     Captured captured{.input = word(), .item = byte(), .event = byte()};
@@ -98,7 +105,7 @@ class RandomMessages {
         break;
       }
       case 5: size = encode(Session{.number = word()}, sequence, frame.data()); break;
-      case 6: size = encode(Replace{.after = word(), .count = byte()}, sequence, frame.data()); break;
+      case 6: size = encode(replace(), sequence, frame.data()); break;
       case 7: {
         const Ask ask{.version = byte(), .motors = byte(), .question = static_cast<Question>(byte())};
         size = encode(ask, sequence, frame.data());

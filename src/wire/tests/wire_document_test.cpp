@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "passo/wire/announcement.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -37,14 +38,17 @@ std::vector<std::string> example_session() {
       .events = 300, .directions = 1, .flips = 1, .interval = 0x00A08000, .change = -256, .increments = {0, 0x4BA5}};
   const BoardSegment tail{
       .events = 50, .directions = 1, .flips = 1, .interval = 0x009FB800, .change = 0x40000, .increments = {0, 0x4BA5}};
-  line(encode(Replace{.after = 1, .count = 2}, 2, frame));
+  Announcement announcement(2, 1, 2);
+  announcement.add(frame, encode(segment, 2, 3, frame));
+  announcement.add(frame, encode(tail, 2, 4, frame));
+  line(encode(announcement.replace(), 2, frame));
   line(encode(segment, 2, 3, frame));
   line(encode(tail, 2, 4, frame));
   line(encode(Credit{.executed = 1, .taken = 4, .free = 30}, 3, frame));
   line(encode(ErrorReport{.reason = WireError::out_of_sequence, .expected = 5}, 4, frame));
   line(encode(Credit{.executed = 3, .taken = 4, .free = 31}, 5, frame));
   line(encode(Credit{.executed = 4, .taken = 4, .free = 32}, 6, frame));
-  line(encode(Ask{.motors = 2}, 0, frame));
+  line(encode(Ask{.motors = 2}, 1, frame));
   const BoardStatus status{.session = 0x1234,
                            .executed = 4,
                            .taken = 4,
@@ -52,6 +56,7 @@ std::vector<std::string> example_session() {
                            .state = board_trusted,
                            .motors = 2,
                            .inputs = input_probe,
+                           .answers = 1,
                            .positions = {-350, 103}};
   line(encode(status, 2, 7, frame));
   return lines;

@@ -10,6 +10,7 @@
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
 //   static void breathe();                            may be left out: called between two pieces of work
+//   uint8_t room();                                   may be left out: how many bytes may be sent now
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -67,6 +68,10 @@ class Board {
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
   void report() {
+    if (!has_room(frame_overhead + payload_size(static_cast<uint8_t>(MessageType::credit), 0))) {
+      if (owed_ == 0) owed_ = 1;
+      return;
+    }
     owed_ = 0;
     send(Credit{.executed = executed_, .taken = taken(), .free = list_.free()});
   }
@@ -165,11 +170,15 @@ class Board {
       return complain(WireError::bad_value);
     }
     breathe();
-    if (ask.question == Question::about) return send(identity_.about);
-    tell_status(ask.motors);
+    const bool about = ask.question == Question::about;
+    const uint8_t type = static_cast<uint8_t>(about ? MessageType::about : MessageType::status);
+    // A question that nobody waits to hear answered, as many of them as there may be, drives out nothing else.
+    if (!has_room(frame_overhead + payload_size(type, ask.motors))) return;
+    if (about) return send(identity_.about);
+    tell_status(ask.motors, frame.sequence);
   }
 
-  [[gnu::noinline]] void tell_status(uint8_t motors) {
+  [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
     unsigned state = trusted_ ? unsigned{board_trusted} : 0U;
     if (!idle()) state |= board_moves;
     if (player_.slipped()) state |= board_slipped;
@@ -182,7 +191,8 @@ class Board {
                        .state = static_cast<uint8_t>(state),
                        .reset = identity_.reset,
                        .motors = motors_,
-                       .inputs = inputs_};
+                       .inputs = inputs_,
+                       .answers = question};
     for (uint8_t motor = 0; motor < motors; ++motor) {
       breathe();
       status.positions[motor] = position(motor);
@@ -205,6 +215,7 @@ class Board {
     // More than half round is behind: a repeated frame, from a host that has not heard of the first one.
     if (missing > 127) return report();
     if (missing != 0) return complain(WireError::out_of_sequence);
+    complained_ = false;  // the host has heard of a gap, if there was one
     if (!trusted_) return complain(WireError::unexpected);
     if (frame.type == MessageType::replace) return begin_replacement(frame);
     enqueue(frame);
@@ -216,11 +227,17 @@ class Board {
     if (replace.count == 0) return complain(WireError::bad_value);
     if (replace.count > list_.free()) return complain(WireError::queue_full);
     list_.begin_replacement(replace.after, replace.count);
+    sums_ = replace.sums;
+    sums_.add_announcement(expected_, replace.after, replace.count);
     accept();
   }
 
   void enqueue(const WireFrame& frame) {
     if (list_.free() == 0) return complain(WireError::queue_full);
+    // Who has named a session minds what moves: nothing is to move that no sums were made of.
+    if (session_ != 0 && frame.type == MessageType::segment && !list_.gathering()) {
+      return complain(WireError::unexpected);
+    }
     auto& item = list_.space();
     item.number = expected_;
     if (frame.type == MessageType::segment) {
@@ -237,16 +254,31 @@ class Board {
       item.keep(outputs);
     }
     accept();
+    if (list_.gathering()) add_to_sums(frame);
     list_.append();
     breathe();
     if (list_.gathering()) return;
     if (list_.gathered()) {
       ++owed_;  // of the room, either way
-      if (!list_.template complete<Breath>(executed_, begun_)) {
-        return send(ErrorReport{.reason = WireError::too_late, .expected = static_cast<uint8_t>(expected_)});
-      }
+      const WireError wrong = complete();
+      if (wrong != no_error) return send(ErrorReport{.reason = wrong, .expected = static_cast<uint8_t>(expected_)});
     }
     settle();
+  }
+
+  [[gnu::noinline]] void add_to_sums(const WireFrame& frame) {
+    sums_.add(frame, motors_);
+    breathe();
+  }
+
+  static constexpr WireError no_error = WireError{};
+  // What has been gathered takes its place, if it is what was sent and comes in time.
+  WireError complete() {
+    if (!sums_.is_nothing()) {
+      list_.drop_replacement();
+      return WireError::wrong_sums;
+    }
+    return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
   }
 
   // Its first interval and its last one, and so all between.
@@ -354,9 +386,14 @@ class Board {
 
   // Once for each gap: all that comes after a lost frame is out of sequence, and the host knows it from the first word.
   void complain(WireError reason) {
-    if (complained_) return;
+    if (complained_ || !has_room(frame_overhead + payload_size(static_cast<uint8_t>(MessageType::error), 0))) return;
     complained_ = true;
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
+  }
+
+  bool has_room(uint8_t size) {
+    if constexpr (requires { hardware_.room(); }) return hardware_.room() >= size;
+    return true;
   }
 
   // By themselves, both: a frame is a lot for a chip's stack, and there must be no two.
@@ -390,6 +427,7 @@ class Board {
   uint8_t sent_ = 0;       // the board's own sequence number
   uint8_t owed_ = 0;       // items executed and other news since the last report
   bool complained_ = false;
+  ItemSums sums_;  // of the replacement that is gathered, so far
   bool trusted_ = true;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment

@@ -101,8 +101,15 @@ class PlayList {
 
   // The next `count` items are to replace all behind item `after`. One that was gathered so far is dropped.
   void begin_replacement(uint16_t after, uint8_t count) {
-    drop_staged();
+    drop_replacement();
     staged_ = {.after = after, .count = count, .missing = count};
+  }
+  // What was gathered is dropped, and what was announced no longer waited for.
+  void drop_replacement() {
+    if (staged_.front != none) {
+      give_back(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
+    }
+    staged_ = {};
   }
   bool gathering() const { return staged_.missing > 0; }
   // All items have come: now complete() it.
@@ -122,7 +129,7 @@ class PlayList {
     Pause{}();
     const bool in_time = behind_all || (slot != none && place >= begun);
     if (!in_time) {
-      drop_staged();
+      drop_replacement();
       return false;
     }
     const uint8_t kept = slot == none ? uint8_t{0} : place;
@@ -158,13 +165,6 @@ class PlayList {
     unused_ = first;
     free_ = static_cast<uint8_t>(free_ + count);
   }
-  void drop_staged() {
-    if (staged_.front != none) {
-      give_back(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
-    }
-    staged_ = {};
-  }
-
   Slot slots_[slot_count];
   uint8_t front_ = none;
   uint8_t last_ = none;

@@ -6,8 +6,11 @@
 //
 // Where nothing is lost on the way an error that the board reports is a bug on one of the two sides, and final. Where
 // something may be lost, what was sent is kept until the board has taken it, and repeated from where the board
-// says that something is missing. After a silence the link asks the board how it is, again and again while patience
-// lasts: a line that comes back is found by that, and what it had swallowed is sent again.
+// says that something is missing: a few frames, and a question how far it is now, and so on until it has all. After a
+// silence the link asks the board how it is, again and again while patience lasts: a line that comes back is found by
+// that, and what it had swallowed is sent again.
+//
+// Damage that looks like a message is rare, but not never: what would end the job is believed when it comes again.
 #pragma once
 
 #include <algorithm>
@@ -83,12 +86,14 @@ class BoardLink final : public Link {
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
   void take(const Captured& captured);
+  void doubt(LinkError error);
   void note_taken(std::uint8_t sequence);
   void repeat();
   template <class Message, class... More>
   void say(const Message& message, More... more);
   template <class Message, class... More>
   void send_counted(const Message& message, More... more);
+  void send_frame(const Frame& frame);
   void put_on_wire(const std::uint8_t* frame, std::uint8_t size);
 
   BoardPort& port_;
@@ -102,11 +107,17 @@ class BoardLink final : public Link {
   ItemNumber taken_ = 0;         // of the last one that the board told to have
   ItemNumber executed_ = 0;      // of the last item that it told to be done
   ItemNumber asked_behind_ = 0;  // the last one sent when the board was last asked
+  std::uint8_t question_ = 0;    // the number of that
+  bool repeating_ = false;       // and not heard the answer since
+  std::uint8_t refused_ = 0;     // sequence number of the frame that the board refused last
+  int refusals_ = 0;             // so many times in a row
+  int doubts_ = 0;               // statuses in a row that would end the job
   int free_ = 0;                 // room that it had when it told so
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
   bool news_ = false;                                   // since wait() began
+  std::vector<Frame> frames_;                           // of a replacement that is put together
   std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
   Seconds heard_{0};                                    // when the board last said anything
   Seconds moved_on_{0};                                 // when it last took something, or we asked or sent

@@ -5,6 +5,7 @@
 
 #include "passo/wire/board_segment.hpp"
 #include "passo/wire/encoder.hpp"
+#include "passo/wire/item_sums.hpp"
 #include "passo/wire/wire_frame.hpp"
 
 namespace passo {
@@ -33,10 +34,12 @@ struct Session {
 // `after`, as soon as the last of them has come.
 struct Replace {
   uint16_t after = 0;
-  uint8_t count = 0;  // 1 and more
+  uint8_t count = 0;   // 1 and more
+  ItemSums sums = {};  // to which all of it is added: nothing must be left
 };
 
 // Host to board, at any time: how are you? The only message of the host's, with hello and session, that is not counted.
+// Its sequence number is a number of its own, by which the status says which question it answers.
 enum class Question : uint8_t { status = 0, about = 1 };
 struct Ask {
   uint8_t version = protocol_version;
@@ -58,6 +61,7 @@ enum class WireError : uint8_t {
   bad_value = 4,        // a segment without events, faster than the board is, or for a motor that is not there
   unexpected = 5,       // a message that only the board sends, or a hello amid motion
   too_late = 6,         // an item behind the one to replace after has begun; what was to take its place is dropped
+  wrong_sums = 7,       // items came that were not sent: what was to take the place of others is dropped
 };
 
 // Board to host: what came was not taken.
@@ -94,6 +98,7 @@ struct BoardStatus {
   ResetCause reset = ResetCause::power_on;
   uint8_t motors = 0;   // agreed upon; 0: a host has not said hello since the reset
   uint16_t inputs = 0;  // bits: BoardInput
+  uint8_t answers = 0;  // sequence number of the question
   int32_t positions[max_motors] = {};
 };
 
@@ -173,6 +178,8 @@ uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::replace, sequence);
   encoder.put16(replace.after);
   encoder.put8(replace.count);
+  encoder.put16(replace.sums.first);
+  encoder.put16(replace.sums.second);
   return encoder.finish();
 }
 
@@ -207,6 +214,7 @@ uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint
   encoder.put8(static_cast<uint8_t>(status.reset));
   encoder.put8(status.motors);
   encoder.put16(status.inputs);
+  encoder.put8(status.answers);
   for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(status.positions[motor]));
   return encoder.finish();
 }
@@ -309,7 +317,9 @@ inline void decode(const WireFrame& frame, Session& session) {
 }
 
 inline void decode(const WireFrame& frame, Replace& replace) {
-  replace = {.after = load16(frame.payload), .count = frame.payload[2]};
+  replace = {.after = load16(frame.payload),
+             .count = frame.payload[2],
+             .sums = {.first = load16(frame.payload + 3), .second = load16(frame.payload + 5)}};
 }
 
 inline void decode(const WireFrame& frame, Ask& ask) {
@@ -333,6 +343,7 @@ inline void decode(const WireFrame& frame, uint8_t motors, BoardStatus& status) 
   status.reset = static_cast<ResetCause>(bytes[9]);
   status.motors = bytes[10];
   status.inputs = load16(bytes + 11);
+  status.answers = bytes[13];
   load_positions(bytes + status_size, motors, status.positions);
 }
 

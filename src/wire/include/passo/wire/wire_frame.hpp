@@ -15,7 +15,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 3;
+inline constexpr uint8_t protocol_version = 4;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
 enum class MessageType : uint8_t {
@@ -38,7 +38,7 @@ enum class MessageType : uint8_t {
 
 inline constexpr uint8_t frame_overhead = 6;
 inline constexpr uint8_t segment_size = 11;  // without what is there for each motor
-inline constexpr uint8_t status_size = 13;
+inline constexpr uint8_t status_size = 14;
 inline constexpr uint8_t captured_size = 5;
 inline constexpr uint8_t largest_payload = status_size + 4 * max_motors;
 inline constexpr uint8_t largest_frame = frame_overhead + largest_payload;
@@ -59,10 +59,10 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::session:
     case MessageType::error: return 2;
     case MessageType::outputs:
-    case MessageType::replace:
     case MessageType::ask: return 3;
     case MessageType::credit: return 4;
     case MessageType::fault: return 5;
+    case MessageType::replace:
     case MessageType::hello_reply: return 7;
     case MessageType::about: return 26;
     case MessageType::segment: return with_motors(segment_size, 2);
