@@ -158,7 +158,7 @@ Refiller::Tail Refiller::find_tail() {
   Braking braking(plan_);
   tail.rested = std::make_unique<StepGenerator>(braking, steps_);
   tail.rested->assume(stages_.generator);
-  tail.rested->be_exact_to(options_.tail);
+  tail.rested->be_exact_to(places_ < options_.few_places ? options_.tail_in_few_places : options_.tail);
   while (tail.rested->next(item_)) tail.items.emplace_back(std::get<BoardSegment>(item_));
   return tail;
 }

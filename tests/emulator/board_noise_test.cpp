@@ -128,6 +128,43 @@ void expect_no_harm(const BoardUnderTest& board) {
   noise.report();
 }
 
+// More questions than there is room for answers, and each longer than what the board has to say otherwise: what it says
+// is whole frames, and behind them it answers as ever.
+void expect_whole_answers(const BoardUnderTest& board) {
+  BoardBench bench(board);
+  bench.start({});
+  int answers = 0;
+  int refused = 0;
+  Decoder decoder;
+  decoder.set_motors(max_motors);
+  bench.uart().on_byte = [&](std::uint8_t byte) {
+    const Decoded told = decoder.feed(byte);
+    refused += told == Decoded::refused ? 1 : 0;
+    if (told != Decoded::frame) return;
+    BoardStatus status;
+    decode(decoder.frame(), max_motors, status);
+    EXPECT_EQ(decoder.frame().type, MessageType::status);
+    ++answers;
+  };
+  constexpr int questions = 100;
+  for (int i = 0; i < questions; ++i) {
+    std::uint8_t frame[largest_frame];
+    bench.uart().send({frame, encode(Ask{.motors = max_motors}, static_cast<std::uint8_t>(i), frame)});
+  }
+  bench.run((questions + 10) * 10 * 320 + 100'000);
+  EXPECT_EQ(refused, 0);
+  // A third of what the line could carry: a question has 9 bytes, its answer 52.
+  EXPECT_GE(answers, questions * 9 / 52 / 3);
+  EXPECT_LT(answers, questions);
+}
+
+TEST(UnoNoise, answers_a_flood_of_questions_with_whole_frames) {
+  expect_whole_answers(uno_under_test(PASSO_MOTION_UNO));
+}
+TEST(MegaNoise, answers_a_flood_of_questions_with_whole_frames) {
+  expect_whole_answers(mega_under_test(PASSO_MOTION_MEGA, 4));
+}
+
 TEST(UnoNoise, moves_nothing_and_is_forgotten_with_the_next_frame) {
   expect_no_harm(uno_under_test(PASSO_MOTION_UNO));
 }

@@ -267,7 +267,8 @@ class Board {
   }
 
   [[gnu::noinline]] void add_to_sums(const WireFrame& frame) {
-    sums_.add(frame, motors_);
+    breathe();
+    sums_.template add<Breath>(frame, motors_);
     breathe();
   }
 

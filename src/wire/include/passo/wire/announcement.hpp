@@ -1,4 +1,4 @@
-// Announcement: puts a replace together from the frames that are to follow it. Of the host.
+// Announcement: puts a replace together from the frames that are to follow it. Of the host. Portable.
 #pragma once
 
 #include <stdint.h>
