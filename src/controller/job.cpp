@@ -96,7 +96,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       drive_(smoother_, limits_, step_options(machine), machine_, board_line(options, line_)),
       clock_(machine.board.clock) {
   const bool over_a_line = line_ || options.board != nullptr;
-  if (over_a_line && !unsuited()) static_cast<void>(drive_.use_tails({}));
+  if (over_a_line && !unsuited()) drive_.use_tails({});
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   // The encoder is not on the wire yet: over a line nothing may follow what this spindle does.
   if (!over_a_line) fit_spindle(machine.spindle);

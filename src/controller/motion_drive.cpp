@@ -110,14 +110,11 @@ void MotionDrive::commit_ahead(const LiveOptions& options) {
   step_generator_.limit_waiting_to(std::min(options.longest_move, longest_wait));
 }
 
-bool MotionDrive::use_tails(const TailOptions& options) {
-  std::vector<PlannedMove> plan;
-  if (!planner_.braking_plan(plan)) return false;
+void MotionDrive::use_tails(const TailOptions& options) {
   refiller_.emplace(
       Refiller::Stages{
           .path = path_, .planner = planner_, .generator = step_generator_, .items = watched_board_, .link = link_},
       steps_, options);
-  return true;
 }
 
 bool MotionDrive::advance_with_tails() {

@@ -1,7 +1,7 @@
 #include "passo/controller/refiller.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "board_outputs.hpp"
@@ -14,6 +14,15 @@ constexpr Seconds between_tails{0.0025};
 constexpr std::size_t items_between_tails = 3;
 // As long as there is time, a refill has so many at least, and leaves as many places for the next.
 constexpr std::size_t worth_sending = 8;
+
+// Where a tail is too long the speed is limited to this part of what it is there: again after so much motion, in which
+// the planner has braked; and where tails are short enough for so long, it may rise by this part.
+constexpr double slower = 0.7;
+constexpr double slower_from_rest = 0.5;
+constexpr Seconds to_settle{0.03};
+constexpr double faster = 1.3;
+constexpr Seconds to_go_on_so{0.1};
+constexpr double least_limit = 0.05;  // mm/s
 
 // The planner's braking, handed out as motion.
 class Braking final : public Source<MotionItem> {
@@ -37,11 +46,22 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       steps_(steps),
       options_(options),
       behind_(stages.link.executed()),
-      places_(static_cast<std::size_t>(std::max(stages.link.room(), 0))) {
+      places_(static_cast<std::size_t>(std::max(stages.link.places(), 0))),
+      long_tail_((places_ - std::min(places_, worth_sending + 1)) / 2) {
   stages.path.keep();
   stages.planner.limit_moves_to(options.longest_move);
   stages.generator.limit_waiting_to(options.longest_move);
   stages.generator.be_exact_to(places_ < options.few_places ? options.motion_in_few_places : options.motion);
+  rested_.generator = fork();
+}
+
+void Refiller::watch(const MotionItem& motion) {
+  given_ = stages_.path.behind(given_, motion);
+  const auto* move = std::get_if<PlannedMove>(&motion);
+  if (move == nullptr || move->phase_count == 0) return;
+  const Phase& last = move->phases[move->phase_count - 1];
+  speed_ = last.velocity_at(last.duration).value();
+  fastest_ = std::max(fastest_, speed_);
 }
 
 Refiller::Turn Refiller::advance() {
@@ -58,6 +78,7 @@ Refiller::Turn Refiller::advance() {
     if (pulled_.empty() && ended_) return Turn::ended;
     if (pulled_.empty() && std::exchange(holds_, false)) return Turn::rests_in_hold;
     if (!pulled_.empty() && free_places() + 1 == places_) {
+      if (begin_more_slowly()) return Turn::goes_on;
       stages_.link.fail(LinkError::too_few_places);
       return Turn::ended;
     }
@@ -76,13 +97,15 @@ void Refiller::note_executed() {
   auto& under_way = refills_under_way_;
   while (under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0) under_way.pop_front();
   if (under_way.empty() || later_by(executed, under_way.front().first) < 0) return;
-  stages_.path.forget_before(under_way.front().rest.item);
+  stages_.path.forget_before(under_way.front().rest.place.item);
   on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
   if (executed != under_way.front().last) return;
-  const Refill played = std::move(under_way.front());
+  rested_ = std::move(under_way.front().rest);
   under_way.pop_front();
+  fastest_ = speed_;
   if (!on_tail_) return;
-  take_up(played);
+  behind_ = executed;
+  take_up();
   ++recoveries_;
 }
 
@@ -94,19 +117,50 @@ void Refiller::show_executed(ItemNumber executed) {
   }
 }
 
-// The board rests at the end of a tail. All that was sent behind it came too late.
-void Refiller::take_up(const Refill& refill) {
+// The board rests. All that was sent behind it came too late, and all that was pulled is pulled again.
+void Refiller::take_up() {
   refills_under_way_.clear();
   sent_.clear();
   motion_.clear();
   pulled_.clear();
   ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
-  behind_ = refill.last;
-  given_ = refill.rest;
-  stages_.path.rewind(refill.rest);
+  speed_ = fastest_ = 0;
+  given_ = rested_.place;
+  stages_.path.rewind(given_);
   stages_.planner.restart();
-  stages_.generator.assume(*refill.rested);
+  stages_.generator.assume(*rested_.generator);
+}
+
+// At rest, where nothing fits.
+bool Refiller::begin_more_slowly() {
+  const double limit = std::min(speed_limit_, fastest_) * slower_from_rest;
+  if (limit < least_limit) return false;
+  limit_speed_to(limit);
+  take_up();
+  return true;
+}
+
+void Refiller::limit_speed_to(double speed) {
+  if (speed < speed_limit_) ++slowdowns_;
+  speed_limit_ = speed;
+  limited_for_ = Seconds(0);
+  stages_.planner.limit_speed_to(MmPerSecond(speed));
+}
+
+// What comes is limited before the tails are too long to be sent.
+void Refiller::mind_length_of(const Tail& tail) {
+  const bool is_long = tail.items.size() > long_tail_;
+  if (is_long && speed_ > least_limit && (std::isinf(speed_limit_) || limited_for_ > to_settle)) {
+    limit_speed_to(std::min(speed_limit_, speed_) * slower);
+  } else if (!is_long && !std::isinf(speed_limit_)) {
+    const bool is_short = 2 * tail.items.size() < long_tail_;
+    if (is_short && limited_for_ > to_settle) {
+      limit_speed_to(std::numeric_limits<double>::infinity());
+    } else if (limited_for_ > to_go_on_so) {
+      limit_speed_to(speed_limit_ * faster);
+    }
+  }
 }
 
 // Motion up to the horizon, and further to where a refill may end.
@@ -126,19 +180,21 @@ void Refiller::pull() {
       add(board_outputs(action.outputs));
     }
   }
-  if ((ended_ || holds_) && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = Tail{.rest = given_};
+  if ((ended_ || holds_) && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = tail_of_nothing();
 }
 
 void Refiller::add(const LinkItem& item) {
   pulled_.push_back({.item = item, .time = time_of(item)});
   pulled_time_ += pulled_.back().time;
+  limited_for_ += pulled_.back().time;
   const StepGenerator& generator = stages_.generator;
-  if (generator.at_rest()) {
-    pulled_.back().tail = Tail{.rest = given_};
+  if (generator.stands()) {
+    pulled_.back().tail = tail_of_nothing();
   } else if (generator.ends_at_rest()) {
     return;  // it is to come to rest by itself
   } else if (is_far_from_last_tail()) {
     pulled_.back().tail = find_tail();
+    mind_length_of(*pulled_.back().tail);
   }
 }
 
@@ -151,39 +207,55 @@ bool Refiller::is_far_from_last_tail() const {
 
 // How the machine would come to rest behind what was pulled.
 Refiller::Tail Refiller::find_tail() {
-  [[maybe_unused]] const bool known = stages_.planner.braking_plan(plan_);
-  assert(known);
-  Tail tail{.rest = given_};
-  for (const PlannedMove& move : plan_) tail.rest = stages_.path.behind(tail.rest, move);
+  stages_.planner.braking_plan(plan_);
+  Tail tail{.rest = {.place = given_}};
+  for (const PlannedMove& move : plan_) tail.rest.place = stages_.path.behind(tail.rest.place, move);
   Braking braking(plan_);
-  tail.rested = std::make_unique<StepGenerator>(braking, steps_);
-  tail.rested->assume(stages_.generator);
-  tail.rested->be_exact_to(places_ < options_.few_places ? options_.tail_in_few_places : options_.tail);
-  while (tail.rested->next(item_)) tail.items.emplace_back(std::get<BoardSegment>(item_));
+  StepGenerator& rested = *(tail.rest.generator = std::make_unique<StepGenerator>(braking, steps_));
+  rested.assume(stages_.generator);
+  rested.be_exact_to(places_ < options_.few_places ? options_.tail_in_few_places : options_.tail);
+  while (rested.next(item_)) tail.items.emplace_back(std::get<BoardSegment>(item_));
   return tail;
+}
+
+Refiller::Tail Refiller::tail_of_nothing() {
+  return {.rest = {.place = given_, .generator = fork()}};
+}
+
+// The generator as it is; what it would be given is not its own.
+std::unique_ptr<StepGenerator> Refiller::fork() {
+  plan_.clear();
+  Braking nothing(plan_);
+  auto fork = std::make_unique<StepGenerator>(nothing, steps_);
+  fork->assume(stages_.generator);
+  return fork;
 }
 
 // One is for what replaces.
 std::size_t Refiller::free_places() const {
-  return static_cast<std::size_t>(std::max(stages_.link.room() - 1, 0));
+  return static_cast<std::size_t>(std::max(stages_.link.places() - 1, 0));
 }
 
 // How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
 // one's tail begins.
 std::size_t Refiller::size_of_refill() const {
   if (pulled_.empty() || ahead_ >= options_.refill_at) return 0;
-  const std::size_t room = free_places();
+  const std::size_t places = free_places();
+  const std::size_t room = static_cast<std::size_t>(std::max(stages_.link.room() - 1, 0));
   std::size_t fits = 0;
   std::size_t fits_well = 0;
+  Seconds line_time{0};
   for (std::size_t i = 1; i <= pulled_.size() && i <= room; ++i) {
     if (!pulled_[i - 1].tail) continue;
     const std::size_t tail = pulled_[i - 1].tail->items.size();
-    if (i + tail <= room) fits = i;
-    if (i + 2 * tail + (tail > 0 ? worth_sending : 0) <= room) fits_well = i;
+    if (i + tail > room) continue;
+    fits = i;
+    line_time = options_.time_an_item * static_cast<double>(i + tail + worth_sending);
+    if (i + 2 * tail + (tail > 0 ? worth_sending : 0) <= places) fits_well = i;
   }
   if (refills_under_way_.empty()) return fits_well > 0 ? fits_well : fits;
   if (fits_well >= std::min(worth_sending, pulled_.size())) return fits_well;
-  if (ahead_ >= options_.refill_at / 2) return 0;
+  if (ahead_ >= std::max(options_.refill_at / 2, line_time)) return 0;
   return fits;
 }
 
@@ -208,8 +280,7 @@ void Refiller::send(std::size_t items) {
   }
   tail_items_ += tail.items.size();
   ++refills_;
-  refill.rest = tail.rest;
-  refill.rested = std::move(pulled_[items - 1].tail->rested);
+  refill.rest = std::move(pulled_[items - 1].tail->rest);
   refills_under_way_.push_back(std::move(refill));
   pulled_.erase(pulled_.begin(), pulled_.begin() + static_cast<std::ptrdiff_t>(items));
 }

@@ -46,6 +46,7 @@ class StepGenerator::Implementation {
   }
 
   bool ends_at_rest() const { return rests_; }
+  bool stands() const { return rests_ && !play_ && !stream_.in_move(); }
   bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !stream_.in_move(); }
 
   bool next(BoardItem& item) {
@@ -211,6 +212,9 @@ void StepGenerator::assume(const StepGenerator& other) {
 }
 bool StepGenerator::ends_at_rest() const {
   return implementation_->ends_at_rest();
+}
+bool StepGenerator::stands() const {
+  return implementation_->stands();
 }
 bool StepGenerator::at_rest() const {
   return implementation_->at_rest();

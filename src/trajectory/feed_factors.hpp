@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "passo/path/segment.hpp"
 
@@ -14,6 +15,7 @@ struct FeedFactors {
   double override = 1;
   double adaptive = 1;
   double spindle = 1;  // of feeds that follow it
+  double top = std::numeric_limits<double>::infinity();  // mm/s: of all speeds, rapids included
 
   // What was chosen for feeds; a slow spindle does not make the motion stand.
   double chosen(const Heeds& heeds) const {
@@ -23,7 +25,11 @@ struct FeedFactors {
   double planned(const Heeds& heeds, SpindleLock lock) const {
     return std::max(chosen(heeds) * (lock != SpindleLock::none ? spindle : 1), least_feed_factor);
   }
-  double planned(const Segment& segment) const { return segment.rapid ? 1 : planned(segment.heeds, segment.lock); }
+  // mm/s
+  double speed_on(const Segment& segment) const {
+    const double factor = segment.rapid ? 1 : planned(segment.heeds, segment.lock);
+    return std::min(segment.speed.value() * factor, top);
+  }
   friend bool operator==(const FeedFactors&, const FeedFactors&) = default;
 };
 

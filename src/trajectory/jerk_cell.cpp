@@ -46,7 +46,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   const Curve& curve = segment.curve;
   length_ = curve.length().value();
   const Point steepest = curve.steepest();
-  speed_ = std::min(segment.speed.value() * cut.feed_factor, fastest);
+  speed_ = std::min(cut.feed, fastest);
   top_ = speed_;
   acceleration_ = strongest;
   jerk_ = sharpest;

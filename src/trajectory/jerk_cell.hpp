@@ -58,7 +58,7 @@ class JerkCutter {
     double from = 0;  // s
     double entry_squared = 0;
     double exit_squared = 0;
-    double feed_factor = 1;  // on the segment's speed
+    double feed = 0;  // mm/s
   };
   void begin(const Segment& segment, const Cut& cut);
   // Next cell; `shapes` takes one for each axis.

@@ -10,6 +10,9 @@ namespace {
 // mm/s: what is left of a speed at rest by rounding.
 constexpr double at_rest = 1e-6;
 
+// Seconds, between two places from which braking is tried.
+constexpr double between_trials = 0.003;
+
 // Of the longest time of a move: a part that is smaller is not cut off.
 constexpr double smallest_part = 0.02;
 
@@ -37,7 +40,8 @@ void JerkPlanner::wish(const MidRunWishes& wishes) {
   wishes_ = wishes;
   fastest_ = {.override = std::max(fastest_.override, wishes.feeds.override),
               .adaptive = std::max(fastest_.adaptive, wishes.feeds.adaptive),
-              .spindle = std::max(fastest_.spindle, wishes.feeds.spindle)};
+              .spindle = std::max(fastest_.spindle, wishes.feeds.spindle),
+              .top = std::max(fastest_.top, wishes.feeds.top)};
   window_->set_feeds(wishes.feeds);
 }
 
@@ -88,15 +92,78 @@ bool JerkPlanner::produce(PlannedMove& move) {
   }
   if (!change_) return window_->next(move);
   move.segment = *path_.at(0);
-  move.phase_count = 0;
-  while (given_pieces_ < change_->pieces().size() && move.phase_count < PlannedMove::most_phases) {
-    const SpeedChange::Piece& piece = change_->pieces()[given_pieces_];
-    if (piece.segment != passed_segments_) break;
-    move.add(piece.phase);
-    move.to = piece.ends_segment ? move.segment.curve.length() : piece.phase.position_at(piece.phase.duration);
-    ++given_pieces_;
-  }
+  take_pieces(*change_, given_pieces_, move);
   return true;
+}
+
+// Those on one segment, as many as a move has room for. Whether the segment ends there.
+bool JerkPlanner::take_pieces(const SpeedChange& change, std::size_t& given, PlannedMove& move) {
+  const std::vector<SpeedChange::Piece>& pieces = change.pieces();
+  const std::size_t segment = pieces[given].segment;
+  bool ends = false;
+  move.phase_count = 0;
+  for (; given < pieces.size() && pieces[given].segment == segment; ++given) {
+    if (move.phase_count == PlannedMove::most_phases) break;
+    const SpeedChange::Piece& piece = pieces[given];
+    move.add(piece.phase);
+    ends = piece.ends_segment;
+    move.to = ends ? move.segment.curve.length() : piece.phase.position_at(piece.phase.duration);
+  }
+  return ends;
+}
+
+// What would come if nothing changed.
+struct JerkPlanner::Outlook {
+  bool behind_rest = false;  // of the move that was too long
+  std::size_t pieces = 0;    // of the change, given or looked at
+  std::size_t cells = 0;     // of the window, looked at
+  std::size_t segment = 0;   // of the path, where that lies
+};
+
+bool JerkPlanner::look_ahead(Outlook& outlook, PlannedMove& move) {
+  if (rest_ && !std::exchange(outlook.behind_rest, true)) {
+    move = *rest_;
+    if (move.to >= move.segment.curve.length()) ++outlook.segment;
+    return true;
+  }
+  if (change_ && outlook.pieces < change_->pieces().size()) {
+    move.segment = *path_.at(outlook.segment);
+    if (take_pieces(*change_, outlook.pieces, move)) ++outlook.segment;
+    return true;
+  }
+  return window_->look_at(outlook.cells, outlook.segment, move);
+}
+
+// The shortest way to rest is a SpeedChange. Where there is none, all goes on as planned to where there is one, or to
+// rest.
+void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
+  plan.clear();
+  Outlook outlook{.pieces = given_pieces_};
+  PathState state = now_;
+  double since_trial = between_trials;
+  while (state.speed >= at_rest) {
+    std::optional<SpeedChange> stop;
+    if (since_trial >= between_trials) {
+      stop = SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0});
+      since_trial = 0;
+    }
+    PlannedMove& move = plan.emplace_back();
+    if (stop) {
+      for (std::size_t given = 0;;) {
+        plan.back().segment = *path_.at(stop->pieces()[given].segment);
+        take_pieces(*stop, given, plan.back());
+        if (given == stop->pieces().size()) return;
+        plan.emplace_back();
+      }
+    }
+    if (!look_ahead(outlook, move)) {
+      plan.pop_back();
+      return;
+    }
+    since_trial += move.duration().value();
+    state = behind(move);
+    state.segment = outlook.segment;
+  }
 }
 
 // To the longest time that a move may take.
@@ -130,14 +197,17 @@ void JerkPlanner::shorten(PlannedMove& move) {
   }
 }
 
-void JerkPlanner::take_note(const PlannedMove& move) {
+PathState JerkPlanner::behind(const PlannedMove& move) {
   const Phase& last = move.phases[move.phase_count - 1];
-  now_ = {.s = move.to.value(),
+  return {.s = move.to < move.segment.curve.length() ? move.to.value() : 0,
           .speed = last.velocity_at(last.duration).value(),
           .acceleration = (last.acceleration + last.jerk * last.duration).value()};
+}
+
+void JerkPlanner::take_note(const PlannedMove& move) {
+  now_ = behind(move);
   if (!rest_ && now_.speed < at_rest) now_.speed = now_.acceleration = 0;
   if (move.to < move.segment.curve.length()) return;
-  now_.s = 0;
   path_.pop();
   window_->segment_passed();
   ++passed_segments_;
@@ -178,7 +248,7 @@ void JerkPlanner::stop_sooner() {
 // Over to a plan with the feeds of now. False where none was found: what was planned goes on.
 bool JerkPlanner::go_over() {
   const Segment& segment = *path_.at(0);
-  const double feed = segment.speed.value() * wishes_.feeds.planned(segment);
+  const double feed = wishes_.feeds.speed_on(segment);
   auto window = std::make_unique<JerkWindow>(axes_, path_, most_queued_);
   for (const double part : tried_speeds) {
     std::optional<SpeedChange> change =

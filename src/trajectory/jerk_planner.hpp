@@ -24,6 +24,8 @@ class JerkPlanner final : public Source<MotionItem> {
   JerkPlanner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued);
 
   [[nodiscard]] bool next(MotionItem& item) override;
+  // As Planner's.
+  void braking_plan(std::vector<PlannedMove>& plan);
   // At rest: what is left of the path up to the next action is dropped.
   void drop_to_action();
 
@@ -32,6 +34,10 @@ class JerkPlanner final : public Source<MotionItem> {
   void wish(const MidRunWishes& wishes);
 
  private:
+  struct Outlook;
+  bool look_ahead(Outlook& outlook, PlannedMove& move);
+  static bool take_pieces(const SpeedChange& change, std::size_t& given, PlannedMove& move);
+  static PathState behind(const PlannedMove& move);
   bool stands();
   void adapt(bool stands);
   void stop_sooner();

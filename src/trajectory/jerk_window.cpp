@@ -47,12 +47,27 @@ bool JerkWindow::next(PlannedMove& move) {
   move.phase_count = 0;
   bool ended = false;
   while (given_ < decided_ && !ended && move.phase_count + phases_a_cell <= PlannedMove::most_phases) {
-    profile_.add_phases(given_, move);
-    const JerkCell& cell = profile_.cell(given_);
-    ended = cell.ends_segment;
-    move.to = Mm(ended ? move.segment.curve.length().value() : cell.start + cell.length);
+    ended = add_cell(given_, move);
     ++given_;
   }
+  return true;
+}
+
+// Whether the segment ends there.
+bool JerkWindow::add_cell(std::size_t i, PlannedMove& move) const {
+  profile_.add_phases(i, move);
+  const JerkCell& cell = profile_.cell(i);
+  move.to = Mm(cell.ends_segment ? move.segment.curve.length().value() : cell.start + cell.length);
+  return cell.ends_segment;
+}
+
+bool JerkWindow::look_at(std::size_t& ahead, std::size_t& segment, PlannedMove& move) const {
+  const std::size_t i = given_ + ahead;
+  if (i >= profile_.planned()) return false;
+  move.segment = *path_.at(segment);
+  move.phase_count = 0;
+  if (add_cell(i, move)) ++segment;
+  ++ahead;
   return true;
 }
 
@@ -98,7 +113,7 @@ void JerkWindow::pull() {
   cutter_.begin(*segment, {.from = started_ ? 0 : start_.s,
                            .entry_squared = estimate_,
                            .exit_squared = exit,
-                           .feed_factor = feeds_.planned(*segment)});
+                           .feed = feeds_.speed_on(*segment)});
   started_ = cutting_ = true;
 }
 

@@ -34,10 +34,15 @@ class JerkWindow {
 
   // The next phases of the first segment of the path. False at rest at the end of the stretch.
   [[nodiscard]] bool next(PlannedMove& move);
+  // What it would give next, if nothing changes: cell `ahead` of those to come, the plan to rest behind what is decided
+  // included, which lies on segment `segment` of the path. Both go one on, where it ends there. False at rest at the
+  // end.
+  [[nodiscard]] bool look_at(std::size_t& ahead, std::size_t& segment, PlannedMove& move) const;
   // The first segment of the path is gone.
   void segment_passed() { --cut_; }
 
  private:
+  bool add_cell(std::size_t i, PlannedMove& move) const;
   void pull();
   void look_ahead();
 

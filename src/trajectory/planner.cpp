@@ -99,9 +99,9 @@ class Planner::Implementation {
     decided_ = 0;
   }
 
-  bool braking_plan(std::vector<PlannedMove>& plan) const {
+  void braking_plan(std::vector<PlannedMove>& plan) {
+    if (jerk_limited_) return jerk_limited_->braking_plan(plan);
     plan.clear();
-    if (jerk_limited_) return false;
     double speed_squared = speed_squared_;
     std::uint64_t segment = segments_.first();
     for (std::size_t i = 0; speed_squared > 0; ++i) {
@@ -117,7 +117,6 @@ class Planner::Implementation {
       move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell.end);
       speed_squared = ride.exit;
     }
-    return true;
   }
 
   void restart() {
@@ -192,8 +191,8 @@ class Planner::Implementation {
   void set_caps(std::size_t i) {
     CellQueue::Entry& entry = cells_[i];
     entry.top_squared =
-        std::min(entry.cell.top_squared,
-                 entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock)));
+        std::min({entry.cell.top_squared, squared(wishes_.feeds.top),
+                  entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock))});
     entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
@@ -465,6 +464,11 @@ void Planner::set_spindle_ratio(double ratio) {
   wishes.feeds.spindle = ratio;
   implementation_->wish(wishes);
 }
+void Planner::limit_speed_to(MmPerSecond speed) {
+  MidRunWishes wishes = implementation_->wishes();
+  wishes.feeds.top = speed.value();
+  implementation_->wish(wishes);
+}
 void Planner::hold() {
   MidRunWishes wishes = implementation_->wishes();
   wishes.hold = true;
@@ -480,8 +484,8 @@ void Planner::stop() {
   wishes.stop = true;
   implementation_->wish(wishes);
 }
-bool Planner::braking_plan(std::vector<PlannedMove>& plan) const {
-  return implementation_->braking_plan(plan);
+void Planner::braking_plan(std::vector<PlannedMove>& plan) const {
+  implementation_->braking_plan(plan);
 }
 void Planner::restart() {
   implementation_->restart();

@@ -50,14 +50,14 @@ Phase rest_of(const Phase& phase, double time, double start) {
 }  // namespace
 
 std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
-  const Segment* first = path.at(0);
+  const Segment* first = path.at(state.segment);
   if (first == nullptr) return std::nullopt;
   const Strength most = strength_at(*first, state.s, request.axes);
   Strength strength = most;
   SpeedChange change;
   for (int trial = 0; trial < most_trials; ++trial) {
     if (!change.shape(state, request.exit, strength)) return std::nullopt;
-    const Laid laid = change.lay(path, state.s);
+    const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
     Excess worst{.force = 1.03, .jolt = 1.03};  // another strength ends elsewhere
     if (laid == Laid::whole) {
@@ -131,11 +131,11 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
 }
 
 // Cuts the phases where segments end.
-SpeedChange::Laid SpeedChange::lay(PathAhead& path, double s) {
+SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
   pieces_.clear();
-  segment_ = 0;
-  double base = -s;  // where the segment begins, counted as the phases are
-  const Segment* segment = path.at(0);
+  segment_ = state.segment;
+  double base = -state.s;  // where the segment begins, counted as the phases are
+  const Segment* segment = path.at(segment_);
   double end = base + segment->curve.length().value();
   for (Phase phase : phases_) {
     while (phase.position_at(phase.duration).value() > end + smallest_way) {
@@ -180,7 +180,7 @@ SpeedChange::Excess SpeedChange::excess(PathAhead& path, const Request& request)
     const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
                                           turn > 0 && turn < time ? phase.velocity_at(Seconds(turn)).value() : 0});
     worst.speed =
-        std::max(worst.speed, fastest_here / (segment.speed.value() * request.feeds.planned(segment)) * (1 - rounding));
+        std::max(worst.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
     if (!piece.ends_segment) continue;
     // What the profile passes slowly, since the path's bend jumps there, is passed slowly here too.
     const Segment& after = *path.at(piece.segment + 1);

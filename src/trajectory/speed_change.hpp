@@ -22,11 +22,12 @@
 
 namespace passo {
 
-// How the motion goes on from a place of the path's first segment.
+// How the motion goes on from a place of a segment of the path.
 struct PathState {
   double s = 0;
   double speed = 0;
   double acceleration = 0;
+  std::size_t segment = 0;  // counted from the path's first
 };
 
 class SpeedChange {
@@ -72,7 +73,7 @@ class SpeedChange {
     blocked,      // the path ends or rests before it does
     near_an_end,  // of a segment, so near that what is left of that is nothing to go on in
   };
-  Laid lay(PathAhead& path, double s);
+  Laid lay(PathAhead& path, const PathState& state);
   Excess excess(PathAhead& path, const Request& request) const;
   static void look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time,
                       Excess& worst);

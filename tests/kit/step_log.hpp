@@ -57,24 +57,52 @@ inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& ref
   }
 }
 
-// Three places at equal times apart: where the acceleration is bounded, so is their second difference.
+// Where a motor is at times that only go on.
+class PlaceAt {
+ public:
+  PlaceAt(const std::vector<StepLog::Step>& steps, unsigned motor) : steps_(steps), motor_(motor) {}
+  double operator()(double tick) {
+    while (next_ < steps_.size() && static_cast<double>(steps_[next_].tick) <= tick) ++next_;
+    return next_ == 0 ? 0.0 : static_cast<double>(steps_[next_ - 1].place[motor_]);
+  }
+
+ private:
+  const std::vector<StepLog::Step>& steps_;
+  unsigned motor_;
+  std::size_t next_ = 0;
+};
+
+// Places at equal times apart: where the acceleration is bounded, so is the second difference of three, and where the
+// jerk is, the third one of four.
+template <std::size_t count>
+void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned motor,
+                              const std::array<int, count>& factors, double window, double most) {
+  if (steps.empty()) return;
+  std::vector<PlaceAt> places(count, PlaceAt(steps, motor));
+  const auto end = static_cast<double>(steps.back().tick);
+  const double start = static_cast<double>(steps.front().tick) - static_cast<double>(count - 1) * window;
+  for (double tick = start; tick < end; tick += window / 8) {
+    double difference = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      difference += factors[k] * places[k](tick + static_cast<double>(k) * window);
+    ASSERT_LE(std::fabs(difference), most) << "motor " << motor << " at tick " << tick << ", of " << count << " places";
+  }
+}
+
 inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run) {
-  const double window = machine.board.clock.value() * 0.008;
+  constexpr double apart = 0.008;  // seconds
+  // For the jerk. A jump of the acceleration by its limit shows the better the shorter it is, and the steps that are
+  // whole the less.
+  constexpr double apart_of_four = 0.009;
+  const double clock = machine.board.clock.value();
   for (unsigned m = 0; m < StepLog::motors; ++m) {
     const AxisDescription& axis = machine.axes[m];
-    const auto& steps = run[m];
-    if (steps.empty()) continue;
-    std::array<std::size_t, 3> at{};
-    const auto place = [&](std::size_t k, double tick) {
-      while (at[k] < steps.size() && static_cast<double>(steps[at[k]].tick) <= tick) ++at[k];
-      return at[k] == 0 ? 0.0 : static_cast<double>(steps[at[k] - 1].place[m]);
-    };
-    const double most = axis.acceleration.value() * std::fabs(axis.steps_per_unit) * 0.008 * 0.008;
-    const auto end = static_cast<double>(steps.back().tick);
-    for (double tick = static_cast<double>(steps.front().tick) - 2 * window; tick < end; tick += window / 8) {
-      const double bend = place(0, tick) - 2 * place(1, tick + window) + place(2, tick + 2 * window);
-      ASSERT_LE(std::fabs(bend), most * 1.02 + 4) << "motor " << m << " at tick " << tick;
-    }
+    const double steps = std::fabs(axis.steps_per_unit);
+    const double bend = axis.acceleration.value() * steps * apart * apart;
+    expect_small_differences<3>(run[m], m, {1, -2, 1}, clock * apart, bend * 1.02 + 4);
+    if (axis.jerk.value() == 0) continue;
+    const double jolt = axis.jerk.value() * steps * apart_of_four * apart_of_four * apart_of_four;
+    expect_small_differences<4>(run[m], m, {-1, 3, -3, 1}, clock * apart_of_four, jolt * 1.02 + 6);
   }
 }
 

@@ -26,11 +26,16 @@ using test::expect_within_limits;
 using test::RandomTrouble;
 using test::StepLog;
 
-// With places in plenty, and with few.
+// With places in plenty, and with few; "smooth_" before it: with limits of jerk.
 const MachineDescription& machine_named(const std::string& name) {
   static std::map<std::string, MachineDescription> known;
   const auto found = known.find(name);
-  return found != known.end() ? found->second : known.emplace(name, test::example_machine(name)).first->second;
+  if (found != known.end()) return found->second;
+  const std::string smooth = "smooth_";
+  const MachineDescription machine = name.starts_with(smooth)
+                                         ? test::with_jerk_limits(test::example_machine(name.substr(smooth.size())))
+                                         : test::example_machine(name);
+  return known.emplace(name, machine).first->second;
 }
 
 const std::vector<std::string>& programs() {
@@ -173,8 +178,8 @@ TEST_P(BrokenLineInFull, random_faults) {
   random_faults(GetParam(), 4000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Board, BrokenLine, testing::Values("router", "uno"));
-INSTANTIATE_TEST_SUITE_P(Board, BrokenLineInFull, testing::Values("router", "uno"));
+INSTANTIATE_TEST_SUITE_P(Board, BrokenLine, testing::Values("router", "uno", "smooth_router", "smooth_uno"));
+INSTANTIATE_TEST_SUITE_P(Board, BrokenLineInFull, testing::Values("router", "uno", "smooth_router", "smooth_uno"));
 
 }  // namespace
 }  // namespace passo

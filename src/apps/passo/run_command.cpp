@@ -185,11 +185,6 @@ int run(const RunArguments& arguments) {
   for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
   if ((cut || board) && !job.link().error()) {
     if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
-    if (job.drive().refiller() == nullptr) {
-      return fail(
-          exit_bad_program,
-          "over a line: not for a machine with a limit of jerk yet: how it would brake is not known in advance");
-    }
   }
   if (cut) job.line().cut(cut->at, cut->missing);
   const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes, board.get());

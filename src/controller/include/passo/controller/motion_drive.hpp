@@ -61,8 +61,8 @@ class MotionDrive {
   // Before the first advance().
   void go_live(const LiveOptions& options);
   // Before the first advance(): what the board holds ends at rest always, and the drive goes on from there when the
-  // line was broken. False, and without effect, where the planner cannot tell how it would brake.
-  bool use_tails(const TailOptions& options);
+  // line was broken.
+  void use_tails(const TailOptions& options);
   // Of tails; none is used without use_tails().
   const Refiller* refiller() const { return refiller_ ? &*refiller_ : nullptr; }
   Refiller* refiller() { return refiller_ ? &*refiller_ : nullptr; }

@@ -6,6 +6,9 @@
 // For the tail the planner tells how it would brake, and a fork of the step generator what that would be on the board;
 // both go on as if nothing had been asked.
 //
+// A tail must fit into the board. Where it is long, round tight bends or over many short segments, the speed is limited
+// before it no longer fits; and where not even the first of a stretch fits, the machine waits and begins it more slowly.
+//
 // Which tail was played, if one was, the board tells by the numbers of the items that it has executed. The refiller
 // remembers of each tail that may be played where on the path it ends and the fork's state there. From that place it
 // plans anew, from rest: no step is lost or made twice. Why a refill was late, or a line broken, makes no difference.
@@ -31,6 +34,7 @@ namespace passo {
 struct TailOptions {
   Seconds horizon{0.1};         // of motion before the tail, behind a refill
   Seconds refill_at{0.06};      // so much of it being left, the next one is sent
+  Seconds time_an_item{0.0005};  // on the line: one with many items is sent sooner
   Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
   // Exact to the tick, the first milliseconds behind a rest would take hundreds of segments a second more than a line
   // can carry; and more than a board has places for that has few.
@@ -63,13 +67,15 @@ class Refiller {
   Turn advance();
 
   // To be told of all motion that the planner gives.
-  void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
+  void watch(const MotionItem& motion);
   // Who wants to see each item that the board has told to have executed, tails that were played included.
   void watch_executed(std::function<void(const LinkItem&)> watcher) { executed_watcher_ = std::move(watcher); }
   // The motion that was pulled and is, as far as we know, not executed. The tail does not count.
   Seconds ahead() const { return ahead_ + pulled_time_; }
   // How often a tail was played to its end, and the path taken up again there.
   int recoveries() const { return recoveries_; }
+  // How often the speed was limited since a tail was long.
+  int slowdowns() const { return slowdowns_; }
   // Of the items sent, those that were tails.
   std::uint64_t tail_items() const { return tail_items_; }
   std::uint64_t refills() const { return refills_; }
@@ -84,18 +90,21 @@ class Refiller {
     LinkItem item;
     std::optional<ItemNumber> end_of_tail = {};  // none: motion
   };
+  // A place on the path where the machine rests, and the generator there.
+  struct Rest {
+    PathPlace place = {};
+    std::unique_ptr<StepGenerator> generator = {};
+  };
   struct Refill {
     ItemNumber first = 0;
     ItemNumber last_of_motion = 0;
     ItemNumber last = 0;  // of the tail; without one, of the motion
-    PathPlace rest;       // where the tail ends, and the generator there
-    std::unique_ptr<StepGenerator> rested;
+    Rest rest = {};       // behind it
   };
 
-  // How the machine would come to rest, and the generator there. At rest there is nothing to it.
+  // How the machine would come to rest. At rest there is nothing to it.
   struct Tail {
-    PathPlace rest = {};
-    std::unique_ptr<StepGenerator> rested = {};
+    Rest rest = {};
     std::vector<LinkItem> items = {};
   };
   struct Pulled {
@@ -106,11 +115,16 @@ class Refiller {
 
   void note_executed();
   void show_executed(ItemNumber executed);
-  void take_up(const Refill& refill);
+  void take_up();
   void pull();
   void add(const LinkItem& item);
   bool is_far_from_last_tail() const;
   Tail find_tail();
+  Tail tail_of_nothing();
+  std::unique_ptr<StepGenerator> fork();
+  void mind_length_of(const Tail& tail);
+  bool begin_more_slowly();
+  void limit_speed_to(double speed);
   std::size_t free_places() const;
   std::size_t size_of_refill() const;
   void send(std::size_t items);
@@ -128,6 +142,13 @@ class Refiller {
   std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
   PathPlace given_;       // by the planner
+  double speed_ = 0;      // there
+  double fastest_ = 0;    // since the last rest
+  Rest rested_;           // the last one
+  std::size_t long_tail_;  // items: longer ones leave too few places
+  double speed_limit_ = std::numeric_limits<double>::infinity();  // for the sake of them
+  Seconds limited_for_{0};                                        // of motion that was pulled
+  int slowdowns_ = 0;
   bool on_tail_ = false;  // the board plays one: nothing is sent before it rests
 
   std::deque<Pulled> pulled_;  // and not sent

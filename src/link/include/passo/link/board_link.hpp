@@ -45,6 +45,7 @@ class BoardLink final : public Link {
   ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) override;
   ItemNumber executed() const override { return executed_; }
   int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
+  int places() const override { return free_ - later_by(sent_, taken_); }
   void drain() override;
   bool busy() const override { return sent_ != executed_; }
   void wait() override;

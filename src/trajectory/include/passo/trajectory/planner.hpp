@@ -50,6 +50,8 @@ class Planner final : public Source<MotionItem> {
   void set_adaptive_feed(double factor);
   // The speed of segments with a SpindleLock, a multiple of what they say: the spindle is not as fast as commanded.
   void set_spindle_ratio(double ratio);
+  // Of all motion from here on, rapids included, along the path.
+  void limit_speed_to(MmPerSecond speed);
   // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume(). Waits
   // where the segment does not heed it.
   void hold();
@@ -59,9 +61,8 @@ class Planner final : public Source<MotionItem> {
   // At rest in a hold: drops what is left of the path up to the next action, which comes next after resume().
   void drop_to_action();
 
-  // How the path would come to rest behind the last move given if it were held now. Nothing changes by it. False where
-  // the planner cannot tell: with a limit of jerk.
-  bool braking_plan(std::vector<PlannedMove>& plan) const;
+  // How the path would come to rest behind the last move given if it were held now. Nothing changes by it.
+  void braking_plan(std::vector<PlannedMove>& plan) const;
   // Forgets what it has pulled and begins again, from rest, with what the path gives next. Settings stay.
   void restart();
 
