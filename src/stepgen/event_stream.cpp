@@ -84,8 +84,10 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
 EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
   const double slow = slow_rate_ * static_cast<double>(grid);
+  // Where nothing is divided for its slowness, none fits that is finer than its path asks for.
+  const double before_coarser = slow == 0 ? -1 : squared(rate_before_coarser * slow);
   return {.above = grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
-          .most = grid == whole_step || slow == 0 ? infinity : squared(rate_before_coarser * slow)};
+          .most = grid == whole_step ? infinity : before_coarser};
 }
 
 bool EventStream::rate_fits() const {

@@ -14,7 +14,7 @@ inline constexpr double least_feed_factor = 0.01;
 struct FeedFactors {
   double override = 1;
   double adaptive = 1;
-  double spindle = 1;  // of feeds that follow it
+  double spindle = 1;                                    // of feeds that follow it
   double top = std::numeric_limits<double>::infinity();  // mm/s: of all speeds, rapids included
 
   // What was chosen for feeds; a slow spindle does not make the motion stand.

@@ -69,7 +69,7 @@ bool JerkPlanner::next(MotionItem& item) {
   auto* move = std::get_if<PlannedMove>(&item);
   if (move == nullptr) move = &item.emplace<PlannedMove>();
   if (produce(*move)) {
-    shorten(*move);
+    if (!rest_) rest_ = shorten(*move, longest_move_);
     take_note(*move);
     return true;
   }
@@ -152,6 +152,10 @@ void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
       for (std::size_t given = 0;;) {
         plan.back().segment = *path_.at(stop->pieces()[given].segment);
         take_pieces(*stop, given, plan.back());
+        // A stop may begin with gaining speed, and moves that are long are not seen to.
+        for (auto rest = shorten(plan.back(), longest_move_); rest; rest = shorten(plan.back(), longest_move_)) {
+          plan.push_back(*rest);
+        }
         if (given == stop->pieces().size()) return;
         plan.emplace_back();
       }
@@ -166,18 +170,18 @@ void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
   }
 }
 
-// To the longest time that a move may take.
-void JerkPlanner::shorten(PlannedMove& move) {
-  if (move.duration() <= longest_move_ * (1 + smallest_part)) return;
-  const Seconds small = longest_move_ * smallest_part;
-  Seconds left = longest_move_;
+// To the longest time that a move may take. What is left, if any.
+std::optional<PlannedMove> JerkPlanner::shorten(PlannedMove& move, Seconds longest) {
+  if (move.duration() <= longest * (1 + smallest_part)) return {};
+  const Seconds small = longest * smallest_part;
+  Seconds left = longest;
   for (std::size_t i = 0; i < move.phase_count; ++i) {
     Phase& phase = move.phases[i];
     if (phase.duration <= left + small && (i == 0 || left > small)) {
       left = std::max(left - phase.duration, Seconds(0));
       continue;
     }
-    PlannedMove& rest = rest_.emplace(move);
+    PlannedMove rest = move;
     rest.phase_count = 0;
     if (left <= small) {  // between two phases
       for (std::size_t k = i; k < move.phase_count; ++k) rest.add(move.phases[k]);
@@ -193,8 +197,9 @@ void JerkPlanner::shorten(PlannedMove& move) {
       move.phase_count = i + 1;
     }
     move.to = rest.from();
-    return;
+    return rest;
   }
+  return {};
 }
 
 PathState JerkPlanner::behind(const PlannedMove& move) {

@@ -179,8 +179,7 @@ SpeedChange::Excess SpeedChange::excess(PathAhead& path, const Request& request)
     if (turn > 0 && turn < time) look_at(piece, segment, request.axes, turn, worst);
     const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
                                           turn > 0 && turn < time ? phase.velocity_at(Seconds(turn)).value() : 0});
-    worst.speed =
-        std::max(worst.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
+    worst.speed = std::max(worst.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
     if (!piece.ends_segment) continue;
     // What the profile passes slowly, since the path's bend jumps there, is passed slowly here too.
     const Segment& after = *path.at(piece.segment + 1);

@@ -7,7 +7,8 @@
 // both go on as if nothing had been asked.
 //
 // A tail must fit into the board. Where it is long, round tight bends or over many short segments, the speed is limited
-// before it no longer fits; and where not even the first of a stretch fits, the machine waits and begins it more slowly.
+// before it no longer fits; and where not even the first of a stretch fits, the machine waits and begins it more
+// slowly.
 //
 // Which tail was played, if one was, the board tells by the numbers of the items that it has executed. The refiller
 // remembers of each tail that may be played where on the path it ends and the fork's state there. From that place it
@@ -32,10 +33,10 @@
 namespace passo {
 
 struct TailOptions {
-  Seconds horizon{0.1};         // of motion before the tail, behind a refill
-  Seconds refill_at{0.06};      // so much of it being left, the next one is sent
+  Seconds horizon{0.1};          // of motion before the tail, behind a refill
+  Seconds refill_at{0.06};       // so much of it being left, the next one is sent
   Seconds time_an_item{0.0005};  // on the line: one with many items is sent sooner
-  Seconds longest_move{0.005};  // the planner's moves end after this time: what the tail plays before it brakes
+  Seconds longest_move{0.005};   // the planner's moves end after this time: what the tail plays before it brakes
   // Exact to the tick, the first milliseconds behind a rest would take hundreds of segments a second more than a line
   // can carry; and more than a board has places for that has few.
   std::size_t few_places = 100;
@@ -141,11 +142,11 @@ class Refiller {
   std::function<void(const LinkItem&)> executed_watcher_;
   std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
-  PathPlace given_;       // by the planner
-  double speed_ = 0;      // there
-  double fastest_ = 0;    // since the last rest
-  Rest rested_;           // the last one
-  std::size_t long_tail_;  // items: longer ones leave too few places
+  PathPlace given_;                                               // by the planner
+  double speed_ = 0;                                              // there
+  double fastest_ = 0;                                            // since the last rest
+  Rest rested_;                                                   // the last one
+  std::size_t long_tail_;                                         // items: longer ones leave too few places
   double speed_limit_ = std::numeric_limits<double>::infinity();  // for the sake of them
   Seconds limited_for_{0};                                        // of motion that was pulled
   int slowdowns_ = 0;

@@ -50,8 +50,8 @@ class Link {
   virtual ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) = 0;
   // The last item that is done, as far as we know.
   virtual ItemNumber executed() const = 0;
-  // How many items the board can take now, for certain; and how many it has places for: no more of them can be under way
-  // than there are numbers for.
+  // How many items the board can take now, for certain; and how many it has places for: no more of them can be under
+  // way than there are numbers for.
   virtual int room() const = 0;
   virtual int places() const = 0;
 
