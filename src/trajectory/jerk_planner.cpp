@@ -147,26 +147,29 @@ void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
       stop = SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0});
       since_trial = 0;
     }
-    PlannedMove& move = plan.emplace_back();
+    PlannedMove move;
     if (stop) {
-      for (std::size_t given = 0;;) {
-        plan.back().segment = *path_.at(stop->pieces()[given].segment);
-        take_pieces(*stop, given, plan.back());
-        // A stop may begin with gaining speed, and moves that are long are not seen to.
-        for (auto rest = shorten(plan.back(), longest_move_); rest; rest = shorten(plan.back(), longest_move_)) {
-          plan.push_back(*rest);
-        }
-        if (given == stop->pieces().size()) return;
-        plan.emplace_back();
+      for (std::size_t given = 0; given < stop->pieces().size();) {
+        move.segment = *path_.at(stop->pieces()[given].segment);
+        take_pieces(*stop, given, move);
+        append(move, plan);
       }
-    }
-    if (!look_ahead(outlook, move)) {
-      plan.pop_back();
       return;
     }
+    if (!look_ahead(outlook, move)) return;
+    append(move, plan);
     since_trial += move.duration().value();
     state = behind(move);
     state.segment = outlook.segment;
+  }
+}
+
+// In parts no longer than other moves are.
+void JerkPlanner::append(const PlannedMove& move, std::vector<PlannedMove>& plan) const {
+  std::optional<PlannedMove> rest = move;
+  while (rest) {
+    plan.push_back(*rest);
+    rest = shorten(plan.back(), longest_move_);
   }
 }
 

@@ -43,6 +43,7 @@ class JerkPlanner final : public Source<MotionItem> {
   void stop_sooner();
   bool go_over();
   bool produce(PlannedMove& move);
+  void append(const PlannedMove& move, std::vector<PlannedMove>& plan) const;
   static std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest);
   void take_note(const PlannedMove& move);
 

@@ -1,0 +1,124 @@
+// How the path would come to rest from each place: within all limits, and asking changes nothing. And a limit of the
+// speed, which is as good as a lower feed, for rapids too.
+#include "jerk_kit.hpp"
+
+namespace passo::test {
+namespace {
+
+class BrakingPlan : public testing::TestWithParam<int> {
+ protected:
+  BrakingPlan() : random_(seed() + static_cast<std::uint64_t>(GetParam())) {}
+
+  // Asks one planner after every move, and another one never.
+  void brake_everywhere(const std::vector<PathItem>& path, const MotionLimits& limits) {
+    ListSource<PathItem> source(path);
+    ListSource<PathItem> same(path);
+    Planner asked(source, limits);
+    Planner other(same, limits);
+    for (Planner* planner : {&asked, &other}) planner->limit_moves_to(Seconds(0.005));
+    std::vector<MotionItem> motion;
+    MotionItem item;
+    MotionItem undisturbed;
+    std::vector<PlannedMove> plan;
+    while (asked.next(item)) {
+      ASSERT_TRUE(other.next(undisturbed));
+      ASSERT_EQ(passo::to_text(item), passo::to_text(undisturbed));
+      motion.push_back(item);
+      if (!std::holds_alternative<PlannedMove>(item)) continue;
+      asked.braking_plan(plan);
+      ++plans_;
+      for (const PlannedMove& move : plan) longest_move_ = std::max(longest_move_, move.duration().value());
+      if (plans_ % 11 != 0) continue;
+      std::vector<MotionItem> braked = motion;
+      braked.insert(braked.end(), plan.begin(), plan.end());
+      SCOPED_TRACE("braking behind move " + std::to_string(motion.size()));
+      expect_within_limits(braked, limits);
+      if (HasFatalFailure()) return;
+    }
+    ASSERT_FALSE(other.next(undisturbed));
+  }
+
+  Random random_;
+  int plans_ = 0;
+  double longest_move_ = 0;
+};
+
+TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_smooth_chains) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  const std::vector<PathItem> path = smooth_chain(random_, 40);
+  brake_everywhere(path, draw_jerk_limits(random_));
+  EXPECT_GT(plans_, 20);
+}
+
+// With corners, which are rests or crawled through, and blends.
+TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_lines_and_blends) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  std::vector<PathItem> path;
+  Point at;
+  for (int i = 0; i < 12; ++i) {
+    const double speed = std::exp(random_.between(2, 4.5));
+    const double along = random_.between(-5, 5);
+    const double across = random_.between(-5, 5);
+    const Point to = at + xyz(along, across, random_.chance(0.3) ? random_.between(-1, 1) : 0);
+    path.emplace_back(line(at, to, speed));
+    at = to;
+  }
+  brake_everywhere(smoothed(path), draw_jerk_limits(random_));
+  EXPECT_GT(plans_, 20);
+  EXPECT_LE(longest_move_, 0.0055);
+}
+
+TEST_P(BrakingPlan, without_limits_of_jerk_takes_as_long_as_a_hold) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  const std::vector<PathItem> path = smooth_chain(random_, 40);
+  MotionLimits limits = draw_jerk_limits(random_);
+  for (const Axis axis : all_axes) limits.jerk[axis] = MmPerSecond3(0);
+  ListSource<PathItem> source(path);
+  Planner planner(source, limits);
+  planner.limit_moves_to(Seconds(0.005));
+  MotionItem item;
+  for (int i = 0; i < 30 && planner.next(item); ++i) {
+  }
+  std::vector<PlannedMove> plan;
+  planner.braking_plan(plan);
+  planner.hold();
+  Seconds planned{0};
+  for (const PlannedMove& move : plan) planned += move.duration();
+  Seconds held{0};
+  while (planner.next(item) && std::holds_alternative<PlannedMove>(item))
+    held += std::get<PlannedMove>(item).duration();
+  EXPECT_NEAR(planned.value(), held.value(), 0.01 * held.value());  // a hold looks at each part of a cell anew
+}
+
+TEST_P(BrakingPlan, knows_a_limit_of_the_speed_for_feeds_and_rapids) {
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
+  std::vector<PathItem> path{line(xyz(0, 0), xyz(40, 0), 50), line(xyz(40, 0), xyz(40, 40), 50)};
+  std::get<Segment>(path[1]).rapid = true;
+  std::get<Segment>(path[1]).speed = MmPerSecond(std::numeric_limits<double>::infinity());
+  for (const double jerk : {0.0, 25'000.0}) {
+    ListSource<PathItem> source(path);
+    Planner planner(source, jerk_limits(100, 500, jerk));
+    planner.limit_moves_to(Seconds(0.005));
+    const double limit = random_.between(5, 30);
+    const double change = random_.between(0.3, 0.6);
+    double fastest = 0;
+    double time = 0;
+    MotionItem item;
+    while (planner.next(item)) {
+      const auto& move = std::get<PlannedMove>(item);
+      time += move.duration().value();
+      fastest = std::max(fastest, exit_speed(move));
+      if (time < change) continue;
+      planner.limit_speed_to(MmPerSecond(limit));
+      // What it takes to brake from 50, and more.
+      if (time < change + 0.2) continue;
+      EXPECT_LE(exit_speed(move), limit * (1 + 1e-6)) << "jerk " << jerk;
+    }
+    EXPECT_NEAR(fastest, 50, 1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Three, BrakingPlan, testing::Range(0, 3));
+
+}  // namespace
+}  // namespace passo::test
