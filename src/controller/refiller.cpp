@@ -96,7 +96,15 @@ void Refiller::note_executed() {
   }
   auto& under_way = refills_under_way_;
   while (under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0) under_way.pop_front();
-  if (under_way.empty() || later_by(executed, under_way.front().first) < 0) return;
+  if (under_way.empty()) return;
+  if (later_by(executed, under_way.front().first) < 0) {
+    // From a rest on nothing has begun, and never will if it was dropped.
+    if (!stages_.link.rests()) return;
+    behind_ = executed;
+    take_up();
+    ++recoveries_;
+    return;
+  }
   stages_.path.forget_before(under_way.front().rest.place.item);
   on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
   if (executed != under_way.front().last) return;

@@ -163,7 +163,10 @@ void BoardLink::take(const WireFrame& frame) {
     case MessageType::credit: {
       Credit credit;
       decode(frame, credit);
-      return take(credit);
+      take(credit);
+      // It has dropped what was sent. Is that so?
+      if (may_lose() && holds_nothing_of(credit) && executed_ != sent_) ask();
+      return;
     }
     case MessageType::status: {
       BoardStatus status;
@@ -203,6 +206,10 @@ void BoardLink::take(const Credit& credit) {
   news_ = true;
 }
 
+bool BoardLink::holds_nothing_of(const Credit& credit) const {
+  return taken_ == sent_ && credit.taken == static_cast<std::uint8_t>(sent_) && credit.free == board_->capacity;
+}
+
 void BoardLink::take(const BoardStatus& status) {
   status_ = status;
   if (care_.session == 0 || status.session != care_.session) {
@@ -212,7 +219,10 @@ void BoardLink::take(const BoardStatus& status) {
   }
   if ((status.state & board_trusted) == 0) return doubt(LinkError::stopped);
   doubts_ = 0;
-  take(Credit{.executed = status.executed, .taken = status.taken, .free = status.free});
+  const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
+  take(credit);
+  rests_ = holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0;
+  news_ = news_ || rests_;
   if (status.answers != question_) return;
   // What was sent before the question, and has not arrived before it, is lost.
   if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) repeat();
@@ -297,6 +307,7 @@ void BoardLink::send_counted(const Message& message, More... more) {
 void BoardLink::send_frame(const Frame& frame) {
   if (error_) return;
   sent_ = frame.number;
+  rests_ = false;
   if (may_lose()) kept_.push_back(frame);
   moved_on_ = port_.elapsed();
   if (!repeating_) put_on_wire(frame.bytes, frame.size);

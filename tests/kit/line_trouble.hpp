@@ -3,8 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
+
+#include "passo/wire/decoder.hpp"
+#include "passo/wire/encoder.hpp"
 
 namespace passo::test {
 
@@ -53,5 +57,25 @@ class RandomTrouble {
   double rate_;
   std::array<Bytes, 2> late_;  // swapped with what comes next
 };
+
+// The frame with another payload and a right CRC; nothing where it is neither an item nor announces some. `which`: of
+// the bits of the payload, one is another.
+inline std::optional<Bytes> forged(const Bytes& bytes, std::uint8_t which) {
+  constexpr std::uint8_t motors = 3;
+  Decoder decoder;
+  decoder.set_motors(motors);
+  Decoded told = Decoded::pending;
+  for (const std::uint8_t byte : bytes) told = decoder.feed(byte);
+  if (told != Decoded::frame) return {};
+  WireFrame frame = decoder.frame();
+  if (frame.type != MessageType::segment && frame.type != MessageType::replace) return {};
+  const std::uint8_t size = payload_size(static_cast<std::uint8_t>(frame.type), motors);
+  frame.payload[which / 8 % size] ^= static_cast<std::uint8_t>(1U << which % 8);
+  Bytes other(largest_frame);
+  Encoder encoder(other.data(), frame.type, frame.sequence);
+  for (std::uint8_t i = 0; i < size; ++i) encoder.put8(frame.payload[i]);
+  other.resize(encoder.finish());
+  return other;
+}
 
 }  // namespace passo::test

@@ -46,6 +46,7 @@ class BoardLink final : public Link {
   ItemNumber executed() const override { return executed_; }
   int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
   int places() const override { return free_ - later_by(sent_, taken_); }
+  bool rests() const override { return rests_; }
   void drain() override;
   bool busy() const override { return sent_ != executed_; }
   void wait() override;
@@ -87,6 +88,7 @@ class BoardLink final : public Link {
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
   void take(const Captured& captured);
+  bool holds_nothing_of(const Credit& credit) const;
   void doubt(LinkError error);
   void note_taken(std::uint8_t sequence);
   void repeat();
@@ -114,6 +116,7 @@ class BoardLink final : public Link {
   int refusals_ = 0;             // so many times in a row
   int doubts_ = 0;               // statuses in a row that would end the job
   int free_ = 0;                 // room that it had when it told so
+  bool rests_ = false;
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began

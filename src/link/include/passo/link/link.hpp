@@ -55,6 +55,10 @@ class Link {
   virtual int room() const = 0;
   virtual int places() const = 0;
 
+  // It has said that all that was sent has come, and that it holds nothing and rests: what is not executed never will
+  // be.
+  virtual bool rests() const = 0;
+
   // Waits until the board has executed all that was sent.
   virtual void drain() = 0;
   // Whether something that was sent is, as far as we know, not done.
