@@ -9,7 +9,7 @@
 // tangent and second derivative go on into the exact pieces beside. The others are moved, one after the other in
 // 12 sweeps, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel), but only so
 // far that the deviation from the path stays within the tube at the knots and in the middles between them. For slow
-// bending 12 more sweeps do the same for |p'''|².
+// bending 9 more sweeps do the same for |p'''|².
 //
 // Each sweep works four controls behind the one before: nearer ones would feel it. So the result is that of sweeps over
 // the whole stretch, and what is kept is a window of `window` knots, however long the stretch is. The deviations are
@@ -31,7 +31,7 @@ namespace passo {
 class TubeSpline {
  public:
   static constexpr int bending_sweeps = 12;
-  static constexpr int change_sweeps = 12;
+  static constexpr int change_sweeps = 9;
   static constexpr int checks = 3;
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
