@@ -153,13 +153,35 @@ struct LengthAlong {
   double search(const Measure& measure, double end) {
     constexpr double close = 1e-3;
     constexpr double beyond = 0.5;
+    const double before = shift;
+    for (const double step : {close, 50 * close}) {
+      const double found = descend(measure, end, step);
+      if (found <= 0) return found;
+      shift = before;
+    }
     double best = measure(std::clamp(estimate(), 0.0, end));
     best = search_between(measure, end, shift - close, shift + close, best);
-    const double least = std::min(0.0, shift) - beyond;
-    return search_between(measure, end, least, std::max(0.0102 * since_rest, shift) + beyond, best);
+    best = search_between(measure, end, before - beyond, before + beyond, best);
+    return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
   }
 
  private:
+  // Where the path is plain a few steps find the place.
+  template <class Measure>
+  double descend(const Measure& measure, double end, double step) {
+    const auto at = [&](double to) { return measure(std::clamp(rest + since_rest + to, 0.0, end)); };
+    double best = at(shift);
+    for (; step > 1e-9 && best > 0; step /= 2) {
+      for (const double to : {shift - step, shift + step}) {
+        const double here = at(to);
+        if (here >= best) continue;
+        best = here;
+        shift = to;
+      }
+    }
+    return best;
+  }
+
   template <class Measure>
   double search_between(const Measure& measure, double end, double low, double high, double best) {
     constexpr int samples = 20'000;
