@@ -1,0 +1,367 @@
+// The host dies at any instant and another one goes on by its journal: each motor makes the same steps in the same
+// order as without trouble, under the same outputs, at rest between and within limits.
+//
+// The board and its line outlive the hosts; what was on the way when a host died arrives, or not, or the last frame in
+// part.
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kit/example_machine.hpp"
+#include "kit/seed.hpp"
+#include "kit/step_log.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+#include "passo/controller/resumption.hpp"
+#include "passo/transport/inquiry.hpp"
+
+namespace passo {
+namespace {
+
+using test::expect_same_way;
+using test::expect_within_limits;
+using test::StepLog;
+
+const MachineDescription& machine_named(const std::string& name) {
+  static std::map<std::string, MachineDescription> known;
+  const auto found = known.find(name);
+  return found != known.end() ? found->second : known.emplace(name, test::example_machine(name)).first->second;
+}
+
+const std::vector<std::string>& programs() {
+  static const std::vector<std::string> all = {
+      "G21 G90 G1 F4000\nX6\nY4\nX1 Y6 Z-1\nX0 Y0 Z0\nM2\n",
+      "G21 G90 G64 P.02 F3000 M3 S1000\nG4 P.1\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X4 Y3\nM8\nG4 P.05\nG0 X0 Y0 Z2\nM5 "
+      "M9\nX1\nM2\n",
+      "G21 G90 F900\nG0 X3 Y3\nG81 Z-2 R1\nX6 Y2\nG80\nG61.1 M4 S500 G1 X8 Y8 F5000\nX4\nG64 Y1\nM2\n",
+      "G21 G90 F6000\nG1 X10\nX0\nX10 Y1\nX0 Y2\nM2\n",
+  };
+  return all;
+}
+
+// The outputs at each step of each motor, and in the end.
+class OutputLog final : public MachineObserver {
+ public:
+  void on_steps(Ticks, std::uint8_t stepped, std::uint8_t) override {
+    for (unsigned m = 0; m < StepLog::motors; ++m) {
+      if ((stepped >> m & 1U) != 0) at_steps[m].push_back(now);
+    }
+  }
+  void on_outputs(Ticks time, const BoardOutputs& outputs) override {
+    const bool on = (outputs.switches & OutputSwitch::spindle_on) != 0;
+    if (on && now == 0) switched_on = time;
+    now = on ? outputs.spindle_rpm * 256 + outputs.switches : outputs.switches;
+  }
+  int now = 0;
+  Ticks switched_on{0};
+  std::array<std::vector<int>, StepLog::motors> at_steps;
+};
+
+struct Way {
+  StepLog::Steps steps;
+  OutputLog outputs;
+  std::array<std::int64_t, StepLog::motors> end{};
+};
+
+const Way& reference_of(const std::string& machine, std::size_t program) {
+  static std::map<std::pair<std::string, std::size_t>, Way> known;
+  const auto found = known.find({machine, program});
+  if (found != known.end()) return found->second;
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", programs()[program]), machine_named(machine), InterpreterOptions(),
+          diagnostics);
+  StepLog log;
+  Way way;
+  job.machine().add_observer(log);
+  job.machine().add_observer(way.outputs);
+  while (job.advance()) {
+  }
+  way.steps = log.steps;
+  way.end = log.place;
+  return known.emplace(std::pair(machine, program), way).first->second;
+}
+
+class MemoryStore final : public JournalStore {
+ public:
+  bool replace(std::string_view text) override {
+    bytes = text;
+    return true;
+  }
+  bool overwrite(std::size_t offset, std::string_view text) override {
+    EXPECT_LE(offset + text.size(), bytes.size()) << "the journal does not grow";
+    bytes.replace(offset, text.size(), text);
+    return true;
+  }
+  std::string bytes;
+};
+
+struct HostDied {};
+// What becomes of what is on the way.
+enum class Death : std::uint8_t { rest_arrives, in_mid_frame, rest_is_lost };
+
+// What a host sees of the line, until it dies: before it sends something, or when it has heard something.
+class MortalPort final : public BoardPort {
+ public:
+  MortalPort(VirtualLine& line, VirtualMachine& machine, std::uint64_t dies_at, Death death)
+      : line_(line), machine_(machine), dies_at_(dies_at), death_(death) {}
+
+  void receive(std::span<const std::uint8_t> bytes) override {
+    if (moments_++ == dies_at_) {
+      if (death_ == Death::in_mid_frame) line_.receive(bytes.first(bytes.size() / 2));
+      die();
+    }
+    line_.receive(bytes);
+  }
+  bool run(Seconds most) override {
+    const bool said = line_.run(most);
+    if (said && moments_++ == dies_at_) die();
+    return said;
+  }
+  std::span<const std::uint8_t> replies() override { return line_.replies(); }
+  Seconds elapsed() const override { return line_.elapsed(); }
+  std::uint64_t moments() const { return moments_; }
+
+ private:
+  void die() {
+    if (death_ == Death::rest_is_lost) line_.cut(machine_.elapsed(), Seconds(0.01));
+    throw HostDied();
+  }
+
+  VirtualLine& line_;
+  VirtualMachine& machine_;
+  std::uint64_t dies_at_;
+  Death death_;
+  std::uint64_t moments_ = 0;
+};
+
+constexpr std::uint64_t never = UINT64_MAX;
+
+// A board that stays, and hosts that come and go.
+class Bench {
+ public:
+  Bench(const std::string& machine, std::size_t program)
+      : description_(machine_named(machine)),
+        name_(machine),
+        program_(program),
+        machine_(static_cast<std::uint8_t>(description_.axes.size()), description_.board.clock,
+                 description_.board.highest_event_rate, static_cast<std::size_t>(description_.board.held_items)),
+        line_(machine_, description_.board.clock, {}) {
+    machine_.add_observer(log_);
+    machine_.add_observer(outputs_);
+  }
+
+  // Moments that it lived through; `died` tells whether it came to its end.
+  std::uint64_t host(std::uint64_t dies_at, Death death) {
+    MortalPort port(line_, machine_, dies_at, death);
+    died = false;
+    try {
+      work(port);
+    } catch (const HostDied&) {
+      died = true;
+    }
+    return port.moments();
+  }
+  void let_pass(Seconds time) {
+    const Seconds until = machine_.elapsed() + time;
+    while (until - machine_.elapsed() > Seconds(1e-6)) {
+      static_cast<void>(line_.run(until - machine_.elapsed()));
+      static_cast<void>(line_.replies());
+    }
+  }
+  void expect_as_if_nothing_had_been() {
+    const Way& reference = reference_of(name_, program_);
+    expect_same_way(log_.steps, reference.steps);
+    expect_within_limits(description_, log_.steps);
+    EXPECT_EQ(log_.place, reference.end);
+    EXPECT_EQ(outputs_.now, reference.outputs.now);
+    for (unsigned m = 0; m < StepLog::motors; ++m) ASSERT_EQ(outputs_.at_steps[m], reference.outputs.at_steps[m]);
+  }
+
+  bool died = false;
+  MemoryStore store;
+  OutputLog& outputs() { return outputs_; }
+  VirtualMachine& machine() { return machine_; }
+
+ private:
+  // As `passo run` and `passo run --resume` do.
+  void work(MortalPort& port) {
+    Inquiry inquiry(port);
+    std::optional<BoardStatus> status = inquiry.status(Seconds(5));
+    ASSERT_TRUE(status);
+    while ((status->state & board_moves) != 0) {
+      ASSERT_TRUE(status = inquiry.status(Seconds(5)));
+    }
+    const auto reader = ProgramReader::from_text("t", programs()[program_]);
+    JournalHead head;
+    head.job_counts.assign(status->positions, status->positions + description_.axes.size());
+    head.session_before = status->session;
+    head.executed_before = status->executed;
+    std::optional<ResumePoint> point;
+    if (!store.bytes.empty()) {
+      const auto journal = Journal::read(store.bytes);
+      ASSERT_TRUE(journal);
+      EXPECT_EQ(journal->torn(), 0U);
+      const auto found = resume_point_of(*journal, *status, reader, description_, InterpreterOptions());
+      ASSERT_TRUE(found) << message_of(found.error());
+      point = *found;
+      head = head_of_resumption(journal->head(), *status, *point);
+    }
+    head.session = ++sessions_;
+    head.greeting = static_cast<std::uint8_t>(1 + sessions_ % 255);
+    JournalWriter writer(store);
+    writer.begin(head);
+    Diagnostics diagnostics;
+    Job job(reader.again(), description_, InterpreterOptions(), diagnostics,
+            {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
+    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+    ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
+    job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
+    job.resume();
+    while (job.advance()) {
+    }
+    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+    EXPECT_EQ(job.machine().counts().motors[0].position, machine_.counts().motors[0].position);
+  }
+
+  const MachineDescription& description_;
+  std::string name_;
+  std::size_t program_;
+  VirtualMachine machine_;
+  VirtualLine line_;
+  StepLog log_;
+  OutputLog outputs_;
+  std::uint16_t sessions_ = 0;
+};
+
+constexpr std::array deaths = {Death::rest_arrives, Death::in_mid_frame, Death::rest_is_lost};
+
+struct Counted {
+  int trials = 0;
+  int deaths = 0;
+};
+
+// Every host but the last dies at its moment of `lives`.
+void trial(const std::string& machine, std::size_t program, const std::vector<std::uint64_t>& lives, unsigned kind,
+           Counted& counted) {
+  std::string trace = machine + ", program " + std::to_string(program) + ", hosts die at";
+  for (const std::uint64_t life : lives) trace += " " + std::to_string(life);
+  SCOPED_TRACE(trace + ", kind " + std::to_string(kind));
+  Bench bench(machine, program);
+  ++counted.trials;
+  for (const std::uint64_t life : lives) {
+    bench.host(life, deaths[kind % deaths.size()]);
+    if (testing::Test::HasFatalFailure()) return;
+    if (!bench.died) break;
+    ++counted.deaths;
+    // The next one comes at once, or while the board still brakes, or later.
+    bench.let_pass(Seconds(kind % 5 < 4 ? 0.03 * (kind % 5) : 2));
+  }
+  if (bench.died) bench.host(never, Death::rest_arrives);
+  if (!testing::Test::HasFatalFailure()) bench.expect_as_if_nothing_had_been();
+}
+
+std::uint64_t moments_of(const std::string& machine, std::size_t program) {
+  Bench bench(machine, program);
+  const std::uint64_t moments = bench.host(never, Death::rest_arrives);
+  bench.expect_as_if_nothing_had_been();
+  return moments;
+}
+
+void die_at_every(std::uint64_t stride, const std::string& machine, std::size_t program, Counted& counted) {
+  const std::uint64_t moments = moments_of(machine, program);
+  for (std::uint64_t at = 0; at < moments; at += stride) {
+    trial(machine, program, {at}, static_cast<unsigned>(at / stride), counted);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+// The second host dies at every moment of its beginning: it asks, says hello, names the session, switches on, sends.
+void die_again_at_every(std::uint64_t stride, std::uint64_t beginning, const std::string& machine, std::size_t program,
+                        Counted& counted) {
+  const std::uint64_t moments = moments_of(machine, program);
+  unsigned kind = 0;
+  for (std::uint64_t first = 1; first < moments; first += stride) {
+    for (std::uint64_t second = 0; second < beginning; ++second, ++kind) {
+      trial(machine, program, {first, second}, kind, counted);
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
+void die_at_random(int trials, const std::string& machine, Counted& counted) {
+  const std::uint64_t seed = test::seed();
+  for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
+    std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
+    const std::size_t program = random() % programs().size();
+    const std::uint64_t moments = moments_of(machine, program);
+    std::vector<std::uint64_t> lives(1 + random() % 6);
+    for (std::uint64_t& life : lives) life = random() % moments;
+    trial(machine, program, lives, static_cast<unsigned>(random() % 15), counted);
+  }
+}
+
+void print(const Counted& counted) {
+  std::printf("%d trials, %d hosts died\n", counted.trials, counted.deaths);
+}
+
+class HostRestart : public testing::TestWithParam<std::string> {};
+class HostRestartInFull : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  }
+};
+
+TEST_P(HostRestart, at_moments_of_all_programs) {
+  Counted counted;
+  for (std::size_t program = 0; program < programs().size(); ++program) die_at_every(127, GetParam(), program, counted);
+  print(counted);
+  EXPECT_GT(counted.deaths, counted.trials * 9 / 10);
+}
+
+TEST_P(HostRestart, at_every_moment_of_a_beginning) {
+  Counted counted;
+  die_again_at_every(1000, 31, GetParam(), 1, counted);
+  print(counted);
+  EXPECT_GT(counted.deaths, counted.trials * 3 / 2);
+}
+
+TEST_P(HostRestart, again_and_again) {
+  Counted counted;
+  die_at_random(15, GetParam(), counted);
+  print(counted);
+  EXPECT_GT(counted.deaths, counted.trials);
+}
+
+TEST_P(HostRestartInFull, at_every_moment_of_all_programs) {
+  Counted counted;
+  for (std::size_t program = 0; program < programs().size(); ++program) die_at_every(1, GetParam(), program, counted);
+  print(counted);
+}
+
+TEST_P(HostRestartInFull, at_every_moment_of_many_beginnings) {
+  Counted counted;
+  for (std::size_t program = 0; program < programs().size(); ++program) {
+    die_again_at_every(101, 60, GetParam(), program, counted);
+  }
+  print(counted);
+}
+
+TEST_P(HostRestartInFull, again_and_again) {
+  Counted counted;
+  die_at_random(1500, GetParam(), counted);
+  print(counted);
+}
+
+INSTANTIATE_TEST_SUITE_P(Board, HostRestart, testing::Values("router", "uno"));
+INSTANTIATE_TEST_SUITE_P(Board, HostRestartInFull, testing::Values("router", "uno"));
+
+}  // namespace
+}  // namespace passo
