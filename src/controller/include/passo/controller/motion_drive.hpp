@@ -92,6 +92,7 @@ class MotionDrive {
   void set_spindle_override(double factor);
   // A hold that ends the drive: the rest of the path is dropped, the outputs are switched off.
   void stop();
+  bool stopped() const { return stopping_; }
   // Lets time pass while it is held.
   void wait(Seconds time);
 
