@@ -50,13 +50,9 @@ std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_
 }
 
 bool BoardRun::wait_for_rest() {
-  Inquiry inquiry(*port_);
-  while ((before_.state & board_moves) != 0) {
-    const auto status = inquiry.status(answer);
-    if (!status) return false;
-    before_ = *status;
-  }
-  return true;
+  const auto status = Inquiry(*port_).status_at_rest(answer);
+  if (status) before_ = *status;
+  return status.has_value();
 }
 
 void BoardRun::count_from(const std::vector<int>& counts) {

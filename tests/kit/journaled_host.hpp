@@ -1,0 +1,126 @@
+// A host that keeps a journal as `passo run` does over a line, goes on by the one that it finds as `passo run --resume`
+// does, and may die at any moment.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+#include "passo/controller/resumption.hpp"
+#include "passo/transport/inquiry.hpp"
+
+namespace passo::test {
+
+class MemoryStore final : public JournalStore {
+ public:
+  bool replace(std::string_view text) override {
+    bytes = text;
+    return true;
+  }
+  bool overwrite(std::size_t offset, std::string_view text) override {
+    EXPECT_LE(offset + text.size(), bytes.size()) << "the journal does not grow";
+    bytes.replace(offset, text.size(), text);
+    return true;
+  }
+  std::string bytes;
+};
+
+struct HostDied {};
+constexpr std::uint64_t never = UINT64_MAX;
+
+// What a host sees of the line until it dies: before it sends a frame, of which a part may still go out, or when it has
+// heard something.
+class MortalPort final : public BoardPort {
+ public:
+  MortalPort(BoardPort& line, std::uint64_t dies_at, bool in_mid_frame)
+      : line_(line), dies_at_(dies_at), in_mid_frame_(in_mid_frame) {}
+
+  void receive(std::span<const std::uint8_t> bytes) override {
+    if (moments_++ == dies_at_) {
+      if (in_mid_frame_) line_.receive(bytes.first(bytes.size() / 2));
+      throw HostDied();
+    }
+    line_.receive(bytes);
+  }
+  bool run(Seconds most) override {
+    const bool said = line_.run(most);
+    if (said && moments_++ == dies_at_) throw HostDied();
+    return said;
+  }
+  std::span<const std::uint8_t> replies() override { return line_.replies(); }
+  Seconds elapsed() const override { return line_.elapsed(); }
+  std::uint64_t moments() const { return moments_; }
+
+ private:
+  BoardPort& line_;
+  std::uint64_t dies_at_;
+  bool in_mid_frame_;
+  std::uint64_t moments_ = 0;
+};
+
+class JournaledHost {
+ public:
+  JournaledHost(const MachineDescription& machine, std::string program)
+      : machine_(machine), program_(std::move(program)) {}
+
+  // False: it has died. `moments`: how many it lived through.
+  bool live(BoardPort& line, std::uint64_t dies_at, bool in_mid_frame, std::uint64_t& moments) {
+    MortalPort port(line, dies_at, in_mid_frame);
+    bool died = false;
+    try {
+      work(port);
+    } catch (const HostDied&) {
+      died = true;
+    }
+    moments = port.moments();
+    return !died;
+  }
+  MemoryStore store;
+
+ private:
+  void work(MortalPort& port) {
+    Inquiry inquiry(port);
+    const std::optional<BoardStatus> status = inquiry.status_at_rest(Seconds(5));
+    ASSERT_TRUE(status);
+    const auto reader = ProgramReader::from_text("t", program_);
+    JournalHead head;
+    head.job_counts.assign(status->positions, status->positions + machine_.axes.size());
+    head.session_before = status->session;
+    head.executed_before = status->executed;
+    std::optional<ResumePoint> point;
+    if (!store.bytes.empty()) {
+      const auto journal = Journal::read(store.bytes);
+      ASSERT_TRUE(journal);
+      EXPECT_EQ(journal->torn(), 0U);
+      const auto found = resume_point_of(*journal, *status, reader, machine_, InterpreterOptions());
+      ASSERT_TRUE(found) << message_of(found.error());
+      point = *found;
+      head = head_of_resumption(journal->head(), *status, *point);
+    }
+    head.session = ++sessions_;
+    head.greeting = static_cast<std::uint8_t>(1 + sessions_ % 255);
+    JournalWriter writer(store);
+    writer.begin(head);
+    Diagnostics diagnostics;
+    Job job(reader.again(), machine_, InterpreterOptions(), diagnostics,
+            {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
+    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+    ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
+    job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
+    job.resume();
+    while (job.advance()) {
+    }
+    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+  }
+
+  const MachineDescription& machine_;
+  std::string program_;
+  std::uint16_t sessions_ = 0;
+};
+
+}  // namespace passo::test
