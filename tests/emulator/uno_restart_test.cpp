@@ -37,7 +37,7 @@ StepLog log_of_virtual_machine() {
 }
 
 // Every host dies at its moment, and a last one comes to the end. Returns the moments of the first.
-std::uint64_t run_on_uno(const std::vector<std::uint64_t>& lives, bool in_mid_frame, int& died) {
+std::uint64_t run_on_uno(const std::vector<std::uint64_t>& lives, test::HostEnd end, int& died) {
   static const StepLog reference = log_of_virtual_machine();
   auto board = EmulatedBoard::start("uno", PASSO_MOTION_UNO);
   EXPECT_TRUE(board);
@@ -49,11 +49,11 @@ std::uint64_t run_on_uno(const std::vector<std::uint64_t>& lives, bool in_mid_fr
   std::uint64_t moments = 0;
   bool done = false;
   for (const std::uint64_t life : lives) {
-    done = host.live(**board, life, in_mid_frame, moments);
+    done = host.live(**board, life, end, moments);
     if (done) break;
     ++died;
   }
-  done = done || host.live(**board, test::never, false, moments);
+  done = done || host.live(**board, test::never, end, moments);
   EXPECT_TRUE(done);
   // The last edges are counted with the time that passes next.
   static_cast<void>((*board)->run(Seconds(0.01)));
@@ -63,17 +63,21 @@ std::uint64_t run_on_uno(const std::vector<std::uint64_t>& lives, bool in_mid_fr
   return moments;
 }
 
+constexpr std::array ends = {test::HostEnd::before_frame, test::HostEnd::amid_frame, test::HostEnd::behind_frame,
+                             test::HostEnd::stopped};
+
 void die_at_every(std::uint64_t stride, bool again) {
   int died = 0;
   int trials = 0;
-  const std::uint64_t moments = run_on_uno({}, false, died);
+  const std::uint64_t moments = run_on_uno({}, test::HostEnd::before_frame, died);
   for (std::uint64_t at = 0; at < moments && !testing::Test::HasFatalFailure(); at += stride, ++trials) {
     // The second, if there is one, at another moment of its beginning each time.
     const std::uint64_t second = again ? at / stride % 50 : test::never;
     SCOPED_TRACE("hosts die at " + std::to_string(at) + " and " + std::to_string(second));
-    run_on_uno({at, second}, at / stride % 2 == 1, died);
+    run_on_uno({at, second}, ends[at / stride % ends.size()], died);
   }
-  std::printf("%llu moments, %d trials, %d hosts died\n", static_cast<unsigned long long>(moments), trials, died);
+  std::printf("%llu moments, %d trials, %d hosts died or were stopped\n", static_cast<unsigned long long>(moments),
+              trials, died);
   EXPECT_GE(died, trials);
 }
 

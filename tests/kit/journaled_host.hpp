@@ -30,36 +30,39 @@ class MemoryStore final : public JournalStore {
   std::string bytes;
 };
 
+// How a host ends at its moment: before it sends a frame, amid it, or behind it; or it brakes on the path and leaves.
+enum class HostEnd : std::uint8_t { before_frame, amid_frame, behind_frame, stopped };
 struct HostDied {};
 constexpr std::uint64_t never = UINT64_MAX;
 
-// What a host sees of the line until it dies: before it sends a frame, of which a part may still go out, or when it has
-// heard something.
+// What a host sees of the line until it dies: when it sends a frame, or has heard something.
 class MortalPort final : public BoardPort {
  public:
-  MortalPort(BoardPort& line, std::uint64_t dies_at, bool in_mid_frame)
-      : line_(line), dies_at_(dies_at), in_mid_frame_(in_mid_frame) {}
+  MortalPort(BoardPort& line, std::uint64_t dies_at, HostEnd end) : line_(line), dies_at_(dies_at), end_(end) {}
 
   void receive(std::span<const std::uint8_t> bytes) override {
-    if (moments_++ == dies_at_) {
-      if (in_mid_frame_) line_.receive(bytes.first(bytes.size() / 2));
-      throw HostDied();
-    }
-    line_.receive(bytes);
+    const bool dies = is_time();
+    const bool goes_out = !dies || end_ == HostEnd::behind_frame;
+    if (goes_out) line_.receive(bytes);
+    if (dies && end_ == HostEnd::amid_frame) line_.receive(bytes.first(bytes.size() / 2));
+    if (dies) throw HostDied();
   }
   bool run(Seconds most) override {
     const bool said = line_.run(most);
-    if (said && moments_++ == dies_at_) throw HostDied();
+    if (said && is_time()) throw HostDied();
     return said;
   }
   std::span<const std::uint8_t> replies() override { return line_.replies(); }
   Seconds elapsed() const override { return line_.elapsed(); }
   std::uint64_t moments() const { return moments_; }
+  bool is_to_stop() const { return end_ == HostEnd::stopped && moments_ > dies_at_; }
 
  private:
+  bool is_time() { return moments_++ == dies_at_ && end_ != HostEnd::stopped; }
+
   BoardPort& line_;
   std::uint64_t dies_at_;
-  bool in_mid_frame_;
+  HostEnd end_;
   std::uint64_t moments_ = 0;
 };
 
@@ -68,22 +71,22 @@ class JournaledHost {
   JournaledHost(const MachineDescription& machine, std::string program)
       : machine_(machine), program_(std::move(program)) {}
 
-  // False: it has died. `moments`: how many it lived through.
-  bool live(BoardPort& line, std::uint64_t dies_at, bool in_mid_frame, std::uint64_t& moments) {
-    MortalPort port(line, dies_at, in_mid_frame);
-    bool died = false;
+  // Whether the program came to its end. `moments`: how many it lived through.
+  bool live(BoardPort& line, std::uint64_t ends_at, HostEnd end, std::uint64_t& moments) {
+    MortalPort port(line, ends_at, end);
+    bool done = false;
     try {
-      work(port);
+      work(port, done);
     } catch (const HostDied&) {
-      died = true;
+      done = false;
     }
     moments = port.moments();
-    return !died;
+    return done;
   }
   MemoryStore store;
 
  private:
-  void work(MortalPort& port) {
+  void work(MortalPort& port, bool& done) {
     Inquiry inquiry(port);
     const std::optional<BoardStatus> status = inquiry.status_at_rest(Seconds(5));
     ASSERT_TRUE(status);
@@ -114,7 +117,9 @@ class JournaledHost {
     job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
     job.resume();
     while (job.advance()) {
+      if (port.is_to_stop() && !job.drive().stopped()) job.drive().stop();
     }
+    done = !job.drive().stopped();
     ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
   }
 
