@@ -163,7 +163,7 @@ struct Noted {
 };
 
 std::optional<Noted> read_line(std::string_view line) {
-  if (line.size() != line_size) return {};
+  if (line.size() != line_size || line.back() != '\n') return {};
   const std::string_view checked = line.substr(0, line_size - check_size - 1);
   if (line.substr(checked.size(), check_size) != check_of(checked)) return {};
   Words words(checked);

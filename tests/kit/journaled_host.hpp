@@ -6,8 +6,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 
+#include "kit/memory_store.hpp"
 #include <gtest/gtest.h>
 
 #include "passo/controller/job.hpp"
@@ -15,20 +16,6 @@
 #include "passo/transport/inquiry.hpp"
 
 namespace passo::test {
-
-class MemoryStore final : public JournalStore {
- public:
-  bool replace(std::string_view text) override {
-    bytes = text;
-    return true;
-  }
-  bool overwrite(std::size_t offset, std::string_view text) override {
-    EXPECT_LE(offset + text.size(), bytes.size()) << "the journal does not grow";
-    bytes.replace(offset, text.size(), text);
-    return true;
-  }
-  std::string bytes;
-};
 
 // How a host ends at its moment: before it sends a frame, amid it, or behind it; or it brakes on the path and leaves.
 enum class HostEnd : std::uint8_t { before_frame, amid_frame, behind_frame, stopped };
