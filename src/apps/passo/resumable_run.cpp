@@ -168,8 +168,10 @@ bool ResumableRun::start(Job& job, int& code) {
 }
 
 void ResumableRun::end(const Job& job) {
-  const bool done = !job.link().error() && !job.drive().stopped();
-  if (done) return file_.remove();
+  const auto error = job.link().error();
+  if (!error && !job.drive().stopped()) return file_.remove();
+  // Where it stands is not certain: --resume would be refused, and the reason said.
+  if (error == LinkError::stopped || error == LinkError::was_reset) return;
   if (writer_.failed()) return note(file_.path() + ": this journal could not be written");
   note("the program has not come to its end; the same command with --resume goes on with it");
 }

@@ -153,6 +153,30 @@ bool keeps_journal(const RunArguments& arguments) {
   return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
 }
 
+// Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
+int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, std::unique_ptr<BoardRun>& board,
+                std::unique_ptr<ResumableRun>& resumable) {
+  const RunArguments& arguments = subject.arguments;
+  int code = exit_done;
+  if (keeps_journal(arguments)) resumable = ResumableRun::open(subject, code);
+  if (code != exit_done) return code;
+  const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
+  board = BoardRun::open(arguments.board, motors, arguments.resume, code);
+  if (!board || (resumable && !resumable->begin(*board, program, subject, code))) return code;
+  std::signal(SIGINT, brake_on_signal);
+  std::signal(SIGTERM, brake_on_signal);
+  return exit_done;
+}
+
+int print(const RunSummary& summary, const RunArguments& arguments) {
+  if (arguments.json) {
+    std::fputs(to_json(summary).c_str(), stdout);
+  } else if (!arguments.quiet) {
+    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
+  }
+  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+}
+
 bool suits_the_board(const RunArguments& arguments, const ProgramCheck& check) {
   const char* words = nullptr;
   const bool cut = !arguments.cable_cut.empty();
@@ -203,20 +227,11 @@ int run(const RunArguments& arguments) {
   std::unique_ptr<ResumableRun> resumable;
   Job::Options reaches;
   if (cut) reaches.line.emplace();
-  const ResumableRun::Subject subject{.arguments = arguments, .machine = *machine, .options = *options, .check = check};
-  int code = exit_done;
-  if (keeps_journal(arguments)) {
-    resumable = ResumableRun::open(subject, code);
-    if (code != exit_done) return code;
-  }
   if (arguments.board != "virtual") {
-    const auto motors = static_cast<std::uint8_t>(machine->axes.size());
-    board = BoardRun::open(arguments.board, motors, arguments.resume, code);
-    if (!board || (resumable && !resumable->begin(*board, *program, subject, code))) return code;
+    const int code = reach_board({arguments, *machine, *options, check}, *program, board, resumable);
+    if (code != exit_done) return code;
     reaches.board = &board->port();
     if (resumable) resumable->add_to(reaches);
-    std::signal(SIGINT, brake_on_signal);
-    std::signal(SIGTERM, brake_on_signal);
   }
 
   Diagnostics late;
@@ -231,7 +246,7 @@ int run(const RunArguments& arguments) {
     }
   }
   if (cut) job.line().cut(cut->at, cut->missing);
-  if (resumable && !job.link().error() && !resumable->start(job, code)) return code;
+  if (int code = exit_done; resumable && !job.link().error() && !resumable->start(job, code)) return code;
   const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes, board.get());
   if (resumable) resumable->end(job);
   if (const auto error = job.link().error()) return fail(exit_failed, "the board: " + std::string(message_of(*error)));
@@ -248,12 +263,7 @@ int run(const RunArguments& arguments) {
       outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);
   if (!written) return fail(exit_failed, written.error().message);
 
-  if (arguments.json) {
-    std::fputs(to_json(summary).c_str(), stdout);
-  } else if (!arguments.quiet) {
-    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
-  }
-  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+  return print(summary, arguments);
 }
 
 }  // namespace passo
