@@ -137,8 +137,9 @@ inline std::vector<Rest> rests_of(const ByLength& path) {
 
 // Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
 // where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
-// were cut). `shift` is how far it was when last looked for. Where the path passes itself it may be that of another
-// place near by: so it counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
+// were cut); for slow bending, where the parameter goes on faster at corners than s, from where it was last. `shift` is
+// how far it was when last looked for. Where the path passes itself it may be that of another place near by: so it
+// counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
 struct LengthAlong {
   double since_rest = 0;
   double rest = 0;
@@ -154,7 +155,8 @@ struct LengthAlong {
     constexpr double beyond = 0.5;
     double best = measure(std::clamp(estimate(), 0.0, end));
     best = search_between(measure, end, shift - close, shift + close, best);
-    return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
+    const double least = std::min(0.0, shift) - beyond;
+    return search_between(measure, end, least, std::max(0.0102 * since_rest, shift) + beyond, best);
   }
 
  private:
