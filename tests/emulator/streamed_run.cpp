@@ -95,28 +95,33 @@ void BoardBench::hear(std::uint8_t byte) {
   chip_->stop();
 }
 
+void BoardBench::put_on_line(std::span<const std::uint8_t> frame) {
+  uart_->send(frame);
+  last_byte_ = frame.back();
+}
+
 void BoardBench::send_item(const BoardSegment& segment) {
-  if (before_item) before_item();
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
-  uart_->send({frame, size});
+  if (before_item) before_item({frame, size});
+  put_on_line({frame, size});
 }
 
 void BoardBench::send_item(const BoardOutputs& outputs) {
   std::uint8_t frame[largest_frame];
-  uart_->send({frame, encode(outputs, ++last_sent_, frame)});
+  put_on_line({frame, encode(outputs, ++last_sent_, frame)});
 }
 
 void BoardBench::ask() {
   std::uint8_t frame[largest_frame];
   status_.reset();
-  uart_->send({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
+  put_on_line({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
 }
 
 void BoardBench::send_replace(std::uint8_t count) {
   std::uint8_t frame[largest_frame];
   const Replace replace{.after = last_executed_, .count = count};
-  uart_->send({frame, encode(replace, ++last_sent_, frame)});
+  put_on_line({frame, encode(replace, ++last_sent_, frame)});
 }
 
 bool BoardBench::say_hello() {
@@ -126,7 +131,7 @@ bool BoardBench::say_hello() {
   decoder_.set_motors(motors);
   greeted_ = false;
   complaints_ = 0;
-  uart_->send({frame, size});
+  put_on_line({frame, size});
   for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(clock_rate / 1000);
   last_executed_ = last_sent_;
   ports_->forget_changes();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -60,8 +61,9 @@ class BoardBench {
   // The next host drives the first `count` motors only.
   void drive_motors(std::size_t count) { board_.motors.resize(count); }
 
-  // Called before each item that play() sends. What the board says of bytes that are no frame is then no complaint.
-  std::function<void()> before_item;
+  // Called before each item that play() sends, with its frame. What the board says of bytes that are no frame is then
+  // no complaint.
+  std::function<void(std::span<const std::uint8_t>)> before_item;
 
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
@@ -75,6 +77,8 @@ class BoardBench {
   void run(std::uint64_t cycles);
   // Asks the board how it is; the answer comes while it runs.
   void ask();
+  // Of the last frame that went to the board.
+  std::uint8_t last_byte() const { return last_byte_; }
   const std::optional<BoardStatus>& status() const { return status_; }
   const std::optional<ErrorReport>& error() const { return error_; }
   const std::optional<Fault>& fault() const { return fault_; }
@@ -89,6 +93,7 @@ class BoardBench {
  private:
   void hear(std::uint8_t byte);
   bool say_hello();
+  void put_on_line(std::span<const std::uint8_t> frame);
   // Behind all that was executed.
   void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
@@ -103,6 +108,7 @@ class BoardBench {
   Decoder decoder_;
   bool greeted_ = false;
   std::uint8_t capacity_ = 0;
+  std::uint8_t last_byte_ = 0;
   std::uint8_t last_sent_ = 0;
   std::uint8_t last_executed_ = 0;
   std::uint64_t complaints_ = 0;
