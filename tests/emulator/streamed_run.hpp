@@ -33,14 +33,18 @@ struct BoardUnderTest {
 BoardUnderTest uno_under_test(const std::string& program);
 // With a host that drives that many motors.
 BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors);
+// With its motors driven so.
+BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<Drive>& drives);
+BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<Drive>& drives);
 
 struct EdgeCheck {
   std::uint64_t steps = 0;            // edges seen
   std::uint64_t expected = 0;         // of the model
   std::uint64_t wrong_count = 0;      // motors with another number of edges
-  std::uint64_t wrong_direction = 0;  // edges
+  std::uint64_t wrong_direction = 0;  // edges; of windings, patterns out of order, and changes of other pins
   std::int64_t error = 0;             // the worst motor's edges against the model, peak to peak, in cycles
   std::int64_t apart = 0;             // the first motor's edge of an event, and the last one's: always in this order
+  std::int64_t apart_in_motor = 0;    // the windings of one motor that lie on two ports
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
@@ -53,6 +57,12 @@ struct EdgeCheck {
 
   bool exact() const { return finished && wrong_count == 0 && wrong_direction == 0 && steps == expected; }
 };
+
+struct SeenStep {
+  std::int64_t time = 0;
+  bool down = false;
+};
+using SeenSteps = std::vector<SeenStep>;  // of one motor
 
 class BoardBench {
  public:
@@ -73,6 +83,8 @@ class BoardBench {
   void start_items(const std::vector<Item>& items);
   // Says hello and sends as many as the board takes at once.
   void start(const std::vector<BoardSegment>& segments);
+  // Where the motors stand in their winding tables after what was not played by play().
+  void follow_windings();
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
   // Asks the board how it is; the answer comes while it runs.
@@ -98,7 +110,9 @@ class BoardBench {
   void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
   void send_item(const BoardOutputs& outputs);
-  EdgeCheck check(const std::vector<BoardSegment>& segments) const;
+  void see_steps(std::vector<SeenSteps>& seen, EdgeCheck& result) const;
+  void see_windings(std::vector<SeenSteps>& seen, EdgeCheck& result);
+  EdgeCheck check(const std::vector<BoardSegment>& segments);
 
   BoardUnderTest board_;
   std::unique_ptr<EmulatedChip> chip_;
@@ -112,6 +126,7 @@ class BoardBench {
   std::uint8_t last_sent_ = 0;
   std::uint8_t last_executed_ = 0;
   std::uint64_t complaints_ = 0;
+  std::vector<int> places_;  // of motors whose windings the board switches, in their tables
   std::optional<Fault> fault_;
   std::optional<Captured> captured_;
   std::optional<BoardStatus> status_;
