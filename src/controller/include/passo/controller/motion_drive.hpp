@@ -70,6 +70,7 @@ class MotionDrive {
   // Who wants to know what probe moves find, before the first advance(); and whether a probe that is touched in another
   // move stops the drive.
   ProbeMove& probe() { return probe_; }
+  void guard_by_probe();
   // That happened.
   bool stopped_by_probe() const { return stopped_by_probe_; }
 
@@ -115,6 +116,7 @@ class MotionDrive {
   void commit_ahead(const LiveOptions& options);
   void let_pass(Seconds time);
   void look_at_probe();
+  void commit_to_probe();
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void let_planner_go_on();

@@ -55,10 +55,27 @@ class Refiller {
   enum class Turn : std::uint8_t {
     goes_on,
     rests_in_hold,  // the planner holds, and all that was given is executed
+    at_action,      // one that is the host's, with all before it executed: action() tells which
     ended,          // all of the path is executed, or the link has an error
   };
   // Sends a refill, or waits for the board.
   Turn advance();
+  // That it rests at; the path goes on behind it.
+  Action take_action();
+
+  // How the board is asked about its probe.
+  enum class Asking : std::uint8_t {
+    none,
+    with_refills,    // with each of them
+    before_refills,  // and none goes out before the question of the one before is answered; they are short
+  };
+  void ask_for_probe(Asking asking);
+  // No refill takes the place of the tail that the board has now: it brakes, and the path is taken up again from there.
+  void brake_by_tail() { brakes_ = true; }
+  // In a hold: the planner has dropped the path up to the next action. Where the machine rests.
+  Point drop();
+  // The longest motion that the board had, its tail besides, when questions came before refills.
+  Seconds longest_ahead() const { return longest_ahead_; }
 
   // To be told of all motion that the planner gives.
   void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
@@ -102,6 +119,9 @@ class Refiller {
     std::optional<Tail> tail = {};  // behind it; none: no refill ends here
   };
 
+  void commit();
+  Seconds horizon() const;
+  Seconds refill_at() const;
   void note_executed();
   void show_executed(ItemNumber executed);
   void take_up(const Refill& refill);
@@ -112,6 +132,7 @@ class Refiller {
   std::size_t free_places() const;
   std::size_t size_of_refill() const;
   void send(std::size_t items);
+  void ask();
   Seconds time_of(const LinkItem& item) const;
 
   Stages stages_;
@@ -132,6 +153,13 @@ class Refiller {
   Seconds pulled_time_{0};
   bool holds_ = false;  // behind it, the planner holds
   bool ended_ = false;  // behind it, the path has ended
+  std::optional<Action> action_;  // behind it, this is to be done
+
+  Asking asking_ = Asking::none;
+  Seconds answer_{0};        // within which a question that comes with a refill is answered
+  Seconds longest_move_{0};  // as the planner was told
+  bool brakes_ = false;
+  Seconds longest_ahead_{0};
 
   BoardItem item_;
   std::vector<PlannedMove> plan_;

@@ -47,6 +47,10 @@ class BoardLink final : public Link {
   void wait() override;
   void watch_probe(ProbeUntil until) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
+  void recall_contact() override;
+  void ask() override { ask(Question::status); }
+  bool answered() const override { return answered_; }
+  Seconds answer_time() const override { return answer_time_; }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error_.value_or(error); }
 
@@ -72,17 +76,20 @@ class BoardLink final : public Link {
   void say_hello();
   void name_session();
   void wait_for_room();
+  template <class Again>
+  bool listen(Again again);
   bool listen();
   template <class Done>
   bool hear_until(Done done);
   bool hear();
   bool overdue() const;
-  void ask();
+  void ask(Question question);
   void take(const WireFrame& frame);
   void take(const Credit& credit);
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
   void take(const Captured& captured);
+  void note_probe(const BoardStatus& status);
   void note_taken(std::uint8_t sequence);
   void repeat();
   template <class Message, class... More>
@@ -105,7 +112,12 @@ class BoardLink final : public Link {
   int free_ = 0;                 // room that it had when it told so
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
+  bool began_as_wanted_ = false;  // the probe was as it is to become
+  std::optional<Captured> recalled_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
+  bool answered_ = true;                                // since the last frame was sent
+  Seconds unanswered_since_{0};
+  Seconds answer_time_{0};
   bool news_ = false;                                   // since wait() began
   std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
   Seconds heard_{0};                                    // when the board last said anything
