@@ -78,7 +78,8 @@ void MotionDrive::watch(const MotionItem& item) {
   planned_ += time_of(item);
   if (refiller_) refiller_->watch(item);
   const auto* move = std::get_if<PlannedMove>(&item);
-  if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
+  // With tails not all that is given is done.
+  if (move != nullptr && probe_.is_running() && !refiller_) end_of_probe_ = move->segment.curve.at(move->to);
   if (machine_.spindle().has_encoder()) {
     // What is committed is blind to what the spindle does.
     if (move != nullptr) {

@@ -48,7 +48,6 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       places_(static_cast<std::size_t>(std::max(stages.link.room(), 0))) {
   stages.path.keep();
   commit();
-  stages.generator.be_exact_to(places_ < options.few_places ? options.motion_in_few_places : options.motion);
 }
 
 Refiller::Turn Refiller::advance() {
@@ -66,7 +65,7 @@ Refiller::Turn Refiller::advance() {
     if (pulled_.empty() && ended_) return Turn::ended;
     if (pulled_.empty() && action_) return Turn::at_action;
     if (pulled_.empty() && std::exchange(holds_, false)) return Turn::rests_in_hold;
-    if (!pulled_.empty() && free_places() + 1 == places_) {
+    if (!pulled_.empty() && free_places() + 1 == places_ && !waits_for_answer()) {
       stages_.link.fail(LinkError::too_few_places);
       return Turn::ended;
     }
@@ -88,8 +87,10 @@ void Refiller::ask_for_probe(Asking asking) {
 // As much as it takes to ask and to be answered.
 void Refiller::commit() {
   answer_ = std::clamp(answer_, shortest_answer, options_.refill_at);
-  longest_move_ = options_.longest_move;
-  if (asking_ == Asking::before_refills) longest_move_ = std::min(longest_move_, answer_ / moves_an_answer);
+  const bool in_haste = asking_ == Asking::before_refills;
+  longest_move_ = in_haste ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
+  const bool few_items = in_haste || places_ < options_.few_places;
+  stages_.generator.be_exact_to(few_items ? options_.motion_in_few_places : options_.motion);
   stages_.planner.limit_moves_to(longest_move_);
   stages_.generator.limit_waiting_to(longest_move_);
 }
@@ -100,6 +101,10 @@ Seconds Refiller::horizon() const {
 }
 Seconds Refiller::refill_at() const {
   return asking_ == Asking::before_refills ? horizon() - longest_move_ : options_.refill_at;
+}
+
+bool Refiller::waits_for_answer() const {
+  return asking_ == Asking::before_refills && !stages_.link.answered();
 }
 
 Point Refiller::drop() {
@@ -124,7 +129,7 @@ void Refiller::note_executed() {
   under_way.pop_front();
   if (!on_tail_) return;
   take_up(played);
-  ++recoveries_;
+  if (!brakes_) ++recoveries_;
 }
 
 // A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
@@ -217,8 +222,8 @@ std::size_t Refiller::free_places() const {
 // one's tail begins.
 std::size_t Refiller::size_of_refill() const {
   if (pulled_.empty() || ahead_ >= refill_at()) return 0;
+  if (waits_for_answer()) return 0;
   const bool at_once = asking_ == Asking::before_refills;
-  if (at_once && !stages_.link.answered()) return 0;
   const std::size_t room = free_places();
   std::size_t fits = 0;
   std::size_t fits_well = 0;

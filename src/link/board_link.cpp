@@ -91,6 +91,7 @@ void BoardLink::watch_probe(ProbeUntil until) {
     return status_ && status_->executed == executed_ && (status_->state & (board_moves | board_kept)) == 0;
   };
   status_.reset();
+  answered_ = true;  // what went before is over
   ask(Question::watch);
   while (!rests() && listen([this] { ask(Question::watch); })) {
   }

@@ -146,7 +146,7 @@ class MotionDrive {
   bool contact_seen_ = false;  // of what the board watches for now
   bool probe_brakes_ = false;  // after a contact, until the path is at rest
   bool stopped_by_probe_ = false;
-  std::optional<Point> end_of_probe_;  // of the motion that is committed, in a probe move
+  std::optional<Point> end_of_probe_;  // where the motion in a probe move ends, if that is not the end of the move
   double feed_override_ = 1;
   double adaptive_feed_ = 1;
   double spindle_override_ = 1;

@@ -122,6 +122,7 @@ class Refiller {
   void commit();
   Seconds horizon() const;
   Seconds refill_at() const;
+  bool waits_for_answer() const;
   void note_executed();
   void show_executed(ItemNumber executed);
   void take_up(const Refill& refill);
