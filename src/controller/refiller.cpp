@@ -18,7 +18,9 @@ constexpr std::size_t worth_sending = 8;
 // Of the questions before refills. A refill that goes before one takes the longer by so much; answers that were slow
 // are forgotten at this rate; a chip makes events of so much motion ahead.
 constexpr double behind_a_refill = 3;
-constexpr double patience = 0.8;
+constexpr double patience = 0.9;
+constexpr double late_answer = 2;
+constexpr double slower_answer = 1.5;
 constexpr double moves_an_answer = 3;
 constexpr Seconds shortest_answer{0.003};
 constexpr Seconds made_ahead{0.002};
@@ -80,13 +82,15 @@ Action Refiller::take_action() {
 
 void Refiller::ask_for_probe(Asking asking) {
   asking_ = asking;
-  answer_ = behind_a_refill * stages_.link.answer_time();
+  if (asking == Asking::before_refills) {
+    answer_ = std::max(slowest_answer_, std::min(behind_a_refill * stages_.link.answer_time(), options_.refill_at));
+  }
   commit();
 }
 
 // As much as it takes to ask and to be answered.
 void Refiller::commit() {
-  answer_ = std::clamp(answer_, shortest_answer, options_.refill_at);
+  answer_ = std::max(answer_, shortest_answer);
   const bool in_haste = asking_ == Asking::before_refills;
   longest_move_ = in_haste ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
   const bool few_items = in_haste || places_ < options_.few_places;
@@ -103,8 +107,21 @@ Seconds Refiller::refill_at() const {
   return asking_ == Asking::before_refills ? horizon() - longest_move_ : options_.refill_at;
 }
 
-bool Refiller::waits_for_answer() const {
-  return asking_ == Asking::before_refills && !stages_.link.answered();
+// One that has taken too long tells of a time that is too long ago: the board is asked again, and trusted to be slower.
+bool Refiller::waits_for_answer() {
+  if (asking_ != Asking::before_refills) return false;
+  if (!stages_.link.answered()) return true;
+  if (!std::exchange(asked_, false)) return false;
+  const Seconds time = stages_.link.answer_time();
+  if (time > late_answer * answer_) {
+    answer_ = slower_answer * answer_;
+    ask();
+    return true;
+  }
+  slowest_answer_ = std::max(time, slowest_answer_ * patience);
+  answer_ = std::max(time, answer_ * patience);
+  commit();
+  return false;
 }
 
 Point Refiller::drop() {
@@ -220,7 +237,7 @@ std::size_t Refiller::free_places() const {
 
 // How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
 // one's tail begins.
-std::size_t Refiller::size_of_refill() const {
+std::size_t Refiller::size_of_refill() {
   if (pulled_.empty() || ahead_ >= refill_at()) return 0;
   if (waits_for_answer()) return 0;
   const bool at_once = asking_ == Asking::before_refills;
@@ -268,11 +285,8 @@ void Refiller::send(std::size_t items) {
 }
 
 void Refiller::ask() {
-  if (asking_ == Asking::before_refills) {
-    longest_ahead_ = std::max(longest_ahead_, ahead_);
-    answer_ = std::max(stages_.link.answer_time(), answer_ * patience);
-    commit();
-  }
+  if (asking_ == Asking::before_refills) longest_ahead_ = std::max(longest_ahead_, ahead_);
+  asked_ = true;
   stages_.link.ask();
 }
 

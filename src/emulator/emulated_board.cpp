@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -25,23 +26,30 @@ struct Kind {
   const char* mcu;
   const char* ports;
   std::vector<MotorPins> motors;
+  std::map<BoardInput, Pin> switches;
 };
 
+template <class Map>
+Kind kind_of(const char* mcu, const char* ports, const Map& pins) {
+  return {.mcu = mcu,
+          .ports = ports,
+          .motors = {std::begin(pins.motor), std::end(pins.motor)},
+          .switches = {{input_probe, pins.probe},
+                       {input_emergency_stop, pins.emergency_stop},
+                       {input_hold, pins.feed_hold},
+                       {input_start, pins.cycle_start}}};
+}
+
 Kind kind_named(std::string_view name) {
-  if (name == "mega") {
-    return {.mcu = "atmega2560",
-            .ports = "ABCDEFGHJKL",
-            .motors = {std::begin(mega_ramps.motor), std::end(mega_ramps.motor)}};
-  }
-  return {.mcu = "atmega328p",
-          .ports = "BCD",
-          .motors = {std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor)}};
+  if (name == "mega") return kind_of("atmega2560", "ABCDEFGHJKL", mega_ramps);
+  return kind_of("atmega328p", "BCD", uno_cnc_shield);
 }
 
 class AvrBoard final : public EmulatedBoard {
  public:
   AvrBoard(Kind kind, const std::string& program)
       : motors_(std::move(kind.motors)),
+        switches_(std::move(kind.switches)),
         positions_(motors_.size(), 0),
         chip_(program, kind.mcu),
         timer_(chip_),
@@ -51,6 +59,7 @@ class AvrBoard final : public EmulatedBoard {
       said_.push_back(byte);
       chip_.stop();
     };
+    ports_.on_change = [this](const PortChange& change) { count_steps(change); };
   }
 
   void receive(std::span<const std::uint8_t> bytes) override { uart_.send(bytes); }
@@ -60,7 +69,6 @@ class AvrBoard final : public EmulatedBoard {
     const std::uint64_t end = chip_.cycles() + static_cast<std::uint64_t>(std::max(seconds, 0.0) * clock_rate);
     while (said_.empty() && chip_.cycles() < end) {
       chip_.run_for(std::min<std::uint64_t>(end - chip_.cycles(), look_cycles));
-      count_steps();
     }
     return !said_.empty();
   }
@@ -72,32 +80,44 @@ class AvrBoard final : public EmulatedBoard {
 
   Seconds elapsed() const override { return Seconds(static_cast<double>(chip_.cycles()) / clock_rate); }
   std::vector<std::int64_t> positions() const override { return positions_; }
+  void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) override {
+    touches_ = std::move(touches);
+    look_at_touch();
+  }
+  bool set_switch(BoardInput which, bool closed) override {
+    const auto found = switches_.find(which);
+    if (found == switches_.end() || !found->second.exists()) return false;
+    ports_.set_input(found->second.port, found->second.bit, !closed);
+    return true;
+  }
 
  private:
   static constexpr std::uint64_t look_cycles = 1'000'000;
 
-  void count_steps() {
-    for (const PortChange& change : ports_.changes()) {
-      const unsigned rose = change.now & ~unsigned{change.before};
-      for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
-        const MotorPins& pins = motors_[motor];
-        if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
-          const bool down = (direction_port(change, pins) & pins.direction.mask()) != 0;
-          positions_[motor] += down ? -1 : 1;
-          if (on_step) on_step(change.cycle, motor, down);
-        }
-      }
-      levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+  void count_steps(const PortChange& change) {
+    const unsigned rose = change.now & ~unsigned{change.before};
+    bool stepped = false;
+    for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
+      const MotorPins& pins = motors_[motor];
+      if (change.port != pins.step.port || (rose & pins.step.mask()) == 0) continue;
+      const bool down = (direction_port(change, pins) & pins.direction.mask()) != 0;
+      positions_[motor] += down ? -1 : 1;
+      stepped = true;
+      if (on_step) on_step(change.cycle, motor, down);
     }
-    ports_.forget_changes();
+    levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+    if (stepped && touches_) look_at_touch();
   }
+  void look_at_touch() { static_cast<void>(set_switch(input_probe, touches_(positions_))); }
   std::uint8_t direction_port(const PortChange& change, const MotorPins& pins) const {
     return pins.direction.port == change.port ? change.now
                                               : levels_[static_cast<std::size_t>(pins.direction.port - 'A')];
   }
 
   std::vector<MotorPins> motors_;
+  std::map<BoardInput, Pin> switches_;
   std::vector<std::int64_t> positions_;
+  std::function<bool(const std::vector<std::int64_t>&)> touches_;
   std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
   EmulatedChip chip_;
   EmulatedTimer timer_;

@@ -113,12 +113,9 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
 }
 
 bool VirtualMachine::Hardware::is_in_a_body() const {
-  return std::any_of(bodies.begin(), bodies.end(), [this](const TouchBody& body) {
-    for (std::size_t m = 0; m < motors.size(); ++m) {
-      if (motors[m].position < body.motors[m].low || motors[m].position > body.motors[m].high) return false;
-    }
-    return true;
-  });
+  std::array<std::int64_t, max_motors> positions{};
+  for (std::size_t m = 0; m < motors.size(); ++m) positions[m] = motors[m].position;
+  return std::ranges::any_of(bodies, [&](const TouchBody& body) { return body.contains(positions); });
 }
 
 MachineCounts VirtualMachine::counts() const {

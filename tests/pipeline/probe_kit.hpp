@@ -35,12 +35,13 @@ class ContactOracle final : public MachineObserver {
   std::vector<Point> contacts;
   std::vector<Point> releases;
 
- private:
   Point place() const {
     Point place;
     for (const AxisDescription& axis : machine_.axes) place[axis.axis] = steps_[axis.axis] / axis.steps_per_unit;
     return place;
   }
+
+ private:
   bool inside() const {
     const Point at = place();
     for (const AxisDescription& axis : machine_.axes) {

@@ -158,9 +158,6 @@ int run(const RunArguments& arguments) {
   const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
-  if (check.probes && (cut || arguments.board != "virtual")) {
-    return fail(exit_bad_program, "over a line: not for a program with probe moves yet");
-  }
   if (cut && arguments.board != "virtual") {
     return fail(exit_bad_program, "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug");
   }
@@ -182,7 +179,8 @@ int run(const RunArguments& arguments) {
   Diagnostics late;
   Job job(std::move(*program), *machine, *options, late,
           {.line = cut ? std::optional(LineOptions{}) : std::nullopt, .board = board ? &board->port() : nullptr});
-  for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
+  const bool touchable = put_touch_boxes(*boxes, *machine, job.machine(), board ? &board->port() : nullptr);
+  if (!touchable) return fail(exit_bad_program, "--touch is for the virtual machine and emulated boards");
   if ((cut || board) && !job.link().error()) {
     if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
     if (job.drive().refiller() == nullptr) {

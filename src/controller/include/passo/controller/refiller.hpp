@@ -74,7 +74,8 @@ class Refiller {
   void brake_by_tail() { brakes_ = true; }
   // In a hold: the planner has dropped the path up to the next action. Where the machine rests.
   Point drop();
-  // The longest motion that the board had, its tail besides, when questions came before refills.
+  // The longest motion that the board had, its tail besides, when questions came before refills. What it had behind a
+  // contact is at most twice as long: the answer that the probe is free is no older than that.
   Seconds longest_ahead() const { return longest_ahead_; }
 
   // To be told of all motion that the planner gives.
@@ -122,7 +123,7 @@ class Refiller {
   void commit();
   Seconds horizon() const;
   Seconds refill_at() const;
-  bool waits_for_answer() const;
+  bool waits_for_answer();
   void note_executed();
   void show_executed(ItemNumber executed);
   void take_up(const Refill& refill);
@@ -131,7 +132,7 @@ class Refiller {
   bool is_far_from_last_tail() const;
   Tail find_tail();
   std::size_t free_places() const;
-  std::size_t size_of_refill() const;
+  std::size_t size_of_refill();
   void send(std::size_t items);
   void ask();
   Seconds time_of(const LinkItem& item) const;
@@ -152,12 +153,14 @@ class Refiller {
 
   std::deque<Pulled> pulled_;  // and not sent
   Seconds pulled_time_{0};
-  bool holds_ = false;  // behind it, the planner holds
-  bool ended_ = false;  // behind it, the path has ended
+  bool holds_ = false;            // behind it, the planner holds
+  bool ended_ = false;            // behind it, the path has ended
   std::optional<Action> action_;  // behind it, this is to be done
 
   Asking asking_ = Asking::none;
-  Seconds answer_{0};        // within which a question that comes with a refill is answered
+  Seconds answer_{0};  // within which a question that comes with a refill is answered
+  Seconds slowest_answer_{0};
+  bool asked_ = false;       // and the answer not seen
   Seconds longest_move_{0};  // as the planner was told
   bool brakes_ = false;
   Seconds longest_ahead_{0};

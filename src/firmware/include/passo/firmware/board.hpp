@@ -202,7 +202,7 @@ class Board {
     if ((captured & inputs_) == 0) captured |= captured_released;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
     const bool keeps = (captured & input_probe) != 0 && kept_ == 0;
-    if (keeps) kept_ = captured;
+    if (keeps) kept_ = static_cast<uint8_t>(captured >> 8);
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = position(motor);
@@ -212,7 +212,7 @@ class Board {
   }
 
   [[gnu::noinline]] void tell_kept() {
-    Captured message{.input = static_cast<uint16_t>(kept_ | captured_kept)};
+    Captured message{.input = static_cast<uint16_t>(kept_ << 8 | captured_kept)};
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = kept_positions_[motor];
@@ -413,8 +413,9 @@ class Board {
   bool trusted_ = true;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
-  // The first change of the probe since the host told to watch it: a captured's input, 0 before; and where.
-  uint16_t kept_ = 0;
+  // The first change of the probe since the host told to watch it: the high byte of a captured's input, 0 before; and
+  // where.
+  uint8_t kept_ = 0;
   int32_t kept_positions_[most_motors] = {};
 };
 

@@ -118,10 +118,10 @@ class BoardLink final : public Link {
   bool answered_ = true;                                // since the last frame was sent
   Seconds unanswered_since_{0};
   Seconds answer_time_{0};
-  bool news_ = false;                                   // since wait() began
-  std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};                                    // when the board last said anything
-  Seconds moved_on_{0};                                 // when it last took something, or we asked or sent
+  bool news_ = false;       // since wait() began
+  std::deque<Frame> kept_;  // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};        // when the board last said anything
+  Seconds moved_on_{0};     // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;
