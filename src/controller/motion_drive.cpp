@@ -321,6 +321,13 @@ void MotionDrive::wait(Seconds time) {
   let_pass(time);
 }
 
+void MotionDrive::listen(Seconds most) {
+  assert(state_ == State::held);
+  const Seconds from = now();
+  link_.listen_for(most);
+  rested_ += now() - from;
+}
+
 void MotionDrive::let_pass(Seconds time) {
   if (real_time_) {
     const Seconds until = now() + time;

@@ -149,9 +149,20 @@ bool BoardLink::hear_until(Done done) {
   return heard;
 }
 
+void BoardLink::listen_for(Seconds most) {
+  const Seconds end = port_.elapsed() + most;
+  ask();
+  while (!error_ && pressed_ == 0 && port_.elapsed() < end && hear(end - port_.elapsed())) {
+  }
+}
+
 bool BoardLink::hear() {
+  return hear(care_.answer_within);
+}
+
+bool BoardLink::hear(Seconds most) {
   std::span<const std::uint8_t> bytes = port_.replies();
-  if (bytes.empty() && port_.run(care_.answer_within)) bytes = port_.replies();
+  if (bytes.empty() && port_.run(most)) bytes = port_.replies();
   for (const std::uint8_t byte : bytes) {
     if (decoder_.feed(byte) != Decoded::frame) continue;
     heard_ = port_.elapsed();
@@ -216,6 +227,7 @@ void BoardLink::take(const Credit& credit) {
 
 void BoardLink::take(const BoardStatus& status) {
   status_ = status;
+  note_inputs(status);
   note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
@@ -233,10 +245,18 @@ void BoardLink::take(const Captured& captured) {
     recalled_ = captured;
     return;
   }
+  const auto pressed = static_cast<std::uint16_t>(captured.input & ~(input_probe | captured_kept | captured_released));
+  pressed_ |= pressed;
+  inputs_ |= pressed;
   if ((captured.input & input_probe) == 0) return;
   probe_report_.touched = (captured.input & captured_released) == 0;
   if (probe_until_ != until_is(probe_report_.touched)) return;
   probe_report_.happened = news_ = true;
+}
+
+void BoardLink::note_inputs(const BoardStatus& status) {
+  pressed_ |= static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{input_probe});
+  inputs_ = status.inputs;
 }
 
 // A captured may be lost; what it told shows in every status. Where the probe was at the beginning as it is to become,

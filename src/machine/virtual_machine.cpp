@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace passo {
 
@@ -68,7 +69,14 @@ void VirtualMachine::look_at_bodies() {
   const bool touched = hardware_.is_in_a_body();
   if (touched == touched_) return;
   touched_ = touched;
-  board_.set_inputs(touched ? input_probe : 0, input_probe);
+  board_.set_inputs(static_cast<std::uint16_t>(touched ? switches_ | input_probe : switches_), input_probe);
+}
+
+void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
+  const auto before =
+      std::exchange(switches_, static_cast<std::uint16_t>(closed ? switches_ | which : switches_ & ~which));
+  board_.set_inputs(static_cast<std::uint16_t>(touched_ ? switches_ | input_probe : switches_),
+                    static_cast<std::uint16_t>(switches_ & ~before));
 }
 
 void VirtualMachine::wait(Ticks time) {

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
+#include "passo/controller/operator_panel.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
@@ -89,12 +90,14 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   job.drive().probe().watch([&](const ProbeOutcome& outcome) { count(outcome, machine, probes); });
   outputs.watch(job);
   changes.begin(job.drive());
+  OperatorPanel panel(job.drive());
   TailWatch tails;
   LineLoad load;
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
-      if (changes.any()) changes.act(job.drive(), job.machine(), machine);
+      if (board != nullptr) panel.look();
+      if (changes.any() && !panel.holds()) changes.act(job.drive(), job.machine(), machine);
       if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
       load.look(job.drive().now(), job.link().bytes_sent());
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);

@@ -91,6 +91,13 @@ class MotionDrive {
   void stop();
   // Lets time pass while it is held.
   void wait(Seconds time);
+  // The same, until something is switched on that the board tells of.
+  void listen(Seconds most);
+  // Asks how the board's switches are: amid motion it tells only when one goes on, and that may be lost.
+  void ask() { link_.ask(); }
+  // As BoardLink has them.
+  std::uint16_t take_pressed() { return link_.take_pressed(); }
+  std::uint16_t inputs() const { return link_.inputs(); }
 
   State state() const { return state_; }
   // Of the board's side.

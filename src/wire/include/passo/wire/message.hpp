@@ -89,10 +89,8 @@ enum BoardInput : uint16_t {
   input_start = 0x1000,
 };
 // Beside the input of a captured.
-enum CapturedHow : uint16_t {
-  captured_kept = 0x4000,      // it answers a question
-  captured_released = 0x8000,  // the input has gone off
-};
+inline constexpr uint16_t captured_kept = 0x4000;      // it answers a question
+inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
 
 // Board to host, when asked. Positions are the motors' steps since the board was switched on.
 struct BoardStatus {
@@ -111,7 +109,7 @@ struct BoardStatus {
 // Board to host: an input has changed that is watched, at this very event. As an answer: where the probe changed first;
 // without an input it did not, and there is no item.
 struct Captured {
-  uint16_t input = 0;  // BoardInput and CapturedHow
+  uint16_t input = 0;  // BoardInput, captured_kept, captured_released
   uint8_t item = 0;    // low byte of the number of the item that was played
   uint16_t event = 0;  // how many of its events were
   int32_t positions[max_motors] = {};
