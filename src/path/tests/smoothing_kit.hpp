@@ -137,8 +137,9 @@ inline std::vector<Rest> rests_of(const ByLength& path) {
 
 // Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
 // where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
-// were cut). `shift` is how far it was when last looked for. Where the path passes itself it may be that of another
-// place near by: so it counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
+// were cut); for slow bending, where the parameter goes on faster at corners than s, from where it was last. `shift` is
+// how far it was when last looked for. Where the path passes itself it may be that of another place near by: so it
+// counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
 struct LengthAlong {
   double since_rest = 0;
   double rest = 0;
@@ -152,12 +153,35 @@ struct LengthAlong {
   double search(const Measure& measure, double end) {
     constexpr double close = 1e-3;
     constexpr double beyond = 0.5;
+    const double before = shift;
+    for (const double step : {close, 50 * close}) {
+      const double found = descend(measure, end, step);
+      if (found <= 0) return found;
+      shift = before;
+    }
     double best = measure(std::clamp(estimate(), 0.0, end));
     best = search_between(measure, end, shift - close, shift + close, best);
+    best = search_between(measure, end, before - beyond, before + beyond, best);
     return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
   }
 
  private:
+  // Where the path is plain a few steps find the place.
+  template <class Measure>
+  double descend(const Measure& measure, double end, double step) {
+    const auto at = [&](double to) { return measure(std::clamp(rest + since_rest + to, 0.0, end)); };
+    double best = at(shift);
+    for (; step > 1e-9 && best > 0; step /= 2) {
+      for (const double to : {shift - step, shift + step}) {
+        const double here = at(to);
+        if (here >= best) continue;
+        best = here;
+        shift = to;
+      }
+    }
+    return best;
+  }
+
   template <class Measure>
   double search_between(const Measure& measure, double end, double low, double high, double best) {
     constexpr int samples = 20'000;
