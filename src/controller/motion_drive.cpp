@@ -78,7 +78,8 @@ void MotionDrive::watch(const MotionItem& item) {
   planned_ += time_of(item);
   if (refiller_) refiller_->watch(item);
   const auto* move = std::get_if<PlannedMove>(&item);
-  if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
+  // With tails not all that is given is done.
+  if (move != nullptr && probe_.is_running() && !refiller_) end_of_probe_ = move->segment.curve.at(move->to);
   if (machine_.spindle().has_encoder()) {
     // What is committed is blind to what the spindle does.
     if (move != nullptr) {
@@ -117,11 +118,26 @@ void MotionDrive::use_tails(const TailOptions& options) {
       steps_, options);
 }
 
+void MotionDrive::begin_at(const PathPlace& place) {
+  path_.keep();
+  path_.begin_at(place);
+}
+
+void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
+  assert(refiller_);
+  OutputState spindle = outputs;
+  spindle.mist = spindle.flood = false;
+  refiller_->switch_outputs(board_outputs(spindle));
+  if (spindle.spindle != SpindleDirection::off) let_pass(spindle_wait);
+  if (spindle != outputs) refiller_->switch_outputs(board_outputs(outputs));
+}
+
 bool MotionDrive::advance_with_tails() {
   switch (refiller_->advance()) {
     case Refiller::Turn::goes_on: return true;
     case Refiller::Turn::ended: state_ = State::ended; break;
     case Refiller::Turn::rests_in_hold: rest_in_feed_hold(); break;
+    case Refiller::Turn::at_action: send(refiller_->take_action()); break;
   }
   return state_ != State::ended;
 }
@@ -168,6 +184,7 @@ void MotionDrive::set_outputs(const OutputState& outputs) {
 void MotionDrive::look_at_probe() {
   if (contact_seen_ || !probe_.contact()) return;
   contact_seen_ = true;
+  if (refiller_) refiller_->brake_by_tail();
   if (probe_.is_running()) {
     probe_brakes_ = true;
     planner_.stop();  // whatever M53 says
@@ -177,17 +194,32 @@ void MotionDrive::look_at_probe() {
   }
 }
 
+void MotionDrive::guard_by_probe() {
+  probe_.guard_other_moves();
+  commit_to_probe();
+}
+
+// As much as is right for what the probe is watched for now.
+void MotionDrive::commit_to_probe() {
+  if (!refiller_) return commit_ahead(commits());
+  using Asking = Refiller::Asking;
+  refiller_->ask_for_probe(probe_.is_running() ? Asking::before_refills
+                           : probe_.guards()   ? Asking::with_refills
+                                               : Asking::none);
+}
+
 void MotionDrive::begin_probe(const Action& action) {
-  link_.drain();
+  if (!refiller_) link_.drain();
   probe_.begin(action);
   contact_seen_ = false;
   end_of_probe_.reset();
-  commit_ahead(probing_options);
+  commit_to_probe();
 }
 
 void MotionDrive::end_probe(const Action& action) {
+  if (!refiller_) link_.drain();
   probe_.end(end_of_probe_.value_or(action.place));
-  commit_ahead(live_);
+  commit_to_probe();
   contact_seen_ = false;
   // The contact may have come when the path was at its end already.
   if (std::exchange(probe_brakes_, false)) let_planner_go_on();
@@ -203,6 +235,7 @@ void MotionDrive::let_planner_go_on() {
 void MotionDrive::rest_in_feed_hold() {
   if (std::exchange(probe_brakes_, false)) {
     planner_.drop_to_action();
+    if (refiller_) end_of_probe_ = refiller_->drop();
     let_planner_go_on();
   }
   // One that was resumed before it came to rest is none.
@@ -212,7 +245,11 @@ void MotionDrive::rest_in_feed_hold() {
 
 void MotionDrive::rest_in_hold() {
   if (stopping_) {
-    link_.send(BoardOutputs{});
+    if (refiller_) {
+      refiller_->switch_outputs({});
+    } else {
+      link_.send(BoardOutputs{});
+    }
     end();
     return;
   }
@@ -299,10 +336,16 @@ void MotionDrive::wait(Seconds time) {
   let_pass(time);
 }
 
+void MotionDrive::listen(Seconds most) {
+  assert(state_ == State::held);
+  const Seconds from = now();
+  link_.listen_for(most);
+  rested_ += now() - from;
+}
+
 void MotionDrive::let_pass(Seconds time) {
   if (real_time_) {
-    const Seconds until = now() + time;
-    while (now() < until) static_cast<void>(port_.run(until - now()));
+    link_.let_pass(time);
     rested_ += time;
     return;
   }

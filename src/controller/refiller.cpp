@@ -1,6 +1,7 @@
 #include "passo/controller/refiller.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +24,15 @@ constexpr Seconds to_settle{0.03};
 constexpr double faster = 1.3;
 constexpr Seconds to_go_on_so{0.1};
 constexpr double least_limit = 0.05;  // mm/s
+// Of the questions before refills. A refill that goes before one takes the longer by so much; answers that were slow
+// are forgotten at this rate; a chip makes events of so much motion ahead.
+constexpr double behind_a_refill = 3;
+constexpr double patience = 0.9;
+constexpr double late_answer = 2;
+constexpr double slower_answer = 1.5;
+constexpr double moves_an_answer = 3;
+constexpr Seconds shortest_answer{0.003};
+constexpr Seconds made_ahead{0.002};
 
 // The planner's braking, handed out as motion.
 class Braking final : public Source<MotionItem> {
@@ -47,12 +57,10 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       options_(options),
       behind_(stages.link.executed()),
       places_(static_cast<std::size_t>(std::max(stages.link.places(), 0))),
+      given_(stages.path.place()),
       long_tail_((places_ - std::min(places_, worth_sending + 1)) / 2) {
   stages.path.keep();
-  stages.planner.limit_moves_to(options.longest_move);
-  stages.generator.limit_waiting_to(options.longest_move);
-  stages.generator.be_exact_to(places_ < options.few_places ? options.motion_in_few_places : options.motion);
-  rested_.generator = fork();
+  commit();
 }
 
 void Refiller::watch(const MotionItem& motion) {
@@ -67,7 +75,11 @@ void Refiller::watch(const MotionItem& motion) {
 Refiller::Turn Refiller::advance() {
   if (stages_.link.error()) return Turn::ended;
   note_executed();
-  if (!on_tail_) {
+  if (refills_under_way_.empty()) {
+    brakes_ = false;
+    if (pulled_.empty()) rested_ = tail_of_nothing().rest;
+  }
+  if (!on_tail_ && !brakes_) {
     pull();
     if (const std::size_t items = size_of_refill(); items > 0) {
       send(items);
@@ -76,8 +88,9 @@ Refiller::Turn Refiller::advance() {
   }
   if (refills_under_way_.empty()) {
     if (pulled_.empty() && ended_) return Turn::ended;
+    if (pulled_.empty() && action_) return Turn::at_action;
     if (pulled_.empty() && std::exchange(holds_, false)) return Turn::rests_in_hold;
-    if (!pulled_.empty() && free_places() + 1 == places_) {
+    if (!pulled_.empty() && free_places() + 1 == places_ && !waits_for_answer()) {
       if (begin_more_slowly()) return Turn::goes_on;
       stages_.link.fail(LinkError::too_few_places);
       return Turn::ended;
@@ -85,6 +98,63 @@ Refiller::Turn Refiller::advance() {
   }
   stages_.link.wait();
   return Turn::goes_on;
+}
+
+Action Refiller::take_action() {
+  return *std::exchange(action_, std::nullopt);
+}
+
+void Refiller::ask_for_probe(Asking asking) {
+  asking_ = asking;
+  if (asking == Asking::before_refills) {
+    answer_ = std::max(slowest_answer_, std::min(behind_a_refill * stages_.link.answer_time(), options_.refill_at));
+  }
+  commit();
+}
+
+// As much as it takes to ask and to be answered.
+void Refiller::commit() {
+  answer_ = std::max(answer_, shortest_answer);
+  const bool in_haste = asking_ == Asking::before_refills;
+  longest_move_ = in_haste ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
+  stages_.generator.be_exact_to(counts_items() ? options_.motion_in_few_places : options_.motion);
+  stages_.planner.limit_moves_to(longest_move_);
+  stages_.generator.limit_waiting_to(longest_move_);
+}
+
+// The fewer the better.
+bool Refiller::counts_items() const {
+  return asking_ == Asking::before_refills || places_ < options_.few_places;
+}
+
+// While one refill is on its way and answered, the next one not yet there, the board has enough.
+Seconds Refiller::horizon() const {
+  return asking_ == Asking::before_refills ? 2 * answer_ + longest_move_ + made_ahead : options_.horizon;
+}
+Seconds Refiller::refill_at() const {
+  return asking_ == Asking::before_refills ? horizon() - longest_move_ : options_.refill_at;
+}
+
+// One that has taken too long tells of a time that is too long ago: the board is asked again, and trusted to be slower.
+bool Refiller::waits_for_answer() {
+  if (asking_ != Asking::before_refills) return false;
+  if (!stages_.link.answered()) return true;
+  if (!std::exchange(asked_, false)) return false;
+  const Seconds time = stages_.link.answer_time();
+  if (time > late_answer * answer_) {
+    answer_ = slower_answer * answer_;
+    ask();
+    return true;
+  }
+  slowest_answer_ = std::max(time, slowest_answer_ * patience);
+  answer_ = std::max(time, answer_ * patience);
+  commit();
+  return false;
+}
+
+Point Refiller::drop() {
+  const PathPlace rest = std::exchange(given_, stages_.path.last());
+  return stages_.path.point_at(rest);
 }
 
 // What the board has told of how far it is.
@@ -114,7 +184,7 @@ void Refiller::note_executed() {
   if (!on_tail_) return;
   behind_ = executed;
   take_up();
-  ++recoveries_;
+  if (!brakes_) ++recoveries_;
 }
 
 // A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
@@ -134,6 +204,7 @@ void Refiller::take_up() {
   ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
   speed_ = fastest_ = 0;
+  action_.reset();
   given_ = rested_.place;
   stages_.path.rewind(given_);
   stages_.planner.restart();
@@ -175,20 +246,23 @@ void Refiller::mind_length_of(const Tail& tail) {
 void Refiller::pull() {
   const auto wanted = [&] {
     if (!pulled_.empty() && !pulled_.back().tail) return true;
-    return ahead_ + pulled_time_ < options_.horizon && pulled_.size() < places_;
+    return ahead_ + pulled_time_ < horizon() && pulled_.size() < places_;
   };
-  while (!holds_ && !ended_ && wanted()) {
+  const auto goes_on = [&] { return !holds_ && !ended_ && !action_; };
+  while (goes_on() && wanted()) {
     if (!stages_.items.next(item_)) {
       ended_ = true;
     } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
       add(*segment);
     } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
       holds_ = true;
+    } else if (action.kind == Action::Kind::probe_begin || action.kind == Action::Kind::probe_end) {
+      action_ = action;
     } else {
       add(board_outputs(action.outputs));
     }
   }
-  if ((ended_ || holds_) && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = tail_of_nothing();
+  if (!goes_on() && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = tail_of_nothing();
 }
 
 void Refiller::add(const LinkItem& item) {
@@ -221,7 +295,7 @@ Refiller::Tail Refiller::find_tail() {
   Braking braking(plan_);
   StepGenerator& rested = *(tail.rest.generator = std::make_unique<StepGenerator>(braking, steps_));
   rested.assume(stages_.generator);
-  rested.be_exact_to(places_ < options_.few_places ? options_.tail_in_few_places : options_.tail);
+  rested.be_exact_to(counts_items() ? options_.tail_in_few_places : options_.tail);
   while (rested.next(item_)) tail.items.emplace_back(std::get<BoardSegment>(item_));
   return tail;
 }
@@ -246,8 +320,10 @@ std::size_t Refiller::free_places() const {
 
 // How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
 // one's tail begins.
-std::size_t Refiller::size_of_refill() const {
-  if (pulled_.empty() || ahead_ >= options_.refill_at) return 0;
+std::size_t Refiller::size_of_refill() {
+  if (pulled_.empty() || ahead_ >= refill_at()) return 0;
+  if (waits_for_answer()) return 0;
+  const bool at_once = asking_ == Asking::before_refills;
   const std::size_t places = free_places();
   const std::size_t room = static_cast<std::size_t>(std::max(stages_.link.room() - 1, 0));
   std::size_t fits = 0;
@@ -261,9 +337,9 @@ std::size_t Refiller::size_of_refill() const {
     line_time = options_.time_an_item * static_cast<double>(i + tail + worth_sending);
     if (i + 2 * tail + (tail > 0 ? worth_sending : 0) <= places) fits_well = i;
   }
-  if (refills_under_way_.empty()) return fits_well > 0 ? fits_well : fits;
+  if (refills_under_way_.empty() || at_once) return fits_well > 0 ? fits_well : fits;
   if (fits_well >= std::min(worth_sending, pulled_.size())) return fits_well;
-  if (ahead_ >= std::max(options_.refill_at / 2, line_time)) return 0;
+  if (ahead_ >= std::max(refill_at() / 2, line_time)) return 0;
   return fits;
 }
 
@@ -273,6 +349,11 @@ void Refiller::send(std::size_t items) {
   for (std::size_t i = 0; i < items; ++i) items_.push_back(pulled_[i].item);
   items_.insert(items_.end(), tail.items.begin(), tail.items.end());
   Refill refill;
+  if (rest_watcher_) {
+    // Behind the frame that replaces.
+    const auto last = static_cast<ItemNumber>(stages_.link.sent() + 1 + items_.size());
+    rest_watcher_({.executed = last, .place = tail.rest.place});
+  }
   refill.first = stages_.link.replace(behind_, items_);
   for (std::size_t i = 0; i < items; ++i) {
     motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i), .time = pulled_[i].time});
@@ -291,6 +372,23 @@ void Refiller::send(std::size_t items) {
   refill.rest = std::move(pulled_[items - 1].tail->rest);
   refills_under_way_.push_back(std::move(refill));
   pulled_.erase(pulled_.begin(), pulled_.begin() + static_cast<std::ptrdiff_t>(items));
+  if (asking_ != Asking::none) ask();
+}
+
+void Refiller::ask() {
+  if (asking_ == Asking::before_refills) longest_ahead_ = std::max(longest_ahead_, ahead_);
+  asked_ = true;
+  stages_.link.ask();
+}
+
+void Refiller::switch_outputs(const BoardOutputs& outputs) {
+  assert(refills_under_way_.empty() && pulled_.empty());
+  if (rest_watcher_) rest_watcher_({.executed = static_cast<ItemNumber>(stages_.link.sent() + 1), .place = given_});
+  stages_.link.send(outputs);
+  stages_.link.drain();
+  if (stages_.link.error()) return;
+  behind_ = stages_.link.executed();
+  if (executed_watcher_) executed_watcher_(outputs);
 }
 
 Seconds Refiller::time_of(const LinkItem& item) const {

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "passo/chip/mega_ramps.hpp"
+#include "passo/chip/mega_windings.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/chip/uno_windings.hpp"
 #include "passo/emulator/emulated_chip.hpp"
 #include "passo/emulator/emulated_ports.hpp"
 #include "passo/emulator/emulated_timer.hpp"
@@ -25,23 +28,42 @@ struct Kind {
   const char* mcu;
   const char* ports;
   std::vector<MotorPins> motors;
+  std::map<BoardInput, Pin> switches;
 };
 
+template <class Map>
+Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = {}) {
+  Kind kind{.mcu = mcu,
+            .ports = ports,
+            .motors = {std::begin(pins.motor), std::end(pins.motor)},
+            .switches = {{input_probe, pins.probe},
+                         {input_emergency_stop, pins.emergency_stop},
+                         {input_hold, pins.feed_hold},
+                         {input_start, pins.cycle_start}}};
+  for (MotorPins& motor : kind.motors) motor.drive = drive;
+  return kind;
+}
+
+template <class Map>
+Kind kind_of(bool is_mega, const Map& pins, Drive drive = {}) {
+  return is_mega ? kind_of("atmega2560", "ABCDEFGHJKL", pins, drive) : kind_of("atmega328p", "BCD", pins, drive);
+}
+
 Kind kind_named(std::string_view name) {
-  if (name == "mega") {
-    return {.mcu = "atmega2560",
-            .ports = "ABCDEFGHJKL",
-            .motors = {std::begin(mega_ramps.motor), std::end(mega_ramps.motor)}};
+  const bool is_mega = name.starts_with("mega");
+  for (const auto& [ending, drive] : {std::pair{"_two_on", Drive::two_on}, std::pair{"_wave", Drive::wave},
+                                      std::pair{"_half_step", Drive::half_step}}) {
+    if (!name.ends_with(ending)) continue;
+    return is_mega ? kind_of(is_mega, mega_windings, drive) : kind_of(is_mega, uno_windings, drive);
   }
-  return {.mcu = "atmega328p",
-          .ports = "BCD",
-          .motors = {std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor)}};
+  return is_mega ? kind_of(is_mega, mega_ramps) : kind_of(is_mega, uno_cnc_shield);
 }
 
 class AvrBoard final : public EmulatedBoard {
  public:
   AvrBoard(Kind kind, const std::string& program)
       : motors_(std::move(kind.motors)),
+        switches_(std::move(kind.switches)),
         positions_(motors_.size(), 0),
         chip_(program, kind.mcu),
         timer_(chip_),
@@ -51,6 +73,7 @@ class AvrBoard final : public EmulatedBoard {
       said_.push_back(byte);
       chip_.stop();
     };
+    ports_.on_change = [this](const PortChange& change) { count_steps(change); };
   }
 
   void receive(std::span<const std::uint8_t> bytes) override { uart_.send(bytes); }
@@ -60,7 +83,6 @@ class AvrBoard final : public EmulatedBoard {
     const std::uint64_t end = chip_.cycles() + static_cast<std::uint64_t>(std::max(seconds, 0.0) * clock_rate);
     while (said_.empty() && chip_.cycles() < end) {
       chip_.run_for(std::min<std::uint64_t>(end - chip_.cycles(), look_cycles));
-      count_steps();
     }
     return !said_.empty();
   }
@@ -72,32 +94,59 @@ class AvrBoard final : public EmulatedBoard {
 
   Seconds elapsed() const override { return Seconds(static_cast<double>(chip_.cycles()) / clock_rate); }
   std::vector<std::int64_t> positions() const override { return positions_; }
+  void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) override {
+    touches_ = std::move(touches);
+    look_at_touch();
+  }
+  bool set_switch(BoardInput which, bool closed) override {
+    const auto found = switches_.find(which);
+    if (found == switches_.end() || !found->second.exists()) return false;
+    ports_.set_input(found->second.port, found->second.bit, !closed);
+    return true;
+  }
 
  private:
   static constexpr std::uint64_t look_cycles = 1'000'000;
 
-  void count_steps() {
-    for (const PortChange& change : ports_.changes()) {
-      const unsigned rose = change.now & ~unsigned{change.before};
-      for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
-        const MotorPins& pins = motors_[motor];
-        if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
-          const bool down = (direction_port(change, pins) & pins.direction.mask()) != 0;
-          positions_[motor] += down ? -1 : 1;
-          if (on_step) on_step(change.cycle, motor, down);
-        }
+  void count_steps(const PortChange& change) {
+    const unsigned rose = change.now & ~unsigned{change.before};
+    const unsigned turned_over = change.now ^ unsigned { change.before };
+    levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+    stepped_ = false;
+    for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
+      const MotorPins& pins = motors_[motor];
+      if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
+        count(change.cycle, motor, (levels_of(pins.direction) & pins.direction.mask()) != 0);
       }
-      levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+      if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
     }
-    ports_.forget_changes();
+    if (stepped_ && touches_) look_at_touch();
   }
-  std::uint8_t direction_port(const PortChange& change, const MotorPins& pins) const {
-    return pins.direction.port == change.port ? change.now
-                                              : levels_[static_cast<std::size_t>(pins.direction.port - 'A')];
+  void look_at_touch() { static_cast<void>(set_switch(input_probe, touches_(positions_))); }
+  void count(std::uint64_t cycle, std::size_t motor, bool down) {
+    positions_[motor] += down ? -1 : 1;
+    stepped_ = true;
+    if (on_step) on_step(cycle, motor, down);
   }
+  // Where a motor's windings lie on two ports there is a moment between the two, whose pattern is in no table.
+  void follow_windings(std::uint64_t cycle, std::size_t motor) {
+    const WindingTable table = winding_table(motors_[motor].drive);
+    unsigned pattern = 0;
+    for (unsigned f = 0; f < winding_count; ++f) {
+      const Pin pin = motors_[motor].windings[f];
+      if ((levels_of(pin) & pin.mask()) != 0) pattern |= 1U << f;
+    }
+    const auto place = static_cast<std::uint8_t>(positions_[motor]);
+    if (pattern == table.at(static_cast<std::uint8_t>(place + 1))) return count(cycle, motor, false);
+    if (pattern == table.at(static_cast<std::uint8_t>(place - 1))) count(cycle, motor, true);
+  }
+  std::uint8_t levels_of(Pin pin) const { return levels_[static_cast<std::size_t>(pin.port - 'A')]; }
 
   std::vector<MotorPins> motors_;
+  std::map<BoardInput, Pin> switches_;
   std::vector<std::int64_t> positions_;
+  bool stepped_ = false;  // at the change that is looked at
+  std::function<bool(const std::vector<std::int64_t>&)> touches_;
   std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
   EmulatedChip chip_;
   EmulatedTimer timer_;

@@ -18,10 +18,21 @@ constexpr std::size_t repeated_at_once = 16;
 constexpr int most_refusals = 8;  // of one frame
 constexpr int sure_of_status = 2;
 
+constexpr ProbeUntil until_is(bool touched) {
+  return touched ? ProbeUntil::touched : ProbeUntil::released;
+}
+
 }  // namespace
 
 BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
-    : port_(port), motors_(motors), care_(care), heard_(port.elapsed()) {
+    : port_(port),
+      motors_(motors),
+      care_(care),
+      sent_(care.greeting),
+      taken_(care.greeting),
+      executed_(care.greeting),
+      asked_behind_(care.greeting),
+      heard_(port.elapsed()) {
   decoder_.set_motors(motors);
   say_hello();
   if (care_.session != 0 && !error_) name_session();
@@ -29,7 +40,7 @@ BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
 
 void BoardLink::say_hello() {
   while (!board_ && !error_) {
-    say(Hello{.motors = motors_}, std::uint8_t{0});
+    say(Hello{.motors = motors_}, care_.greeting);
     const bool heard = hear_until([this] { return board_.has_value(); });
     if (!heard && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
   }
@@ -94,17 +105,43 @@ void BoardLink::wait() {
   }
 }
 
+void BoardLink::let_pass(Seconds time) {
+  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
+  const Seconds until = port_.elapsed() + time;
+  while (!error_ && until - port_.elapsed() > hardly_any) hear(until - port_.elapsed());
+}
+
+// An answer to an earlier question may come first: it counts if it tells of the same rest.
 void BoardLink::watch_probe(ProbeUntil until) {
-  drain();
-  probe_until_ = until;
+  probe_until_ = ProbeUntil::off;
   probe_report_ = {};
+  if (until == ProbeUntil::off) return;
+  const auto rests = [this] {
+    return status_ && status_->executed == executed_ && (status_->state & (board_moves | board_kept)) == 0;
+  };
   status_.reset();
-  ask();
-  while (!status_ && listen()) {
+  answered_ = true;  // what went before is over
+  ask(Question::watch);
+  while (!rests() && listen([this] { ask(Question::watch); })) {
   }
-  if (!status_) return;
+  probe_report_ = {};
+  if (error_) return;
+  probe_until_ = until;
   probe_report_.touched = (status_->inputs & input_probe) != 0;
+  began_as_wanted_ = until == until_is(probe_report_.touched);
   std::copy_n(status_->positions, probed_from_.size(), probed_from_.begin());
+}
+
+void BoardLink::recall_contact() {
+  recalled_.reset();
+  ask(Question::kept);
+  while (!recalled_ && listen([this] { ask(Question::kept); })) {
+  }
+  if (!recalled_) return;
+  const bool touched = (recalled_->input & captured_released) == 0;
+  probe_report_.happened = (recalled_->input & input_probe) != 0 && probe_until_ == until_is(touched);
+  if (!probe_report_.happened) return;
+  for (std::size_t m = 0; m < motors_; ++m) probe_report_.steps[m] = recalled_->positions[m] - probed_from_[m];
 }
 
 void BoardLink::wait_for_room() {
@@ -112,8 +149,10 @@ void BoardLink::wait_for_room() {
   }
 }
 
-// Waits for what the board has to say, for as long as it may take. False when it is no use to wait any longer.
-bool BoardLink::listen() {
+// Waits for what the board has to say, for as long as it may take; after a silence asks again. False when it is no use
+// to wait any longer.
+template <class Again>
+bool BoardLink::listen(Again again) {
   const bool heard = hear();
   if (error_) return false;
   if (!may_lose()) {
@@ -121,9 +160,13 @@ bool BoardLink::listen() {
   } else if (port_.elapsed() - heard_ > care_.patience) {
     error_ = LinkError::no_answer;
   } else if (!heard || overdue()) {
-    ask();
+    again();
   }
   return !error_;
+}
+
+bool BoardLink::listen() {
+  return listen([this] { ask(); });
 }
 
 // An answer comes in pieces, on a slow line byte by byte: what was asked is asked again only when its time is over.
@@ -131,13 +174,25 @@ template <class Done>
 bool BoardLink::hear_until(Done done) {
   const Seconds asked = port_.elapsed();
   bool heard = false;
-  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear()) heard = true;
+  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear(care_.answer_within))
+    heard = true;
   return heard;
 }
 
+void BoardLink::listen_for(Seconds most) {
+  const Seconds end = port_.elapsed() + most;
+  ask();
+  while (!error_ && pressed_ == 0 && port_.elapsed() < end && hear(end - port_.elapsed())) {
+  }
+}
+
 bool BoardLink::hear() {
+  return hear(care_.answer_within);
+}
+
+bool BoardLink::hear(Seconds most) {
   std::span<const std::uint8_t> bytes = port_.replies();
-  if (bytes.empty() && port_.run(care_.answer_within)) bytes = port_.replies();
+  if (bytes.empty() && port_.run(most)) bytes = port_.replies();
   for (const std::uint8_t byte : bytes) {
     if (decoder_.feed(byte) != Decoded::frame) continue;
     heard_ = port_.elapsed();
@@ -151,10 +206,11 @@ bool BoardLink::overdue() const {
   return !kept_.empty() && port_.elapsed() - moved_on_ > care_.answer_within;
 }
 
-void BoardLink::ask() {
+void BoardLink::ask(Question question) {
   moved_on_ = port_.elapsed();
   asked_behind_ = sent_;
-  say(Ask{.motors = motors_}, ++question_);
+  if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
+  say(Ask{.motors = motors_, .question = question}, ++question_);
 }
 
 void BoardLink::take(const WireFrame& frame) {
@@ -212,9 +268,11 @@ bool BoardLink::holds_nothing_of(const Credit& credit) const {
 
 void BoardLink::take(const BoardStatus& status) {
   status_ = status;
+  note_inputs(status);
+  note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
-    if (care_.session != 0 && sent_ != 0) doubt(LinkError::was_reset);
+    if (care_.session != 0 && sent_ != care_.greeting) doubt(LinkError::was_reset);
     return;
   }
   if ((status.state & board_trusted) == 0) return doubt(LinkError::stopped);
@@ -236,15 +294,43 @@ void BoardLink::doubt(LinkError error) {
   }
 }
 
-// Each tells of a change, and is told once.
 void BoardLink::take(const Captured& captured) {
+  if ((captured.input & captured_kept) != 0) {
+    recalled_ = captured;
+    return;
+  }
+  const auto pressed = static_cast<std::uint16_t>(captured.input & ~(input_probe | captured_kept | captured_released));
+  pressed_ |= pressed;
+  inputs_ |= pressed;
   if ((captured.input & input_probe) == 0) return;
-  probe_report_.touched = !probe_report_.touched;
-  const bool waited_for = probe_until_ == (probe_report_.touched ? ProbeUntil::touched : ProbeUntil::released);
-  if (!waited_for || probe_report_.happened) return;
-  probe_report_.happened = true;
-  for (std::size_t m = 0; m < motors_; ++m) probe_report_.steps[m] = captured.positions[m] - probed_from_[m];
-  news_ = true;
+  probe_report_.touched = (captured.input & captured_released) == 0;
+  if (probe_until_ != until_is(probe_report_.touched)) return;
+  probe_report_.happened = news_ = true;
+}
+
+void BoardLink::note_inputs(const BoardStatus& status) {
+  pressed_ |= static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{input_probe});
+  inputs_ = status.inputs;
+}
+
+// A captured may be lost; what it told shows in every status. Where the probe was at the beginning as it is to become,
+// its first change is away from that, and the watch begins again.
+void BoardLink::note_probe(const BoardStatus& status) {
+  if (static_cast<std::uint8_t>(sent_) == status.taken && !answered_) {
+    answered_ = news_ = true;
+    answer_time_ = port_.elapsed() - unanswered_since_;
+  }
+  const bool touched = (status.inputs & input_probe) != 0;
+  const bool came = std::exchange(probe_report_.touched, touched) != touched;
+  if (probe_until_ == ProbeUntil::off) return;
+  const bool as_wanted = probe_until_ == until_is(touched);
+  const bool kept = (status.state & board_kept) != 0;
+  if (as_wanted ? came || kept : kept && !began_as_wanted_) {
+    probe_report_.happened = news_ = true;
+  } else if (!as_wanted && began_as_wanted_) {
+    began_as_wanted_ = kept;
+    if (kept) ask(Question::watch);
+  }
 }
 
 void BoardLink::take(const ErrorReport& error) {
@@ -309,6 +395,8 @@ void BoardLink::send_frame(const Frame& frame) {
   sent_ = frame.number;
   rests_ = false;
   if (may_lose()) kept_.push_back(frame);
+  answered_ = false;
+  unanswered_since_ = port_.elapsed();
   moved_on_ = port_.elapsed();
   if (!repeating_) put_on_wire(frame.bytes, frame.size);
 }

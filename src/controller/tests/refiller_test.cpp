@@ -37,6 +37,7 @@ class ListedBoard final : public Link {
     if (found && !deaf) list_ = kept;
     return first;
   }
+  ItemNumber sent() const override { return sent_; }
   ItemNumber executed() const override { return executed_; }
   int room() const override { return std::min(places(), 127); }
   int places() const override { return static_cast<int>(places_ - list_.size()); }
@@ -52,6 +53,10 @@ class ListedBoard final : public Link {
   }
   void watch_probe(ProbeUntil) override {}
   const ProbeReport& probe_report() const override { return report_; }
+  void recall_contact() override {}
+  void ask() override {}
+  bool answered() const override { return true; }
+  Seconds answer_time() const override { return Seconds(0); }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error; }
   std::uint64_t frames_sent() const override { return 0; }

@@ -28,19 +28,30 @@ class RewindablePath final : public Source<PathItem> {
 
   // Before the first next().
   void keep() { keeps_ = true; }
+  // Also before it, of a path that is kept: all in front of that place was done in another session, and is left out.
+  void begin_at(const PathPlace& place);
+  // Of what next() gives.
+  PathPlace place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
   [[nodiscard]] bool next(PathItem& item) override;
 
   // Where the path is behind a motion that begins at `place`. Holds for what was planned since the last rewind().
   PathPlace behind(const PathPlace& place, const MotionItem& motion) const;
   // Hands out again what comes from there on.
   void rewind(const PathPlace& place);
+  // Where that is; of what was handed out and is kept.
+  Point point_at(const PathPlace& place) const;
+  // Of the item handed out last.
+  PathPlace last() const { return {.item = next_ - 1}; }
   // There will be no way back before this item.
   void forget_before(std::uint64_t item);
   std::size_t items_kept() const { return kept_.size(); }
 
  private:
   Source<PathItem>& path_;
+  bool pull(PathItem& item);
+
   bool keeps_ = false;
+  std::uint64_t left_out_ = 0;  // items to leave out before the first one
   std::deque<PathItem> kept_;
   std::uint64_t first_ = 0;  // number of the first one kept
   std::uint64_t next_ = 0;   // and of the next one to hand out

@@ -78,7 +78,11 @@ class Board {
   // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
     inputs_ = inputs;
-    if (captured != 0 && motors_ != 0) tell_captured(captured);
+    if (motors_ == 0) return;
+    // By itself: it may go off while another goes on.
+    if ((captured & input_probe) != 0) tell_captured(input_probe);
+    captured &= static_cast<uint16_t>(~input_probe);
+    if (captured != 0) tell_captured(captured);
   }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
@@ -170,11 +174,16 @@ class Board {
       return complain(WireError::bad_value);
     }
     breathe();
-    const bool about = ask.question == Question::about;
-    const uint8_t type = static_cast<uint8_t>(about ? MessageType::about : MessageType::status);
+    const bool kept = ask.question == Question::kept;
+    const MessageType answer = ask.question == Question::about ? MessageType::about
+                               : kept                          ? MessageType::captured
+                                                               : MessageType::status;
     // A question that nobody waits to hear answered, as many of them as there may be, drives out nothing else.
-    if (!has_room(frame_overhead + payload_size(type, ask.motors))) return;
-    if (about) return send(identity_.about);
+    const uint8_t motors = kept ? motors_ : ask.motors;
+    if (!has_room(static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(answer), motors)))) return;
+    if (answer == MessageType::about) return send(identity_.about);
+    if (kept) return tell_kept();
+    if (ask.question == Question::watch) kept_ = 0;
     tell_status(ask.motors, frame.sequence);
   }
 
@@ -183,6 +192,7 @@ class Board {
     if (!idle()) state |= board_moves;
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
+    if (kept_ != 0) state |= board_kept;
     BoardStatus status{.session = session_,
                        .executed = executed_,
                        .taken = taken(),
@@ -202,10 +212,23 @@ class Board {
   }
 
   [[gnu::noinline]] void tell_captured(uint16_t captured) {
+    if ((captured & inputs_) == 0) captured |= captured_released;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
+    const bool keeps = (captured & input_probe) != 0 && kept_ == 0;
+    if (keeps) kept_ = static_cast<uint8_t>(captured >> 8);
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = position(motor);
+      if (keeps) kept_positions_[motor] = message.positions[motor];
+    }
+    send_for_motors(message, motors_);
+  }
+
+  [[gnu::noinline]] void tell_kept() {
+    Captured message{.input = static_cast<uint16_t>(kept_ << 8 | captured_kept)};
+    for (uint8_t motor = 0; motor < motors_; ++motor) {
+      breathe();
+      message.positions[motor] = kept_positions_[motor];
     }
     send_for_motors(message, motors_);
   }
@@ -435,6 +458,10 @@ class Board {
   bool trusted_ = true;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
+  // The first change of the probe since the host told to watch it: the high byte of a captured's input, 0 before; and
+  // where.
+  uint8_t kept_ = 0;
+  int32_t kept_positions_[most_motors] = {};
 };
 
 }  // namespace passo

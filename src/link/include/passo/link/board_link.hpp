@@ -19,6 +19,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "passo/link/board_port.hpp"
@@ -33,6 +34,7 @@ struct LineCare {
   Seconds answer_within{std::numeric_limits<double>::infinity()};  // after so long without an answer, ask
   Seconds patience{3600};                                          // and after so long, give up
   std::uint16_t session = 0;                                       // by which the board is known again; not 0
+  std::uint8_t greeting = 0;                                       // of the hello: where numbers begin
 };
 
 class BoardLink final : public Link {
@@ -43,6 +45,7 @@ class BoardLink final : public Link {
   void send(const BoardSegment& segment) override;
   void send(const BoardOutputs& outputs) override;
   ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) override;
+  ItemNumber sent() const override { return sent_; }
   ItemNumber executed() const override { return executed_; }
   int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
   int places() const override { return free_ - later_by(sent_, taken_); }
@@ -50,8 +53,20 @@ class BoardLink final : public Link {
   void drain() override;
   bool busy() const override { return sent_ != executed_; }
   void wait() override;
+  // Lets time pass on the board's side, and hears what it says meanwhile.
+  void let_pass(Seconds time);
   void watch_probe(ProbeUntil until) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
+  void recall_contact() override;
+  void ask() override { ask(Question::status); }
+  bool answered() const override { return answered_; }
+  Seconds answer_time() const override { return answer_time_; }
+  // What has been switched on, as the board told or its status shows, since this was asked last. Bits of BoardInput.
+  std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
+  // What is switched on now, as far as it has told.
+  std::uint16_t inputs() const { return inputs_; }
+  // At rest: asks how the board is, and lets time pass until something is switched on, but no more than `most`.
+  void listen_for(Seconds most);
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error_.value_or(error); }
 
@@ -77,12 +92,15 @@ class BoardLink final : public Link {
   void say_hello();
   void name_session();
   void wait_for_room();
+  template <class Again>
+  bool listen(Again again);
   bool listen();
   template <class Done>
   bool hear_until(Done done);
   bool hear();
+  bool hear(Seconds most);
   bool overdue() const;
-  void ask();
+  void ask(Question question);
   void take(const WireFrame& frame);
   void take(const Credit& credit);
   void take(const BoardStatus& status);
@@ -90,6 +108,8 @@ class BoardLink final : public Link {
   void take(const Captured& captured);
   bool holds_nothing_of(const Credit& credit) const;
   void doubt(LinkError error);
+  void note_inputs(const BoardStatus& status);
+  void note_probe(const BoardStatus& status);
   void note_taken(std::uint8_t sequence);
   void repeat();
   template <class Message, class... More>
@@ -106,25 +126,32 @@ class BoardLink final : public Link {
   std::optional<HelloReply> board_;
   std::optional<BoardStatus> status_;
   std::optional<LinkError> error_;
-  ItemNumber sent_ = 0;          // number of the last frame sent
-  ItemNumber taken_ = 0;         // of the last one that the board told to have
-  ItemNumber executed_ = 0;      // of the last item that it told to be done
-  ItemNumber asked_behind_ = 0;  // the last one sent when the board was last asked
-  std::uint8_t question_ = 0;    // the number of that
-  bool repeating_ = false;       // and not heard the answer since
-  std::uint8_t refused_ = 0;     // sequence number of the frame that the board refused last
-  int refusals_ = 0;             // so many times in a row
-  int doubts_ = 0;               // statuses in a row that would end the job
-  int free_ = 0;                 // room that it had when it told so
+  ItemNumber sent_;            // number of the last frame sent
+  ItemNumber taken_;           // of the last one that the board told to have
+  ItemNumber executed_;        // of the last item that it told to be done
+  ItemNumber asked_behind_;    // the last one sent when the board was last asked
+  std::uint8_t question_ = 0;  // the number of that
+  bool repeating_ = false;     // and not heard the answer since
+  std::uint8_t refused_ = 0;   // sequence number of the frame that the board refused last
+  int refusals_ = 0;           // so many times in a row
+  int doubts_ = 0;             // statuses in a row that would end the job
+  int free_ = 0;               // room that it had when it told so
   bool rests_ = false;
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
+  bool began_as_wanted_ = false;  // the probe was as it is to become
+  std::optional<Captured> recalled_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
-  bool news_ = false;                                   // since wait() began
-  std::vector<Frame> frames_;                           // of a replacement that is put together
-  std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};                                    // when the board last said anything
-  Seconds moved_on_{0};                                 // when it last took something, or we asked or sent
+  bool answered_ = true;                                // since the last frame was sent
+  Seconds unanswered_since_{0};
+  std::uint16_t inputs_ = 0;
+  std::uint16_t pressed_ = 0;
+  Seconds answer_time_{0};
+  bool news_ = false;       // since wait() began
+  std::vector<Frame> frames_;  // of a replacement that is put together
+  std::deque<Frame> kept_;  // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};        // when the board last said anything
+  Seconds moved_on_{0};     // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;

@@ -38,6 +38,8 @@ class VirtualMachine final : public BoardPort {
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
   void add_body(const TouchBody& body);
+  // Closes a switch of the board, or opens it: bits of BoardInput, not the probe's.
+  void set_switch(std::uint16_t which, bool closed);
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
@@ -53,6 +55,8 @@ class VirtualMachine final : public BoardPort {
 
   // At the start. Without it the spindle does as commanded, and has no encoder.
   void fit_spindle(const SpindleModel& model) { hardware_.spindle = VirtualSpindle(model); }
+  // At the start: its counters go on from these positions. The board's own begin at 0, as after a reset.
+  void stand_at(const std::array<std::int64_t, max_motors>& positions);
   // Its encoder, as it stands now.
   const VirtualSpindle& spindle() const { return hardware_.spindle; }
 
@@ -94,6 +98,7 @@ class VirtualMachine final : public BoardPort {
   Hertz clock_;
   std::uint8_t motor_count_;
   bool touched_ = false;  // as the board was told
+  std::uint16_t switches_ = 0;
   std::int64_t next_event_ = 0;
   bool waits_ = false;  // for the next event, which is due then
   std::int64_t events_ = 0;
