@@ -160,7 +160,7 @@ class StepGenerator::Implementation {
     stream_.end_stretch();
     stream_.wait(action.dwell);
     more_ = false;
-    play_ = rest_ = true;
+    play_ = rest_ = rests_ = true;  // an action comes at rest, whatever rounding has left of the speed
     action_ = action;
   }
 

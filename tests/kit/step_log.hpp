@@ -89,8 +89,8 @@ void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned 
   }
 }
 
-// `slack`, in steps: for they are whole ones (less than 2), and events are not exact: 4 times the part of an interval by
-// which they may be off (decision 0031: 4 in a tail at the most; less has been enough for most).
+// `slack`, in steps: for they are whole ones (less than 2), and events are not exact: 4 times the part of an interval
+// by which they may be off (decision 0031: 4 in a tail at the most; less has been enough for most).
 inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 4) {
   constexpr double apart = 0.008;  // seconds
   // For the jerk. A jump of the acceleration by its limit shows the better the shorter it is, and the steps that are
@@ -104,8 +104,8 @@ inline void expect_within_limits(const MachineDescription& machine, const StepLo
     expect_small_differences<3>(run[m], m, {1, -2, 1}, clock * apart, bend * 1.02 + slack);
     if (axis.jerk.value() == 0) continue;
     const double jolt = axis.jerk.value() * steps * apart_of_four * apart_of_four * apart_of_four;
-    // Whole steps make 4 of that. Of eight places an event is a quarter of its interval off at the most, and a whole one
-    // in a tail where places are few.
+    // Whole steps make 4 of that. Of eight places an event is a quarter of its interval off at the most, and a whole
+    // one in a tail where places are few.
     const bool few_places = machine.board.held_items < 100;
     expect_small_differences<4>(run[m], m, {-1, 3, -3, 1}, clock * apart_of_four, jolt * 1.02 + (few_places ? 12 : 6));
   }

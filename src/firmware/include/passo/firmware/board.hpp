@@ -193,17 +193,17 @@ class Board {
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
     if (kept_ != 0) state |= board_kept;
-    BoardStatus status{.session = session_,
-                       .executed = executed_,
-                       .taken = taken(),
-                       .free = list_.free(),
-                       .event = played(),
-                       .state = static_cast<uint8_t>(state),
-                       .reset = identity_.reset,
-                       .motors = motors_,
-                       .inputs = inputs_,
-                       .answers = question};
-    for (uint8_t motor = 0; motor < motors; ++motor) {
+    BoardStatusFor<most_motors> status{.session = session_,
+                                       .executed = executed_,
+                                       .taken = taken(),
+                                       .free = list_.free(),
+                                       .event = played(),
+                                       .state = static_cast<uint8_t>(state),
+                                       .reset = identity_.reset,
+                                       .motors = motors_,
+                                       .inputs = inputs_,
+                                       .answers = question};
+    for (uint8_t motor = 0; motor < motors && motor < most_motors; ++motor) {
       breathe();
       status.positions[motor] = position(motor);
     }

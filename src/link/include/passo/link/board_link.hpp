@@ -147,11 +147,11 @@ class BoardLink final : public Link {
   std::uint16_t inputs_ = 0;
   std::uint16_t pressed_ = 0;
   Seconds answer_time_{0};
-  bool news_ = false;       // since wait() began
+  bool news_ = false;          // since wait() began
   std::vector<Frame> frames_;  // of a replacement that is put together
-  std::deque<Frame> kept_;  // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};        // when the board last said anything
-  Seconds moved_on_{0};     // when it last took something, or we asked or sent
+  std::deque<Frame> kept_;     // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};           // when the board last said anything
+  Seconds moved_on_{0};        // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;

@@ -97,7 +97,9 @@ inline constexpr uint16_t captured_kept = 0x4000;      // it answers a question
 inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
 
 // Board to host, when asked. Positions are the motors' steps since the board was switched on.
-struct BoardStatus {
+// `room`: for so many motors it has places.
+template <uint8_t room>
+struct BoardStatusFor {
   uint16_t session = 0;
   uint16_t executed = 0;  // as in a credit, as the next two
   uint8_t taken = 0;
@@ -108,8 +110,9 @@ struct BoardStatus {
   uint8_t motors = 0;   // agreed upon; 0: a host has not said hello since the reset
   uint16_t inputs = 0;  // bits: BoardInput
   uint8_t answers = 0;  // sequence number of the question
-  int32_t positions[max_motors] = {};
+  int32_t positions[room] = {};
 };
+using BoardStatus = BoardStatusFor<max_motors>;
 
 // Board to host: an input has changed that is watched, at this very event. As an answer: where the probe changed first;
 // without an input it did not, and there is no item.
@@ -212,8 +215,8 @@ uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
 }
 
 // For as many motors as the question had.
-template <class Pause = NoPause>
-uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
+template <class Pause = NoPause, uint8_t room>
+uint8_t encode(const BoardStatusFor<room>& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::status, sequence);
   encoder.put16(status.session);
   encoder.put16(status.executed);
@@ -225,7 +228,9 @@ uint8_t encode(const BoardStatus& status, uint8_t motors, uint8_t sequence, uint
   encoder.put8(status.motors);
   encoder.put16(status.inputs);
   encoder.put8(status.answers);
-  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put32(static_cast<uint32_t>(status.positions[motor]));
+  for (uint8_t motor = 0; motor < motors; ++motor) {
+    encoder.put32(motor < room ? static_cast<uint32_t>(status.positions[motor]) : 0);
+  }
   return encoder.finish();
 }
 
