@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "passo/chip/mega_ramps.hpp"
+#include "passo/chip/mega_windings.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/chip/uno_windings.hpp"
 #include "passo/emulator/emulated_chip.hpp"
 #include "passo/emulator/emulated_ports.hpp"
 #include "passo/emulator/emulated_timer.hpp"
@@ -27,15 +29,25 @@ struct Kind {
   std::vector<MotorPins> motors;
 };
 
+template <class Pins>
+std::vector<MotorPins> motors_of(const Pins& pins, Drive drive = {}) {
+  std::vector<MotorPins> motors(std::begin(pins.motor), std::end(pins.motor));
+  for (MotorPins& motor : motors) motor.drive = drive;
+  return motors;
+}
+
 Kind kind_named(std::string_view name) {
-  if (name == "mega") {
-    return {.mcu = "atmega2560",
-            .ports = "ABCDEFGHJKL",
-            .motors = {std::begin(mega_ramps.motor), std::end(mega_ramps.motor)}};
+  const bool is_mega = name.starts_with("mega");
+  const Kind kind = is_mega ? Kind{.mcu = "atmega2560", .ports = "ABCDEFGHJKL", .motors = motors_of(mega_ramps)}
+                            : Kind{.mcu = "atmega328p", .ports = "BCD", .motors = motors_of(uno_cnc_shield)};
+  for (const auto& [ending, drive] : {std::pair{"_two_on", Drive::two_on}, std::pair{"_wave", Drive::wave},
+                                      std::pair{"_half_step", Drive::half_step}}) {
+    if (!name.ends_with(ending)) continue;
+    return {.mcu = kind.mcu,
+            .ports = kind.ports,
+            .motors = is_mega ? motors_of(mega_windings, drive) : motors_of(uno_windings, drive)};
   }
-  return {.mcu = "atmega328p",
-          .ports = "BCD",
-          .motors = {std::begin(uno_cnc_shield.motor), std::end(uno_cnc_shield.motor)}};
+  return kind;
 }
 
 class AvrBoard final : public EmulatedBoard {
@@ -79,22 +91,35 @@ class AvrBoard final : public EmulatedBoard {
   void count_steps() {
     for (const PortChange& change : ports_.changes()) {
       const unsigned rose = change.now & ~unsigned{change.before};
+      const unsigned turned_over = change.now ^ unsigned { change.before };
+      levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
       for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
         const MotorPins& pins = motors_[motor];
         if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
-          const bool down = (direction_port(change, pins) & pins.direction.mask()) != 0;
-          positions_[motor] += down ? -1 : 1;
-          if (on_step) on_step(change.cycle, motor, down);
+          count(change.cycle, motor, (levels_of(pins.direction) & pins.direction.mask()) != 0);
         }
+        if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
       }
-      levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
     }
     ports_.forget_changes();
   }
-  std::uint8_t direction_port(const PortChange& change, const MotorPins& pins) const {
-    return pins.direction.port == change.port ? change.now
-                                              : levels_[static_cast<std::size_t>(pins.direction.port - 'A')];
+  void count(std::uint64_t cycle, std::size_t motor, bool down) {
+    positions_[motor] += down ? -1 : 1;
+    if (on_step) on_step(cycle, motor, down);
   }
+  // Where a motor's windings lie on two ports there is a moment between the two, whose pattern is in no table.
+  void follow_windings(std::uint64_t cycle, std::size_t motor) {
+    const WindingTable table = winding_table(motors_[motor].drive);
+    unsigned pattern = 0;
+    for (unsigned f = 0; f < winding_count; ++f) {
+      const Pin pin = motors_[motor].windings[f];
+      if ((levels_of(pin) & pin.mask()) != 0) pattern |= 1U << f;
+    }
+    const auto place = static_cast<std::uint8_t>(positions_[motor]);
+    if (pattern == table.at(static_cast<std::uint8_t>(place + 1))) return count(cycle, motor, false);
+    if (pattern == table.at(static_cast<std::uint8_t>(place - 1))) count(cycle, motor, true);
+  }
+  std::uint8_t levels_of(Pin pin) const { return levels_[static_cast<std::size_t>(pin.port - 'A')]; }
 
   std::vector<MotorPins> motors_;
   std::vector<std::int64_t> positions_;

@@ -48,9 +48,12 @@ TEST_F(Boards, are_emulated_too) {
   const auto mega = nlohmann::json::parse(passo("board info --json sim:mega").out);
   EXPECT_EQ(mega["about"]["highest_event_rate_hz"], 110'000);
 
+  const auto windings = nlohmann::json::parse(passo("board info --json sim:uno_half_step").out);
+  EXPECT_EQ(windings["about"]["name"], "uno windings");
+
   const Outcome none = passo("board info sim:none");
   EXPECT_EQ(none.code, 1);
-  EXPECT_NE(none.err.find("there is an emulator of uno and mega"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("there is an emulator of uno, uno_two_on"), std::string::npos) << none.err;
 }
 
 TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
@@ -64,6 +67,22 @@ TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
   }
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
+}
+
+TEST_F(Boards, run_a_program_with_the_windings_on_their_own_pins) {
+  const std::string machine =
+      (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "windings.toml").string();
+  const std::string program = write("p.ngc", "G21 G90 F600\nG1 X3 Y1\nG2 X5 Y1 I1 J0\nG1 X1 Z-1\nM2\n");
+  const std::string command = "run " + program + " --json -m " + machine;
+  for (const std::string board : {"sim:uno_half_step", "sim:uno_wave", "sim:mega_two_on"}) {
+    const Outcome outcome = passo(command + " --board " + board);
+    if (outcome.err.find("was built without") != std::string::npos ||
+        outcome.err.find("is not there") != std::string::npos) {
+      GTEST_SKIP() << outcome.err;
+    }
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]) << board;
+  }
 }
 
 TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {
