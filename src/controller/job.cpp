@@ -141,7 +141,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
   drive_.probe().tell(probe_outcome_);
   if (machine.probe.guards && options.probing == Probing::by_board) {
     drive_.go_live({});
-    drive_.probe().guard_other_moves();
+    drive_.guard_by_probe();
   }
 }
 

@@ -78,7 +78,8 @@ void MotionDrive::watch(const MotionItem& item) {
   planned_ += time_of(item);
   if (refiller_) refiller_->watch(item);
   const auto* move = std::get_if<PlannedMove>(&item);
-  if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
+  // With tails not all that is given is done.
+  if (move != nullptr && probe_.is_running() && !refiller_) end_of_probe_ = move->segment.curve.at(move->to);
   if (machine_.spindle().has_encoder()) {
     // What is committed is blind to what the spindle does.
     if (move != nullptr) {
@@ -139,6 +140,7 @@ bool MotionDrive::advance_with_tails() {
     case Refiller::Turn::goes_on: return true;
     case Refiller::Turn::ended: state_ = State::ended; break;
     case Refiller::Turn::rests_in_hold: rest_in_feed_hold(); break;
+    case Refiller::Turn::at_action: send(refiller_->take_action()); break;
   }
   return state_ != State::ended;
 }
@@ -185,6 +187,7 @@ void MotionDrive::set_outputs(const OutputState& outputs) {
 void MotionDrive::look_at_probe() {
   if (contact_seen_ || !probe_.contact()) return;
   contact_seen_ = true;
+  if (refiller_) refiller_->brake_by_tail();
   if (probe_.is_running()) {
     probe_brakes_ = true;
     planner_.stop();  // whatever M53 says
@@ -194,17 +197,32 @@ void MotionDrive::look_at_probe() {
   }
 }
 
+void MotionDrive::guard_by_probe() {
+  probe_.guard_other_moves();
+  commit_to_probe();
+}
+
+// As much as is right for what the probe is watched for now.
+void MotionDrive::commit_to_probe() {
+  if (!refiller_) return commit_ahead(commits());
+  using Asking = Refiller::Asking;
+  refiller_->ask_for_probe(probe_.is_running() ? Asking::before_refills
+                           : probe_.guards()   ? Asking::with_refills
+                                               : Asking::none);
+}
+
 void MotionDrive::begin_probe(const Action& action) {
-  link_.drain();
+  if (!refiller_) link_.drain();
   probe_.begin(action);
   contact_seen_ = false;
   end_of_probe_.reset();
-  commit_ahead(probing_options);
+  commit_to_probe();
 }
 
 void MotionDrive::end_probe(const Action& action) {
+  if (!refiller_) link_.drain();
   probe_.end(end_of_probe_.value_or(action.place));
-  commit_ahead(live_);
+  commit_to_probe();
   contact_seen_ = false;
   // The contact may have come when the path was at its end already.
   if (std::exchange(probe_brakes_, false)) let_planner_go_on();
@@ -220,6 +238,7 @@ void MotionDrive::let_planner_go_on() {
 void MotionDrive::rest_in_feed_hold() {
   if (std::exchange(probe_brakes_, false)) {
     planner_.drop_to_action();
+    if (refiller_) end_of_probe_ = refiller_->drop();
     let_planner_go_on();
   }
   // One that was resumed before it came to rest is none.
@@ -318,6 +337,13 @@ void MotionDrive::follow_spindle() {
 void MotionDrive::wait(Seconds time) {
   assert(state_ == State::held);
   let_pass(time);
+}
+
+void MotionDrive::listen(Seconds most) {
+  assert(state_ == State::held);
+  const Seconds from = now();
+  link_.listen_for(most);
+  rested_ += now() - from;
 }
 
 void MotionDrive::let_pass(Seconds time) {

@@ -80,6 +80,9 @@ class Wiring {
   }
 
   static constexpr uint8_t probe = pins.probe.mask();
+  static bool probe_closed() {
+    return closed(pins.probe);
+  }
 
  private:
   // The speed at full duty.

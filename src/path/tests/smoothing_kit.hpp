@@ -153,8 +153,8 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least of a measure of places of the path that may be meant: close to where it was last, `likely` ones (where rotary axes turn
-  // hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
+  // The least of a measure of places of the path that may be meant: close to where it was last, `likely` ones (where
+  // rotary axes turn hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
   template <class Measure>
   double search(const Measure& measure, double end, const std::pair<double, double>& likely) {
     constexpr double close = 1e-3;
