@@ -181,6 +181,10 @@ void BoardLink::take(const Credit& credit) {
 
 void BoardLink::take(const BoardStatus& status) {
   status_ = status;
+  if ((status.state & board_manual) != 0) {
+    error_ = LinkError::manual;
+    return;
+  }
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
     if (care_.session != 0 && sent_ != 0) error_ = LinkError::was_reset;
@@ -212,6 +216,7 @@ void BoardLink::take(const ErrorReport& error) {
       note_taken(static_cast<std::uint8_t>(error.expected - 1));
       return repeat();
     case WireError::too_late: return;  // what is executed will tell
+    case WireError::manual: error_ = LinkError::manual; return;
     default: break;
   }
   error_ = LinkError::refused;
