@@ -8,7 +8,14 @@
 namespace passo {
 
 BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
-    : port_(port), motors_(motors), care_(care), heard_(port.elapsed()) {
+    : port_(port),
+      motors_(motors),
+      care_(care),
+      sent_(care.greeting),
+      taken_(care.greeting),
+      executed_(care.greeting),
+      asked_behind_(care.greeting),
+      heard_(port.elapsed()) {
   decoder_.set_motors(motors);
   say_hello();
   if (care_.session != 0 && !error_) name_session();
@@ -16,7 +23,7 @@ BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
 
 void BoardLink::say_hello() {
   while (!board_ && !error_) {
-    say(Hello{.motors = motors_}, std::uint8_t{0});
+    say(Hello{.motors = motors_}, care_.greeting);
     const bool heard = hear_until([this] { return board_.has_value(); });
     if (!heard && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
   }
@@ -74,6 +81,12 @@ void BoardLink::wait() {
   }
 }
 
+void BoardLink::let_pass(Seconds time) {
+  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
+  const Seconds until = port_.elapsed() + time;
+  while (!error_ && until - port_.elapsed() > hardly_any) hear(until - port_.elapsed());
+}
+
 void BoardLink::watch_probe(ProbeUntil until) {
   drain();
   probe_until_ = until;
@@ -94,7 +107,7 @@ void BoardLink::wait_for_room() {
 
 // Waits for what the board has to say, for as long as it may take. False when it is no use to wait any longer.
 bool BoardLink::listen() {
-  const bool heard = hear();
+  const bool heard = hear(care_.answer_within);
   if (error_) return false;
   if (!may_lose()) {
     if (!heard) error_ = LinkError::no_answer;
@@ -111,13 +124,14 @@ template <class Done>
 bool BoardLink::hear_until(Done done) {
   const Seconds asked = port_.elapsed();
   bool heard = false;
-  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear()) heard = true;
+  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear(care_.answer_within))
+    heard = true;
   return heard;
 }
 
-bool BoardLink::hear() {
+bool BoardLink::hear(Seconds most) {
   std::span<const std::uint8_t> bytes = port_.replies();
-  if (bytes.empty() && port_.run(care_.answer_within)) bytes = port_.replies();
+  if (bytes.empty() && port_.run(most)) bytes = port_.replies();
   for (const std::uint8_t byte : bytes) {
     if (decoder_.feed(byte) != Decoded::frame) continue;
     heard_ = port_.elapsed();
@@ -187,7 +201,7 @@ void BoardLink::take(const BoardStatus& status) {
   }
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
-    if (care_.session != 0 && sent_ != 0) error_ = LinkError::was_reset;
+    if (care_.session != 0 && sent_ != care_.greeting) error_ = LinkError::was_reset;
     return;
   }
   if ((status.state & board_trusted) == 0) error_ = LinkError::stopped;

@@ -9,8 +9,6 @@
 namespace passo {
 namespace {
 
-// Corners: the curve that turns by `change` within the width w and leaves the corner by e has w = 4 e / change.
-constexpr double corner_width = 4;
 // Changes of curvature, alike: w² = 10 e / change.
 constexpr double bend_width = 10;
 // On arcs, in radii.
@@ -23,9 +21,8 @@ constexpr double no_change = 1e-9;
 constexpr double cluster_share = 0.5;
 constexpr double cluster_tube = 0.5;
 
-// Where the knots lie, in widths from the node.
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
-constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6};
+constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6, 2.2};
 constexpr double last_knot_reaches = 1.25;  // so much room belongs to a node, in the last knot's distance
 constexpr double share_of_room = 0.9;       // a knot nearer than this to the end of the room is left out
 
@@ -40,13 +37,26 @@ constexpr double unlimited = 1e9;
 
 }  // namespace
 
-KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
-    : reader_(reader),
-      knots_from_node_(smoothness == Smoothness::slow_bending ? knots_for_slow_bending : knots_for_least_bending) {}
+struct KnotPlacer::Spacing {
+  // Corners: the curve that turns by `change` within the width w and leaves the corner by e has w = 4 e / change. Wider
+  // ones, which cannot use all of their width, are found to be better for slow bending.
+  double corner_width = 4;
+  std::span<const double> knots;  // in widths from the node
+  // How much faster s goes on w times the change of the tangent away from a corner than at it.
+  double quickening = 0;
+};
+
+const KnotPlacer::Spacing& KnotPlacer::spacing_for(Smoothness smoothness) {
+  static constexpr Spacing least_bending = {.corner_width = 4, .knots = knots_for_least_bending, .quickening = 0};
+  static constexpr Spacing slow_bending = {.corner_width = 5, .knots = knots_for_slow_bending, .quickening = 0.6};
+  return smoothness == Smoothness::slow_bending ? slow_bending : least_bending;
+}
+
+KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness) : reader_(reader), spacing_(spacing_for(smoothness)) {}
 
 void KnotPlacer::begin() {
   junction_ = reader_.begin();
-  nodes_[1] = {.s = 0, .width = 0, .before = junction_, .after = junction_};
+  nodes_[1] = {.s = 0, .width = 0, .turn = 0, .before = junction_, .after = junction_};
   known_ = 2;
   all_found_ = false;
   in_stretch_ = false;
@@ -78,7 +88,7 @@ bool KnotPlacer::next(Mark& mark) {
 bool KnotPlacer::find_node(Node& node) {
   const std::uint64_t first = junction_;
   if (!reader_.has(first + 1)) {
-    node = {.s = piece(first).end(), .width = 0, .before = first, .after = first};
+    node = {.s = piece(first).end(), .width = 0, .turn = 0, .before = first, .after = first};
     all_found_ = true;
     return true;
   }
@@ -86,11 +96,13 @@ bool KnotPlacer::find_node(Node& node) {
   if (goes_on(piece(first), piece(first + 1))) {  // there is nothing to round
     node.s = piece(first).end();
     node.width = 0;
+    node.turn = 0;
   } else {
     while (cluster.last - first + 1 < most_clustered && extend(cluster)) {
     }
     node.s = (piece(first).end() + piece(cluster.last).end()) / 2;
     node.width = width_of(cluster);
+    node.turn = turn_of(cluster);
   }
   node.before = first;
   node.after = cluster.last + 1;
@@ -103,11 +115,19 @@ double KnotPlacer::width_of(const Cluster& cluster) const {
   const Piece& after = piece(cluster.last + 1);
   double width = unlimited;
   const double turn = distance(before.last_tangent, after.first_tangent);
-  if (turn > no_change) width = std::min(width, corner_width * cluster.tube / turn);
+  if (turn > no_change) width = std::min(width, spacing_.corner_width * cluster.tube / turn);
   if (before.is_line() && after.is_line()) return width;
   const double change = distance(before.last_bend, after.first_bend);
   if (change > no_change) width = std::min(width, std::sqrt(bend_width * cluster.tube / change));
   return std::min(width, arc_width / std::max(length_of(before.last_bend), length_of(after.first_bend)));
+}
+
+// How sharp a corner it is. In a thread s is what the spindle is followed by, and stays the parameter.
+double KnotPlacer::turn_of(const Cluster& cluster) const {
+  const Piece& before = piece(cluster.first);
+  const Piece& after = piece(cluster.last + 1);
+  const bool follows = before.segment.lock != SpindleLock::none || after.segment.lock != SpindleLock::none;
+  return follows ? 0 : distance(before.last_tangent, after.first_tangent);
 }
 
 // Whether tangent and second derivative go on without a change.
@@ -154,7 +174,7 @@ void KnotPlacer::fill_gap() {
   double room = 0;
   double next_room = 0;
   if (width > 0 && next_width > 0) {
-    const double reaches = last_knot_reaches * knots_from_node_.back();
+    const double reaches = last_knot_reaches * spacing_.knots.back();
     room = std::min(reaches * width, length / 2);
     next_room = std::min(reaches * next_width, length - room);
     room = std::min(reaches * width, length - next_room);
@@ -165,12 +185,12 @@ void KnotPlacer::fill_gap() {
   }
   const auto count = [&](double w, double within) {
     return static_cast<std::size_t>(
-        std::ranges::count_if(knots_from_node_, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
+        std::ranges::count_if(spacing_.knots, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
   };
   const std::size_t knots = count(width, room) + 1;  // with the node
   const std::size_t next_knots = count(next_width, next_room);
-  const auto offset = [&](std::size_t i) { return i == 0 ? 0 : knots_from_node_[i - 1] * width; };
-  const auto next_offset = [&](std::size_t i) { return i == 0 ? 0 : knots_from_node_[i - 1] * next_width; };
+  const auto offset = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1] * width; };
+  const auto next_offset = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1] * next_width; };
 
   const double first = from.s + offset(knots - 1);
   const double last = to.s - next_offset(next_knots);
@@ -185,7 +205,7 @@ void KnotPlacer::fill_gap() {
   const bool exact = is_whole || (is_long && has_knots && in_one_piece);
 
   if (in_stretch_ || width > 0 || !exact) {
-    for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i));
+    for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, i, knots));
   }
   if (exact) {
     if (in_stretch_) steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
@@ -195,19 +215,28 @@ void KnotPlacer::fill_gap() {
                   .to = next_width > 0 ? last - between.start : between.length};
     steps_.push_back({.mark = Mark::exact_piece, .knot = {}});
   }
-  for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i));
+  for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i), rate_at(to, i, next_knots + 1));
   if (is_last && in_stretch_) {
     add_knot(to.s);
     steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
   }
 }
 
-void KnotPlacer::add_knot(double s) {
+// At the last two knots it is that of s, so that what is exact may go on there.
+double KnotPlacer::rate_at(const Node& node, std::size_t knot, std::size_t knots) const {
+  constexpr std::size_t at_rate_of_s = 2;
+  if (knot + at_rate_of_s >= knots) return 1;
+  const double quickening = spacing_.quickening * node.turn;
+  const auto distance = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1]; };
+  return (1 + quickening * distance(knot)) / (1 + quickening * distance(knots - at_rate_of_s));
+}
+
+void KnotPlacer::add_knot(double s, double rate) {
   while (s >= piece(knot_piece_).end() && reader_.has(knot_piece_ + 1)) ++knot_piece_;
   in_stretch_ = true;
   const Piece& at = piece(knot_piece_);
   const double along = s >= at.end() ? at.length : std::min(s - at.start, at.length);
-  steps_.push_back({.mark = Mark::knot, .knot = {.s = s, .piece = knot_piece_, .along = along}});
+  steps_.push_back({.mark = Mark::knot, .knot = {.s = s, .piece = knot_piece_, .along = along, .rate = rate}});
 }
 
 }  // namespace passo

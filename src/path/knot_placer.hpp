@@ -2,7 +2,7 @@
 //
 //       node            exact piece             node
 //   --+--+--O--+--+-----------------------+--+---O---+--+--
-//     knots at the node and at half its width, its width and one and a half (a little farther for slow bending)
+//     knots at the node and at half its width, its width and one and a half (for slow bending farther, and one more)
 //
 // A junction, or several close to each other, is a node; its width w is how far around it the path is rounded: a
 // corner within the tolerance e needs w = 4 e / |change of the tangent|, a change of curvature
@@ -10,10 +10,14 @@
 // of two nodes would meet they share the room. What is left between, if it is long against the knots' distance, stays
 // the path as programmed: an exact piece. The knots between two of those make one smoothed stretch.
 //
+// For slow bending s goes on more slowly than the spline's parameter around a corner (Pace), the more the sharper it
+// is.
+//
 // Looks two nodes ahead. A node takes in at most `most_clustered` junctions.
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "run_reader.hpp"
@@ -26,6 +30,7 @@ struct Knot {
   double s = 0;  // in the run
   std::uint64_t piece = 0;
   double along = 0;  // s in the piece
+  double rate = 1;   // of s, against the spline's parameter; 1 beside exact pieces
 };
 
 struct ExactPiece {
@@ -53,6 +58,7 @@ class KnotPlacer {
   struct Node {
     double s = 0;
     double width = 0;  // 0: nothing is rounded here
+    double turn = 0;   // the change of the unit tangent; 0 where t keeps to s
     std::uint64_t before = 0;
     std::uint64_t after = 0;  // the pieces around it
   };
@@ -67,14 +73,19 @@ class KnotPlacer {
   bool find_node(Node& node);
   bool extend(Cluster& cluster);
   double width_of(const Cluster& cluster) const;
+  double turn_of(const Cluster& cluster) const;
   static bool goes_on(const Piece& before, const Piece& after);
   static double room_of(const Node& node, const Node& before, const Node& after);
   void fill_gap();
-  void add_knot(double s);
+  void add_knot(double s, double rate = 1);
+
+  struct Spacing;
+  static const Spacing& spacing_for(Smoothness smoothness);
+  double rate_at(const Node& node, std::size_t knot, std::size_t knots) const;
 
   RunReader& reader_;
-  std::array<double, 3> knots_from_node_;  // in widths
-  std::uint64_t junction_ = 0;             // after this piece; the next to belong to a node
+  const Spacing& spacing_;
+  std::uint64_t junction_ = 0;  // after this piece; the next to belong to a node
   bool all_found_ = false;
   std::array<Node, 4> nodes_;  // the gap is between the second and the third
   std::size_t known_ = 0;

@@ -101,8 +101,8 @@ void PathSmoother::Implementation::give_exact(const ExactPiece& exact, PathItem&
   reader_.drop_before(exact.piece);
 }
 
-// As the path in its middle, but not faster than any of it. Where |dP/ds| is above 1 (the smoothed path cuts a corner
-// of s) the speed along s is less, so that the tool keeps to the feed.
+// As the path in its middle, but not faster than any of it. Where |dp/dt| is above 1 (the smoothed path cuts a corner
+// of s) the speed along t is less, so that the tool keeps to the feed; and more where t goes on faster than s.
 void PathSmoother::Implementation::write_span(const TubeSpline::Span& span, Segment& segment) const {
   const double middle = (span.from.knot.s + span.to.knot.s) / 2;
   std::uint64_t number = span.from.knot.piece;
@@ -120,11 +120,12 @@ void PathSmoother::Implementation::write_span(const TubeSpline::Span& span, Segm
     }
     segment.heeds.feed_hold = segment.heeds.feed_hold && heeds.feed_hold;
   }
-  const Mm length(span.to.knot.s - span.from.knot.s);
+  const Mm length(span.to.t - span.from.t);
   segment.curve = Curve::cubic(span.from.place, span.from.tangent, span.to.place, span.to.tangent, length);
   const double steepest = std::max({length_in(span.from.tangent, group), length_in(span.to.tangent, group),
                                     length_in(segment.curve.tangent(length / 2), group)});
-  if (steepest > 1) segment.speed = segment.speed / steepest;
+  const bool even = span.from.knot.rate == 1 && span.to.knot.rate == 1;
+  if (steepest > 1 || !even) segment.speed = segment.speed / steepest;
   segment.mode = span.goes_on ? PathMode::continuous : PathMode::exact_stop;
   stop_at_the_end(span.to.knot, segment);
 }

@@ -28,7 +28,7 @@ bool moves_more_than_xyz(const Curve& curve) {
 double TubeSpline::knot_at(std::int64_t k) const {
   if (k < 0) return 2 * knot_at(k + 1) - knot_at(k + 2);
   if (k >= knots_) return 2 * knot_at(k - 1) - knot_at(k - 2);
-  return at(k).knot.s;
+  return at(k).t;
 }
 
 void TubeSpline::add(const Knot& knot) {
@@ -41,19 +41,28 @@ void TubeSpline::add(const Knot& knot) {
     relaxation_.begin();
   }
   relaxation_.make_room(knots_ + 2, taken_ - 1);
+  begin_site(knot);
+  ++knots_;
+  if (knots_ > 1) survey(at(knots_ - 2), at(knots_ - 1));
+  if (knots_ > 2) advance();
+}
+
+void TubeSpline::begin_site(const Knot& knot) {
   Site& site = at(knots_);
   site.knot = knot;
+  site.t = knot.s;
+  site.pace = {};
   site.place = piece(knot.piece).segment.curve.at(Mm(knot.along));
   site.checked = false;
-  ++knots_;
-  if (knots_ > 1) survey(at(knots_ - 2), site);
-  if (knots_ > 2) advance();
+  if (knots_ == 0) return;
+  Site& before = at(knots_ - 1);
+  before.pace = Pace::between(before.knot.rate, knot.rate, knot.s - before.knot.s);
+  site.t = before.t + before.pace.width;
 }
 
 void TubeSpline::close() {
   assert(knots_ >= 4);
   closed_ = true;
-  at(knots_ - 1).width = 0;
   while (controls_ <= knots_) advance();
   // Nothing more comes: each sweep and each check goes on to the end.
   const std::int64_t begun = controls_ - 1 - reach_of_control;
@@ -103,7 +112,7 @@ bool TubeSpline::is_in_tube(std::int64_t k) const {
 // The ends of a stretch are the path's own, to the bit.
 TubeSpline::End TubeSpline::end_at(std::int64_t k) const {
   const Site& site = at(k);
-  End end{.knot = site.knot, .place = site.place, .tangent = {}, .deviation = 0};
+  End end{.knot = site.knot, .t = site.t, .place = site.place, .tangent = {}, .deviation = 0};
   if (k == 0 || (closed_ && k == knots_ - 1)) {
     end.tangent = piece(site.knot.piece).segment.curve.tangent(Mm(site.knot.along));
     return end;
@@ -126,16 +135,15 @@ Point TubeSpline::path_at(std::uint64_t& number, double s) const {
 void TubeSpline::survey(Site& site, const Site& next) {
   const double from = site.knot.s;
   const double to = next.knot.s;
-  const double mid = (from + to) / 2;
+  const double mid = from + site.pace.distance(site.pace.width / 2);
   std::uint64_t number = site.knot.piece;
-  site.width = to - from;
   site.mid_place = path_at(number, mid);
   site.tube = piece(site.knot.piece).tube;
-  site.curvature = 0;
+  site.bend_of_path = 0;
   for (std::uint64_t i = site.knot.piece; i <= next.knot.piece; ++i) {
     if (i > site.knot.piece && piece(i).start >= to) break;
     site.tube = std::min(site.tube, piece(i).tube);
-    site.curvature = std::max(site.curvature, piece(i).segment.curve.curvature());
+    site.bend_of_path = std::max(site.bend_of_path, site.pace.bend_of(piece(i).segment.curve.curvature()));
     wide_ = wide_ || moves_more_than_xyz(piece(i).segment.curve);
   }
   site.slack[0] = slack_between(from, site.place, mid, site.mid_place, site.knot.piece, number);
@@ -190,7 +198,7 @@ void TubeSpline::find_steps(std::int64_t k) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t knot = k - 1 + static_cast<std::int64_t>(i);
-    const double weight = (at(knot - 1).width + at(knot).width) / 2;
+    const double weight = (at(knot - 1).pace.width + at(knot).pace.width) / 2;
     factors.off[i] = at(knot).value[2 - i];
     factors.bend[i] = at(knot).bend[2 - i];
     factors.pull[i] = weight * factors.bend[i];
@@ -201,7 +209,7 @@ void TubeSpline::find_steps(std::int64_t k) {
 
   const auto part = [&](std::size_t i, double square) { return factors.off[i] / 2 - factors.bend[i] * square / 16; };
   for (std::size_t i = 0; i < 4; ++i) {
-    const double width = at(k - 2 + static_cast<std::int64_t>(i)).width;
+    const double width = at(k - 2 + static_cast<std::int64_t>(i)).pace.width;
     if (i > 0) factors.middle[i] += part(i - 1, width * width);
     if (i < 3) factors.middle[i] += part(i, width * width);
   }
@@ -215,7 +223,7 @@ void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) 
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double change = bend[i + 1] - bend[i];
-    const double weight = change / at(k - 2 + static_cast<std::int64_t>(i)).width;
+    const double weight = change / at(k - 2 + static_cast<std::int64_t>(i)).pace.width;
     factors.change_pull[i + 1] += weight;
     factors.change_pull[i] -= weight;
     sum += weight * change;
@@ -224,10 +232,12 @@ void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) 
 }
 
 // The control that a polynomial has: its blossom, here of the path's Taylor polynomial at a knot.
-Point TubeSpline::taylor_control(const Knot& knot, std::int64_t k) const {
-  const double a = knot_at(k - 1) - knot.s;
-  const double b = knot_at(k) - knot.s;
-  const double c = knot_at(k + 1) - knot.s;
+Point TubeSpline::taylor_control(std::int64_t number, std::int64_t k) const {
+  const Knot& knot = at(number).knot;
+  const double t = at(number).t;
+  const double a = knot_at(k - 1) - t;
+  const double b = knot_at(k) - t;
+  const double c = knot_at(k + 1) - t;
   const Curve& curve = piece(knot.piece).segment.curve;
   const Mm along(knot.along);
   return curve.at(along) + curve.tangent(along) * ((a + b + c) / 3) +
@@ -239,11 +249,14 @@ Point TubeSpline::secant_control(std::int64_t k) const {
   const Site& before = at(k - 1);
   const Site& here = at(k);
   const Site& after = at(k + 1);
-  const double left = before.width;
-  const double right = here.width;
+  const double left = before.pace.width;
+  const double right = here.pace.width;
   const Point slopes = (here.place - before.place) * (1 / left) + (after.place - here.place) * (1 / right);
   const auto bend = [&](const Site& site) {
-    return piece(site.knot.piece).segment.curve.second_derivative(Mm(site.knot.along));
+    const Curve& curve = piece(site.knot.piece).segment.curve;
+    const Mm along(site.knot.along);
+    const double rate = site.knot.rate;
+    return curve.second_derivative(along) * (rate * rate) + curve.tangent(along) * site.pace.quickening;
   };
   return here.place + slopes * ((right - left) / 6) + (bend(before) + bend(after)) * (-left * right / 12);
 }
@@ -256,11 +269,13 @@ void TubeSpline::begin_control(std::int64_t k) {
 }
 
 Point TubeSpline::first_control(std::int64_t k) const {
-  if (k <= 1) return taylor_control(at(0).knot, k);
-  if (!is_free(k)) return taylor_control(at(knots_ - 1).knot, k);
+  if (k <= 1) return taylor_control(0, k);
+  if (!is_free(k)) return taylor_control(knots_ - 1, k);
   const Knot& knot = at(k).knot;
-  const bool alone = knot.along >= at(k - 1).width && piece(knot.piece).length - knot.along >= at(k).width;
-  return alone ? taylor_control(knot, k) : secant_control(k);
+  const Pace& before = at(k - 1).pace;
+  const Pace& after = at(k).pace;
+  const bool alone = knot.along >= before.width && piece(knot.piece).length - knot.along >= after.width;
+  return alone && before.is_even() && after.is_even() ? taylor_control(k, k) : secant_control(k);
 }
 
 void TubeSpline::measure_knot(std::int64_t k) {
@@ -278,7 +293,7 @@ void TubeSpline::measure_middle(std::int64_t k) {
   const Point offs = relaxation_.off(k) + relaxation_.off(k + 1);
   const Point bends = relaxation_.bend(k) + relaxation_.bend(k + 1);
   const Point chord = (site.place - site.mid_place) + (at(k + 1).place - site.mid_place);
-  relaxation_.set_middle_off(k, (offs + chord) * 0.5 - bends * (site.width * site.width / 16));
+  relaxation_.set_middle_off(k, (offs + chord) * 0.5 - bends * (site.pace.width * site.pace.width / 16));
 }
 
 void TubeSpline::relax(std::int64_t k, int sweep) {
@@ -299,27 +314,29 @@ Point TubeSpline::slope_at(std::int64_t k) const {
 
 TubeSpline::SpanForm TubeSpline::form_of(std::int64_t k) const {
   SpanForm form{.off = relaxation_.off(k), .slope = slope_at(k), .bend = relaxation_.bend(k), .change = {}};
-  form.change = (relaxation_.bend(k + 1) - form.bend) * (1 / at(k).width);
+  form.change = (relaxation_.bend(k + 1) - form.bend) * (1 / at(k).pace.width);
   return form;
 }
 
 TubeSpline::Place TubeSpline::place_in(const Site& site, const SpanForm& form, const Piece& path, double u) {
-  const Mm along(std::max(0.0, site.knot.s + u - path.start));
+  const Mm along(std::max(0.0, site.knot.s + site.pace.distance(u) - path.start));
   const Curve& curve = path.segment.curve;
+  const double rate = site.pace.rate_at(u);
+  const Point path_bend = curve.second_derivative(along) * (rate * rate) + curve.tangent(along) * site.pace.quickening;
   return {.along = u,
           .off = (site.place - curve.at(along)) + form.off + (form.slope + form.bend * (u / 2)) * u +
                  form.change * (u * u * u / 6),
-          .off_bend = form.bend + form.change * u - curve.second_derivative(along)};
+          .off_bend = form.bend + form.change * u - path_bend};
 }
 
 // Between two places d apart the deviation e is at most the larger of both plus d²/8 of the largest |e''|. p'' is a
-// straight line of s; the path's d²P/ds² is nothing on a line, and on an arc of the curvature c it leaves its chord by
-// at most d²/8 c³. So |e''| is at most its larger end plus that.
-TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, const Piece& path) {
-  const double curvature = path.segment.curve.curvature();
+// straight line of t; the path's P'' leaves its chord by at most d²/8 |P''''| (at an even pace c³ on an arc of the
+// curvature c, and nothing on a line). So |e''| is at most its larger end plus that.
+TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, const Piece& path, const Pace& pace) {
+  const double curl = pace.curl_of(path.segment.curve.curvature());
   const double square = (to.along - from.along) * (to.along - from.along) / 8;
   const double off_bend = std::max(length_of(from.off_bend), length_of(to.off_bend));
-  const double between = square * (off_bend + square * curvature * curvature * curvature);
+  const double between = square * (off_bend + square * curl);
   const double from_off = length_of(from.off);
   const double to_off = length_of(to.off);
   const Place& worse = from_off > to_off ? from : to;
@@ -329,13 +346,13 @@ TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, 
 // A rough bound is often enough; else the span is gone through quarter by quarter, and from vertex to vertex.
 TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const Site& site = at(k);
-  const double width = site.width;
+  const double width = site.pace.width;
   const double off = std::max(
       {length_of(relaxation_.off(k)), length_of(relaxation_.off(k + 1)), length_of(relaxation_.middle_off(k))});
   const double bend = std::max(length_of(relaxation_.bend(k)), length_of(relaxation_.bend(k + 1)));
   const double slack = std::max(site.slack[0], site.slack[1]);
   Worst worst;
-  worst.excess = off + slack + (bend + site.curvature) * width * width / 32 - site.tube;
+  worst.excess = off + slack + (bend + site.bend_of_path) * width * width / 32 - site.tube;
   if (worst.excess <= 0) return worst;
 
   worst.excess = -site.tube;
@@ -345,12 +362,12 @@ TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   int quarter = 1;
   for (std::uint64_t number = site.knot.piece; from < width && number <= last; ++number) {
     const Piece& path = piece(number);
-    const double end = number < last ? std::min(path.end() - site.knot.s, width) : width;
+    const double end = number < last ? std::min(site.pace.reaches(path.end() - site.knot.s), width) : width;
     Place before = place_in(site, form, path, from);
     while (from < end) {
       const double to = std::min(end, width * quarter / 4);
       const Place after = place_in(site, form, path, to);
-      const Worst here = worse_between(before, after, path);
+      const Worst here = worse_between(before, after, path, site.pace);
       if (here.excess > worst.excess) worst = here;
       if (to >= width * quarter / 4) ++quarter;
       from = to;
@@ -381,7 +398,7 @@ void TubeSpline::check(std::int64_t k) {
 std::array<double, 4> TubeSpline::weights_at(std::int64_t k, double along) const {
   const Site& site = at(k);
   const Site& next = at(k + 1);
-  const double cube = along * along * along / (6 * site.width);
+  const double cube = along * along * along / (6 * site.pace.width);
   const double square = along * along / 2 - cube;
   std::array<double, 4> weights{};
   for (std::size_t i = 0; i < 3; ++i) {

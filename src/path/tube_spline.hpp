@@ -1,6 +1,7 @@
-// TubeSpline: the smoothed stretch, a cubic B-spline in s that bends as little as the tube around the path allows.
+// TubeSpline: the smoothed stretch, a cubic B-spline that bends as little as the tube around the path allows.
 //
-// Knots t[0] to t[n-1] on the path; beyond the ends the distances are mirrored. Controls C[-1] to C[n]: at each knot
+// Its parameter t is s, but where the knots' rates are below 1 (Pace). Knots t[0] to t[n-1] on the path; beyond the
+// ends the distances are mirrored. Controls C[-1] to C[n]: at each knot
 //
 //     p   = value[0] C[k-1] + value[1] C[k] + value[2] C[k+1],   and alike p' (slope) and p'' (bend).
 //
@@ -8,7 +9,7 @@
 // tangent and second derivative go on into the exact pieces beside. The others are moved, one after the other in
 // 12 sweeps, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel), but only so
 // far that the deviation from the path stays within the tube at the knots and in the middles between them. For slow
-// bending 12 more sweeps do the same for |p'''|².
+// bending 9 more sweeps do the same for |p'''|².
 //
 // Each sweep works four controls behind the one before: nearer ones would feel it. So the result is that of sweeps over
 // the whole stretch, and what is kept is a window of `window` knots, however long the stretch is. The deviations are
@@ -22,6 +23,7 @@
 #include <cstdint>
 
 #include "knot_placer.hpp"
+#include "pace.hpp"
 #include "relaxation.hpp"
 
 namespace passo {
@@ -29,7 +31,7 @@ namespace passo {
 class TubeSpline {
  public:
   static constexpr int bending_sweeps = 12;
-  static constexpr int change_sweeps = 12;
+  static constexpr int change_sweeps = 9;
   static constexpr int checks = 3;
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
@@ -45,6 +47,7 @@ class TubeSpline {
   // A span between two knots, as it will be.
   struct End {
     Knot knot;
+    double t = 0;
     Point place;
     Point tangent;
     double deviation = 0;  // mm
@@ -62,14 +65,15 @@ class TubeSpline {
   // A knot, and the span from it to the next.
   struct Site {
     Knot knot;
+    double t = 0;
+    Pace pace;        // of the span
     Point place;      // P at the knot
     Point mid_place;  // P in the middle of the span
     Three value{};
     Three slope{};
     Three bend{};
-    double width = 0;               // of the span
     double tube = 0;                // around the span
-    double curvature = 0;           // of the path in the span, at most
+    double bend_of_path = 0;        // |P''| in the span, at most
     std::array<double, 2> slack{};  // how far vertices in each half of the span stick out
     bool checked = false;
   };
@@ -79,6 +83,7 @@ class TubeSpline {
   double knot_at(std::int64_t k) const;
 
   // The path in a span.
+  void begin_site(const Knot& knot);
   const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
   Point path_at(std::uint64_t& number, double s) const;
   void survey(Site& site, const Site& next);
@@ -88,7 +93,7 @@ class TubeSpline {
   // Controls as they begin.
   void begin_control(std::int64_t k);
   Point first_control(std::int64_t k) const;
-  Point taylor_control(const Knot& knot, std::int64_t k) const;
+  Point taylor_control(std::int64_t knot, std::int64_t k) const;
   Point secant_control(std::int64_t k) const;
   void find_factors(std::int64_t k);
   void find_steps(std::int64_t k);
@@ -109,7 +114,7 @@ class TubeSpline {
     Point change;
   };
   struct Place {
-    double along = 0;  // s in the span
+    double along = 0;  // t in the span
     Point off;         // p - P
     Point off_bend;    // p'' - P''
   };
@@ -121,7 +126,7 @@ class TubeSpline {
   Point slope_at(std::int64_t k) const;
   SpanForm form_of(std::int64_t k) const;
   static Place place_in(const Site& site, const SpanForm& form, const Piece& path, double u);
-  static Worst worse_between(const Place& from, const Place& to, const Piece& path);
+  static Worst worse_between(const Place& from, const Place& to, const Piece& path, const Pace& pace);
   Worst worst_of(std::int64_t k) const;
   bool is_in_tube(std::int64_t k) const;
   void check(std::int64_t k);

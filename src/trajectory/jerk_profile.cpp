@@ -16,6 +16,8 @@ constexpr double planned_acceleration = 0.96;
 constexpr double constant_speed_jerk = 0.84;  // of the jerk, for the bends of the path alone
 constexpr double most_unevenness = 2.5;
 constexpr int rounds_a_refinement = 10;
+constexpr double least_left =
+    0.01;  // of the square of a speed; a rest where the path does not rest would last for ever
 constexpr std::size_t most_undecided = 600;  // cells in which a calm place is looked for
 
 }  // namespace
@@ -259,7 +261,7 @@ void JerkProfile::cut_corners() {
       const double steepness = (y[to] - y[from]) / (place(to) - place(from));
       for (std::size_t i = from + 1; i < to; ++i) {
         const double lowered = y[from] + steepness * (place(i) - place(from)) - (y[i] - x_[i]);
-        x_[i] = std::min(x_[i], std::max(lowered, 0.0));
+        x_[i] = std::clamp(lowered, least_left * x_[i], x_[i]);
       }
     }
     begin = end;

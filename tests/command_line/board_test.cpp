@@ -1,7 +1,5 @@
 // passo board: what it says of boards, against the virtual one in the network, and what it would have avrdude do.
-#include <csignal>
-
-#include "kit/command_line.hpp"
+#include "kit/served_board.hpp"
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -9,34 +7,8 @@ namespace {
 using passo::test::Outcome;
 using passo::test::read;
 
-class Boards : public passo::test::CommandLine {
+class Boards : public passo::test::ServedBoard {
  protected:
-  ~Boards() override {
-    if (server_ > 0) {
-      kill(server_, SIGTERM);
-      waitpid(server_, nullptr, 0);
-    }
-  }
-
-  // Starts one; its address.
-  std::string serve(const std::string& clock = "16000000") {
-    const std::string said = path("said");
-    server_ = fork();
-    if (server_ == 0) {
-      if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", "--clock", clock.c_str(),
-            nullptr);
-      _exit(1);
-    }
-    for (int i = 0; i < 1000; ++i) {
-      const std::string text = read(said);
-      const std::size_t at = text.find("tcp:");
-      if (at != std::string::npos && text.back() == '\n') return text.substr(at, text.size() - at - 1);
-      usleep(10'000);
-    }
-    return "it did not start";
-  }
-
   // An avrdude that notes how it was called, and writes the backup.
   std::string fake_avrdude(int code = 0) const {
     std::filesystem::create_directories(path("bin"));
@@ -47,8 +19,6 @@ class Boards : public passo::test::CommandLine {
     return "PATH=" + path("bin") + ":$PATH";
   }
   std::string image() const { return write("new.hex", ":10000000000102030405060708090A0B0C0D0E0F78\n:00000001FF\n"); }
-
-  pid_t server_ = 0;
 };
 
 TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {

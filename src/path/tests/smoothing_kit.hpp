@@ -54,6 +54,12 @@ class ByLength {
     return segments_[i].curve.at(Mm(s - (i > 0 ? ends_[i - 1] : 0)));
   }
   double end_of(std::size_t i) const { return ends_[i]; }
+  // Where a line of the program and those beside it lie.
+  std::pair<double, double> around_line(std::uint32_t line) const {
+    const auto found = std::ranges::lower_bound(segments_, line, {}, [](const Segment& s) { return s.source.line; });
+    const auto i = std::min(static_cast<std::size_t>(found - segments_.begin()), segments_.size() - 1);
+    return {i > 1 ? ends_[i - 2] : 0, ends_[std::min(i + 1, ends_.size() - 1)]};
+  }
   std::size_t size() const { return segments_.size(); }
   const Segment& operator[](std::size_t i) const { return segments_[i]; }
 
@@ -137,8 +143,9 @@ inline std::vector<Rest> rests_of(const ByLength& path) {
 
 // Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
 // where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
-// were cut). `shift` is how far it was when last looked for. Where the path passes itself it may be that of another
-// place near by: so it counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
+// were cut); for slow bending, where the parameter goes on faster at corners than s, from where it was last. `shift` is
+// how far it was when last looked for. Where the path passes itself it may be that of another place near by: so it
+// counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
 struct LengthAlong {
   double since_rest = 0;
   double rest = 0;
@@ -146,18 +153,43 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least of a measure of places of the path that may be meant: close to where it was last (where rotary axes turn
-  // hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
+  // The least of a measure of places of the path that may be meant: close to where it was last, `likely` ones (where
+  // rotary axes turn hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
   template <class Measure>
-  double search(const Measure& measure, double end) {
+  double search(const Measure& measure, double end, const std::pair<double, double>& likely) {
     constexpr double close = 1e-3;
     constexpr double beyond = 0.5;
+    const double before = shift;
+    for (const double step : {close, 50 * close}) {
+      const double found = descend(measure, end, step);
+      if (found <= 0) return found;
+      shift = before;
+    }
     double best = measure(std::clamp(estimate(), 0.0, end));
     best = search_between(measure, end, shift - close, shift + close, best);
+    best = search_between(measure, end, before - beyond, before + beyond, best);
+    const double here = rest + since_rest;
+    best = search_between(measure, end, likely.first - here, likely.second - here, best);
     return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
   }
 
  private:
+  // Where the path is plain a few steps find the place.
+  template <class Measure>
+  double descend(const Measure& measure, double end, double step) {
+    const auto at = [&](double to) { return measure(std::clamp(rest + since_rest + to, 0.0, end)); };
+    double best = at(shift);
+    for (; step > 1e-9 && best > 0; step /= 2) {
+      for (const double to : {shift - step, shift + step}) {
+        const double here = at(to);
+        if (here >= best) continue;
+        best = here;
+        shift = to;
+      }
+    }
+    return best;
+  }
+
   template <class Measure>
   double search_between(const Measure& measure, double end, double low, double high, double best) {
     constexpr int samples = 20'000;
@@ -215,7 +247,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       const Point place = curve.at(Mm(along));
       const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerances[path.index_at(to)]; };
       double excess = excess_at(std::min(s.estimate(), path.length()));
-      if (excess > 0) excess = s.search(excess_at, path.length());
+      if (excess > 0) excess = s.search(excess_at, path.length(), path.around_line(segment->source.line));
       s.since_rest += i < samples ? length / samples : 0;
       if (excess <= faults.excess) continue;
       faults.excess = excess;

@@ -52,9 +52,10 @@ inline std::vector<MotionItem> plan(const std::vector<PathItem>& path, const Mot
 }
 
 // As a job does it: rounded corners.
-inline std::vector<PathItem> smoothed(const std::vector<PathItem>& path) {
+inline std::vector<PathItem> smoothed(const std::vector<PathItem>& path,
+                                      Smoothness smoothness = Smoothness::least_bending) {
   ListSource<PathItem> source(path);
-  PathSmoother smoother(source);
+  PathSmoother smoother(source, smoothness);
   return drain(smoother);
 }
 
