@@ -127,6 +127,37 @@ TEST(SpindleFollowing, several_passes_cut_the_same_groove) {
   EXPECT_LT(all.mm(1.5), 0.04);
 }
 
+// Of all passes, at one depth, where on the circumference the groove is: modulo whole turns.
+std::vector<double> grooves_at(const std::vector<Cut>& cuts, double pitch, double z) {
+  std::vector<double> passes;
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    if (cuts[i - 1].z > z && cuts[i].z <= z) passes.push_back(groove(cuts[i], pitch));
+  }
+  // The circumference has no beginning: what is near its seam is told from the first.
+  for (double& pass : passes) pass -= std::round(pass - passes[0]);
+  return passes;
+}
+
+TEST(SpindleFollowing, all_passes_of_a_threading_cycle_lie_in_one_groove) {
+  const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-15 I-1 J0.2 K0.9 R1.5 H2\nM5\nM2\n";
+  for (const bool jerk : {false, true}) {
+    const Played result = run(program, lathe(rippling, jerk));
+    double worst = 0;
+    std::size_t passes = 0;
+    for (const double z : {-5.0, -8.0, -11.0, -14.0}) {
+      Spread all;
+      const std::vector<double> grooves = grooves_at(result.cuts, 1.5, z);
+      for (const double each : grooves) all.see(each);
+      passes = grooves.size();
+      EXPECT_GE(passes, 8U);
+      worst = std::max(worst, all.mm(1.5));
+    }
+    std::printf("%s: %zu passes of a G76 lie within %.4f mm of each other\n", jerk ? "with jerk limit" : "without", passes,
+                worst);
+    EXPECT_LT(worst, jerk ? 0.1 : 0.05);
+  }
+}
+
 TEST(SpindleFollowing, a_feed_a_revolution_is_as_fast_as_the_spindle_turns) {
   SpindleDescription slow{.counts_per_turn = 4096, .droop = 0.2};
   const std::string program = "G21 G95 S600 M3\nG1 Z-20 F0.5\nM2\n";
