@@ -38,12 +38,13 @@ class Thread final : public MachineObserver {
     if ((stepped & 4U) == 0) return;
     const bool down = ((directions & 4U) != 0) != z.inverted;
     place_ += down ? -1 : 1;
-    if (down) {
+    if (down || both_ways) {
       const double seconds = static_cast<double>(time.count) / description_.board.clock.value();
       cuts.push_back({place_ / z.steps_per_unit, machine_.spindle().turns_at(Seconds(seconds))});
     }
   }
   std::vector<Cut> cuts;
+  bool both_ways = false;
 
  private:
   const MachineDescription& description_;
@@ -55,10 +56,11 @@ struct Played {
   std::vector<Cut> cuts;
   double time = 0;
 };
-Played run(const std::string& program, const MachineDescription& machine) {
+Played run(const std::string& program, const MachineDescription& machine, bool both_ways = false) {
   Diagnostics diagnostics;
   Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
   Thread thread(machine, job.machine());
+  thread.both_ways = both_ways;
   job.machine().add_observer(thread);
   while (job.advance()) {
   }
@@ -155,6 +157,39 @@ TEST(SpindleFollowing, all_passes_of_a_threading_cycle_lie_in_one_groove) {
     std::printf("%s: %zu passes of a G76 lie within %.4f mm of each other\n", jerk ? "with jerk limit" : "without", passes,
                 worst);
     EXPECT_LT(worst, jerk ? 0.1 : 0.05);
+  }
+}
+
+TEST(SpindleFollowing, a_tap_is_in_the_groove_down_through_the_reversal_and_back) {
+  SpindleDescription even = rippling;
+  even.ripple = 0;
+  for (const SpindleDescription& spindle : {even, rippling}) {
+    const Played result = run("G21 S600 M3\nG0 Z2\nG33.1 Z-12 K1.5\nM5\nM2\n", lathe(spindle), true);
+    double deepest = 0;
+    std::size_t bottom = 0;
+    for (std::size_t i = 0; i < result.cuts.size(); ++i) {
+      if (result.cuts[i].z >= deepest) continue;
+      deepest = result.cuts[i].z;
+      bottom = i;
+    }
+    Spread down;
+    Spread round;
+    Spread back;
+    for (std::size_t i = 0; i < result.cuts.size(); ++i) {
+      const Cut& cut = result.cuts[i];
+      if (cut.z > -3) continue;
+      (cut.z < -12 ? round : i < bottom ? down : back).see(groove(cut, 1.5));
+    }
+    Spread all = down;
+    for (const Spread& part : {round, back}) {
+      all.see(part.low);
+      all.see(part.high);
+    }
+    std::printf("ripple %.0f %%: %.2f mm beyond the end; the groove wanders %.4f mm down, %.4f mm round, %.4f mm back, "
+                "%.4f mm in all\n",
+                100 * spindle.ripple, -12 - deepest, down.mm(1.5), round.mm(1.5), back.mm(1.5), all.mm(1.5));
+    EXPECT_LT(all.mm(1.5), 0.1);
+    EXPECT_GT(-12 - deepest, 1);
   }
 }
 
