@@ -45,7 +45,6 @@ void SpindleFollower::begin(const SpindleReading& index) {
 void SpindleFollower::watch(const PlannedMove& move) {
   lock_ = move.segment.lock;
   if (lock_ == SpindleLock::none) return;
-  taps_ = move.segment.reverse_at > Mm(0) || direction_ < 0;
   const double pitch = move.segment.pitch.value();
   programmed_ = move.segment.speed.value() / pitch;
   if (lag_ < 0) lag_ = lag_of(move);
@@ -112,12 +111,12 @@ SpindleFollower::Course SpindleFollower::course(Seconds later) const {
     }
   }
   const auto [s0, s1, s2, s3, s4] = powers;
-  const auto determinant = [](double a, double b, double c, double d, double e, double f, double g, double h, double i) {
-    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
-  };
+  const auto determinant = [](double a, double b, double c, double d, double e, double f, double g, double h,
+                              double i) { return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g); };
   const double whole = determinant(s0, s1, s2, s1, s2, s3, s2, s3, s4);
   const double at = later.value() / measured_over;
-  if (readings_.size() < 4 || std::abs(whole) < 1e-9) return {base + turns_a_second() * later.value(), turns_a_second()};
+  if (readings_.size() < 4 || std::abs(whole) < 1e-9)
+    return {base + turns_a_second() * later.value(), turns_a_second()};
   const auto [r0, r1, r2] = right;
   const double c0 = determinant(r0, s1, s2, r1, s2, s3, r2, s3, s4) / whole;
   const double c1 = determinant(s0, r0, s2, s1, r1, s3, s2, r2, s4) / whole;
@@ -130,19 +129,14 @@ bool SpindleFollower::turns_back(Seconds committed) const {
 }
 
 double SpindleFollower::wanted_ratio(Seconds committed) const {
-  if (taps_ && in_place_ && programmed_ > 0) {
+  if (lock_ == SpindleLock::place && in_place_ && programmed_ > 0) {
     const Course there = course(committed + half_a_move);
     const double missing = there.turns - lag_ - followed_;
     return std::clamp(direction_ * (there.speed + eagerness * missing) / programmed_, least_ratio, most_ratio);
   }
   const double speed = turns_a_second();
   if (!(speed > 0) || !(programmed_ > 0)) return 1;
-  double wanted = speed;
-  if (lock_ == SpindleLock::place && in_place_) {
-    const double turned = std::abs(readings_.back().turns - index_) + speed * committed.value();
-    wanted += eagerness * (turned - lag_ - followed_);
-  }
-  return std::clamp(wanted / programmed_, least_ratio, most_ratio);
+  return std::clamp(speed / programmed_, least_ratio, most_ratio);
 }
 
 }  // namespace passo

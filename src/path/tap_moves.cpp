@@ -22,8 +22,8 @@ bool PathBuilder::take_tap(const operation::RigidTap& tap, PathItem& item) {
   auto& down = std::get<Segment>(item);
   down.mode = PathMode::exact_stop;
   down.reverse_at = down.curve.length();
-  down.curve = Curve::line(tap_start_, down.curve.at(down.curve.length()) +
-                                           down.curve.tangent(Mm(0)) * room_to_turn(down.curve).value());
+  down.curve = Curve::line(
+      tap_start_, down.curve.at(down.curve.length()) + down.curve.tangent(Mm(0)) * room_to_turn(down.curve).value());
   followed_tap_ = TapStep::turn;
   return true;
 }
@@ -35,7 +35,8 @@ bool PathBuilder::take_tap_step(PathItem& item) {
       followed_tap_ = TapStep::back;
       commanded_.spindle = reversed(commanded_.spindle);
       handed_on_ = outputs();
-      item = Action{.kind = Action::Kind::tap_turns, .outputs = outputs(), .heeds = heeds(), .source = operation_.source};
+      item =
+          Action{.kind = Action::Kind::tap_turns, .outputs = outputs(), .heeds = heeds(), .source = operation_.source};
       return true;
     }
     case TapStep::back: {

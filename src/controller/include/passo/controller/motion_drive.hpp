@@ -159,7 +159,7 @@ class MotionDrive {
   bool stopped_by_probe_ = false;
   std::optional<Point> end_of_probe_;  // where the motion in a probe move ends, if that is not the end of the move
   Point* tap_rest_ = nullptr;
-  Point end_of_tap_;       // of the motion that is committed
+  Point end_of_tap_;        // of the motion that is committed
   bool tap_turns_ = false;  // the spindle was told to turn round
   bool tap_brakes_ = false;
   double feed_override_ = 1;

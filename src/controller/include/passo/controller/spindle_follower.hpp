@@ -5,8 +5,8 @@
 //
 //     turns wanted = turns of the spindle since its index - lag
 //
-// at the time when the committed motion ends. The lag is what speeding up to the programmed speed costs: the same
-// in each pass, so that all passes of a thread lie in one groove.
+// at the time when the committed motion ends, as the last readings go on. The lag is what speeding up to the programmed
+// speed costs: the same in each pass, so that all passes of a thread lie in one groove.
 #pragma once
 
 #include <deque>
@@ -65,7 +65,6 @@ class SpindleFollower {
   double lag_ = -1;        // turns; below 0: not known yet
   double followed_ = 0;    // turns, by what is committed
   double direction_ = 1;   // of the moves; -1: back
-  bool taps_ = false;
   bool in_place_ = false;  // has once been as fast as the spindle
 };
 

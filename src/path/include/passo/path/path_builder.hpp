@@ -41,8 +41,8 @@ struct PathOptions {
   Point start;                  // machine position at the start
   // What the machine has found in its last probe move, which is where the path goes on; null: it came to its end.
   const ProbeOutcome* probe = nullptr;
-  // Where the tool rested when the spindle turned round in its last tap; null: nothing follows that, and a tap goes back
-  // from its end.
+  // Where the tool rested when the spindle turned round in its last tap; null: nothing follows that, and a tap goes
+  // back from its end.
   const Point* tap_rest = nullptr;
   Seconds spindle_run_up{0};  // from rest to 1000 turns a minute: so much room is left for a tap to turn round
   std::string file;           // names the program in diagnostics

@@ -33,7 +33,8 @@ struct Segment {
   Heeds heeds{};
   SpindleLock lock = SpindleLock::none;
   Mm pitch{0};  // of a lock: a turn. `speed` is as the commanded speed of the spindle has it
-  // Of a tap on its way down: there the spindle is to be reversed. The rest of the segment is room for it to come to rest.
+  // Of a tap on its way down: there the spindle is to be reversed. The rest of the segment is room for it to come to
+  // rest.
   Mm reverse_at{0};
   OperationSource source{};
 };
