@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/base/fingerprint.hpp"
 #include "passo/controller/stage_options.hpp"
 
 namespace passo {
@@ -23,6 +24,28 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
+// What the motion depends on.
+void add_to(Fingerprint& fingerprint, const PathItem& item) {
+  if (const auto* segment = std::get_if<Segment>(&item)) {
+    const Curve& curve = segment->curve;
+    for (const Point& point : {curve.start(), curve.at(curve.length() / 3), curve.end()}) {
+      for (const Axis axis : all_axes) fingerprint.add(point[axis]);
+    }
+    for (const double value : {curve.length().value(), segment->speed.value(), segment->tolerance.value(),
+                               segment->merge.value(), segment->pitch.value()}) {
+      fingerprint.add(value);
+    }
+    fingerprint.add(std::uint64_t{segment->rapid} + (static_cast<std::uint64_t>(segment->mode) << 8U));
+    return;
+  }
+  const auto& action = std::get<Action>(item);
+  const OutputState& outputs = action.outputs;
+  fingerprint.add(static_cast<std::uint64_t>(action.kind) + (static_cast<std::uint64_t>(outputs.spindle) << 8U) +
+                  (std::uint64_t{outputs.mist} << 16U) + (std::uint64_t{outputs.flood} << 17U));
+  fingerprint.add(action.dwell.value());
+  fingerprint.add(outputs.revolutions_per_minute);
+}
+
 // So many moves behind a probe move are checked.
 constexpr std::uint64_t most_moves_behind_a_probe = 10'000'000;
 
@@ -33,6 +56,12 @@ InterpreterOptions answered_by(const ProbeOutcome& outcome, InterpreterOptions o
 
 PathOptions answered_by(const ProbeOutcome& outcome, PathOptions options, Job::Probing probing) {
   if (probing == Job::Probing::by_board) options.probe = &outcome;
+  return options;
+}
+
+StepOptions step_options_at(const MachineDescription& machine, const std::optional<ResumePoint>& point) {
+  StepOptions options = step_options(machine);
+  if (point) options.start = point->point;
   return options;
 }
 
@@ -68,10 +97,12 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
   PathBuilder builder(interpreter, path, diagnostics);
   ProgramCheck check;
   std::uint64_t behind_a_probe = 0;
+  Fingerprint fingerprint;
   PathItem item;
   while (!diagnostics.full() && behind_a_probe < most_moves_behind_a_probe && builder.next(item)) {
     check.nominal_time += nominal_time_of(item, limits);
     if (std::holds_alternative<Segment>(item)) ++check.moves;
+    add_to(fingerprint, item);
     if (check.probes) ++behind_a_probe;
     if (!check.probes && is_probe(item)) {
       check.probes = true;
@@ -81,6 +112,7 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
   if (behind_a_probe == most_moves_behind_a_probe) tell_end(diagnostics, path.file, item);
   diagnostics.doubt_errors({});
   check.tools_change = interpreter.tools() != options.tools;
+  check.fingerprint = fingerprint.value();
   check.good = !diagnostics.any_error();
   return check;
 }
@@ -98,8 +130,13 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
                static_cast<std::size_t>(machine.board.held_items)),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
-      drive_(smoother_, limits_, step_options(machine), machine_, board_line(options, line_)),
-      clock_(machine.board.clock) {
+      drive_(smoother_, limits_, step_options_at(machine, options.resume_at), machine_, board_line(options, line_)),
+      clock_(machine.board.clock),
+      resume_at_(options.resume_at) {
+  if (resume_at_) {
+    machine_.stand_at(resume_at_->steps);
+    drive_.begin_at(resume_at_->place);
+  }
   const bool over_a_line = line_ || options.board != nullptr;
   if (over_a_line && !unsuited()) static_cast<void>(drive_.use_tails({}));
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
@@ -123,7 +160,10 @@ BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& li
   if (line) return {.port = &*line, .care = {.answer_within = Seconds(0.05), .session = 1}};
   if (options.board == nullptr) return {};
   return {.port = options.board,
-          .care = {.answer_within = Seconds(0.1), .patience = Seconds(60), .session = 1},
+          .care = {.answer_within = Seconds(0.1),
+                   .patience = Seconds(60),
+                   .session = options.session,
+                   .greeting = options.greeting},
           .real_time = true};
 }
 
@@ -140,6 +180,10 @@ void Job::follow_by_machine(std::uint8_t motors) {
   if (drive_.refiller() == nullptr) return;
   drive_.refiller()->watch_executed(
       [this](const LinkItem& item) { std::visit([this](const auto& one) { shadow_->send(one); }, item); });
+}
+
+void Job::resume() {
+  if (resume_at_ && drive_.refiller() != nullptr) drive_.switch_on(resume_at_->outputs, resume_at_->spindle_wait);
 }
 
 bool Job::advance() {

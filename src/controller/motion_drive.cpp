@@ -122,6 +122,20 @@ bool MotionDrive::use_tails(const TailOptions& options) {
   return true;
 }
 
+void MotionDrive::begin_at(const PathPlace& place) {
+  path_.keep();
+  path_.begin_at(place);
+}
+
+void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
+  assert(refiller_);
+  OutputState spindle = outputs;
+  spindle.mist = spindle.flood = false;
+  refiller_->switch_outputs(board_outputs(spindle));
+  if (spindle.spindle != SpindleDirection::off) let_pass(spindle_wait);
+  if (spindle != outputs) refiller_->switch_outputs(board_outputs(outputs));
+}
+
 bool MotionDrive::advance_with_tails() {
   switch (refiller_->advance()) {
     case Refiller::Turn::goes_on: return true;
@@ -255,7 +269,11 @@ void MotionDrive::rest_in_feed_hold() {
 
 void MotionDrive::rest_in_hold() {
   if (stopping_) {
-    link_.send(BoardOutputs{});
+    if (refiller_) {
+      refiller_->switch_outputs({});
+    } else {
+      link_.send(BoardOutputs{});
+    }
     end();
     return;
   }
@@ -357,8 +375,7 @@ void MotionDrive::listen(Seconds most) {
 
 void MotionDrive::let_pass(Seconds time) {
   if (real_time_) {
-    const Seconds until = now() + time;
-    while (now() < until) static_cast<void>(port_.run(until - now()));
+    link_.let_pass(time);
     rested_ += time;
     return;
   }

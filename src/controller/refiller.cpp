@@ -47,7 +47,8 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       steps_(steps),
       options_(options),
       behind_(stages.link.executed()),
-      places_(static_cast<std::size_t>(std::max(stages.link.room(), 0))) {
+      places_(static_cast<std::size_t>(std::max(stages.link.room(), 0))),
+      given_(stages.path.place()) {
   stages.path.keep();
   commit();
 }
@@ -262,6 +263,11 @@ void Refiller::send(std::size_t items) {
   for (std::size_t i = 0; i < items; ++i) items_.push_back(pulled_[i].item);
   items_.insert(items_.end(), tail.items.begin(), tail.items.end());
   Refill refill;
+  if (rest_watcher_) {
+    // Behind the frame that replaces.
+    const auto last = static_cast<ItemNumber>(stages_.link.sent() + 1 + items_.size());
+    rest_watcher_({.executed = last, .place = tail.rest});
+  }
   refill.first = stages_.link.replace(behind_, items_);
   for (std::size_t i = 0; i < items; ++i) {
     motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i), .time = pulled_[i].time});
@@ -288,6 +294,16 @@ void Refiller::ask() {
   if (asking_ == Asking::before_refills) longest_ahead_ = std::max(longest_ahead_, ahead_);
   asked_ = true;
   stages_.link.ask();
+}
+
+void Refiller::switch_outputs(const BoardOutputs& outputs) {
+  assert(refills_under_way_.empty() && pulled_.empty());
+  if (rest_watcher_) rest_watcher_({.executed = static_cast<ItemNumber>(stages_.link.sent() + 1), .place = given_});
+  stages_.link.send(outputs);
+  stages_.link.drain();
+  if (stages_.link.error()) return;
+  behind_ = stages_.link.executed();
+  if (executed_watcher_) executed_watcher_(outputs);
 }
 
 Seconds Refiller::time_of(const LinkItem& item) const {

@@ -7,18 +7,35 @@ namespace passo {
 bool RewindablePath::next(PathItem& item) {
   if (!keeps_) return path_.next(item);
   if (next_ == first_ + kept_.size()) {
-    do {
-      if (!path_.next(item)) return false;
-    } while (std::holds_alternative<Segment>(item) && !std::get<Segment>(item).curve.has_length());
+    for (; left_out_ > 0; --left_out_) {
+      if (!pull(item)) return false;
+    }
+    if (!pull(item)) return false;
     kept_.push_back(item);
   } else {
     item = kept_[next_ - first_];
+  }
+  if (next_ == rewound_.item) {
     auto* segment = std::get_if<Segment>(&item);
-    const bool begun = segment != nullptr && next_ == rewound_.item && rewound_.s > Mm(0);
+    const bool begun = segment != nullptr && rewound_.s > Mm(0);
     if (begun) segment->curve = segment->curve.part(rewound_.s, segment->curve.length());
   }
   ++next_;
   return true;
+}
+
+// The next item that is any.
+bool RewindablePath::pull(PathItem& item) {
+  do {
+    if (!path_.next(item)) return false;
+  } while (std::holds_alternative<Segment>(item) && !std::get<Segment>(item).curve.has_length());
+  return true;
+}
+
+void RewindablePath::begin_at(const PathPlace& place) {
+  assert(keeps_ && kept_.empty() && next_ == 0);
+  left_out_ = first_ = next_ = place.item;
+  rewound_ = place;
 }
 
 PathPlace RewindablePath::behind(const PathPlace& place, const MotionItem& motion) const {

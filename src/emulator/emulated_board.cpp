@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "passo/chip/mega_ramps.hpp"
+#include "passo/chip/mega_windings.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/chip/uno_windings.hpp"
 #include "passo/emulator/emulated_chip.hpp"
 #include "passo/emulator/emulated_ports.hpp"
 #include "passo/emulator/emulated_timer.hpp"
@@ -30,19 +32,31 @@ struct Kind {
 };
 
 template <class Map>
-Kind kind_of(const char* mcu, const char* ports, const Map& pins) {
-  return {.mcu = mcu,
-          .ports = ports,
-          .motors = {std::begin(pins.motor), std::end(pins.motor)},
-          .switches = {{input_probe, pins.probe},
-                       {input_emergency_stop, pins.emergency_stop},
-                       {input_hold, pins.feed_hold},
-                       {input_start, pins.cycle_start}}};
+Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = {}) {
+  Kind kind{.mcu = mcu,
+            .ports = ports,
+            .motors = {std::begin(pins.motor), std::end(pins.motor)},
+            .switches = {{input_probe, pins.probe},
+                         {input_emergency_stop, pins.emergency_stop},
+                         {input_hold, pins.feed_hold},
+                         {input_start, pins.cycle_start}}};
+  for (MotorPins& motor : kind.motors) motor.drive = drive;
+  return kind;
+}
+
+template <class Map>
+Kind kind_of(bool is_mega, const Map& pins, Drive drive = {}) {
+  return is_mega ? kind_of("atmega2560", "ABCDEFGHJKL", pins, drive) : kind_of("atmega328p", "BCD", pins, drive);
 }
 
 Kind kind_named(std::string_view name) {
-  if (name == "mega") return kind_of("atmega2560", "ABCDEFGHJKL", mega_ramps);
-  return kind_of("atmega328p", "BCD", uno_cnc_shield);
+  const bool is_mega = name.starts_with("mega");
+  for (const auto& [ending, drive] : {std::pair{"_two_on", Drive::two_on}, std::pair{"_wave", Drive::wave},
+                                      std::pair{"_half_step", Drive::half_step}}) {
+    if (!name.ends_with(ending)) continue;
+    return is_mega ? kind_of(is_mega, mega_windings, drive) : kind_of(is_mega, uno_windings, drive);
+  }
+  return is_mega ? kind_of(is_mega, mega_ramps) : kind_of(is_mega, uno_cnc_shield);
 }
 
 class AvrBoard final : public EmulatedBoard {
@@ -96,27 +110,42 @@ class AvrBoard final : public EmulatedBoard {
 
   void count_steps(const PortChange& change) {
     const unsigned rose = change.now & ~unsigned{change.before};
-    bool stepped = false;
+    const unsigned turned_over = change.now ^ unsigned { change.before };
+    levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+    stepped_ = false;
     for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
       const MotorPins& pins = motors_[motor];
-      if (change.port != pins.step.port || (rose & pins.step.mask()) == 0) continue;
-      const bool down = (direction_port(change, pins) & pins.direction.mask()) != 0;
-      positions_[motor] += down ? -1 : 1;
-      stepped = true;
-      if (on_step) on_step(change.cycle, motor, down);
+      if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
+        count(change.cycle, motor, (levels_of(pins.direction) & pins.direction.mask()) != 0);
+      }
+      if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
     }
-    levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
-    if (stepped && touches_) look_at_touch();
+    if (stepped_ && touches_) look_at_touch();
   }
   void look_at_touch() { static_cast<void>(set_switch(input_probe, touches_(positions_))); }
-  std::uint8_t direction_port(const PortChange& change, const MotorPins& pins) const {
-    return pins.direction.port == change.port ? change.now
-                                              : levels_[static_cast<std::size_t>(pins.direction.port - 'A')];
+  void count(std::uint64_t cycle, std::size_t motor, bool down) {
+    positions_[motor] += down ? -1 : 1;
+    stepped_ = true;
+    if (on_step) on_step(cycle, motor, down);
   }
+  // Where a motor's windings lie on two ports there is a moment between the two, whose pattern is in no table.
+  void follow_windings(std::uint64_t cycle, std::size_t motor) {
+    const WindingTable table = winding_table(motors_[motor].drive);
+    unsigned pattern = 0;
+    for (unsigned f = 0; f < winding_count; ++f) {
+      const Pin pin = motors_[motor].windings[f];
+      if ((levels_of(pin) & pin.mask()) != 0) pattern |= 1U << f;
+    }
+    const auto place = static_cast<std::uint8_t>(positions_[motor]);
+    if (pattern == table.at(static_cast<std::uint8_t>(place + 1))) return count(cycle, motor, false);
+    if (pattern == table.at(static_cast<std::uint8_t>(place - 1))) count(cycle, motor, true);
+  }
+  std::uint8_t levels_of(Pin pin) const { return levels_[static_cast<std::size_t>(pin.port - 'A')]; }
 
   std::vector<MotorPins> motors_;
   std::map<BoardInput, Pin> switches_;
   std::vector<std::int64_t> positions_;
+  bool stepped_ = false;  // at the change that is looked at
   std::function<bool(const std::vector<std::int64_t>&)> touches_;
   std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
   EmulatedChip chip_;

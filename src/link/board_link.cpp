@@ -16,7 +16,14 @@ constexpr ProbeUntil until_is(bool touched) {
 }  // namespace
 
 BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
-    : port_(port), motors_(motors), care_(care), heard_(port.elapsed()) {
+    : port_(port),
+      motors_(motors),
+      care_(care),
+      sent_(care.greeting),
+      taken_(care.greeting),
+      executed_(care.greeting),
+      asked_behind_(care.greeting),
+      heard_(port.elapsed()) {
   decoder_.set_motors(motors);
   say_hello();
   if (care_.session != 0 && !error_) name_session();
@@ -24,7 +31,7 @@ BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
 
 void BoardLink::say_hello() {
   while (!board_ && !error_) {
-    say(Hello{.motors = motors_}, std::uint8_t{0});
+    say(Hello{.motors = motors_}, care_.greeting);
     const bool heard = hear_until([this] { return board_.has_value(); });
     if (!heard && (!may_lose() || port_.elapsed() - heard_ > care_.patience)) error_ = LinkError::no_answer;
   }
@@ -80,6 +87,12 @@ void BoardLink::wait() {
   news_ = false;
   while (!error_ && !news_ && listen()) {
   }
+}
+
+void BoardLink::let_pass(Seconds time) {
+  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
+  const Seconds until = port_.elapsed() + time;
+  while (!error_ && until - port_.elapsed() > hardly_any) hear(until - port_.elapsed());
 }
 
 // An answer to an earlier question may come first: it counts if it tells of the same rest.
@@ -145,7 +158,8 @@ template <class Done>
 bool BoardLink::hear_until(Done done) {
   const Seconds asked = port_.elapsed();
   bool heard = false;
-  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear()) heard = true;
+  while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear(care_.answer_within))
+    heard = true;
   return heard;
 }
 
@@ -231,7 +245,7 @@ void BoardLink::take(const BoardStatus& status) {
   note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
-    if (care_.session != 0 && sent_ != 0) error_ = LinkError::was_reset;
+    if (care_.session != 0 && sent_ != care_.greeting) error_ = LinkError::was_reset;
     return;
   }
   if ((status.state & board_trusted) == 0) error_ = LinkError::stopped;

@@ -27,6 +27,10 @@ VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_e
   hardware_.seconds_a_tick = 1 / clock.value();
 }
 
+void VirtualMachine::stand_at(const std::array<std::int64_t, max_motors>& positions) {
+  for (std::size_t m = 0; m < positions.size(); ++m) hardware_.motors[m].position = positions[m];
+}
+
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
   if (board_.idle()) waits_ = false;  // it may have been stopped before its event
   for (const std::uint8_t byte : bytes) board_.receive(byte);

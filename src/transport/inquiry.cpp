@@ -45,4 +45,15 @@ std::optional<BoardStatus> Inquiry::status(Seconds within) {
   return status;
 }
 
+std::optional<BoardStatus> Inquiry::status_at_rest(Seconds within) {
+  std::optional<BoardStatus> before;
+  for (;;) {
+    const auto now = status(within);
+    if (!now) return {};
+    const bool rests = (now->state & board_moves) == 0;
+    if (rests && before && before->executed == now->executed && before->event == now->event) return now;
+    before = rests ? now : std::nullopt;
+  }
+}
+
 }  // namespace passo

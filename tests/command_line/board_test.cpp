@@ -1,7 +1,5 @@
 // passo board: what it says of boards, against the virtual one in the network, and what it would have avrdude do.
-#include <csignal>
-
-#include "kit/command_line.hpp"
+#include "kit/served_board.hpp"
 #include <nlohmann/json.hpp>
 
 namespace {
@@ -9,34 +7,8 @@ namespace {
 using passo::test::Outcome;
 using passo::test::read;
 
-class Boards : public passo::test::CommandLine {
+class Boards : public passo::test::ServedBoard {
  protected:
-  ~Boards() override {
-    if (server_ > 0) {
-      kill(server_, SIGTERM);
-      waitpid(server_, nullptr, 0);
-    }
-  }
-
-  // Starts one; its address.
-  std::string serve(const std::string& clock = "16000000") {
-    const std::string said = path("said");
-    server_ = fork();
-    if (server_ == 0) {
-      if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", "--clock", clock.c_str(),
-            nullptr);
-      _exit(1);
-    }
-    for (int i = 0; i < 1000; ++i) {
-      const std::string text = read(said);
-      const std::size_t at = text.find("tcp:");
-      if (at != std::string::npos && text.back() == '\n') return text.substr(at, text.size() - at - 1);
-      usleep(10'000);
-    }
-    return "it did not start";
-  }
-
   // An avrdude that notes how it was called, and writes the backup.
   std::string fake_avrdude(int code = 0) const {
     std::filesystem::create_directories(path("bin"));
@@ -47,8 +19,6 @@ class Boards : public passo::test::CommandLine {
     return "PATH=" + path("bin") + ":$PATH";
   }
   std::string image() const { return write("new.hex", ":10000000000102030405060708090A0B0C0D0E0F78\n:00000001FF\n"); }
-
-  pid_t server_ = 0;
 };
 
 TEST_F(Boards, that_answer_say_what_they_are_and_how_they_are) {
@@ -78,9 +48,12 @@ TEST_F(Boards, are_emulated_too) {
   const auto mega = nlohmann::json::parse(passo("board info --json sim:mega").out);
   EXPECT_EQ(mega["about"]["highest_event_rate_hz"], 110'000);
 
+  const auto windings = nlohmann::json::parse(passo("board info --json sim:uno_half_step").out);
+  EXPECT_EQ(windings["about"]["name"], "uno windings");
+
   const Outcome none = passo("board info sim:none");
   EXPECT_EQ(none.code, 1);
-  EXPECT_NE(none.err.find("there is an emulator of uno and mega"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("there is an emulator of uno, uno_two_on"), std::string::npos) << none.err;
 }
 
 TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
@@ -94,6 +67,22 @@ TEST_F(Boards, run_a_program_by_their_firmware_on_an_emulated_chip) {
   }
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
+}
+
+TEST_F(Boards, run_a_program_with_the_windings_on_their_own_pins) {
+  const std::string machine =
+      (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "windings.toml").string();
+  const std::string program = write("p.ngc", "G21 G90 F600\nG1 X3 Y1\nG2 X5 Y1 I1 J0\nG1 X1 Z-1\nM2\n");
+  const std::string command = "run " + program + " --json -m " + machine;
+  for (const std::string board : {"sim:uno_half_step", "sim:uno_wave", "sim:mega_two_on"}) {
+    const Outcome outcome = passo(command + " --board " + board);
+    if (outcome.err.find("was built without") != std::string::npos ||
+        outcome.err.find("is not there") != std::string::npos) {
+      GTEST_SKIP() << outcome.err;
+    }
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]) << board;
+  }
 }
 
 TEST_F(Boards, probe_by_their_firmware_what_stands_on_an_emulated_machine) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "emulator/streamed_run.hpp"
+#include "kit/frames_in.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
@@ -47,15 +48,6 @@ Bytes garbage(std::mt19937_64& random, std::uint8_t motors) {
   return frame;
 }
 
-// By chance there is a whole frame in it: one of 65,536 that look like one. Or there will be, with the first byte of
-// the next frame in the place of the one that it lost.
-bool is_valid_anywhere(Bytes bytes, std::uint8_t motors) {
-  Decoder decoder;
-  decoder.set_motors(motors);
-  bytes.push_back(sync_byte);
-  return std::ranges::any_of(bytes, [&](std::uint8_t byte) { return decoder.feed(byte) == Decoded::frame; });
-}
-
 class Noise {
  public:
   explicit Noise(const BoardUnderTest& board)
@@ -71,7 +63,9 @@ class Noise {
       const Bytes more = garbage(random_, motors_);
       bytes.insert(bytes.end(), more.begin(), more.end());
     }
-    if (is_valid_anywhere(bytes, motors_)) return;
+    std::uint8_t question[largest_frame];
+    const std::uint8_t length = encode(Ask{.motors = motors_}, 0, question);
+    if (!leaves_one_frame(bytes, {question, length})) return;
     bench_.ports().forget_changes();
     bench_.uart().send(bytes);
     bench_.ask();
@@ -86,10 +80,10 @@ class Noise {
   void motion() {
     const StreamKind kind{.shortest_interval = 400, .longest_interval = 500, .shortest_segment = 100, .segments = 12};
     const std::vector<BoardSegment> stream = random_stream(random_, motors_, kind);
-    bench_.before_item = [this] {
+    bench_.before_item = [this](std::span<const std::uint8_t> frame) {
       Bytes bytes = garbage(random_, motors_);
       bytes.resize(std::min<std::size_t>(bytes.size(), 40));
-      if (is_valid_anywhere(bytes, motors_)) return;
+      if (!leaves_one_frame(bytes, frame)) return;
       bench_.uart().send(bytes);
       bytes_ += bytes.size();
     };
@@ -109,6 +103,16 @@ class Noise {
   }
 
  private:
+  // Garbage may be a whole frame by itself, one of 65,536 that look like one; or together with its neighbours: with the
+  // last byte of the frame before it in the place of a sync byte that was lost, with the first two of the next frame in
+  // the place of its CRC.
+  bool leaves_one_frame(const Bytes& garbage, std::span<const std::uint8_t> frame) const {
+    Bytes bytes = {bench_.last_byte()};
+    bytes.insert(bytes.end(), garbage.begin(), garbage.end());
+    bytes.insert(bytes.end(), frame.begin(), frame.end());
+    return test::frames_in(bytes, motors_) == 1;
+  }
+
   std::uint8_t motors_;
   BoardBench bench_;
   std::mt19937_64 random_;

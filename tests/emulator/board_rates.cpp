@@ -30,11 +30,13 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, std::ui
     }
     const std::vector<BoardSegment> stream = random_stream(random, motors, kind);
     const EdgeCheck check = bench.play(stream);
-    const auto number = [](auto value) { return static_cast<unsigned long long>(value); };
-    std::printf("| %s | %zu | %u | %.1f | %s | %llu | %llu | %llu | %llu | %llu |\n", name, board.motors.size(),
-                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.error),
-                number(check.apart), number(check.shortest_pulse), number(check.shortest_setup),
-                number(check.overruns));
+    const auto number = [](auto value) { return std::to_string(value); };
+    const bool pulses = board.motors[0].step.exists();
+    const std::string pulse = pulses ? number(check.shortest_pulse) : "";
+    const std::string setup = pulses ? number(check.shortest_setup) : "";
+    std::printf("| %s | %zu | %u | %.1f | %s | %s | %s | %s | %s | %s |\n", name, board.motors.size(),
+                board.baud / 1000, 16000.0 / interval, check.exact() ? "yes" : "no", number(check.error).c_str(),
+                number(check.apart).c_str(), pulse.c_str(), setup.c_str(), number(check.overruns).c_str());
     std::fflush(stdout);
   }
 }
@@ -44,7 +46,10 @@ void sweep(const BoardUnderTest& board, const char* name, bool changing, std::ui
 int main(int argc, char** argv) {
   std::vector<std::uint32_t> intervals;
   for (int i = 1; i < argc; ++i) intervals.push_back(static_cast<std::uint32_t>(std::strtoul(argv[i], nullptr, 10)));
-  if (intervals.empty()) intervals = {300, 200, 178, 160, 145, 133, 120, 114};
+  const bool all = intervals.empty();
+  if (all) intervals = {300, 200, 178, 160, 145, 133, 120, 114};
+  const std::vector<std::uint32_t> slow = all ? std::vector<std::uint32_t>{1600, 800, 640, 533} : intervals;
+  const std::vector<Drive> drives(4, Drive::half_step);
   try {
     std::puts(
         "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | apart | pulse | set-up | "
@@ -58,6 +63,12 @@ int main(int argc, char** argv) {
       for (const bool changing : {false, true}) {
         sweep(mega, changing ? "Mega, changing" : "Mega, even", changing, motors > 4 ? 178 : 145, intervals);
       }
+    }
+    for (const bool changing : {false, true}) {
+      sweep(uno_windings_under_test(PASSO_MOTION_UNO_HALF_STEP, drives),
+            changing ? "Uno, windings, changing" : "Uno, windings, even", changing, 300, slow);
+      sweep(mega_windings_under_test(PASSO_MOTION_MEGA_HALF_STEP, drives),
+            changing ? "Mega, windings, changing" : "Mega, windings, even", changing, 300, slow);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "board_rates: %s\n", error.what());

@@ -5,8 +5,12 @@
 #include <limits>
 #include <optional>
 
+#include "emulator/winding_edges.hpp"
+
 #include "passo/chip/mega_ramps.hpp"
+#include "passo/chip/mega_windings.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/chip/uno_windings.hpp"
 #include "passo/firmware/player.hpp"
 
 namespace passo {
@@ -14,14 +18,9 @@ namespace {
 
 constexpr std::uint64_t clock_rate = 16'000'000;
 
-struct Edge {
-  std::int64_t time = 0;
-  bool down = false;
-};
-using Edges = std::vector<std::vector<Edge>>;  // of each motor
-
-Edges edges_of_model(const std::vector<BoardSegment>& segments, std::uint8_t motors, std::uint64_t& events) {
-  Edges edges(motors);
+std::vector<SeenSteps> edges_of_model(const std::vector<BoardSegment>& segments, std::uint8_t motors,
+                                      std::uint64_t& events) {
+  std::vector<SeenSteps> edges(motors);
   Player player(motors);
   std::int64_t now = 0;
   for (const BoardSegment& segment : segments) {
@@ -52,6 +51,24 @@ BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors) 
   board.program = program;
   board.mcu = "atmega2560";
   board.motors.assign(std::begin(mega_ramps.motor), std::begin(mega_ramps.motor) + motors);
+  board.ports = "ABCDEFGHJKL";
+  return board;
+}
+
+BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<Drive>& drives) {
+  BoardUnderTest board;
+  board.program = program;
+  board.motors.assign(std::begin(uno_windings.motor), std::end(uno_windings.motor));
+  for (std::size_t m = 0; m < board.motors.size(); ++m) board.motors[m].drive = drives.at(m);
+  return board;
+}
+
+BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<Drive>& drives) {
+  BoardUnderTest board;
+  board.program = program;
+  board.mcu = "atmega2560";
+  board.motors.assign(std::begin(mega_windings.motor), std::end(mega_windings.motor));
+  for (std::size_t m = 0; m < board.motors.size(); ++m) board.motors[m].drive = drives.at(m);
   board.ports = "ABCDEFGHJKL";
   return board;
 }
@@ -95,28 +112,33 @@ void BoardBench::hear(std::uint8_t byte) {
   chip_->stop();
 }
 
+void BoardBench::put_on_line(std::span<const std::uint8_t> frame) {
+  uart_->send(frame);
+  last_byte_ = frame.back();
+}
+
 void BoardBench::send_item(const BoardSegment& segment) {
-  if (before_item) before_item();
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, static_cast<std::uint8_t>(board_.motors.size()), ++last_sent_, frame);
-  uart_->send({frame, size});
+  if (before_item) before_item({frame, size});
+  put_on_line({frame, size});
 }
 
 void BoardBench::send_item(const BoardOutputs& outputs) {
   std::uint8_t frame[largest_frame];
-  uart_->send({frame, encode(outputs, ++last_sent_, frame)});
+  put_on_line({frame, encode(outputs, ++last_sent_, frame)});
 }
 
 void BoardBench::ask() {
   std::uint8_t frame[largest_frame];
   status_.reset();
-  uart_->send({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
+  put_on_line({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
 }
 
 void BoardBench::send_replace(std::uint8_t count) {
   std::uint8_t frame[largest_frame];
   const Replace replace{.after = last_executed_, .count = count};
-  uart_->send({frame, encode(replace, ++last_sent_, frame)});
+  put_on_line({frame, encode(replace, ++last_sent_, frame)});
 }
 
 bool BoardBench::say_hello() {
@@ -126,7 +148,7 @@ bool BoardBench::say_hello() {
   decoder_.set_motors(motors);
   greeted_ = false;
   complaints_ = 0;
-  uart_->send({frame, size});
+  put_on_line({frame, size});
   for (int i = 0; i < 20 && !greeted_; ++i) chip_->run_for(clock_rate / 1000);
   last_executed_ = last_sent_;
   ports_->forget_changes();
@@ -180,17 +202,13 @@ EdgeCheck BoardBench::play(const std::vector<BoardSegment>& segments) {
   return result;
 }
 
-EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) const {
-  EdgeCheck result;
-  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
-  const Edges expected = edges_of_model(segments, motors, result.events);
-  Edges seen(motors);
-  constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
-  result.shortest_pulse = result.shortest_setup = never;
+// Their edges, and what the pulses are like.
+void BoardBench::see_steps(std::vector<SeenSteps>& seen, EdgeCheck& result) const {
+  const std::size_t motors = board_.motors.size();
   std::vector<std::uint64_t> rose(motors, 0);
   std::vector<std::uint64_t> turned(motors, 0);
   std::vector<bool> down(motors);
-  for (std::uint8_t m = 0; m < motors; ++m) {
+  for (std::size_t m = 0; m < motors; ++m) {
     const Pin pin = board_.motors[m].direction;
     // As it was before the first change.
     std::uint8_t level = ports_->outputs(pin.port);
@@ -204,7 +222,7 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) const {
   }
   for (const PortChange& change : ports_->changes()) {
     const unsigned turned_over = change.before ^ change.now;
-    for (std::uint8_t m = 0; m < motors; ++m) {
+    for (std::size_t m = 0; m < motors; ++m) {
       const MotorPins& pins = board_.motors[m];
       if (change.port == pins.direction.port && (turned_over & pins.direction.mask()) != 0) {
         down[m] = (change.now & pins.direction.mask()) != 0;
@@ -221,6 +239,44 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) const {
         result.longest_pulse = std::max(result.longest_pulse, change.cycle - rose[m]);
       }
     }
+  }
+}
+
+void BoardBench::follow_windings() {
+  places_.resize(board_.motors.size(), 0);
+  for (std::size_t m = 0; m < places_.size(); ++m) winding_edges(board_.motors[m], ports_->changes(), places_[m]);
+}
+
+void BoardBench::see_windings(std::vector<SeenSteps>& seen, EdgeCheck& result) {
+  places_.resize(board_.motors.size(), 0);
+  for (std::size_t m = 0; m < board_.motors.size(); ++m) {
+    const WindingEdges edges = winding_edges(board_.motors[m], ports_->changes(), places_[m]);
+    for (const WindingStep& step : edges.steps) {
+      seen[m].push_back({.time = static_cast<std::int64_t>(step.cycle), .down = step.down});
+    }
+    result.wrong_direction += edges.wrong;
+    result.apart_in_motor = std::max(result.apart_in_motor, edges.apart);
+  }
+  std::uint64_t others = 0;  // changes of what is no winding
+  for (const PortChange& change : ports_->changes()) {
+    unsigned windings = 0;
+    for (const MotorPins& motor : board_.motors) windings |= motor.winding_bits(change.port);
+    if (((change.before ^ change.now) & ~windings) != 0) ++others;
+  }
+  result.wrong_direction += others;
+}
+
+EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) {
+  EdgeCheck result;
+  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
+  const std::vector<SeenSteps> expected = edges_of_model(segments, motors, result.events);
+  std::vector<SeenSteps> seen(motors);
+  constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+  result.shortest_pulse = result.shortest_setup = never;
+  if (board_.motors[0].windings[0].exists()) {
+    see_windings(seen, result);
+  } else {
+    see_steps(seen, result);
   }
   std::optional<std::int64_t> first;
   std::optional<std::int64_t> last;

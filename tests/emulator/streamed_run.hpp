@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,14 +33,18 @@ struct BoardUnderTest {
 BoardUnderTest uno_under_test(const std::string& program);
 // With a host that drives that many motors.
 BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors);
+// With its motors driven so.
+BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<Drive>& drives);
+BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<Drive>& drives);
 
 struct EdgeCheck {
   std::uint64_t steps = 0;            // edges seen
   std::uint64_t expected = 0;         // of the model
   std::uint64_t wrong_count = 0;      // motors with another number of edges
-  std::uint64_t wrong_direction = 0;  // edges
+  std::uint64_t wrong_direction = 0;  // edges; of windings, patterns out of order, and changes of other pins
   std::int64_t error = 0;             // the worst motor's edges against the model, peak to peak, in cycles
   std::int64_t apart = 0;             // the first motor's edge of an event, and the last one's: always in this order
+  std::int64_t apart_in_motor = 0;    // the windings of one motor that lie on two ports
   std::uint64_t shortest_pulse = 0;
   std::uint64_t longest_pulse = 0;
   std::uint64_t shortest_setup = 0;  // from a direction's change to that motor's next step
@@ -53,6 +58,12 @@ struct EdgeCheck {
   bool exact() const { return finished && wrong_count == 0 && wrong_direction == 0 && steps == expected; }
 };
 
+struct SeenStep {
+  std::int64_t time = 0;
+  bool down = false;
+};
+using SeenSteps = std::vector<SeenStep>;  // of one motor
+
 class BoardBench {
  public:
   explicit BoardBench(const BoardUnderTest& board);
@@ -60,8 +71,9 @@ class BoardBench {
   // The next host drives the first `count` motors only.
   void drive_motors(std::size_t count) { board_.motors.resize(count); }
 
-  // Called before each item that play() sends. What the board says of bytes that are no frame is then no complaint.
-  std::function<void()> before_item;
+  // Called before each item that play() sends, with its frame. What the board says of bytes that are no frame is then
+  // no complaint.
+  std::function<void(std::span<const std::uint8_t>)> before_item;
 
   // Plays them from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
@@ -71,10 +83,14 @@ class BoardBench {
   void start_items(const std::vector<Item>& items);
   // Says hello and sends as many as the board takes at once.
   void start(const std::vector<BoardSegment>& segments);
+  // Where the motors stand in their winding tables after what was not played by play().
+  void follow_windings();
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
   // Asks the board how it is; the answer comes while it runs.
   void ask();
+  // Of the last frame that went to the board.
+  std::uint8_t last_byte() const { return last_byte_; }
   const std::optional<BoardStatus>& status() const { return status_; }
   const std::optional<ErrorReport>& error() const { return error_; }
   const std::optional<Fault>& fault() const { return fault_; }
@@ -89,11 +105,14 @@ class BoardBench {
  private:
   void hear(std::uint8_t byte);
   bool say_hello();
+  void put_on_line(std::span<const std::uint8_t> frame);
   // Behind all that was executed.
   void send_replace(std::uint8_t count);
   void send_item(const BoardSegment& segment);
   void send_item(const BoardOutputs& outputs);
-  EdgeCheck check(const std::vector<BoardSegment>& segments) const;
+  void see_steps(std::vector<SeenSteps>& seen, EdgeCheck& result) const;
+  void see_windings(std::vector<SeenSteps>& seen, EdgeCheck& result);
+  EdgeCheck check(const std::vector<BoardSegment>& segments);
 
   BoardUnderTest board_;
   std::unique_ptr<EmulatedChip> chip_;
@@ -103,9 +122,11 @@ class BoardBench {
   Decoder decoder_;
   bool greeted_ = false;
   std::uint8_t capacity_ = 0;
+  std::uint8_t last_byte_ = 0;
   std::uint8_t last_sent_ = 0;
   std::uint8_t last_executed_ = 0;
   std::uint64_t complaints_ = 0;
+  std::vector<int> places_;  // of motors whose windings the board switches, in their tables
   std::optional<Fault> fault_;
   std::optional<Captured> captured_;
   std::optional<BoardStatus> status_;

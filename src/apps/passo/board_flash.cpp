@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Chip {
-  const char* board;
+  const char* board;       // its name's beginning
   const char* part;        // avrdude's -p
   const char* programmer;  // its -c for the boot loader
   unsigned flash;          // bytes that the boot loader leaves
@@ -110,8 +110,8 @@ int start(const std::vector<std::string>& words) {
 }  // namespace
 
 int board_flash(const BoardFlashArguments& arguments) {
-  const Chip& chip =
-      *std::find_if(chips.begin(), chips.end(), [&](const Chip& one) { return one.board == arguments.board; });
+  const Chip& chip = *std::find_if(chips.begin(), chips.end(),
+                                   [&](const Chip& one) { return arguments.board.starts_with(one.board); });
   const std::string image = arguments.image.empty() ? built_image(arguments.board, ".hex").string() : arguments.image;
   if (arguments.image.empty() && !fs::exists(image)) {
     return fail(exit_failed, message_of_missing(image));

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "passo/emulator/emulated_board.hpp"
 #include "passo/transport/stream_port.hpp"
 
@@ -26,7 +28,7 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
     return std::unique_ptr<BoardPort>(std::move(*line));
   }
   if (!is_emulated_board(address.place)) {
-    return Failure{"sim:" + address.place + ": there is an emulator of " + std::string(emulated_boards)};
+    return Failure{fmt::format("sim:{}: there is an emulator of {}", address.place, fmt::join(emulated_boards, ", "))};
   }
   const fs::path image = built_image(address.place, ".elf");
   if (!fs::exists(image)) return Failure{message_of_missing(image)};

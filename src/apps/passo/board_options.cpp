@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "passo/emulator/emulated_board.hpp"
+
 namespace passo {
 namespace {
 
@@ -50,8 +52,9 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   monitor.add_flag("--json", arguments.monitor.json, "a JSON object a line");
   monitor.callback([&arguments] { arguments.chosen = [&arguments] { return board_monitor(arguments.monitor); }; });
 
+  const std::vector<std::string> names(emulated_boards.begin(), emulated_boards.end());
   CLI::App& flash = *board.add_subcommand("flash", "put Passo's firmware on a board, by avrdude");
-  flash.add_option("BOARD", arguments.flash.board, "what it is")->required()->check(CLI::IsMember({"uno", "mega"}));
+  flash.add_option("BOARD", arguments.flash.board, "what it is")->required()->check(CLI::IsMember(names));
   flash.add_option("-d,--device", arguments.flash.device, "its serial line, as /dev/ttyACM0")->required();
   flash.add_option("--image", arguments.flash.image, "Intel hex; without it what was built with this program");
   flash.add_option("--backup", arguments.flash.backup,

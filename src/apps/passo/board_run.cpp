@@ -1,5 +1,6 @@
 #include "board_run.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "board_opening.hpp"
@@ -22,7 +23,7 @@ constexpr Seconds answer{2};
 
 BoardRun::BoardRun(std::unique_ptr<BoardPort> port, std::uint8_t motors) : port_(std::move(port)), motors_(motors) {}
 
-std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_t motors, int& code) {
+std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_t motors, bool may_move, int& code) {
   const auto parsed = parse_board_address(address);
   if (!parsed) {
     code = fail(exit_bad_program, parsed.error());
@@ -37,7 +38,7 @@ std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_
   Inquiry inquiry(run->port());
   if (const auto status = inquiry.status(first_answer)) {
     run->before_ = *status;
-    if ((status->state & board_moves) == 0) return run;
+    if (may_move || (status->state & board_moves) == 0) return run;
     code = fail(exit_failed, address + ": it moves: another program runs on it, or has just left it");
     return nullptr;
   }
@@ -46,6 +47,16 @@ std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_
   const LinkError error = greeting.error().value_or(LinkError::wrong_version);
   code = fail(exit_failed, fmt::format("{}: {}", address, message_of(error)));
   return nullptr;
+}
+
+bool BoardRun::wait_for_rest() {
+  const auto status = Inquiry(*port_).status_at_rest(answer);
+  if (status) before_ = *status;
+  return status.has_value();
+}
+
+void BoardRun::count_from(const std::vector<int>& counts) {
+  std::copy(counts.begin(), counts.end(), before_.positions);
 }
 
 std::optional<std::string> BoardRun::compare(const MachineCounts& planned) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "passo/controller/refiller.hpp"
 #include "passo/link/board_port.hpp"
@@ -15,10 +16,16 @@ namespace passo {
 
 class BoardRun {
  public:
-  // Null, and said why, where there is no such board; `code`: what to exit with.
-  static std::unique_ptr<BoardRun> open(const std::string& address, std::uint8_t motors, int& code);
+  // Null, and said why, where there is no such board, or it moves though it must not; `code`: what to exit with.
+  static std::unique_ptr<BoardRun> open(const std::string& address, std::uint8_t motors, bool may_move, int& code);
 
   BoardPort& port() { return *port_; }
+  // How it was when it was last asked before the run.
+  const BoardStatus& before() const { return before_; }
+  // Asks until it does; false where it does not answer.
+  [[nodiscard]] bool wait_for_rest();
+  // Where the planned steps began, if that is not where the board is now.
+  void count_from(const std::vector<int>& counts);
   // At the end: whether the board has counted the steps that were planned, and those have come out of its pins where
   // these are seen; else what differs.
   std::optional<std::string> compare(const MachineCounts& planned);

@@ -15,6 +15,7 @@ enum ExitCode : int {
   exit_failed = 1,       // something else: a file that cannot be written, an interruption by a fault
   exit_bad_program = 2,  // the user's program or command line is wrong
   exit_bad_machine = 3,  // the machine's file is wrong
+  exit_not_resumed = 4,  // a job that was broken off cannot go on
   exit_interrupted = 130,
 };
 
@@ -48,6 +49,8 @@ struct RunArguments {
   std::vector<std::string> touches;    // LOW:HIGH of axes, as X10:60,Z:-2
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
   std::string board = "virtual";       // as parse_board_address() has it
+  std::string journal;                 // empty: usual_journal()
+  bool resume = false;                 // goes on where another run was broken off
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };

@@ -34,7 +34,7 @@ constexpr const char* examples = R"(Examples:
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
   passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
 
-Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong.)";
+Exit codes: 0 done, 1 failed, 2 the program or the command line is wrong, 3 the machine file is wrong, 4 --resume cannot go on.)";
 
 void add_program(CLI::App& command, ProgramArguments& arguments,
                  const char* what = "G-code file; - reads standard input") {
@@ -116,6 +116,11 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option(
       "-b,--board", run_arguments.board,
       "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; without it the virtual machine");
+  run_command.add_flag("--resume", run_arguments.resume,
+                       "over a line: goes on where this program was broken off on that board");
+  run_command.add_option("--journal", run_arguments.journal,
+                         "FILE: where a run over a line notes what --resume needs; without it "
+                         "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
   run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");

@@ -13,6 +13,7 @@
 #include "mid_run_changes.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
+#include "resumable_run.hpp"
 #include "run_outputs.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
@@ -31,9 +32,19 @@ namespace {
 // How often the clock is read for the progress line: every so many board segments.
 constexpr unsigned segments_between_looks = 1024;
 
+// The first Ctrl-C over a line.
+volatile std::sig_atomic_t interrupted_by = 0;
+
 extern "C" void end_on_signal(int signal) {
   OutputFile::remove_unfinished();
   std::_Exit(128 + signal);
+}
+
+extern "C" void brake_on_signal(int signal) {
+  if (interrupted_by != 0) end_on_signal(signal);
+  interrupted_by = signal;
+  constexpr std::string_view words = "\npasso: brakes on the path; a second time leaves at once\n";
+  static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
 }
 
 void add_board(RunSummary& summary, Job& job, const MachineDescription& machine) {
@@ -96,6 +107,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
+      if (interrupted_by != 0 && !job.drive().stopped()) job.drive().stop();
       if (board != nullptr) panel.look();
       if (changes.any() && !panel.holds()) changes.act(job.drive(), job.machine(), machine);
       if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
@@ -116,8 +128,9 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
 
 // Why a run ended before its program did, and where.
 std::string stopped_words(const Job& job, const RunSummary& summary) {
-  std::string words = job.drive().stopped_by_probe() ? "the probe was touched in a move that is no probe move; "
-                                                     : "the program cannot go on; ";
+  std::string words = interrupted_by != 0              ? "interrupted; "
+                      : job.drive().stopped_by_probe() ? "the probe was touched in a move that is no probe move; "
+                                                       : "the program cannot go on; ";
   words += "the machine rests at";
   for (const AxisSummary& axis : summary.axes) words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.position);
   return words + " (machine coordinates), and nothing was written";
@@ -136,6 +149,46 @@ bool names_are_good(const RunArguments& arguments) {
     return false;
   }
   return true;
+}
+
+// An emulated board ends with the run.
+bool keeps_journal(const RunArguments& arguments) {
+  return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
+}
+
+// Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
+int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, std::unique_ptr<BoardRun>& board,
+                std::unique_ptr<ResumableRun>& resumable) {
+  const RunArguments& arguments = subject.arguments;
+  int code = exit_done;
+  if (keeps_journal(arguments)) resumable = ResumableRun::open(subject, code);
+  if (code != exit_done) return code;
+  const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
+  board = BoardRun::open(arguments.board, motors, arguments.resume, code);
+  if (!board || (resumable && !resumable->begin(*board, program, subject, code))) return code;
+  std::signal(SIGINT, brake_on_signal);
+  std::signal(SIGTERM, brake_on_signal);
+  return exit_done;
+}
+
+int print(const RunSummary& summary, const RunArguments& arguments) {
+  if (arguments.json) {
+    std::fputs(to_json(summary).c_str(), stdout);
+  } else if (!arguments.quiet) {
+    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
+  }
+  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+}
+
+bool suits_the_board(const RunArguments& arguments) {
+  const char* words = nullptr;
+  if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
+    words = "--resume and --journal are for a board that outlives the run: serial: or tcp:";
+  } else if (!arguments.cable_cut.empty() && arguments.board != "virtual") {
+    words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
+  }
+  if (words != nullptr) fail(exit_bad_program, words);
+  return words == nullptr;
 }
 
 }  // namespace
@@ -161,9 +214,7 @@ int run(const RunArguments& arguments) {
   const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
-  if (cut && arguments.board != "virtual") {
-    return fail(exit_bad_program, "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug");
-  }
+  if (!suits_the_board(arguments)) return exit_bad_program;
 
   std::signal(SIGINT, end_on_signal);
   std::signal(SIGTERM, end_on_signal);
@@ -173,16 +224,19 @@ int run(const RunArguments& arguments) {
   if (!outputs) return fail(exit_failed, outputs.error().message);
 
   std::unique_ptr<BoardRun> board;
+  std::unique_ptr<ResumableRun> resumable;
+  Job::Options reaches;
+  if (cut) reaches.line.emplace();
   if (arguments.board != "virtual") {
-    int code = exit_done;
-    board = BoardRun::open(arguments.board, static_cast<std::uint8_t>(machine->axes.size()), code);
-    if (!board) return code;
+    const int code = reach_board({arguments, *machine, *options, check}, *program, board, resumable);
+    if (code != exit_done) return code;
+    reaches.board = &board->port();
+    if (resumable) resumable->add_to(reaches);
   }
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, *options, late,
-          {.line = cut ? std::optional(LineOptions{}) : std::nullopt, .board = board ? &board->port() : nullptr});
-  const bool touchable = put_touch_boxes(*boxes, *machine, job.machine(), board ? &board->port() : nullptr);
+  Job job(std::move(*program), *machine, *options, late, reaches);
+  const bool touchable = put_touch_boxes(*boxes, *machine, job.machine(), reaches.board);
   if (!touchable) return fail(exit_bad_program, "--touch is for the virtual machine and emulated boards");
   if ((cut || board) && !job.link().error()) {
     if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
@@ -193,26 +247,24 @@ int run(const RunArguments& arguments) {
     }
   }
   if (cut) job.line().cut(cut->at, cut->missing);
+  if (int code = exit_done; resumable && !job.link().error() && !resumable->start(job, code)) return code;
   const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes, board.get());
+  if (resumable) resumable->end(job);
   if (const auto error = job.link().error()) return fail(exit_failed, "the board: " + std::string(message_of(*error)));
   if (board) {
     if (const auto words = board->compare(job.machine().counts())) return fail(exit_failed, "the board: " + *words);
     board->tell(*job.drive().refiller());
   }
-  if (late.any_error() || job.drive().stopped_by_probe()) {
+  if (late.any_error() || job.drive().stopped_by_probe() || interrupted_by != 0) {
     show(late);
-    return fail(exit_failed, stopped_words(job, summary));
+    const int failed = fail(exit_failed, stopped_words(job, summary));
+    return interrupted_by != 0 ? 128 + interrupted_by : failed;
   }
   const Status<OutputError> written =
       outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);
   if (!written) return fail(exit_failed, written.error().message);
 
-  if (arguments.json) {
-    std::fputs(to_json(summary).c_str(), stdout);
-  } else if (!arguments.quiet) {
-    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
-  }
-  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+  return print(summary, arguments);
 }
 
 }  // namespace passo

@@ -2,14 +2,14 @@
 # check_program.sh ELF OBJDUMP RAM_START RAM FLASH LAST: is the firmware for the chip what it promises to be? Told by its machine code.
 #
 #   registers   r2 to rLAST are the interrupt's. Elsewhere they are only read for the main loop (`movw X, r2`, `mov X, r2`) or
-#               set while the interrupt is off (`movw r2, X`, `mov r2, X`, `mov r5, X`); a compiler that had taken them would save them first (`push r2`)
+#               set while the interrupt is off (`movw r2, X`, `mov r2, X`, `mov r5, X`); a compiler that had taken them would save them first (`push r2`). LAST may be `none`
 #   library     nothing that divides or computes in floating point
 #   memory      variables, what lies before them, and 184 bytes of stack fit into RAM (168 is the deepest way through the calls; board_test.cpp looks); a quarter of the flash is left
 set -euo pipefail
 elf=$1 objdump=$2 ram_start=$3 ram=$4 flash=$5 last=$6
 
 code=$("$objdump" -d "$elf")
-awk -v last="$last" '
+[[ $last = none ]] || awk -v last="$last" '
   /^[0-9a-f]+ <.*>:$/ { name = $2 }
   $0 ~ "[ \t,]r[2-" last "]([^0-9]|$)" && name !~ /step_interrupt/ {
     line = $0

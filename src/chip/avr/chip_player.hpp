@@ -13,10 +13,21 @@
 #include "registers.hpp"
 #include "serial_line.hpp"
 #include "step_interrupt.hpp"
+#ifdef PASSO_WINDINGS
+#include "winding_pins.hpp"
+#else
+#include "step_pins.hpp"
+#endif
 
 #include "passo/wire/board_segment.hpp"
 
 namespace passo::chip {
+
+#ifdef PASSO_WINDINGS
+using MotorOutputs = WindingPins;
+#else
+using MotorOutputs = StepPins;
+#endif
 
 class ChipPlayer {
  public:
@@ -24,12 +35,10 @@ class ChipPlayer {
 
   // At once, whatever it played is broken off. Motors without pins stand still: the board refuses a host with more.
   static void restart(uint8_t motors) {
-    Timsk1::write(0);
-    running = 0;
-    line_is_watched = 0;
+    halt();
     slow_end_ = 0;
     head_ = fetched_entry();
-    flagged_byte(head_) = pins.flag_special | pins.flag_stop;
+    flagged_byte(head_) = flag_special | flag_stop;
     if (step_port_count > 1 && motors != expansion.motors) {
       for (uint8_t i = ring_mask; i != 0; --i) {
         forget_toggles(i);
@@ -49,17 +58,15 @@ class ChipPlayer {
     // The host before may have driven more motors.
     for (uint16_t& increment : expansion.increments) increment = 0;
     expansion.time = 0x8000;
-    // Where the pins are; a turn that was queued may not have been made.
-    directions_ = 0;
-    for (uint8_t m = 0; m < pins.motors; ++m) {
-      const Pin pin = pins.motor[m].direction;
-      const uint8_t levels = *reinterpret_cast<volatile uint8_t*>(port_registers(pin.port) + 2);
-      if ((levels & pin.mask()) != 0) {
-        directions_ = static_cast<uint8_t>(directions_ | 1U << m);
-      }
-    }
   }
 
+  // No further event is played; motors stand where the pins say.
+  static void halt() {
+    Timsk1::write(0);
+    running = 0;
+    line_is_watched = 0;
+    directions_ = MotorOutputs::directions();
+  }
   // Once, before anything moves.
   static void prepare() {
     prepare_ring();
@@ -82,8 +89,8 @@ class ChipPlayer {
     for (uint8_t m = 0; m < motors(); ++m) expansion.increments[m] = segment.increments[m];
     expansion.interval = segment.interval;
     expansion.change = segment.change;
-    for (uint8_t p = 0; p < step_port_count; ++p) expansion.flips.on[p] = motor_pins.on[p].steps[segment.flips];
-    turns_ = segment.directions ^ directions_;
+    MotorOutputs::load(segment.flips, segment.directions);
+    turns_ = MotorOutputs::to_turn(directions_, segment.directions);
     SerialLine::breathe();
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
@@ -202,12 +209,10 @@ class ChipPlayer {
   static bool slipped() { return slipped_; }
 
  private:
-  static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);
   static constexpr uint8_t items_mask = 3;
   static constexpr uint8_t most_begun = 4;
-  // Made at a time. Many, because of the way in and out; but the line is not looked at meanwhile, unless the interrupt
-  // comes so often that it sees every byte.
-  static constexpr uint8_t most_at_once = 100;
+  // Made at a time, or most_at_once: many, because of the way in and out; but the line is not looked at meanwhile,
+  // unless the interrupt comes so often that it sees every byte.
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint8_t most_pieces = 8;
   // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
@@ -243,12 +248,6 @@ class ChipPlayer {
     captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
     noted_ = true;
   }
-  // An event at which nothing happens.
-  static void clear_toggles(uint8_t index) {
-    for (uint8_t p = 0; p < step_port_count; ++p) {
-      *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + 0x100 * p) = 0;
-    }
-  }
   static bool rests() { return running == 0 && waiting() == 0; }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
 
@@ -271,7 +270,7 @@ class ChipPlayer {
       head_ = static_cast<uint8_t>((head_ + 1) & ring_mask);
       SerialLine::breathe();
     }
-    flagged_byte(head_) = pins.flag_special | pins.flag_stop;
+    flagged_byte(head_) = flag_special | flag_stop;
     slow_end_ = static_cast<uint16_t>(made_ + 1);  // until then the interrupt does not come
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
@@ -284,7 +283,7 @@ class ChipPlayer {
   static uint8_t most_ahead() {
     uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
     uint8_t most = most_events;
-    if (high >= 1) most = 64;
+    if (high >= 1 && most > 64) most = 64;
     for (; high > 1; high >>= 1) most >>= 1;
     return most < 2 ? uint8_t{2} : most;
   }
@@ -324,7 +323,7 @@ class ChipPlayer {
     if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
-    flagged_byte(behind) = pins.flag_special | pins.flag_stop;
+    flagged_byte(behind) = flag_special | flag_stop;
     expansion.address = entry_address(first);
     SerialLine::breathe();
     expand(count);
@@ -332,19 +331,23 @@ class ChipPlayer {
     left_ = static_cast<uint8_t>(left_ - count);
     made_ = static_cast<uint16_t>(made_ + count);
     head_ = behind;
-    const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(pins.flag_special | pins.flag_stop));
+    const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(flag_special | flag_stop));
     // From here on the interrupt may come to it.
-    flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | pins.flag_special) : plain;
+    flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | flag_special) : plain;
     if (turning_) OutputActions::taken();
     turning_ = false;
     return true;
   }
 
+  static uint8_t turn_behind(uint8_t turn) {
+    const uint8_t low = static_cast<uint8_t>(turns_address & 0xff);
+    return static_cast<uint8_t>((turn + MotorOutputs::turn_bytes) & (low + turns_mask));
+  }
   static bool queue_turn() {
-    const uint8_t head = static_cast<uint8_t>((turns_head_ + step_port_count) & (turns_address + turns_mask));
+    const uint8_t head = turn_behind(turns_head_);
     if (head == turns_tail) return false;
     volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | turns_head_);
-    for (uint8_t p = 0; p < step_port_count; ++p) turn[p] = motor_pins.on[p].directions[turns_];
+    MotorOutputs::queue(turn, turns_);
     turn[0] = static_cast<uint8_t>(turn[0] | OutputActions::riding());
     turns_head_ = head;
     turns_ = 0;
@@ -358,7 +361,7 @@ class ChipPlayer {
     fresh_ = false;
     fetch_entry(first);
     const uint8_t toggles = flagged_byte(first);
-    if ((toggles & pins.flag_special) != 0) turn_now(toggles);
+    if ((toggles & flag_special) != 0) turn_now(toggles);
     set_alarm(first);
     Tifr1::write(compare_match_a);
     running = 1;
@@ -367,13 +370,10 @@ class ChipPlayer {
   static void turn_now(uint8_t toggles) {
     const uint8_t tail = turns_tail;
     const volatile uint8_t* const turn = reinterpret_cast<volatile uint8_t*>((turns_address & 0xff00) | tail);
-    for (uint8_t p = 0; p < step_port_count; ++p) {
-      const uint8_t turning = p == 0 ? static_cast<uint8_t>(turn[p] & turning_bits) : turn[p];
-      *reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p])) = turning;
-    }
+    MotorOutputs::make(turn);
     if ((turn[0] & action_bits) != 0) OutputActions::act(turn[0] & action_bits);
-    turns_tail = static_cast<uint8_t>((tail + step_port_count) & (turns_address + turns_mask));
-    asm volatile("mov r5, %0" ::"r"(static_cast<uint8_t>(toggles & ~pins.flag_special)));
+    turns_tail = turn_behind(tail);
+    set_fetched_toggles(static_cast<uint8_t>(toggles & ~flag_special));
   }
 
   // Where the interrupt stopped before an event that now is late: that one and all behind it come later still.

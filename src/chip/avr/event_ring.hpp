@@ -10,7 +10,9 @@
 
 #include <stdint.h>
 
-#ifdef __AVR_ATmega2560__
+#ifdef PASSO_WINDINGS
+#include "winding_ring.hpp"
+#elif defined __AVR_ATmega2560__
 #include "mega_ring.hpp"
 #else
 #include "uno_ring.hpp"
@@ -41,9 +43,9 @@ inline constexpr uint8_t turning_bits = pins.directions_on(pins.step_ports[0]);
 static_assert((turning_bits & action_bits) == 0);
 static_assert((actions_address & 0xff & ~action_bits) == 0 && (safe_action & ~action_bits) == 0);
 static_assert(actions_address >> 8 == turns_address >> 8, "turns and actions are on one page");
-static_assert(first_free_address == actions_address + sizeof(Action) * (action_count + 1));
+static_assert(first_free_address >= actions_address + sizeof(Action) * (action_count + 1));
 
-// The first step port's byte of an entry, with the flags.
+// The byte of an entry with the flags: the first step port's, or one of their own.
 inline volatile uint8_t& flagged_byte(uint8_t index) {
   return *reinterpret_cast<volatile uint8_t*>(toggles_address(index));
 }

@@ -10,6 +10,8 @@
 namespace passo::chip {
 
 inline constexpr const PinMap<6>& pins = mega_ramps;
+inline constexpr uint8_t flag_special = pins.flag_special;
+inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr About about = {
     .firmware = 100, .highest_event_rate = 110'000, .baud = 500'000, .name = "mega ramps 1.4"};
 
@@ -19,7 +21,8 @@ inline constexpr uint16_t times_high_address = 0x200;
 inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
-inline constexpr uint8_t most_events = 220;  // two milliseconds at the highest rate: what is there will be played
+inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate: what is there will be played
+inline constexpr uint8_t most_at_once = 100;  // made
 // In the list of items; from 100 on the host fits motion finely.
 inline constexpr uint8_t queue_capacity = 100;
 
@@ -49,6 +52,13 @@ inline uint16_t toggles_address(uint8_t index) {
   return first_toggles_address + index;
 }
 
+// An event at which nothing happens.
+inline void clear_toggles(uint8_t index) {
+  for (uint16_t port = 0; port != 0x400; port += 0x100) {
+    *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + port) = 0;
+  }
+}
+
 inline void prepare_ring() {}
 // The expander leaves out the ports of motors that the host does not know. A byte of each of those ports.
 inline void forget_toggles(uint8_t index) {
@@ -70,6 +80,10 @@ inline uint8_t fetched_entry() {
 inline void fetch_entry(uint8_t index) {
   const uint8_t toggles = *reinterpret_cast<volatile uint8_t*>(toggles_address(index));
   asm volatile("mov r2, %0\n\tmov r5, %1" ::"r"(index), "r"(toggles));
+}
+// What it turns over there, without flags.
+inline void set_fetched_toggles(uint8_t toggles) {
+  asm volatile("mov r5, %0" ::"r"(toggles));
 }
 
 }  // namespace passo::chip

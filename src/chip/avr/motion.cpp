@@ -53,9 +53,10 @@ void start_watchdog() {
 // All at once, and nothing again until a host says hello.
 [[gnu::noinline]] void stop_at_once() {
   const bool pressed = (Wiring::inputs() & input_emergency_stop) != 0;
-  board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  ChipPlayer::halt();
   OutputActions::make_safe();
   if (pressed) Wiring::enable_motors(false);
+  board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
   halted = 0;
 }
 

@@ -4,6 +4,7 @@
 // program is written so that it never has to, and check_program.sh looks for it in the finished program.
 //   Uno    r3:r2  the next entry of the ring   r4  scratch           r5  what to turn over at the next event
 //   Mega      r2  the next entry of the ring   r3, r4, r6  scratch   r5  the same, on the first step port
+// With windings (winding_events.cpp) both are C++, and there are no such registers.
 #pragma once
 
 #include "event_ring.hpp"
@@ -19,9 +20,18 @@ struct Expansion {
   uint32_t time;      // 16.16 ticks, modulo 2^16: of the event made last
   uint32_t interval;  // to the next one
   int32_t change;
-  PortBits flips;    // as bits of the step ports
+#ifdef PASSO_WINDINGS
+  uint8_t flips;
+  uint8_t directions;
+#else
+  PortBits flips;                    // as bits of the step ports
+#endif
   uint16_t address;  // of the entry to be written next
   uint8_t motors;    // that the host knows of
+#ifdef PASSO_WINDINGS
+  uint8_t places[pins.motors];  // in each motor's WindingTable
+  uint8_t held[pins.motors];    // the place whose windings have current, or windings_off
+#endif
 };
 extern Expansion expansion;
 

@@ -10,6 +10,8 @@
 namespace passo::chip {
 
 inline constexpr const PinMap<3>& pins = uno_cnc_shield;
+inline constexpr uint8_t flag_special = pins.flag_special;
+inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr About about = {
     .firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"};
 
@@ -23,7 +25,8 @@ struct EventEntry {
 
 inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
-inline constexpr uint8_t most_events = 126;  // in the ring: what is there will be played
+inline constexpr uint8_t most_events = 126;   // in the ring: what is there will be played
+inline constexpr uint8_t most_at_once = 100;  // made
 // In the list of items. More would take from the stack (check_program.sh).
 inline constexpr uint8_t queue_capacity = 31;
 
@@ -64,6 +67,11 @@ inline uint16_t toggles_address(uint8_t index) {
   return static_cast<uint16_t>(entry_address(index) + 2);
 }
 
+// An event at which nothing happens.
+inline void clear_toggles(uint8_t index) {
+  entry(index).toggles = 0;
+}
+
 inline void prepare_ring() {
   for (uint8_t i = 0; i < ring_entries; ++i) {
     entry(i).next_page = static_cast<uint8_t>(entry_address((i + 1) & (ring_entries - 1)) >> 8);
@@ -86,6 +94,10 @@ inline uint8_t fetched_entry() {
 inline void fetch_entry(uint8_t index) {
   const uint16_t next = entry_address((index + 1) & (ring_entries - 1));
   asm volatile("movw r2, %0\n\tmov r5, %1" ::"r"(next), "r"(entry(index).toggles));
+}
+// What it turns over there, without flags.
+inline void set_fetched_toggles(uint8_t toggles) {
+  asm volatile("mov r5, %0" ::"r"(toggles));
 }
 
 }  // namespace passo::chip

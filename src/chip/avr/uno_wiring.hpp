@@ -7,7 +7,7 @@
 namespace passo::chip {
 
 // The ports of an action, its duty and its control register.
-inline constexpr char output_ports[] = {'B', 'C'};
+inline constexpr char output_ports[] = {pins.switched_on('B') != 0 ? 'B' : 'C', 'C'};
 using SpindleDuty = Ocr2a;
 using SpindleControl = Tccr2a;
 inline constexpr uint8_t spindle_connected = 1 << 7 | 1 << 1 | 1 << 0;
@@ -35,6 +35,7 @@ inline void notice_probe(bool closing) {
   const uint8_t quiet = quiet_c;
   quiet_c = closing ? quiet | pins.probe.mask() : quiet & static_cast<uint8_t>(~pins.probe.mask());
 }
-static_assert(pins.spindle_pwm == Pin{'B', 3} && pins.probe.port == 'C');
+static_assert(!pins.spindle_pwm.exists() || pins.spindle_pwm == Pin{'B', 3});
+static_assert(pins.probe.port == 'C' && pins.stops_on('D') == 0);
 
 }  // namespace passo::chip

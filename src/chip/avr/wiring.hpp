@@ -10,6 +10,10 @@
 #include "uno_wiring.hpp"
 #endif
 
+#ifdef PASSO_WINDINGS
+#include "winding_pins.hpp"
+#endif
+
 #include "passo/wire/message.hpp"
 
 namespace passo::chip {
@@ -37,20 +41,24 @@ class Wiring {
   }
 
   static void enable_motors(bool on) {
+#ifdef PASSO_WINDINGS
+    if (!on) WindingPins::release();
+#endif
 #pragma clang loop unroll(full)
     for (const MotorPins& motor : pins.motor) set(motor.enable, !on);
   }
 
   // To switch the outputs to this, all else on their ports as it is.
   static Action action_of(const BoardOutputs& outputs) {
-    const uint8_t duty = (outputs.switches & spindle_on) != 0 ? duty_of(outputs.spindle_rpm) : uint8_t{0};
+    const bool turns = pins.spindle_pwm.exists() && (outputs.switches & spindle_on) != 0;
+    const uint8_t duty = turns ? duty_of(outputs.spindle_rpm) : uint8_t{0};
     return {.first_port = port_with(output_ports[0], outputs.switches),
             .second_port = port_with(output_ports[1], outputs.switches),
             .duty = duty,
             .control = duty != 0 ? spindle_connected : spindle_disconnected};
   }
   // Only while the interrupt does not play: it does the same.
-  static void act(const volatile Action& action) {
+  [[gnu::always_inline]] static void act(const volatile Action& action) {
     port_register(output_ports[0], 2) = action.first_port;
     port_register(output_ports[1], 2) = action.second_port;
     SpindleDuty::write(action.duty);
@@ -106,7 +114,10 @@ class Wiring {
     constexpr struct {
       Pin pin;
       uint8_t which;
-    } outputs[] = {{pins.spindle_direction, spindle_reverse}, {pins.mist, mist_on}, {pins.flood, flood_on}};
+    } outputs[] = {{pins.spindle_direction, spindle_reverse},
+                   {pins.spindle_relay, spindle_on},
+                   {pins.mist, mist_on},
+                   {pins.flood, flood_on}};
     uint8_t value = port_register(port, 2);
 #pragma clang loop unroll(full)
     for (const auto& output : outputs) {

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "passo/chip/mega_ramps.hpp"
+#include "passo/chip/mega_windings.hpp"
 #include "passo/chip/uno_cnc_shield.hpp"
+#include "passo/chip/uno_windings.hpp"
 
 namespace passo {
 namespace {
@@ -28,6 +30,41 @@ TEST(PinMap, finds_what_the_interrupt_cannot_do) {
   EXPECT_FALSE(map.fits_the_interrupt()) << "a flag on a step pin";
   map.flag_special = map.flag_stop;
   EXPECT_FALSE(map.fits_the_interrupt()) << "two flags in one bit";
+}
+
+TEST(PinMap, finds_windings_that_are_not_all_there_or_have_another_job) {
+  PinMap<3> map = uno_windings;
+  EXPECT_TRUE(map.drives_windings());
+  EXPECT_TRUE(map.without_conflict());
+  EXPECT_TRUE(map.fits_the_interrupt());
+  map.motor[2].windings[3] = map.motor[0].windings[1];
+  EXPECT_FALSE(map.without_conflict()) << "a winding twice";
+  map = uno_windings;
+  map.probe = map.motor[1].windings[0];
+  EXPECT_FALSE(map.without_conflict()) << "a winding and an input";
+  map = uno_windings;
+  map.motor[1].windings[2] = {};
+  EXPECT_FALSE(map.fits_the_interrupt()) << "three windings";
+  map = uno_windings;
+  map.motor[1].windings[2] = {'C', 4};
+  EXPECT_FALSE(map.fits_the_interrupt()) << "a port that it does not write";
+  map = uno_windings;
+  map.motor[0].step = {'C', 4};
+  EXPECT_FALSE(map.fits_the_interrupt()) << "windings and step pins";
+  map = uno_windings;
+  map.step_ports[2] = 'C';
+  EXPECT_FALSE(map.fits_the_interrupt()) << "an output on a port of windings";
+}
+
+TEST(PinMap, has_the_bits_of_a_pattern_of_windings) {
+  const MotorPins& z = uno_windings.motor[2];  // D2, D3, D12, D13
+  EXPECT_EQ(z.winding_bits('D', 0b0110), 1 << 3);
+  EXPECT_EQ(z.winding_bits('B', 0b0110), 1 << 4);
+  EXPECT_EQ(uno_windings.windings_on('D'), 0xfc);
+  EXPECT_EQ(mega_windings.windings_on('K'), 0x0f);
+  const PinMap<3> mixed = driven(uno_windings, {Drive::wave, Drive::two_on, Drive::half_step});
+  EXPECT_EQ(mixed.motor[2].drive, Drive::half_step);
+  EXPECT_TRUE(mixed.without_conflict());
 }
 
 TEST(PinMap, has_the_pins_of_each_set_of_motors) {

@@ -70,6 +70,19 @@ TEST_F(RewindablePathTest, says_where_the_path_is_behind_a_motion_also_after_it_
   EXPECT_EQ(next_curve().start()[Axis::x], 7) << "and again";
 }
 
+TEST_F(RewindablePathTest, begins_at_a_place_and_counts_from_the_beginning_all_the_same) {
+  path_.begin_at({.item = 1, .s = Mm(5)});
+  EXPECT_EQ(path_.place(), (PathPlace{.item = 1, .s = Mm(5)}));
+  const Curve rest = next_curve();
+  EXPECT_EQ(rest.start()[Axis::x], 15);
+  EXPECT_EQ(path_.place(), (PathPlace{.item = 2}));
+  const PathPlace further = path_.behind({.item = 1, .s = Mm(5)}, motion(rest, 3));
+  EXPECT_EQ(further, (PathPlace{.item = 1, .s = Mm(8)}));
+  EXPECT_EQ(test::drain(path_).size(), 2U);
+  path_.rewind(further);
+  EXPECT_EQ(next_curve().start()[Axis::x], 18);
+}
+
 TEST_F(RewindablePathTest, an_action_is_passed_but_for_a_hold_which_is_no_part_of_it) {
   EXPECT_EQ(path_.behind({.item = 2}, Action{.kind = Action::Kind::dwell}), (PathPlace{.item = 3}));
   const PathPlace amid{.item = 2, .s = Mm(1)};

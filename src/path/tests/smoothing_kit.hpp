@@ -54,6 +54,12 @@ class ByLength {
     return segments_[i].curve.at(Mm(s - (i > 0 ? ends_[i - 1] : 0)));
   }
   double end_of(std::size_t i) const { return ends_[i]; }
+  // Where a line of the program and those beside it lie.
+  std::pair<double, double> around_line(std::uint32_t line) const {
+    const auto found = std::ranges::lower_bound(segments_, line, {}, [](const Segment& s) { return s.source.line; });
+    const auto i = std::min(static_cast<std::size_t>(found - segments_.begin()), segments_.size() - 1);
+    return {i > 1 ? ends_[i - 2] : 0, ends_[std::min(i + 1, ends_.size() - 1)]};
+  }
   std::size_t size() const { return segments_.size(); }
   const Segment& operator[](std::size_t i) const { return segments_[i]; }
 
@@ -147,10 +153,10 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least of a measure of places of the path that may be meant: close to where it was last (where rotary axes turn
-  // hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
+  // The least of a measure of places of the path that may be meant: close to where it was last, `likely` ones (where
+  // rotary axes turn hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
   template <class Measure>
-  double search(const Measure& measure, double end) {
+  double search(const Measure& measure, double end, const std::pair<double, double>& likely) {
     constexpr double close = 1e-3;
     constexpr double beyond = 0.5;
     const double before = shift;
@@ -162,6 +168,8 @@ struct LengthAlong {
     double best = measure(std::clamp(estimate(), 0.0, end));
     best = search_between(measure, end, shift - close, shift + close, best);
     best = search_between(measure, end, before - beyond, before + beyond, best);
+    const double here = rest + since_rest;
+    best = search_between(measure, end, likely.first - here, likely.second - here, best);
     return search_between(measure, end, -beyond, 0.0102 * since_rest + beyond, best);
   }
 
@@ -239,7 +247,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       const Point place = curve.at(Mm(along));
       const auto excess_at = [&](double to) { return apart(path.at(to), place) - tolerances[path.index_at(to)]; };
       double excess = excess_at(std::min(s.estimate(), path.length()));
-      if (excess > 0) excess = s.search(excess_at, path.length());
+      if (excess > 0) excess = s.search(excess_at, path.length(), path.around_line(segment->source.line));
       s.since_rest += i < samples ? length / samples : 0;
       if (excess <= faults.excess) continue;
       faults.excess = excess;

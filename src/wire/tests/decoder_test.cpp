@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "kit/frames_in.hpp"
 #include "random_messages.hpp"
 
 namespace passo {
@@ -154,6 +155,7 @@ TEST_F(RandomFrames, are_accepted_after_any_garbage) {
     Bytes garbage(random_.below(80));
     for (std::uint8_t& byte : garbage) byte = random_.byte();
     const Bytes next = random_.frame(motors);
+    ASSERT_EQ(test::frames_in(garbage, motors), 0);
     ASSERT_TRUE(feed(decoder, garbage).frames.empty());
     ASSERT_TRUE(ends_with(feed(decoder, next), next, message_in(next)));
   }
@@ -174,6 +176,26 @@ TEST(Decoder, takes_the_sync_byte_in_a_crc_for_what_it_is) {
     }
     EXPECT_TRUE(found);
   }
+}
+
+// After each frame that ends in a sync byte, and every value of a credit has its turn. A frame that has lost its first
+// byte is whole again behind it: the price of "a frame that arrives whole is accepted".
+TEST(Decoder, takes_a_sync_byte_at_a_frames_end_for_the_start_of_the_next_too) {
+  int found = 0;
+  for (unsigned value = 0; value < 0x10000; ++value) {
+    Bytes bytes(largest_frame);
+    bytes.resize(encode(Credit{.executed = static_cast<std::uint16_t>(value)}, 0, bytes.data()));
+    Bytes next(largest_frame);
+    next.resize(encode(Hello{.motors = 3}, 7, next.data()));
+    const bool ends_in_sync = bytes.back() == sync_byte;
+    bytes.insert(bytes.end(), next.begin() + 1, next.end());
+    Decoder decoder;
+    const Heard heard = feed(decoder, bytes);
+    ASSERT_EQ(heard.frames.size(), ends_in_sync ? 2U : 1U) << value;
+    ASSERT_EQ(test::frames_in(bytes, 0), ends_in_sync ? 2 : 1) << value;
+    found += ends_in_sync ? 1 : 0;
+  }
+  EXPECT_GT(found, 100);
 }
 
 TEST(Decoder, refuses_segments_until_the_number_of_motors_is_known) {

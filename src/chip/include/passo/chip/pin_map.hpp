@@ -3,19 +3,36 @@
 // A port's toggle register (PINx) is the one that the step timer's interrupt writes: a one there turns the pin over and
 // leaves its neighbours alone, so a step is two writes of the same byte. Hence what the checks ask for: step and
 // direction pins lie on the step ports, and each step port's flag bits, by which the interrupt finds what is not a
-// plain event, belong to no motor. Portable.
+// plain event, belong to no motor.
+//
+// Or the board switches the motors' windings itself: then each motor has four pins for them, anywhere on the step
+// ports, each step turns over those that change, and the flags have a byte of their own. Portable.
 #pragma once
 
 #include <stdint.h>
 
 #include "passo/chip/pin.hpp"
+#include "passo/firmware/winding_table.hpp"
 
 namespace passo {
 
+inline constexpr uint8_t winding_count = 4;
+
 struct MotorPins {
-  Pin step;
-  Pin direction;
-  Pin enable;  // low: the driver is on. Several motors may share one
+  Pin step = {};
+  Pin direction = {};
+  Pin enable = {};                   // low: the driver is on. Several motors may share one
+  Pin windings[winding_count] = {};  // in the place of the three: F1 to F4 of WindingTable
+  Drive drive = Drive::two_on;       // how they are switched
+
+  // Its windings on `port` that have current in a pattern.
+  constexpr uint8_t winding_bits(char port, uint8_t pattern = 0x0f) const {
+    uint8_t bits = 0;
+    for (uint8_t f = 0; f < winding_count; ++f) {
+      if ((pattern >> f & 1) != 0 && windings[f].port == port) bits = static_cast<uint8_t>(bits | windings[f].mask());
+    }
+    return bits;
+  }
 };
 
 inline constexpr uint8_t most_step_ports = 4;
@@ -25,7 +42,7 @@ template <uint8_t motor_count>
 struct PinMap {
   static constexpr uint8_t motors = motor_count;
   MotorPins motor[motor_count] = {};
-  // The ports with step or direction pins, the first one with the flags of the interrupt.
+  // The ports with step or direction pins, the first one with the flags of the interrupt; or those with windings.
   char step_ports[most_step_ports] = {};
   uint8_t shortest_pulse = 16;  // cycles: 1 microsecond for an A4988, 31 for a DRV8825
   uint8_t flag_special = 0;     // masks in the first step port
@@ -40,8 +57,11 @@ struct PinMap {
 
   Pin spindle_pwm = {};
   Pin spindle_direction = {};
+  Pin spindle_relay = {};  // for a tool that is on or off
   Pin mist = {};
   Pin flood = {};
+
+  constexpr bool drives_windings() const { return motor[0].windings[0].exists(); }
 
   // The motors' pins of one kind on one of the step ports, for the motors in `which`.
   constexpr uint8_t steps_on(char port, uint8_t which = 0xff) const {
@@ -82,25 +102,36 @@ struct PinMap {
     for (const Pin one : others) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
     return mask;
   }
-  constexpr uint8_t outputs_on(char port) const {
-    const Pin others[] = {spindle_pwm, spindle_direction, mist, flood};
-    uint8_t mask = static_cast<uint8_t>(steps_on(port) | directions_on(port) | enables_on(port));
-    for (const Pin one : others) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+  // These are switched in step with the motion.
+  constexpr uint8_t switched_on(char port) const {
+    const Pin all[] = {spindle_pwm, spindle_direction, spindle_relay, mist, flood};
+    uint8_t mask = 0;
+    for (const Pin one : all) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
     return mask;
+  }
+  constexpr uint8_t windings_on(char port) const {
+    uint8_t mask = 0;
+    for (const MotorPins& one : motor) mask = static_cast<uint8_t>(mask | one.winding_bits(port));
+    return mask;
+  }
+  constexpr uint8_t outputs_on(char port) const {
+    return static_cast<uint8_t>(steps_on(port) | directions_on(port) | enables_on(port) | windings_on(port) |
+                                switched_on(port));
   }
 
   // No pin has two jobs; but for the enable pins, which motors may share with each other only.
   constexpr bool without_conflict() const {
-    constexpr uint8_t most = 2 * motor_count + most_axis_switches + 9;
+    constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10;
     Pin pins[most] = {};
     uint8_t count = 0;
     for (const MotorPins& one : motor) {
       pins[count++] = one.step;
       pins[count++] = one.direction;
+      for (const Pin winding : one.windings) pins[count++] = winding;
     }
     for (const Pin one : limits) pins[count++] = one;
-    const Pin others[] = {probe,       emergency_stop,    door, feed_hold, cycle_start,
-                          spindle_pwm, spindle_direction, mist, flood};
+    const Pin others[] = {probe,       emergency_stop,    door,          feed_hold, cycle_start,
+                          spindle_pwm, spindle_direction, spindle_relay, mist,      flood};
     for (const Pin one : others) pins[count++] = one;
     for (uint8_t a = 0; a < most; ++a) {
       if (!pins[a].exists()) continue;
@@ -126,6 +157,24 @@ struct PinMap {
     return false;
   }
   constexpr bool fits_the_interrupt() const {
+    // It writes their ports as a whole.
+    for (const char port : step_ports) {
+      if (port != 0 && switched_on(port) != 0) return false;
+    }
+    return drives_windings() ? has_all_windings() : has_all_steps();
+  }
+
+ private:
+  constexpr bool has_all_windings() const {
+    for (const MotorPins& pins : motor) {
+      if (pins.step.exists() || pins.direction.exists() || pins.enable.exists()) return false;
+      for (const Pin winding : pins.windings) {
+        if (!has_step_port(winding.port)) return false;
+      }
+    }
+    return true;
+  }
+  constexpr bool has_all_steps() const {
     for (const MotorPins& pins : motor) {
       if (!has_step_port(pins.step.port) || !has_step_port(pins.direction.port)) return false;
     }
@@ -134,6 +183,13 @@ struct PinMap {
     return flag_special != 0 && flag_stop != 0 && (flag_special & flag_stop) == 0 && (flags & taken) == 0;
   }
 };
+
+// The same board with its motors driven otherwise, each in its own way.
+template <uint8_t motor_count>
+constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const Drive (&drives)[motor_count]) {
+  for (uint8_t m = 0; m < motor_count; ++m) pins.motor[m].drive = drives[m];
+  return pins;
+}
 
 // The pins of each set of motors on one port, so that nobody has to put them together while the machine runs.
 template <uint8_t motor_count>

@@ -11,6 +11,7 @@
 #include "passo/base/source.hpp"
 #include "passo/controller/good_path.hpp"
 #include "passo/controller/motion_drive.hpp"
+#include "passo/controller/resume_point.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -28,8 +29,9 @@ struct ProgramCheck {
   bool good = false;        // no error: it may run
   Seconds nominal_time{0};  // at the programmed speeds, without ramps: good for progress only
   std::uint64_t moves = 0;
-  bool tools_change = false;  // the program sets some in the tool table
-  bool probes = false;        // and what comes behind was checked as if probe moves were touched at their ends
+  bool tools_change = false;      // the program sets some in the tool table
+  bool probes = false;            // and what comes behind was checked as if probe moves were touched at their ends
+  std::uint64_t fingerprint = 0;  // of all that it means
 };
 
 // Interprets the whole program and builds its path; what is wrong is in `diagnostics`.
@@ -52,6 +54,11 @@ class Job {
     // A real one, in the place of the virtual machine, which then only does what the board tells to have done: for
     // counts, traces and pictures. What the board holds always ends at rest. Outlives the job.
     BoardPort* board = nullptr;
+    // By which that board knows it again, and from where its items are counted: LineCare's.
+    std::uint16_t session = 1;
+    std::uint8_t greeting = 0;
+    // The job was begun by another host, and the board rests there. resume() before the first advance().
+    std::optional<ResumePoint> resume_at = {};
   };
 
   // `diagnostics` gets what the second pass still finds: nothing after a good check, if nothing was probed. An error
@@ -65,6 +72,8 @@ class Job {
   // Plays a little more of the job (one board segment). False at the end, with everything at rest, and when the link
   // has an error.
   [[nodiscard]] bool advance();
+  // Switches on what is on there.
+  void resume();
   // What keeps the job from being run on the board that it found, as a sentence without a full stop.
   std::optional<std::string> unsuited() const;
 
@@ -107,6 +116,7 @@ class Job {
   std::optional<VirtualLine> line_;
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
   Hertz clock_;
+  std::optional<ResumePoint> resume_at_;
   std::optional<BoardLink> shadow_;  // to the machine, where it is not the board
 
   Seconds nominal_time_{0};

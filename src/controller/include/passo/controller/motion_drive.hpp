@@ -63,6 +63,10 @@ class MotionDrive {
   // Before the first advance(): what the board holds ends at rest always, and the drive goes on from there when the
   // line was broken. False, and without effect, where the planner cannot tell how it would brake.
   bool use_tails(const TailOptions& options);
+  // Before use_tails(): the path is taken up there, where the machine rests, and what is in front was done before.
+  void begin_at(const PathPlace& place);
+  // With tails, before the first advance(): as outputs are there; the spindle first, and then it waits.
+  void switch_on(const OutputState& outputs, Seconds spindle_wait);
   // Of tails; none is used without use_tails().
   const Refiller* refiller() const { return refiller_ ? &*refiller_ : nullptr; }
   Refiller* refiller() { return refiller_ ? &*refiller_ : nullptr; }
@@ -91,6 +95,7 @@ class MotionDrive {
   void set_spindle_override(double factor);
   // A hold that ends the drive: the rest of the path is dropped, the outputs are switched off.
   void stop();
+  bool stopped() const { return stopping_; }
   // Lets time pass while it is held.
   void wait(Seconds time);
   // The same, until something is switched on that the board tells of.

@@ -40,6 +40,13 @@ struct TailOptions {
   Exactness tail{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
 };
 
+// What a board has done when it rests, and where on the path that is.
+struct BoardRest {
+  ItemNumber executed = 0;
+  PathPlace place;
+  friend bool operator==(const BoardRest&, const BoardRest&) = default;
+};
+
 class Refiller {
  public:
   // What is above and below it. All outlive it.
@@ -60,6 +67,8 @@ class Refiller {
   };
   // Sends a refill, or waits for the board.
   Turn advance();
+  // At rest, with nothing under way: outputs that are no part of the path, by themselves. Waits until they are.
+  void switch_outputs(const BoardOutputs& outputs);
   // That it rests at; the path goes on behind it.
   Action take_action();
 
@@ -82,6 +91,8 @@ class Refiller {
   void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
   // Who wants to see each item that the board has told to have executed, tails that were played included.
   void watch_executed(std::function<void(const LinkItem&)> watcher) { executed_watcher_ = std::move(watcher); }
+  // Who wants to be told, before a refill is sent, where the board may come to rest from then on.
+  void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
   // The motion that was pulled and is, as far as we know, not executed. The tail does not count.
   Seconds ahead() const { return ahead_ + pulled_time_; }
   // How often a tail was played to its end, and the path taken up again there.
@@ -146,6 +157,7 @@ class Refiller {
   ItemNumber behind_ = 0;                 // the next refill goes behind this item
   std::size_t places_;                    // that the board has for items, as far as we use them
   std::function<void(const LinkItem&)> executed_watcher_;
+  std::function<void(const BoardRest&)> rest_watcher_;
   std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
   PathPlace given_;       // by the planner

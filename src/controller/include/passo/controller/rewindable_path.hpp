@@ -28,6 +28,10 @@ class RewindablePath final : public Source<PathItem> {
 
   // Before the first next().
   void keep() { keeps_ = true; }
+  // Also before it, of a path that is kept: all in front of that place was done in another session, and is left out.
+  void begin_at(const PathPlace& place);
+  // Of what next() gives.
+  PathPlace place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
   [[nodiscard]] bool next(PathItem& item) override;
 
   // Where the path is behind a motion that begins at `place`. Holds for what was planned since the last rewind().
@@ -44,7 +48,10 @@ class RewindablePath final : public Source<PathItem> {
 
  private:
   Source<PathItem>& path_;
+  bool pull(PathItem& item);
+
   bool keeps_ = false;
+  std::uint64_t left_out_ = 0;  // items to leave out before the first one
   std::deque<PathItem> kept_;
   std::uint64_t first_ = 0;  // number of the first one kept
   std::uint64_t next_ = 0;   // and of the next one to hand out

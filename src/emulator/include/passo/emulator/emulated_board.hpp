@@ -5,6 +5,7 @@
 // looks at the pins themselves, as a driver does, and counts the steps that come out of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,10 +21,11 @@ namespace passo {
 
 class EmulatedBoard : public BoardPort {
  public:
-  // `kind`: "uno" or "mega"; `program`: the firmware's ELF file. The error is a sentence with the reason.
+  // `kind`: one of emulated_boards; `program`: the firmware's ELF file. The error is a sentence with the reason.
   static Result<std::unique_ptr<EmulatedBoard>, std::string> start(std::string_view kind, const std::string& program);
 
-  // Of each motor, in steps from the start: a step is a rising edge, backwards while the direction pin is high.
+  // Of each motor, in steps from the start: a step is a rising edge, backwards while the direction pin is high; or the
+  // next pattern of its windings.
   virtual std::vector<std::int64_t> positions() const = 0;
   // Called with each of these steps, in the order of its pins, and the cycle of its edge.
   std::function<void(std::uint64_t cycle, std::size_t motor, bool down)> on_step;
@@ -34,10 +36,14 @@ class EmulatedBoard : public BoardPort {
   virtual bool set_switch(BoardInput which, bool closed) = 0;
 };
 
-// Those that there are, one after the other: for messages.
-inline constexpr std::string_view emulated_boards = "uno and mega";
+// Those that there are: with drivers for step and direction, and with the windings on the board's own pins.
+inline constexpr std::array<std::string_view, 8> emulated_boards = {
+    "uno", "uno_two_on", "uno_wave", "uno_half_step", "mega", "mega_two_on", "mega_wave", "mega_half_step"};
 constexpr bool is_emulated_board(std::string_view kind) {
-  return kind == "uno" || kind == "mega";
+  for (const std::string_view one : emulated_boards) {
+    if (one == kind) return true;
+  }
+  return false;
 }
 
 }  // namespace passo

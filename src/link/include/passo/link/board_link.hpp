@@ -31,6 +31,7 @@ struct LineCare {
   Seconds answer_within{std::numeric_limits<double>::infinity()};  // after so long without an answer, ask
   Seconds patience{3600};                                          // and after so long, give up
   std::uint16_t session = 0;                                       // by which the board is known again; not 0
+  std::uint8_t greeting = 0;                                       // of the hello: where numbers begin
 };
 
 class BoardLink final : public Link {
@@ -41,11 +42,14 @@ class BoardLink final : public Link {
   void send(const BoardSegment& segment) override;
   void send(const BoardOutputs& outputs) override;
   ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) override;
+  ItemNumber sent() const override { return sent_; }
   ItemNumber executed() const override { return executed_; }
   int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
   void drain() override;
   bool busy() const override { return sent_ != executed_; }
   void wait() override;
+  // Lets time pass on the board's side, and hears what it says meanwhile.
+  void let_pass(Seconds time);
   void watch_probe(ProbeUntil until) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
   void recall_contact() override;
@@ -114,11 +118,11 @@ class BoardLink final : public Link {
   std::optional<HelloReply> board_;
   std::optional<BoardStatus> status_;
   std::optional<LinkError> error_;
-  ItemNumber sent_ = 0;          // number of the last frame sent
-  ItemNumber taken_ = 0;         // of the last one that the board told to have
-  ItemNumber executed_ = 0;      // of the last item that it told to be done
-  ItemNumber asked_behind_ = 0;  // the last one sent when the board was last asked
-  int free_ = 0;                 // room that it had when it told so
+  ItemNumber sent_;          // number of the last frame sent
+  ItemNumber taken_;         // of the last one that the board told to have
+  ItemNumber executed_;      // of the last item that it told to be done
+  ItemNumber asked_behind_;  // the last one sent when the board was last asked
+  int free_ = 0;             // room that it had when it told so
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
   bool began_as_wanted_ = false;  // the probe was as it is to become

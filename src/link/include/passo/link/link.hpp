@@ -49,6 +49,8 @@ class Link {
   // Puts `items`, no more than there is room for, in the place of all that the board holds behind item `after`: all of
   // them or, if that is too late or the line breaks, none. Returns the number of the first; the others follow.
   virtual ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) = 0;
+  // The number of the last one that was sent.
+  virtual ItemNumber sent() const = 0;
   // The last item that is done, as far as we know.
   virtual ItemNumber executed() const = 0;
   // How many items the board can take now, for certain.

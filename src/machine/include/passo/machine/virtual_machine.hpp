@@ -55,6 +55,8 @@ class VirtualMachine final : public BoardPort {
 
   // At the start. Without it the spindle does as commanded, and has no encoder.
   void fit_spindle(const SpindleModel& model) { hardware_.spindle = VirtualSpindle(model); }
+  // At the start: its counters go on from these positions. The board's own begin at 0, as after a reset.
+  void stand_at(const std::array<std::int64_t, max_motors>& positions);
   // Its encoder, as it stands now.
   const VirtualSpindle& spindle() const { return hardware_.spindle; }
 

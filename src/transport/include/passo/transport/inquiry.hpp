@@ -22,6 +22,9 @@ class Inquiry {
   // loader for a second or two.
   std::optional<About> about(Seconds within);
   std::optional<BoardStatus> status(Seconds within);
+  // Asks until it rests, however long that takes as long as it answers: two answers alike, for a chip that has made its
+  // last event may not have counted the item yet.
+  std::optional<BoardStatus> status_at_rest(Seconds within);
   // What came instead of an answer, for as far as it can be read: another firmware's greeting.
   const std::string& heard() const { return heard_; }
 

@@ -1,0 +1,47 @@
+// StepPins: what of the player's work is for motors with step and direction pins. A step is a byte written to PINx
+// twice; directions are turned over by the interrupt, out of the queue of turns.
+//
+// WindingPins (winding_pins.hpp) is the same for motors whose windings the board switches itself.
+#pragma once
+
+#include "event_ring.hpp"
+#include "registers.hpp"
+#include "step_interrupt.hpp"
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo::chip {
+
+class StepPins {
+ public:
+  static constexpr uint8_t turn_bytes = step_port_count;
+
+  // How the pins are now: a turn that was queued may not have been made.
+  static uint8_t directions() {
+    uint8_t down = 0;
+    for (uint8_t m = 0; m < pins.motors; ++m) {
+      const Pin pin = pins.motor[m].direction;
+      const uint8_t levels = *reinterpret_cast<volatile uint8_t*>(port_registers(pin.port) + 2);
+      if ((levels & pin.mask()) != 0) down = static_cast<uint8_t>(down | 1U << m);
+    }
+    return down;
+  }
+  static uint8_t to_turn(uint8_t before, uint8_t now) { return before ^ now; }
+  static void load(uint8_t flips, uint8_t /*directions*/) {
+    for (uint8_t p = 0; p < step_port_count; ++p) expansion.flips.on[p] = motor_pins.on[p].steps[flips];
+  }
+  static void queue(volatile uint8_t* turn, uint8_t motors) {
+    for (uint8_t p = 0; p < step_port_count; ++p) turn[p] = motor_pins.on[p].directions[motors];
+  }
+  static void make(const volatile uint8_t* turn) {
+    for (uint8_t p = 0; p < step_port_count; ++p) {
+      const uint8_t turning = p == 0 ? static_cast<uint8_t>(turn[p] & turning_bits) : turn[p];
+      *reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p])) = turning;
+    }
+  }
+
+ private:
+  static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);
+};
+
+}  // namespace passo::chip

@@ -1,0 +1,99 @@
+// WindingPins: what StepPins is, for motors whose windings the board switches itself. There are no directions to turn
+// over: the expander makes of each step the bits of windings that change.
+//
+// Invariant: where the ring is empty, expansion.held says what current each motor has. A motor has none before its
+// first step, and its place in the table goes on from where it was.
+#pragma once
+
+#include "event_ring.hpp"
+#include "serial_line.hpp"
+#include "step_interrupt.hpp"
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo::chip {
+
+// A motor's table, in the bits of one port.
+struct WindingBits {
+  uint8_t at[windings_off + 1] = {};
+
+  constexpr WindingBits(const MotorPins& motor, char port) {
+    const WindingTable table = winding_table(motor.drive);
+    for (uint8_t place = 0; place < windings_off; ++place) at[place] = motor.winding_bits(port, table.at(place));
+  }
+};
+
+template <uint8_t motor, uint8_t p>
+inline constinit WindingBits winding_bits{pins.motor[motor], pins.step_ports[p]};
+
+class WindingPins {
+ public:
+  static constexpr uint8_t turn_bytes = 1;
+
+  // What was in the ring and not played has moved nothing: so places are those that the pins show.
+  static uint8_t directions() {
+    find_places<0>();
+    return 0;
+  }
+  static uint8_t to_turn(uint8_t /*before*/, uint8_t /*now*/) { return 0; }
+  static void load(uint8_t flips, uint8_t directions) {
+    expansion.flips = flips;
+    expansion.directions = directions;
+  }
+  static void queue(volatile uint8_t* turn, uint8_t /*motors*/) { *turn = 0; }
+  static void make(const volatile uint8_t* /*turn*/) {}
+
+  // All off; each motor stays at its place. Only while the interrupt does not play.
+  static void release() {
+    clear_windings<0>();
+    for (uint8_t& held : expansion.held) held = windings_off;
+  }
+
+ private:
+  template <uint8_t p>
+  [[gnu::always_inline]] static void clear_windings() {
+    if constexpr (p < step_port_count) {
+      constexpr uint8_t windings = pins.windings_on(pins.step_ports[p]);
+      volatile uint8_t* const registers = reinterpret_cast<volatile uint8_t*>(port_registers(pins.step_ports[p]));
+      registers[0] = static_cast<uint8_t>(registers[2] & windings);
+      clear_windings<p + 1>();
+    }
+  }
+  template <uint8_t motor>
+  static void find_places() {
+    if constexpr (motor < pins.motors) {
+      find_place<motor>();
+      find_places<motor + 1>();
+    }
+  }
+  // Its last place is the likeliest.
+  template <uint8_t motor>
+  [[gnu::noinline]] static void find_place() {
+    constexpr uint8_t mask = winding_table(pins.motor[motor].drive).mask;
+    uint8_t place = expansion.places[motor];
+    for (uint8_t left = mask + 1; left != 0; --left) {
+      SerialLine::breathe();
+      if (shows<motor>(place)) {
+        expansion.held[motor] = expansion.places[motor] = place;
+        return;
+      }
+      place = static_cast<uint8_t>((place + 1) & mask);
+    }
+    expansion.held[motor] = windings_off;
+  }
+  template <uint8_t motor, uint8_t p = 0>
+  static bool shows(uint8_t place) {
+    if constexpr (p < step_port_count) {
+      constexpr char port = pins.step_ports[p];
+      constexpr uint8_t all = pins.motor[motor].winding_bits(port);
+      if constexpr (all != 0) {
+        const uint8_t latches = *reinterpret_cast<volatile uint8_t*>(port_registers(port) + 2);
+        if ((latches & all) != winding_bits<motor, p>.at[place]) return false;
+      }
+      return shows<motor, p + 1>(place);
+    }
+    return true;
+  }
+};
+
+}  // namespace passo::chip

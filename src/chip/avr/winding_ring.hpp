@@ -1,0 +1,92 @@
+// The event ring of boards that switch windings themselves, for both chips. Nothing here has to be as fast as with step
+// pins: one layout, any number of step ports, no registers of the interrupt's own.
+#pragma once
+
+#include <stdint.h>
+
+#ifdef __AVR_ATmega2560__
+#include "passo/chip/mega_windings.hpp"
+#else
+#include "passo/chip/uno_windings.hpp"
+#endif
+
+#include "passo/wire/message.hpp"
+
+namespace passo::chip {
+
+// PASSO_WINDINGS says how each motor is driven: their Drives, in order.
+using enum Drive;
+#ifdef __AVR_ATmega2560__
+inline constexpr PinMap<4> pins = driven(mega_windings, {PASSO_WINDINGS});
+inline constexpr About about = {
+    .firmware = 100, .highest_event_rate = 30'000, .baud = 500'000, .name = "mega windings"};
+inline constexpr uint8_t queue_capacity = 100;
+inline constexpr uint16_t ram_address = 0x200;
+#else
+inline constexpr PinMap<3> pins = driven(uno_windings, {PASSO_WINDINGS});
+inline constexpr About about = {.firmware = 100, .highest_event_rate = 35'000, .baud = 500'000, .name = "uno windings"};
+inline constexpr uint8_t queue_capacity = 38;
+inline constexpr uint16_t ram_address = 0x100;
+#endif
+
+inline constexpr uint8_t windings_off = 8;  // in the place of a place: no current
+inline constexpr uint8_t flag_special = 2;
+inline constexpr uint8_t flag_stop = 1;
+
+// At the start of RAM, before everything that the linker places: bytes off the line, a page; then rows of the ring,
+// each with a byte of every entry: times, high and low, flags, and what to turn over on each of the step ports.
+inline constexpr uint16_t received_address = ram_address;
+inline constexpr uint16_t ring_address = ram_address + 0x100;
+inline constexpr uint8_t ring_entries = 64;
+inline constexpr uint8_t most_events = 62;
+inline constexpr uint8_t flags_row = 2;
+inline constexpr uint8_t toggles_row = 3;
+
+// As on the other boards. A turn is only what an action rides on.
+inline constexpr uint16_t actions_address = ring_address + ring_entries * (toggles_row + pins.ports());
+inline constexpr uint8_t action_bits = (actions_address & 0xff) | 0x1c;
+inline constexpr uint16_t turns_address = actions_address + 0x20;
+inline constexpr uint8_t turns_mask = 0x07;
+// The interrupt takes all bytes off the line that there are.
+inline constexpr uint16_t often = 500;
+inline constexpr uint8_t most_at_once = 8;  // the expander looks at the line at every event
+inline constexpr uint16_t first_free_address = turns_address + turns_mask + 1;
+
+inline uint16_t entry_address(uint8_t index) {
+  return index;
+}
+// Rows do not cross pages: only the low byte is computed.
+[[gnu::always_inline]] inline volatile uint8_t* ring_byte(uint8_t row, uint8_t index) {
+  const uint16_t start = static_cast<uint16_t>(ring_address + ring_entries * row);
+  return reinterpret_cast<volatile uint8_t*>((start & 0xff00) | static_cast<uint8_t>((start & 0xff) + index));
+}
+inline volatile uint8_t* time_high_of(uint8_t index) {
+  return ring_byte(0, index);
+}
+inline volatile uint8_t* time_low_of(uint8_t index) {
+  return ring_byte(1, index);
+}
+inline uint16_t toggles_address(uint8_t index) {
+  return static_cast<uint16_t>(ring_address + ring_entries * flags_row + index);
+}
+inline void clear_toggles(uint8_t index) {
+  for (uint8_t row = flags_row; row < toggles_row + pins.ports(); ++row) *ring_byte(row, index) = 0;
+}
+
+inline void prepare_ring() {}
+inline void forget_toggles(uint8_t /*index*/) {}
+
+extern "C" volatile uint8_t next_entry;  // that the interrupt comes to, or the one behind the last event
+
+inline uint8_t entry_of(uint16_t number) {
+  return static_cast<uint8_t>(number);
+}
+inline uint8_t fetched_entry() {
+  return next_entry;
+}
+inline void fetch_entry(uint8_t index) {
+  next_entry = index;
+}
+inline void set_fetched_toggles(uint8_t /*toggles*/) {}
+
+}  // namespace passo::chip

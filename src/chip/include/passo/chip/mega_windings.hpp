@@ -1,0 +1,29 @@
+// The pins of an Arduino Mega (ATmega2560) that switches the windings of four motors itself. Portable.
+#pragma once
+
+#include "passo/chip/pin_map.hpp"
+
+namespace passo {
+
+// The first three motors are wired as the follower's.
+inline constexpr PinMap<4> mega_windings = {
+    .motor = {{.windings = {{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}}},   // D22 to D25
+              {.windings = {{'A', 4}, {'A', 5}, {'A', 6}, {'A', 7}}},   // D26 to D29
+              {.windings = {{'C', 7}, {'C', 6}, {'C', 5}, {'C', 4}}},   // D30 to D33
+              {.windings = {{'K', 0}, {'K', 1}, {'K', 2}, {'K', 3}}}},  // A8 to A11
+    .step_ports = {'A', 'C', 'K'},
+    .limits = {{'E', 5}, {'J', 1}, {'D', 3}, {'E', 4}, {'J', 0}, {'D', 2}},  // D3, D14, D18; D2, D15, D19
+    .probe = {'B', 2},                                                       // D51
+    .emergency_stop = {'B', 0},                                              // D53
+    .feed_hold = {'B', 1},                                                   // D52
+    .cycle_start = {'B', 3},                                                 // D50
+    .spindle_pwm = {'H', 5},                                                 // D8
+    .spindle_direction = {'H', 3},                                           // D6
+    .spindle_relay = {'B', 5},                                               // D11
+    .mist = {'H', 6},                                                        // D9
+    .flood = {'B', 4},                                                       // D10
+};
+static_assert(mega_windings.without_conflict(), "a pin has two jobs");
+static_assert(mega_windings.fits_the_interrupt());
+
+}  // namespace passo

@@ -1,0 +1,64 @@
+#include "passo/controller/resumption.hpp"
+
+#include <utility>
+
+namespace passo {
+
+std::string_view code_of(ResumeRefusal refusal) {
+  switch (refusal) {
+    case ResumeRefusal::board_reset: return "resume.board-reset";
+    case ResumeRefusal::other_session: return "resume.other-session";
+    case ResumeRefusal::not_trusted: return "resume.not-trusted";
+    case ResumeRefusal::rest_unknown: return "resume.rest-unknown";
+    case ResumeRefusal::path_changed: return "resume.path-changed";
+    case ResumeRefusal::counts_differ: return "resume.counts-differ";
+  }
+  return "resume";
+}
+
+std::string_view message_of(ResumeRefusal refusal) {
+  switch (refusal) {
+    case ResumeRefusal::board_reset:
+      return "the board was reset since: where the machine stands is not certain any more";
+    case ResumeRefusal::other_session: return "another program was run on the board since";
+    case ResumeRefusal::not_trusted:
+      return "the board has stopped its motors at once, and where they are is not certain";
+    case ResumeRefusal::rest_unknown: return "the journal does not know where the board has come to rest";
+    case ResumeRefusal::path_changed: return "the program does not mean any more what it meant";
+    case ResumeRefusal::counts_differ: return "the board's step counts are not those of the place where the job ended";
+  }
+  return "the job cannot go on";
+}
+
+Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
+                                                   const ProgramReader& program, const MachineDescription& machine,
+                                                   const InterpreterOptions& options) {
+  if (!journal.is_of(status)) {
+    const bool reset = status.session == 0 && status.motors == 0;
+    return Failure{reset ? ResumeRefusal::board_reset : ResumeRefusal::other_session};
+  }
+  if ((status.state & board_trusted) == 0) return Failure{ResumeRefusal::not_trusted};
+  const auto place = journal.place_of(status);
+  if (!place) return Failure{ResumeRefusal::rest_unknown};
+  const auto point = find_resume_point(program.again(), machine, options, *place);
+  if (!point) return Failure{ResumeRefusal::path_changed};
+  if (!stands_at(journal.head(), *point, status)) return Failure{ResumeRefusal::counts_differ};
+  return *point;
+}
+
+bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status) {
+  for (std::size_t m = 0; m < head.job_counts.size(); ++m) {
+    if (status.positions[m] != head.job_counts[m] + point.steps[m]) return false;
+  }
+  return true;
+}
+
+JournalHead head_of_resumption(const JournalHead& before, const BoardStatus& status, const ResumePoint& point) {
+  JournalHead head = before;
+  head.session_before = status.session;
+  head.executed_before = status.executed;
+  head.place = point.place;
+  return head;
+}
+
+}  // namespace passo

@@ -1,0 +1,194 @@
+// passo run over a line, killed or stopped in mid-run, and passo run --resume: the board's counts end where they would
+// have ended; and what is not certain is refused, with a code.
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+#include "kit/served_board.hpp"
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+
+// About one and a half seconds.
+const std::string text =
+    "G21 G90 G64 P.02 F3000 M3 S1000\nG4 P.1\nG2 X6 Y0 I3 J0\nG3 X9 I1.5\nG1 X4 Y3\nM8\nX12 Z-1\nX2 Y2\nG0 X5 Y1 "
+    "Z2\nM5 "
+    "M9\nM2\n";
+
+class Resumed : public passo::test::ServedBoard {
+ protected:
+  Resumed() {
+    board_ = serve("18000000");
+    program_ = write("p.ngc", text);
+  }
+
+  std::string command(const std::string& more = "") const {
+    return "run " + program_ + " --json -m " + machine_ + " --board " + board_ + " --journal " + journal() + " " + more;
+  }
+  std::string journal() const { return path("j"); }
+  bool journal_is_there() const { return std::filesystem::exists(journal()); }
+
+  // Starts it, waits until it has noted so many refills, and sends the signal. Its exit code, or the signal below 0.
+  int run_until(int notes, int signal) {
+    const pid_t run = fork();
+    if (run == 0) {
+      const std::string line = std::string("exec ") + PASSO_PROGRAM + " " + command() + " >/dev/null 2>" + path("err");
+      execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      _exit(1);
+    }
+    wait_for_notes(notes);
+    kill(run, signal);
+    int status = 0;
+    waitpid(run, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  // The board itself cannot be asked: it serves one host at a time.
+  void wait_for_notes(int notes) const {
+    for (int i = 0; i < 2000; ++i, usleep(5'000)) {
+      if (journal_is_there() && lines_noted() >= notes) return;
+    }
+    ADD_FAILURE() << "nothing happens";
+  }
+  int lines_noted() const {
+    std::istringstream lines(read(journal()));
+    int noted = 0;
+    bool head = true;
+    for (std::string line; std::getline(lines, line);) {
+      if (head) {
+        head = !line.starts_with("check");
+      } else if (line.find_first_not_of(' ') != std::string::npos) {
+        ++noted;
+      }
+    }
+    return noted;
+  }
+  nlohmann::json positions() const {
+    return nlohmann::json::parse(passo("board info --json " + board_).out)["status"]["positions"];
+  }
+  void expect_counts_of_the_whole_program() const {
+    const auto alone = nlohmann::json::parse(passo("run " + program_ + " --json -m " + machine_).out)["steps"];
+    const auto counted = positions();
+    EXPECT_EQ(counted[0], alone["X"]["net"]);
+    EXPECT_EQ(counted[1], alone["Y"]["net"]);
+    EXPECT_EQ(counted[2], alone["Z"]["net"]);
+  }
+  // A job that was not finished, by a hold for good.
+  void leave_unfinished() {
+    const Outcome held = passo(command("--hold-at 0.4"));
+    ASSERT_EQ(held.code, 0) << held.err;
+    ASSERT_NE(held.err.find("--resume goes on"), std::string::npos) << held.err;
+  }
+  void expect_refused(const std::string& code, const std::string& words, const std::string& more = "--resume") const {
+    const Outcome refused = passo(command(more));
+    EXPECT_EQ(refused.code, 4) << refused.err;
+    EXPECT_NE(refused.err.find("[" + code + "]"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+  }
+
+  std::string machine_ = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "router.toml").string();
+  std::string board_;
+  std::string program_;
+};
+
+TEST_F(Resumed, after_it_was_killed_twice_it_ends_where_it_would_have_ended) {
+  EXPECT_EQ(run_until(8, SIGKILL), -SIGKILL);
+  // While the board still brakes: the other waits for its rest.
+  const Outcome stopped = passo(command("--resume --hold-at 0.5"));
+  EXPECT_EQ(stopped.code, 0) << stopped.err;
+  EXPECT_NE(stopped.err.find("goes on at line"), std::string::npos) << stopped.err;
+  const Outcome resumed = passo(command("--resume"));
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  expect_counts_of_the_whole_program();
+  const auto summary = nlohmann::json::parse(resumed.out);
+  EXPECT_EQ(summary["steps"]["X"]["net"], positions()[0]) << "counted from where the job began";
+  EXPECT_FALSE(journal_is_there());
+}
+
+TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
+  EXPECT_EQ(run_until(8, SIGINT), 130);
+  const std::string said = read(path("err"));
+  EXPECT_NE(said.find("brakes on the path"), std::string::npos) << said;
+  EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
+  EXPECT_NE(said.find("--resume goes on"), std::string::npos) << said;
+  const Outcome resumed = passo(command("--resume"));
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  expect_counts_of_the_whole_program();
+}
+
+TEST_F(Resumed, twice_is_once_too_often) {
+  leave_unfinished();
+  EXPECT_EQ(passo(command("--resume")).code, 0);
+  expect_refused("resume.no-journal", "nothing on this board was left unfinished");
+}
+
+TEST_F(Resumed, not_when_what_it_is_of_was_changed) {
+  leave_unfinished();
+  const std::string machine = machine_;
+  machine_ = write("m.toml", read(machine) + "\n");
+  expect_refused("resume.machine-changed", "the job that was not finished is of " + machine);
+  machine_ = machine;
+  write("p.ngc", text + "(more)\n");
+  expect_refused("resume.program-changed", "p.ngc was changed since the job began");
+  write("p.ngc", text);
+  expect_refused("resume.path-changed", "other options", "--resume --inches");
+  EXPECT_EQ(passo(command("--resume")).code, 0);
+}
+
+TEST_F(Resumed, not_when_the_board_was_used_or_started_anew) {
+  leave_unfinished();
+  const std::string other = write("q.ngc", "G21 G1 X1 F600\nM2\n");
+  const Outcome between =
+      passo("run " + other + " -q -m " + machine_ + " --board " + board_ + " --journal " + path("j2"));
+  ASSERT_EQ(between.code, 0) << between.err;
+  expect_refused("resume.other-session", "another program");
+  board_ = serve("18000000");
+  expect_refused("resume.board-reset", "where the machine stands is not certain");
+}
+
+TEST_F(Resumed, not_by_a_journal_that_was_torn) {
+  leave_unfinished();
+  const std::string whole = read(journal());
+  write("j", whole.substr(0, 100));
+  expect_refused("resume.torn-journal", "is not whole");
+  std::string without_rests = whole;
+  for (std::size_t i = whole.find("check ") + 24; i < whole.size(); ++i) {
+    if (whole[i] != '\n' && whole[i] != ' ') without_rests[i] = '0';
+  }
+  write("j", without_rests);
+  expect_refused("resume.torn-journal", "the board's rest is not in it");
+  write("j", whole);
+  EXPECT_EQ(passo(command("--resume")).code, 0);
+}
+
+TEST_F(Resumed, is_not_what_a_run_does_unasked_but_it_mentions_it) {
+  leave_unfinished();
+  const Outcome anew = passo(command("--hold-at 0.01"));
+  EXPECT_NE(anew.err.find("p.ngc was not finished on this board; --resume would have gone on"), std::string::npos)
+      << anew.err;
+}
+
+TEST_F(Resumed, from_the_usual_place_of_journals_a_board) {
+  const std::string usual = "run " + program_ + " -q -m " + machine_ + " --board " + board_;
+  const std::string home = "XDG_STATE_HOME=" + path("state");
+  ASSERT_EQ(passo(usual + " --hold-at 0.4", home).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("state/passo")));
+  EXPECT_EQ(passo(usual + " --resume", home).code, 0);
+  expect_counts_of_the_whole_program();
+  const Outcome nowhere = passo(usual + " --resume", "env -u XDG_STATE_HOME -u HOME");
+  EXPECT_EQ(nowhere.code, 4);
+}
+
+TEST_F(Resumed, only_over_a_line) {
+  const Outcome alone = passo("run " + program_ + " -m " + machine_ + " --resume");
+  EXPECT_EQ(alone.code, 2);
+  EXPECT_NE(alone.err.find("--resume and --journal are for a board that outlives the run"), std::string::npos);
+  const Outcome unwritable =
+      passo("run " + program_ + " -m " + machine_ + " --board " + board_ + " --journal /dev/null/j");
+  EXPECT_EQ(unwritable.code, 1);
+  EXPECT_NE(unwritable.err.find("cannot be written"), std::string::npos) << unwritable.err;
+}
+
+}  // namespace

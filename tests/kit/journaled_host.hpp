@@ -1,0 +1,118 @@
+// A host that keeps a journal as `passo run` does over a line, goes on by the one that it finds as `passo run --resume`
+// does, and may die at any moment.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "kit/memory_store.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+#include "passo/controller/resumption.hpp"
+#include "passo/transport/inquiry.hpp"
+
+namespace passo::test {
+
+// How a host ends at its moment: before it sends a frame, amid it, or behind it; or it brakes on the path and leaves.
+enum class HostEnd : std::uint8_t { before_frame, amid_frame, behind_frame, stopped };
+struct HostDied {};
+constexpr std::uint64_t never = UINT64_MAX;
+
+// What a host sees of the line until it dies: when it sends a frame, or has heard something.
+class MortalPort final : public BoardPort {
+ public:
+  MortalPort(BoardPort& line, std::uint64_t dies_at, HostEnd end) : line_(line), dies_at_(dies_at), end_(end) {}
+
+  void receive(std::span<const std::uint8_t> bytes) override {
+    const bool dies = is_time();
+    const bool goes_out = !dies || end_ == HostEnd::behind_frame;
+    if (goes_out) line_.receive(bytes);
+    if (dies && end_ == HostEnd::amid_frame) line_.receive(bytes.first(bytes.size() / 2));
+    if (dies) throw HostDied();
+  }
+  bool run(Seconds most) override {
+    const bool said = line_.run(most);
+    if (said && is_time()) throw HostDied();
+    return said;
+  }
+  std::span<const std::uint8_t> replies() override { return line_.replies(); }
+  Seconds elapsed() const override { return line_.elapsed(); }
+  std::uint64_t moments() const { return moments_; }
+  bool is_to_stop() const { return end_ == HostEnd::stopped && moments_ > dies_at_; }
+
+ private:
+  bool is_time() { return moments_++ == dies_at_ && end_ != HostEnd::stopped; }
+
+  BoardPort& line_;
+  std::uint64_t dies_at_;
+  HostEnd end_;
+  std::uint64_t moments_ = 0;
+};
+
+class JournaledHost {
+ public:
+  JournaledHost(const MachineDescription& machine, std::string program)
+      : machine_(machine), program_(std::move(program)) {}
+
+  // Whether the program came to its end. `moments`: how many it lived through.
+  bool live(BoardPort& line, std::uint64_t ends_at, HostEnd end, std::uint64_t& moments) {
+    MortalPort port(line, ends_at, end);
+    bool done = false;
+    try {
+      work(port, done);
+    } catch (const HostDied&) {
+      done = false;
+    }
+    moments = port.moments();
+    return done;
+  }
+  MemoryStore store;
+
+ private:
+  void work(MortalPort& port, bool& done) {
+    Inquiry inquiry(port);
+    const std::optional<BoardStatus> status = inquiry.status_at_rest(Seconds(5));
+    ASSERT_TRUE(status);
+    const auto reader = ProgramReader::from_text("t", program_);
+    JournalHead head;
+    head.job_counts.assign(status->positions, status->positions + machine_.axes.size());
+    head.session_before = status->session;
+    head.executed_before = status->executed;
+    std::optional<ResumePoint> point;
+    if (!store.bytes.empty()) {
+      const auto journal = Journal::read(store.bytes);
+      ASSERT_TRUE(journal);
+      EXPECT_EQ(journal->torn(), 0U);
+      const auto found = resume_point_of(*journal, *status, reader, machine_, InterpreterOptions());
+      ASSERT_TRUE(found) << message_of(found.error());
+      point = *found;
+      head = head_of_resumption(journal->head(), *status, *point);
+    }
+    head.session = ++sessions_;
+    head.greeting = static_cast<std::uint8_t>(1 + sessions_ % 255);
+    JournalWriter writer(store);
+    writer.begin(head);
+    Diagnostics diagnostics;
+    Job job(reader.again(), machine_, InterpreterOptions(), diagnostics,
+            {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
+    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+    ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
+    job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
+    job.resume();
+    while (job.advance()) {
+      if (port.is_to_stop() && !job.drive().stopped()) job.drive().stop();
+    }
+    done = !job.drive().stopped();
+    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+  }
+
+  const MachineDescription& machine_;
+  std::string program_;
+  std::uint16_t sessions_ = 0;
+};
+
+}  // namespace passo::test
