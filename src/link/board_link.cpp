@@ -241,6 +241,10 @@ void BoardLink::take(const Credit& credit) {
 
 void BoardLink::take(const BoardStatus& status) {
   status_ = status;
+  if ((status.state & board_manual) != 0) {
+    error_ = LinkError::manual;
+    return;
+  }
   note_inputs(status);
   note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
@@ -302,6 +306,7 @@ void BoardLink::take(const ErrorReport& error) {
       note_taken(static_cast<std::uint8_t>(error.expected - 1));
       return repeat();
     case WireError::too_late: return;  // what is executed will tell
+    case WireError::manual: error_ = LinkError::manual; return;
     default: break;
   }
   error_ = LinkError::refused;
