@@ -84,6 +84,7 @@ void MotionDrive::watch(const MotionItem& item) {
     // What is committed is blind to what the spindle does.
     if (move != nullptr) {
       follower_.watch(*move);
+      if (move->segment.reverse_at > Mm(0)) watch_tap(*move);
       commit_ahead(with_horizon(commits(), follower_.lock()));
     } else if (std::get<Action>(item).kind == Action::Kind::await_index) {
       commit_ahead(with_horizon(commits(), SpindleLock::place));
@@ -166,6 +167,7 @@ void MotionDrive::send(const BoardItem& item) {
     case Action::Kind::probe_end: return end_probe(action);
     case Action::Kind::feed_hold: return rest_in_feed_hold();
     case Action::Kind::await_index: return await_index(action.outputs);
+    case Action::Kind::tap_turns: return turn_tap(action);
     default: break;
   }
   heeds_spindle_override_ = action.heeds.spindle_override;
@@ -232,8 +234,27 @@ void MotionDrive::let_planner_go_on() {
   if (hold_asked_) planner_.hold();
 }
 
+// On its way down: at the end of the thread the spindle is reversed, and the tool goes on with it.
+void MotionDrive::watch_tap(const PlannedMove& move) {
+  end_of_tap_ = move.segment.curve.at(move.to);
+  if (tap_turns_ || tap_brakes_ || move.to < move.segment.reverse_at) return;
+  tap_turns_ = true;
+  OutputState outputs = outputs_;
+  outputs.spindle = reversed(outputs.spindle);
+  set_outputs(outputs);
+}
+
+// At rest, as the spindle does for a moment.
+void MotionDrive::turn_tap(const Action& action) {
+  set_outputs(action.outputs);
+  link_.drain();
+  tap_turns_ = false;
+  *tap_rest_ = end_of_tap_;
+  follower_.turn_round();
+}
+
 void MotionDrive::rest_in_feed_hold() {
-  if (std::exchange(probe_brakes_, false)) {
+  if (std::exchange(probe_brakes_, false) || std::exchange(tap_brakes_, false)) {
     planner_.drop_to_action();
     if (refiller_) end_of_probe_ = refiller_->drop();
     let_planner_go_on();
@@ -328,7 +349,13 @@ void MotionDrive::await_index(const OutputState& outputs) {
 // What was pulled last is followed by what is pulled next.
 void MotionDrive::follow_spindle() {
   follower_.read(machine_.spindle().read(now()));
-  if (const auto ratio = follower_.ratio(committed())) planner_.set_spindle_ratio(*ratio);
+  const Seconds ahead = committed();
+  if (tap_turns_ && follower_.turns_back(ahead)) {
+    tap_turns_ = false;
+    tap_brakes_ = true;
+    planner_.stop();
+  }
+  if (const auto ratio = follower_.ratio(ahead)) planner_.set_spindle_ratio(*ratio);
 }
 
 void MotionDrive::wait(Seconds time) {

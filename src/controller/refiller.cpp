@@ -362,6 +362,7 @@ void Refiller::send(std::size_t items) {
   }
   refill.last_of_motion = behind_ = static_cast<ItemNumber>(refill.first + items - 1);
   refill.last = static_cast<ItemNumber>(refill.first + items_.size() - 1);
+  assert(refill.last == stages_.link.sent());
   for (std::size_t i = 0; executed_watcher_ && i < items_.size(); ++i) {
     Sent sent{.number = static_cast<ItemNumber>(refill.first + i), .item = items_[i]};
     if (i >= items) sent.end_of_tail = refill.last;

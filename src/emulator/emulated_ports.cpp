@@ -1,5 +1,7 @@
 #include "passo/emulator/emulated_ports.hpp"
 
+#include <algorithm>
+
 #include <simavr/sim_avr.h>
 #include <simavr/sim_io.h>
 
@@ -32,8 +34,9 @@ EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr
     avr_.io[AVR_DATA_TO_IO(pin)].r = {
         .param = &port, .c = [](avr_t* avr, avr_io_addr_t address, void* which) {
           const std::uint8_t outputs = avr->data[address + 1];
-          return static_cast<std::uint8_t>((avr->data[address + 2] & outputs) |
-                                           (static_cast<Port*>(which)->levels & ~outputs));
+          const auto& read = *static_cast<Port*>(which);
+          const unsigned levels = read.levels & ~unsigned{read.all->drawn_low(read.name)};
+          return static_cast<std::uint8_t>((avr->data[address + 2] & outputs) | (levels & ~unsigned{outputs}));
         }};
     avr_.io[AVR_DATA_TO_IO(pin)].w = {.param = &port,
                                       .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void* which) {
@@ -72,6 +75,24 @@ void EmulatedPorts::write(Port& port, std::uint8_t value) {
 
 std::uint8_t EmulatedPorts::outputs(char port) const {
   return avr_.data[pin_address(port) + 2];
+}
+
+void EmulatedPorts::connect(Pin row, Pin column, bool closed) {
+  if (closed) {
+    contacts_.push_back({row, column});
+  } else {
+    std::erase_if(contacts_, [&](const Contact& one) { return one.row == row && one.column == column; });
+  }
+}
+
+std::uint8_t EmulatedPorts::drawn_low(char port) const {
+  unsigned low = 0;
+  for (const Contact& one : contacts_) {
+    const std::uint16_t column = pin_address(one.column.port);
+    const bool draws = (avr_.data[column + 1] & ~avr_.data[column + 2] & one.column.mask()) != 0;
+    if (one.row.port == port && draws) low |= one.row.mask();
+  }
+  return static_cast<std::uint8_t>(low);
 }
 
 void EmulatedPorts::set_input(char port, std::uint8_t bit, bool high) {

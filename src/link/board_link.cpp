@@ -268,6 +268,10 @@ bool BoardLink::holds_nothing_of(const Credit& credit) const {
 
 void BoardLink::take(const BoardStatus& status) {
   status_ = status;
+  if ((status.state & board_manual) != 0) {
+    error_ = LinkError::manual;
+    return;
+  }
   note_inputs(status);
   note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
@@ -340,6 +344,7 @@ void BoardLink::take(const ErrorReport& error) {
     case WireError::queue_full: break;
     case WireError::too_late:
     case WireError::wrong_sums: return;  // what is executed will tell
+    case WireError::manual: error_ = LinkError::manual; return;
     default:
       // Of what we sent, or of what it heard in its place?
       refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;

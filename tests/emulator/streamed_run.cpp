@@ -275,6 +275,17 @@ void BoardBench::see_windings(std::vector<SeenSteps>& seen, EdgeCheck& result) {
   result.wrong_direction += others;
 }
 
+std::vector<SeenSteps> BoardBench::seen() {
+  EdgeCheck ignored;
+  std::vector<SeenSteps> seen(board_.motors.size());
+  if (board_.motors[0].windings[0].exists()) {
+    see_windings(seen, ignored);
+  } else {
+    see_steps(seen, ignored);
+  }
+  return seen;
+}
+
 EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) {
   EdgeCheck result;
   const auto motors = static_cast<std::uint8_t>(board_.motors.size());

@@ -83,6 +83,8 @@ class BoardBench {
   void start_items(const std::vector<Item>& items);
   // Says hello and sends as many as the board takes at once.
   void start(const std::vector<BoardSegment>& segments);
+  // The steps that came out of the pins since the changes were forgotten, of each motor.
+  std::vector<SeenSteps> seen();
   // Where the motors stand in their winding tables after what was not played by play().
   void follow_windings();
   // Lets time pass, whatever the board says.

@@ -38,6 +38,10 @@ std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_
   Inquiry inquiry(run->port());
   if (const auto status = inquiry.status(first_answer)) {
     run->before_ = *status;
+    if ((status->state & board_manual) != 0) {
+      code = fail(exit_failed, fmt::format("{}: {}", address, message_of(LinkError::manual)));
+      return nullptr;
+    }
     if (may_move || (status->state & board_moves) == 0) return run;
     code = fail(exit_failed, address + ": it moves: another program runs on it, or has just left it");
     return nullptr;

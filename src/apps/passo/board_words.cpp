@@ -41,6 +41,7 @@ std::vector<std::string> switches_of(const BoardStatus& status) {
 
 std::string state_of(const BoardStatus& status) {
   std::string state = (status.state & board_moves) != 0 ? "moves" : "rests";
+  if ((status.state & board_manual) != 0) return state + ", in manual mode: a person moves it by its keypad";
   if (status.motors == 0) return state + ", no host has said hello since it started";
   if ((status.state & board_trusted) == 0) state += ", its position is not to be trusted";
   if ((status.state & board_slipped) != 0) state += ", and stood still amid motion: its events came too late";
@@ -68,6 +69,7 @@ nlohmann::json to_json(const BoardStatus& status) {
   const int motors = status.motors == 0 ? static_cast<int>(max_motors) : std::min<int>(status.motors, max_motors);
   return {{"moves", (status.state & board_moves) != 0},
           {"trusted", (status.state & board_trusted) != 0},
+          {"manual", (status.state & board_manual) != 0},
           {"slipped", (status.state & board_slipped) != 0},
           {"motors", status.motors},
           {"executed", status.executed},

@@ -1,11 +1,13 @@
 // The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
 #include "chip_player.hpp"
+#include "keypad_wiring.hpp"
 #include "output_actions.hpp"
 #include "serial_line.hpp"
 #include "wiring.hpp"
 
 #include "passo/chip/input_reader.hpp"
 #include "passo/firmware/board.hpp"
+#include "passo/firmware/manual_mode.hpp"
 
 #ifndef PASSO_BAUD
 #define PASSO_BAUD 500000
@@ -44,6 +46,26 @@ BoardIdentity identity() {
 Board<Hardware, queue_capacity, ChipPlayer, pins.motors> board(hardware, identity());
 InputReader reader;
 
+// Where the pin map has a keypad.
+struct NoKeypad {
+  void begin() {}
+  void tick() {}
+  void feed() {}
+  void stopped() {}
+};
+template <const auto& map, bool there = map.keypad.exists()>
+struct Manual {
+  using Type = NoKeypad;
+  static constexpr Type make() { return {}; }
+};
+template <const auto& map>
+struct Manual<map, true> {
+  using Type = ManualMode<KeypadWiring, decltype(board)>;
+  static constexpr JogRamp ramp = jog_ramp(map.keypad.speeds, clock);
+  static constexpr Type make() { return {board, ramp}; }
+};
+constinit auto manual = Manual<pins>::make();
+
 // A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.
 void start_watchdog() {
   asm volatile("wdr");
@@ -58,6 +80,7 @@ void start_watchdog() {
   OutputActions::make_safe();
   if (pressed) Wiring::enable_motors(false);
   board.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  manual.stopped();
   halted = 0;
 }
 
@@ -91,6 +114,7 @@ void start_watchdog() {
   if (probed) board.settle();  // what was finished before the touch is let go of
   SerialLine::breathe();
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
+  if (tick) manual.tick();
   if ((told & input_probe) != 0) ChipPlayer::watch_probe(0);
   if (!ChipPlayer::watches_probe()) watch_probe();
 }
@@ -112,6 +136,7 @@ void start_watchdog() {
     receive();
     SerialLine::breathe();
   }
+  manual.feed();
   ChipPlayer::refill();
   line.poll();
   // What the interrupt has seen at once, and before an item is let go of in which the probe touched; the rest in its
@@ -135,6 +160,7 @@ void start_watchdog() {
 extern "C" int main() {
   using namespace passo::chip;
   Wiring::prepare();
+  manual.begin();
   ChipPlayer::prepare();
   board.player().restart(0);
   SerialLine::open(clock, PASSO_BAUD);

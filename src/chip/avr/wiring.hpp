@@ -84,11 +84,7 @@ class Wiring {
     return closed(pins.probe);
   }
 
- private:
-  // The speed at full duty.
-  static constexpr uint32_t full_rpm = 24'000;
-
-  static volatile uint8_t& port_register(char port, uint8_t which) {
+  [[gnu::always_inline]] static volatile uint8_t& port_register(char port, uint8_t which) {
     return *reinterpret_cast<volatile uint8_t*>(port_registers(port) + which);
   }
   [[gnu::always_inline]] static bool closed(Pin pin) {
@@ -100,6 +96,10 @@ class Wiring {
     const uint8_t now = port_register(pin.port, 2);
     port_register(pin.port, 0) = static_cast<uint8_t>((high ? ~now : now) & pin.mask());
   }
+
+ private:
+  // The speed at full duty.
+  static constexpr uint32_t full_rpm = 24'000;
 
   static void prepare_ports() {
     constexpr PortPlans plans;

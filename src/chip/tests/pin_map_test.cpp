@@ -56,6 +56,21 @@ TEST(PinMap, finds_windings_that_are_not_all_there_or_have_another_job) {
   EXPECT_FALSE(map.fits_the_interrupt()) << "an output on a port of windings";
 }
 
+TEST(PinMap, finds_a_keypad_that_is_not_whole_or_shares_a_pin) {
+  PinMap<6> map = mega_ramps;
+  EXPECT_TRUE(map.has_whole_keypad(16'000'000));
+  map.keypad.columns[1] = map.motor[4].direction;
+  EXPECT_FALSE(map.without_conflict());
+  map = mega_ramps;
+  map.keypad.tool_button = {};
+  EXPECT_FALSE(map.has_whole_keypad(16'000'000)) << "no button";
+  map = mega_ramps;
+  map.keypad.speeds.start_stop = 100;
+  EXPECT_FALSE(map.has_whole_keypad(16'000'000)) << "its intervals are longer than a segment has";
+  EXPECT_EQ(mega_ramps.inputs_on('L'), 1 << 2 | 1 << 4 | 1 << 6);
+  EXPECT_EQ(mega_ramps.outputs_on('G'), 1 << 1) << "columns float";
+}
+
 TEST(PinMap, has_the_bits_of_a_pattern_of_windings) {
   const MotorPins& z = uno_windings.motor[2];  // D2, D3, D12, D13
   EXPECT_EQ(z.winding_bits('D', 0b0110), 1 << 3);

@@ -1,5 +1,6 @@
 // Compiled without a standard library, as for a chip: the portable modules include nothing that is not there.
 #include "passo/firmware/board.hpp"
+#include "passo/firmware/manual_mode.hpp"
 
 namespace passo {
 
@@ -9,5 +10,13 @@ struct NoHardware {
   void send(uint8_t) {}
 };
 template class Board<NoHardware, 16>;
+
+struct NoKeys {
+  static uint8_t rows() { return 0; }
+  static void draw_column(uint8_t) {}
+  static bool tool_button() { return false; }
+  static void indicators(bool, bool) {}
+};
+template class ManualMode<NoKeys, Board<NoHardware, 16>>;
 
 }  // namespace passo

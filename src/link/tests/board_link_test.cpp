@@ -25,7 +25,7 @@ class ScriptedBoard final : public BoardPort {
     executed.push_back(queue.front());
     queue.pop_front();
     if (refusing) {
-      say(ErrorReport{.reason = WireError::bad_value});
+      say(ErrorReport{.reason = refusal});
     } else {
       say(Credit{.executed = executed.back(),
                  .taken = last_,
@@ -46,6 +46,7 @@ class ScriptedBoard final : public BoardPort {
   bool stuck = false;     // plays nothing
   bool slow = false;      // its answers come byte by byte
   bool refusing = false;  // complains of what it plays
+  WireError refusal = WireError::bad_value;
   std::deque<std::uint16_t> queue;
   std::vector<std::uint16_t> executed;
   std::vector<BoardSegment> segments;
@@ -197,11 +198,21 @@ TEST(BoardLink, stops_at_the_first_item_that_the_board_refuses) {
   EXPECT_EQ(board.segments.size(), 4U);
 }
 
+TEST(BoardLink, says_that_a_person_moves_the_machine) {
+  ScriptedBoard board;
+  board.refusing = true;
+  board.refusal = WireError::manual;
+  BoardLink link(board, 3);
+  link.send(numbered(0));
+  link.drain();
+  EXPECT_EQ(link.error(), LinkError::manual);
+}
+
 TEST(LinkError, has_a_sentence_for_each_reason) {
   std::vector<std::string_view> sentences;
   for (const LinkError error :
        {LinkError::no_answer, LinkError::wrong_version, LinkError::too_few_motors, LinkError::refused,
-        LinkError::was_reset, LinkError::stopped, LinkError::too_few_places}) {
+        LinkError::was_reset, LinkError::stopped, LinkError::too_few_places, LinkError::manual}) {
     sentences.push_back(message_of(error));
   }
   std::sort(sentences.begin(), sentences.end());

@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// The first three motors are wired as the follower's.
+// The first three motors, keypad and indicators are wired as the follower's.
 inline constexpr PinMap<4> mega_windings = {
     .motor = {{.windings = {{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}}},   // D22 to D25
               {.windings = {{'A', 4}, {'A', 5}, {'A', 6}, {'A', 7}}},   // D26 to D29
@@ -22,8 +22,16 @@ inline constexpr PinMap<4> mega_windings = {
     .spindle_relay = {'B', 5},                                               // D11
     .mist = {'H', 6},                                                        // D9
     .flood = {'B', 4},                                                       // D10
+    .keypad = {.rows = {{'L', 7}, {'L', 6}, {'L', 5}, {'L', 4}},             // D42 to D45
+               .columns = {{'L', 3}, {'L', 2}, {'L', 1}},                    // D46 to D48
+               .tool_button = {'L', 0},                                      // D49
+               .automatic_indicator = {'C', 1},                              // D36
+               .manual_indicator = {'C', 0},                                 // D37
+               // Half steps: from rest to a turn and a half a second, to five.
+               .speeds = {.start_stop = 250, .highest = 2'000, .acceleration = 4'000, .tap = 1}},
 };
 static_assert(mega_windings.without_conflict(), "a pin has two jobs");
 static_assert(mega_windings.fits_the_interrupt());
+static_assert(mega_windings.has_whole_keypad(16'000'000));
 
 }  // namespace passo

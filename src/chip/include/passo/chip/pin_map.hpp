@@ -12,6 +12,8 @@
 #include <stdint.h>
 
 #include "passo/chip/pin.hpp"
+#include "passo/firmware/jog_ramp.hpp"
+#include "passo/firmware/keypad.hpp"
 #include "passo/firmware/winding_table.hpp"
 
 namespace passo {
@@ -32,6 +34,35 @@ struct MotorPins {
       if ((pattern >> f & 1) != 0 && windings[f].port == port) bits = static_cast<uint8_t>(bits | windings[f].mask());
     }
     return bits;
+  }
+};
+
+// For moving the machine by hand (ManualMode): all of it, or none. Any pins.
+struct KeypadPins {
+  Pin rows[keypad_rows] = {};  // 123, 456, 789, *0#
+  Pin columns[keypad_columns] = {};
+  Pin tool_button = {};
+  Pin automatic_indicator = {};
+  Pin manual_indicator = {};
+  JogSpeeds speeds = {};
+
+  constexpr bool exists() const { return rows[0].exists(); }
+  template <class Visit>
+  constexpr void each(Visit visit) const {
+    each_input(visit);
+    for (const Pin pin : columns) visit(pin);
+    visit(automatic_indicator);
+    visit(manual_indicator);
+  }
+  template <class Visit>
+  constexpr void each_input(Visit visit) const {
+    for (const Pin pin : rows) visit(pin);
+    visit(tool_button);
+  }
+  constexpr bool is_whole() const {
+    bool whole = true;
+    each([&](Pin pin) { whole = whole && pin.exists(); });
+    return whole;
   }
 };
 
@@ -60,6 +91,8 @@ struct PinMap {
   Pin spindle_relay = {};  // for a tool that is on or off
   Pin mist = {};
   Pin flood = {};
+
+  KeypadPins keypad = {};
 
   constexpr bool drives_windings() const { return motor[0].windings[0].exists(); }
 
@@ -100,6 +133,7 @@ struct PinMap {
     const Pin others[] = {probe, door, feed_hold, cycle_start};
     uint8_t mask = stops_on(port);
     for (const Pin one : others) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    keypad.each_input([&](Pin one) { mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0)); });
     return mask;
   }
   // These are switched in step with the motion.
@@ -115,13 +149,16 @@ struct PinMap {
     return mask;
   }
   constexpr uint8_t outputs_on(char port) const {
-    return static_cast<uint8_t>(steps_on(port) | directions_on(port) | enables_on(port) | windings_on(port) |
-                                switched_on(port));
+    const Pin indicators[] = {keypad.automatic_indicator, keypad.manual_indicator};
+    uint8_t mask = static_cast<uint8_t>(steps_on(port) | directions_on(port) | enables_on(port) | windings_on(port) |
+                                        switched_on(port));
+    for (const Pin one : indicators) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
+    return mask;
   }
 
   // No pin has two jobs; but for the enable pins, which motors may share with each other only.
   constexpr bool without_conflict() const {
-    constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10;
+    constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10 + 10;
     Pin pins[most] = {};
     uint8_t count = 0;
     for (const MotorPins& one : motor) {
@@ -133,6 +170,7 @@ struct PinMap {
     const Pin others[] = {probe,       emergency_stop,    door,          feed_hold, cycle_start,
                           spindle_pwm, spindle_direction, spindle_relay, mist,      flood};
     for (const Pin one : others) pins[count++] = one;
+    keypad.each([&](Pin one) { pins[count++] = one; });
     for (uint8_t a = 0; a < most; ++a) {
       if (!pins[a].exists()) continue;
       for (uint8_t b = 0; b < a; ++b) {
@@ -156,6 +194,8 @@ struct PinMap {
     }
     return false;
   }
+  // Nothing of the keypad is missing, and the chip's timer can count its speeds.
+  constexpr bool has_whole_keypad(uint32_t clock) const { return keypad.is_whole() && can_ramp(keypad.speeds, clock); }
   constexpr bool fits_the_interrupt() const {
     // It writes their ports as a whole.
     for (const char port : step_ports) {

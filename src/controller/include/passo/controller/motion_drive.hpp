@@ -75,6 +75,8 @@ class MotionDrive {
   // move stops the drive.
   ProbeMove& probe() { return probe_; }
   void guard_by_probe();
+  // Where the place is written at which a tap has turned round. Outlives it.
+  void tell_tap(Point& rest) { tap_rest_ = &rest; }
   // That happened.
   bool stopped_by_probe() const { return stopped_by_probe_; }
 
@@ -127,6 +129,8 @@ class MotionDrive {
   LiveOptions commits() const;
   void commit_ahead(const LiveOptions& options);
   void let_pass(Seconds time);
+  void watch_tap(const PlannedMove& move);
+  void turn_tap(const Action& action);
   void look_at_probe();
   void commit_to_probe();
   void begin_probe(const Action& action);
@@ -159,6 +163,10 @@ class MotionDrive {
   bool probe_brakes_ = false;  // after a contact, until the path is at rest
   bool stopped_by_probe_ = false;
   std::optional<Point> end_of_probe_;  // where the motion in a probe move ends, if that is not the end of the move
+  Point* tap_rest_ = nullptr;
+  Point end_of_tap_;        // of the motion that is committed
+  bool tap_turns_ = false;  // the spindle was told to turn round
+  bool tap_brakes_ = false;
   double feed_override_ = 1;
   double adaptive_feed_ = 1;
   double spindle_override_ = 1;

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "passo/chip/pin.hpp"
+
 struct avr_t;
 
 namespace passo {
@@ -38,6 +40,8 @@ class EmulatedPorts {
   std::uint8_t outputs(char port) const;
   // From outside.
   void set_input(char port, std::uint8_t bit, bool high);
+  // A key between two pins: while one is drawn low the other reads low.
+  void connect(Pin row, Pin column, bool closed);
 
  private:
   struct Port {
@@ -46,11 +50,17 @@ class EmulatedPorts {
     std::uint16_t pin = 0;       // address of PINx; DDRx and PORTx are the next two
     std::uint8_t levels = 0xff;  // that something outside gives it
   };
+  struct Contact {
+    Pin row;
+    Pin column;
+  };
   void write(Port& port, std::uint8_t value);
+  std::uint8_t drawn_low(char port) const;
   void set_change_flag(std::uint8_t number);
 
   avr_t& avr_;
   std::array<Port, 12> ports_;
+  std::vector<Contact> contacts_;
   std::vector<PortChange> changes_;
 };
 

@@ -94,6 +94,44 @@ class Board {
     send(fault);
   }
 
+  // Manual mode: a person moves the machine (ManualMode), and a host may only ask. Behind it the place is another one,
+  // so the session is over. Only at rest.
+  void begin_manual() {
+    motors_ = identity_.motors;
+    breathe();
+    player_.restart(motors_);
+    breathe();
+    drop_all();
+    session_ = 0;
+    complained_ = false;
+    manual_ = Manual::on;
+  }
+  void end_manual() { manual_ = Manual::over; }
+  bool manual() const { return manual_ == Manual::on; }
+  // Nothing is played, and nothing is to be.
+  bool rests() const { return idle() && list_.empty() && !list_.gathering(); }
+  // Items of the list.
+  uint8_t size() const { return list_.size(); }
+  uint16_t inputs() const { return inputs_; }
+  // In manual mode, behind all that the list holds.
+  using Segment = SegmentFor<most_motors>;
+  void jog(const Segment& segment) {
+    list_.space().segment = segment;
+    append_by_hand();
+  }
+  void switch_outputs(const BoardOutputs& outputs) {
+    list_.space().keep(outputs);
+    append_by_hand();
+  }
+
+  // Between two pieces of work: hardware with a small buffer looks at its line.
+  struct Breath {
+    [[gnu::always_inline]] void operator()() const {
+      if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
+    }
+  };
+  static void breathe() { Breath{}(); }
+
   // The timer's side. Nothing to play: no event will come.
   bool idle() const { return player_.done(); }
   // From the event before to the next. Only when not idle, once for each event.
@@ -122,7 +160,8 @@ class Board {
   SegmentPlayer& player() { return player_; }
 
  private:
-  using Segment = SegmentFor<most_motors>;
+  // Over: until the next hello a host knows no place.
+  enum class Manual : uint8_t { off, on, over };
 
   // By itself, so that a byte amid a frame has not to save all the registers that a whole one needs.
   [[gnu::noinline]] void take(const WireFrame& frame) {
@@ -137,10 +176,24 @@ class Board {
     }
   }
 
+  // It has no number of a frame: what a host has sent stays what is done last.
+  void append_by_hand() {
+    breathe();
+    list_.space().number = executed_;
+    list_.append();
+    settle();
+  }
+
   void greet(const WireFrame& frame) {
     if (!idle()) return complain(WireError::unexpected);
     Hello hello;
     decode(frame, hello);
+    expected_ = static_cast<uint16_t>(frame.sequence + 1);
+    complained_ = false;
+    if (manual()) {
+      decoder_.set_motors(hello.version == protocol_version ? hello.motors : uint8_t{0});
+      return send_hello_reply();
+    }
     // The host may not like the answer; then it will not go on. Until the two agree there are no segments.
     motors_ = hello.version == protocol_version && hello.motors <= identity_.motors && hello.motors <= most_motors
                   ? hello.motors
@@ -153,17 +206,19 @@ class Board {
     drop_all();
     session_ = 0;
     executed_ = frame.sequence;
-    expected_ = static_cast<uint16_t>(frame.sequence + 1);
-    complained_ = false;
     owed_ = 0;
     trusted_ = true;
+    manual_ = Manual::off;
+    send_hello_reply();
+  }
+  void send_hello_reply() {
     send(HelloReply{.motors = identity_.motors, .capacity = places(), .clock = identity_.clock});
   }
 
   void name_session(const WireFrame& frame) {
     Session session;
     decode(frame, session);
-    if (motors_ != 0) session_ = session.number;
+    if (motors_ != 0 && manual_ == Manual::off) session_ = session.number;
   }
 
   // Rare and large, so by themselves: on a chip all in one function would need more registers than there are.
@@ -193,6 +248,7 @@ class Board {
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
     if (kept_ != 0) state |= board_kept;
+    if (manual()) state |= board_manual;
     BoardStatusFor<most_motors> status{.session = session_,
                                        .executed = executed_,
                                        .taken = taken(),
@@ -234,6 +290,7 @@ class Board {
   }
 
   void take_in_order(const WireFrame& frame) {
+    if (manual_ != Manual::off) return complain(WireError::manual);
     const uint8_t missing = static_cast<uint8_t>(frame.sequence - expected_);
     // More than half round is behind: a repeated frame, from a host that has not heard of the first one.
     if (missing > 127) return report();
@@ -393,14 +450,6 @@ class Board {
   }
   uint8_t places() const { return identity_.places < queue_capacity ? identity_.places : uint8_t{queue_capacity}; }
 
-  // Between two pieces of work: hardware with a small buffer looks at its line.
-  struct Breath {
-    [[gnu::always_inline]] void operator()() const {
-      if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
-    }
-  };
-  static void breathe() { Breath{}(); }
-
   // Of the part that has just come to its end, or is broken off.
   void count_steps() {
     for (uint8_t motor = 0; motor < motors_; ++motor) positions_[motor] += player_.steps(motor);
@@ -456,6 +505,7 @@ class Board {
   bool complained_ = false;
   ItemSums sums_;  // of the replacement that is gathered, so far
   bool trusted_ = true;
+  Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
   // The first change of the probe since the host told to watch it: the high byte of a captured's input, 0 before; and

@@ -25,6 +25,7 @@
 
 #include <stdint.h>
 
+#include "passo/firmware/jog_keys.hpp"
 #include "passo/firmware/keypad.hpp"
 
 namespace passo {
@@ -35,33 +36,6 @@ inline constexpr uint8_t follower_axes = 3;
 inline constexpr uint8_t looks_to_settle = 4;   // 20 ms
 inline constexpr uint8_t looks_to_repeat = 80;  // 400 ms from a key's first step to its second
 inline constexpr uint8_t looks_a_step = 2;      // 100 steps a second: motors start at that without a ramp
-
-// What a key moves: the axes of `steps`, those of `down` downwards.
-struct Jog {
-  uint8_t steps = 0;
-  uint8_t down = 0;
-};
-struct JogTable {
-  Jog of[no_key + 1] = {};
-};
-constexpr JogTable jog_table() {
-  constexpr uint8_t x = 1;
-  constexpr uint8_t y = 2;
-  constexpr uint8_t z = 4;
-  constexpr uint8_t both = x | y;
-  constexpr Jog jogs[keypad_rows][keypad_columns] = {
-      {{both, x}, {y, 0}, {both, 0}},     // 1 2 3
-      {{x, x}, {z, 0}, {x, 0}},           // 4 5 6
-      {{both, both}, {y, y}, {both, y}},  // 7 8 9
-      {{}, {z, z}, {}},                   // * 0 #
-  };
-  JogTable table;
-  for (uint8_t row = 0; row < keypad_rows; ++row) {
-    for (uint8_t column = 0; column < keypad_columns; ++column) table.of[key_at(row, column)] = jogs[row][column];
-  }
-  return table;
-}
-inline constexpr JogTable jog_of_key = jog_table();
 
 template <class Hardware>
 class Follower {

@@ -24,6 +24,7 @@ enum class LinkError : std::uint8_t {
   was_reset,       // it has forgotten the session, and with it where the motors are
   stopped,         // it has stopped its motors at once
   too_few_places,  // it cannot hold as many items as it takes to bring the machine to rest
+  manual,          // a person moves the machine by the board's keypad, or has since the hello
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);

@@ -66,7 +66,8 @@ enum class WireError : uint8_t {
   bad_value = 4,        // a segment without events, faster than the board is, or for a motor that is not there
   unexpected = 5,       // a message that only the board sends, or a hello amid motion
   too_late = 6,         // an item behind the one to replace after has begun; what was to take its place is dropped
-  wrong_sums = 7,       // items came that were not sent: what was to take the place of others is dropped
+  manual = 7,           // a person moves the machine, or has since the hello: say it again behind that
+  wrong_sums = 8,       // items came that were not sent: what was to take the place of others is dropped
 };
 
 // Board to host: what came was not taken.
@@ -82,6 +83,7 @@ enum BoardState : uint8_t {
   board_replaces = 4,  // items are still to come for a replacement
   board_slipped = 8,   // since the hello it stood still amid motion: it could not make events in time. No step is lost
   board_kept = 16,     // since it was told to watch, the probe has changed
+  board_manual = 32,   // a person moves the machine by the board's keypad
 };
 // What the board's input pins say: a bit is set where the switch is on.
 enum BoardInput : uint16_t {

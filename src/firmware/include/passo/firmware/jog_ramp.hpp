@@ -1,0 +1,71 @@
+// JogRamp: how a motor that a person moves by hand gets from its start-stop speed to its highest, in stages that a
+// board plays as segments. It slows down through the same stages, backwards.
+//
+//   speed  ^            ________          Each stage changes the interval by the same amount at every event, so its
+//          |         _/                   acceleration is largest where it is fastest; it is so long that even there
+//          |      _/                      it is not above the limit.
+//          |   __/
+//          +--|--+--+--+---------> time
+//
+// Computed by the compiler. Portable.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+struct JogSpeeds {
+  uint32_t start_stop = 0;    // steps a second: from rest, and to rest, at once
+  uint32_t highest = 0;       // steps a second
+  uint32_t acceleration = 0;  // steps a second, each second
+  uint8_t tap = 1;            // steps of a key that is just touched
+};
+
+inline constexpr uint8_t jog_stages = 24;
+// What is played at the highest speed at a time: this part of a second.
+inline constexpr uint8_t jog_pieces_a_second = 100;
+
+struct JogRamp {
+  struct Stage {
+    uint16_t events = 0;
+    uint32_t interval = 0;  // at its slow end, 16.16 ticks
+    int32_t change = 0;     // an event, getting faster
+  };
+  Stage stages[jog_stages] = {};
+  uint32_t shortest = 0;  // interval
+  uint16_t piece = 0;     // events
+  uint8_t tap = 0;
+
+  constexpr uint32_t longest() const { return stages[0].interval; }
+};
+
+constexpr JogRamp jog_ramp(const JogSpeeds& speeds, uint32_t clock) {
+  JogRamp ramp;
+  const uint64_t ticks = uint64_t{clock} << 16;
+  const uint64_t rise = speeds.highest - speeds.start_stop;
+  for (uint8_t i = 0; i < jog_stages; ++i) {
+    const uint64_t slow = speeds.start_stop + rise * i / jog_stages;
+    const uint64_t fast = speeds.start_stop + rise * (i + 1U) / jog_stages;
+    // At its fast end: speed^3 times the change of the interval in seconds.
+    const uint64_t events = 1 + fast * fast * (fast - slow) / (slow * speeds.acceleration);
+    const auto from = static_cast<int64_t>(ticks / slow);
+    const auto to = static_cast<int64_t>(ticks / fast);
+    ramp.stages[i] = {.events = static_cast<uint16_t>(events),
+                      .interval = static_cast<uint32_t>(from),
+                      .change = static_cast<int32_t>((to - from) / static_cast<int64_t>(events))};
+  }
+  ramp.shortest = static_cast<uint32_t>(ticks / speeds.highest);
+  ramp.piece = static_cast<uint16_t>(1 + speeds.highest / jog_pieces_a_second);
+  ramp.tap = speeds.tap;
+  return ramp;
+}
+
+// Intervals fit into 32 bits, and changes are ones that a segment takes.
+constexpr bool can_ramp(const JogSpeeds& speeds, uint32_t clock) {
+  if (speeds.acceleration == 0 || speeds.tap == 0 || speeds.highest <= speeds.start_stop) return false;
+  return (uint64_t{clock} << 16) / largest_interval < speeds.start_stop;
+}
+
+}  // namespace passo
