@@ -175,7 +175,7 @@ void Refiller::note_executed() {
     ++recoveries_;
     return;
   }
-  stages_.path.forget_before(under_way.front().rest.place.item);
+  stages_.path.forget_before(under_way.front().from.item);
   on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
   if (executed != under_way.front().last) return;
   rested_ = std::move(under_way.front().rest);
@@ -290,7 +290,7 @@ bool Refiller::is_far_from_last_tail() const {
 // How the machine would come to rest behind what was pulled.
 Refiller::Tail Refiller::find_tail() {
   stages_.planner.braking_plan(plan_);
-  Tail tail{.rest = {.place = given_}};
+  Tail tail{.from = given_, .rest = {.place = given_}};
   for (const PlannedMove& move : plan_) tail.rest.place = stages_.path.behind(tail.rest.place, move);
   Braking braking(plan_);
   StepGenerator& rested = *(tail.rest.generator = std::make_unique<StepGenerator>(braking, steps_));
@@ -301,7 +301,7 @@ Refiller::Tail Refiller::find_tail() {
 }
 
 Refiller::Tail Refiller::tail_of_nothing() {
-  return {.rest = {.place = given_, .generator = fork()}};
+  return {.from = given_, .rest = {.place = given_, .generator = fork()}};
 }
 
 // The generator as it is; what it would be given is not its own.
@@ -370,6 +370,7 @@ void Refiller::send(std::size_t items) {
   }
   tail_items_ += tail.items.size();
   ++refills_;
+  refill.from = tail.from;
   refill.rest = std::move(pulled_[items - 1].tail->rest);
   refills_under_way_.push_back(std::move(refill));
   pulled_.erase(pulled_.begin(), pulled_.begin() + static_cast<std::ptrdiff_t>(items));

@@ -129,11 +129,13 @@ class Refiller {
     ItemNumber first = 0;
     ItemNumber last_of_motion = 0;
     ItemNumber last = 0;  // of the tail; without one, of the motion
+    PathPlace from = {};  // where its tail begins; no later one rests before
     Rest rest = {};       // behind it
   };
 
   // How the machine would come to rest. At rest there is nothing to it.
   struct Tail {
+    PathPlace from = {};
     Rest rest = {};
     std::vector<LinkItem> items = {};
   };
