@@ -134,7 +134,8 @@ void Refiller::add(const LinkItem& item) {
   pulled_.push_back({.item = item, .time = time_of(item)});
   pulled_time_ += pulled_.back().time;
   const StepGenerator& generator = stages_.generator;
-  if (generator.at_rest()) {
+  // A long dwell has more items than a board has places: it may end amid it, and go on with the next refill.
+  if (generator.at_rest() || generator.waits_at_rest()) {
     pulled_.back().tail = Tail{.rest = given_};
   } else if (generator.ends_at_rest()) {
     return;  // it is to come to rest by itself

@@ -48,6 +48,8 @@ class StepGenerator::Implementation {
   bool ends_at_rest() const { return rests_; }
   bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !stream_.in_move(); }
 
+  bool waits_at_rest() const { return rest_ && !play_; }
+
   bool next(BoardItem& item) {
     for (;;) {
       if (play_ && fit(item)) return true;
@@ -211,6 +213,9 @@ void StepGenerator::assume(const StepGenerator& other) {
 }
 bool StepGenerator::ends_at_rest() const {
   return implementation_->ends_at_rest();
+}
+bool StepGenerator::waits_at_rest() const {
+  return implementation_->waits_at_rest();
 }
 bool StepGenerator::at_rest() const {
   return implementation_->at_rest();

@@ -66,6 +66,8 @@ class StepGenerator final : public Source<BoardItem> {
   // All the motion that was pulled ends at rest; and it is given, too.
   bool ends_at_rest() const;
   bool at_rest() const;
+  // What was given last is waiting at rest, of which there may be more: a dwell.
+  bool waits_at_rest() const;
 
  private:
   class Implementation;
