@@ -23,6 +23,7 @@ struct Hardware {
   void step(uint8_t, uint8_t) {}
   void outputs(const BoardOutputs&) {}  // the player has switched them, at their event
   void send(uint8_t byte) { line.send(byte); }
+  void enable() { Wiring::enable_motors(true); }
   static void breathe() { SerialLine::breathe(); }
 
   SerialLine line;

@@ -9,7 +9,8 @@
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
-//   static void breathe();                            may be left out: called between two pieces of work
+//   void enable();                                    may be left out: the motors are to move, though a stop let go of
+//   them static void breathe();                            may be left out: called between two pieces of work
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -89,7 +90,7 @@ class Board {
   // so the session is over. Only at rest.
   void begin_manual() {
     motors_ = identity_.motors;
-    breathe();
+    enable();
     player_.restart(motors_);
     breathe();
     drop_all();
@@ -191,7 +192,7 @@ class Board {
                   : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
-    breathe();
+    enable();
     player_.restart(motors_);
     breathe();
     drop_all();
@@ -201,6 +202,16 @@ class Board {
     trusted_ = true;
     manual_ = Manual::off;
     send_hello_reply();
+    // Not while it is still pressed.
+    if (is_pressed()) stop_at_once(FaultReason::emergency_stop);
+  }
+  bool is_pressed() const { return (inputs_ & input_emergency_stop) != 0; }
+  void enable() {
+    breathe();
+    if constexpr (requires { hardware_.enable(); }) {
+      if (!is_pressed()) hardware_.enable();
+    }
+    breathe();
   }
   void send_hello_reply() {
     send(HelloReply{.motors = identity_.motors, .capacity = places(), .clock = identity_.clock});
