@@ -70,6 +70,11 @@ bool is_probe(const PathItem& item) {
   return action != nullptr && action->kind == Action::Kind::probe_end;
 }
 
+// With one a change of speed is made before the next is asked for: too slow to turn round with a spindle.
+bool has_jerk_limit(const MachineDescription& machine) {
+  return std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
+}
+
 // The check is not the whole program's.
 void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
   const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
@@ -137,11 +142,16 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   // The encoder is not on the wire yet: over a line nothing may follow what this spindle does.
   if (!over_a_line) fit_spindle(machine.spindle);
+  if (!over_a_line && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)) {
+    path_options_.tap_rest = &tap_rest_;
+    path_options_.spindle_run_up = machine.spindle.run_up;
+    drive_.tell_tap(tap_rest_);
+  }
   watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
   drive_.probe().tell(probe_outcome_);
   if (machine.probe.guards && options.probing == Probing::by_board) {
     drive_.go_live({});
-    drive_.probe().guard_other_moves();
+    drive_.guard_by_probe();
   }
 }
 

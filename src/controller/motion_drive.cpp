@@ -78,11 +78,13 @@ void MotionDrive::watch(const MotionItem& item) {
   planned_ += time_of(item);
   if (refiller_) refiller_->watch(item);
   const auto* move = std::get_if<PlannedMove>(&item);
-  if (move != nullptr && probe_.is_running()) end_of_probe_ = move->segment.curve.at(move->to);
+  // With tails not all that is given is done.
+  if (move != nullptr && probe_.is_running() && !refiller_) end_of_probe_ = move->segment.curve.at(move->to);
   if (machine_.spindle().has_encoder()) {
     // What is committed is blind to what the spindle does.
     if (move != nullptr) {
       follower_.watch(*move);
+      if (move->segment.reverse_at > Mm(0)) watch_tap(*move);
       commit_ahead(with_horizon(commits(), follower_.lock()));
     } else if (std::get<Action>(item).kind == Action::Kind::await_index) {
       commit_ahead(with_horizon(commits(), SpindleLock::place));
@@ -139,6 +141,7 @@ bool MotionDrive::advance_with_tails() {
     case Refiller::Turn::goes_on: return true;
     case Refiller::Turn::ended: state_ = State::ended; break;
     case Refiller::Turn::rests_in_hold: rest_in_feed_hold(); break;
+    case Refiller::Turn::at_action: send(refiller_->take_action()); break;
   }
   return state_ != State::ended;
 }
@@ -167,6 +170,7 @@ void MotionDrive::send(const BoardItem& item) {
     case Action::Kind::probe_end: return end_probe(action);
     case Action::Kind::feed_hold: return rest_in_feed_hold();
     case Action::Kind::await_index: return await_index(action.outputs);
+    case Action::Kind::tap_turns: return turn_tap(action);
     default: break;
   }
   heeds_spindle_override_ = action.heeds.spindle_override;
@@ -185,6 +189,7 @@ void MotionDrive::set_outputs(const OutputState& outputs) {
 void MotionDrive::look_at_probe() {
   if (contact_seen_ || !probe_.contact()) return;
   contact_seen_ = true;
+  if (refiller_) refiller_->brake_by_tail();
   if (probe_.is_running()) {
     probe_brakes_ = true;
     planner_.stop();  // whatever M53 says
@@ -194,17 +199,32 @@ void MotionDrive::look_at_probe() {
   }
 }
 
+void MotionDrive::guard_by_probe() {
+  probe_.guard_other_moves();
+  commit_to_probe();
+}
+
+// As much as is right for what the probe is watched for now.
+void MotionDrive::commit_to_probe() {
+  if (!refiller_) return commit_ahead(commits());
+  using Asking = Refiller::Asking;
+  refiller_->ask_for_probe(probe_.is_running() ? Asking::before_refills
+                           : probe_.guards()   ? Asking::with_refills
+                                               : Asking::none);
+}
+
 void MotionDrive::begin_probe(const Action& action) {
-  link_.drain();
+  if (!refiller_) link_.drain();
   probe_.begin(action);
   contact_seen_ = false;
   end_of_probe_.reset();
-  commit_ahead(probing_options);
+  commit_to_probe();
 }
 
 void MotionDrive::end_probe(const Action& action) {
+  if (!refiller_) link_.drain();
   probe_.end(end_of_probe_.value_or(action.place));
-  commit_ahead(live_);
+  commit_to_probe();
   contact_seen_ = false;
   // The contact may have come when the path was at its end already.
   if (std::exchange(probe_brakes_, false)) let_planner_go_on();
@@ -217,9 +237,29 @@ void MotionDrive::let_planner_go_on() {
   if (hold_asked_) planner_.hold();
 }
 
+// On its way down: at the end of the thread the spindle is reversed, and the tool goes on with it.
+void MotionDrive::watch_tap(const PlannedMove& move) {
+  end_of_tap_ = move.segment.curve.at(move.to);
+  if (tap_turns_ || tap_brakes_ || move.to < move.segment.reverse_at) return;
+  tap_turns_ = true;
+  OutputState outputs = outputs_;
+  outputs.spindle = reversed(outputs.spindle);
+  set_outputs(outputs);
+}
+
+// At rest, as the spindle does for a moment.
+void MotionDrive::turn_tap(const Action& action) {
+  set_outputs(action.outputs);
+  link_.drain();
+  tap_turns_ = false;
+  *tap_rest_ = end_of_tap_;
+  follower_.turn_round();
+}
+
 void MotionDrive::rest_in_feed_hold() {
-  if (std::exchange(probe_brakes_, false)) {
+  if (std::exchange(probe_brakes_, false) || std::exchange(tap_brakes_, false)) {
     planner_.drop_to_action();
+    if (refiller_) end_of_probe_ = refiller_->drop();
     let_planner_go_on();
   }
   // One that was resumed before it came to rest is none.
@@ -312,12 +352,25 @@ void MotionDrive::await_index(const OutputState& outputs) {
 // What was pulled last is followed by what is pulled next.
 void MotionDrive::follow_spindle() {
   follower_.read(machine_.spindle().read(now()));
-  if (const auto ratio = follower_.ratio(committed())) planner_.set_spindle_ratio(*ratio);
+  const Seconds ahead = committed();
+  if (tap_turns_ && follower_.turns_back(ahead)) {
+    tap_turns_ = false;
+    tap_brakes_ = true;
+    planner_.stop();
+  }
+  if (const auto ratio = follower_.ratio(ahead)) planner_.set_spindle_ratio(*ratio);
 }
 
 void MotionDrive::wait(Seconds time) {
   assert(state_ == State::held);
   let_pass(time);
+}
+
+void MotionDrive::listen(Seconds most) {
+  assert(state_ == State::held);
+  const Seconds from = now();
+  link_.listen_for(most);
+  rested_ += now() - from;
 }
 
 void MotionDrive::let_pass(Seconds time) {

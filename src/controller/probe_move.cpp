@@ -21,9 +21,9 @@ void ProbeMove::begin(const Action& action) {
 }
 
 void ProbeMove::end(const Point& rest) {
-  link_.drain();
   running_ = false;
   if (!outcome_.refused) {
+    link_.recall_contact();
     outcome_.rest = rest;
     outcome_.touched = contact();
     outcome_.contact = outcome_.touched ? contact_place(link_.probe_report()) : rest;

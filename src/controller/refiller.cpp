@@ -15,6 +15,16 @@ constexpr std::size_t items_between_tails = 3;
 // As long as there is time, a refill has so many at least, and leaves as many places for the next.
 constexpr std::size_t worth_sending = 8;
 
+// Of the questions before refills. A refill that goes before one takes the longer by so much; answers that were slow
+// are forgotten at this rate; a chip makes events of so much motion ahead.
+constexpr double behind_a_refill = 3;
+constexpr double patience = 0.9;
+constexpr double late_answer = 2;
+constexpr double slower_answer = 1.5;
+constexpr double moves_an_answer = 3;
+constexpr Seconds shortest_answer{0.003};
+constexpr Seconds made_ahead{0.002};
+
 // The planner's braking, handed out as motion.
 class Braking final : public Source<MotionItem> {
  public:
@@ -40,15 +50,14 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       places_(static_cast<std::size_t>(std::max(stages.link.room(), 0))),
       given_(stages.path.place()) {
   stages.path.keep();
-  stages.planner.limit_moves_to(options.longest_move);
-  stages.generator.limit_waiting_to(options.longest_move);
-  stages.generator.be_exact_to(places_ < options.few_places ? options.motion_in_few_places : options.motion);
+  commit();
 }
 
 Refiller::Turn Refiller::advance() {
   if (stages_.link.error()) return Turn::ended;
   note_executed();
-  if (!on_tail_) {
+  if (refills_under_way_.empty()) brakes_ = false;
+  if (!on_tail_ && !brakes_) {
     pull();
     if (const std::size_t items = size_of_refill(); items > 0) {
       send(items);
@@ -57,14 +66,68 @@ Refiller::Turn Refiller::advance() {
   }
   if (refills_under_way_.empty()) {
     if (pulled_.empty() && ended_) return Turn::ended;
+    if (pulled_.empty() && action_) return Turn::at_action;
     if (pulled_.empty() && std::exchange(holds_, false)) return Turn::rests_in_hold;
-    if (!pulled_.empty() && free_places() + 1 == places_) {
+    if (!pulled_.empty() && free_places() + 1 == places_ && !waits_for_answer()) {
       stages_.link.fail(LinkError::too_few_places);
       return Turn::ended;
     }
   }
   stages_.link.wait();
   return Turn::goes_on;
+}
+
+Action Refiller::take_action() {
+  return *std::exchange(action_, std::nullopt);
+}
+
+void Refiller::ask_for_probe(Asking asking) {
+  asking_ = asking;
+  if (asking == Asking::before_refills) {
+    answer_ = std::max(slowest_answer_, std::min(behind_a_refill * stages_.link.answer_time(), options_.refill_at));
+  }
+  commit();
+}
+
+// As much as it takes to ask and to be answered.
+void Refiller::commit() {
+  answer_ = std::max(answer_, shortest_answer);
+  const bool in_haste = asking_ == Asking::before_refills;
+  longest_move_ = in_haste ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
+  const bool few_items = in_haste || places_ < options_.few_places;
+  stages_.generator.be_exact_to(few_items ? options_.motion_in_few_places : options_.motion);
+  stages_.planner.limit_moves_to(longest_move_);
+  stages_.generator.limit_waiting_to(longest_move_);
+}
+
+// While one refill is on its way and answered, the next one not yet there, the board has enough.
+Seconds Refiller::horizon() const {
+  return asking_ == Asking::before_refills ? 2 * answer_ + longest_move_ + made_ahead : options_.horizon;
+}
+Seconds Refiller::refill_at() const {
+  return asking_ == Asking::before_refills ? horizon() - longest_move_ : options_.refill_at;
+}
+
+// One that has taken too long tells of a time that is too long ago: the board is asked again, and trusted to be slower.
+bool Refiller::waits_for_answer() {
+  if (asking_ != Asking::before_refills) return false;
+  if (!stages_.link.answered()) return true;
+  if (!std::exchange(asked_, false)) return false;
+  const Seconds time = stages_.link.answer_time();
+  if (time > late_answer * answer_) {
+    answer_ = slower_answer * answer_;
+    ask();
+    return true;
+  }
+  slowest_answer_ = std::max(time, slowest_answer_ * patience);
+  answer_ = std::max(time, answer_ * patience);
+  commit();
+  return false;
+}
+
+Point Refiller::drop() {
+  const PathPlace rest = std::exchange(given_, stages_.path.last());
+  return stages_.path.point_at(rest);
 }
 
 // What the board has told of how far it is.
@@ -84,7 +147,7 @@ void Refiller::note_executed() {
   under_way.pop_front();
   if (!on_tail_) return;
   take_up(played);
-  ++recoveries_;
+  if (!brakes_) ++recoveries_;
 }
 
 // A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
@@ -103,6 +166,7 @@ void Refiller::take_up(const Refill& refill) {
   pulled_.clear();
   ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
+  action_.reset();
   behind_ = refill.last;
   given_ = refill.rest;
   stages_.path.rewind(refill.rest);
@@ -114,20 +178,23 @@ void Refiller::take_up(const Refill& refill) {
 void Refiller::pull() {
   const auto wanted = [&] {
     if (!pulled_.empty() && !pulled_.back().tail) return true;
-    return ahead_ + pulled_time_ < options_.horizon && pulled_.size() < places_;
+    return ahead_ + pulled_time_ < horizon() && pulled_.size() < places_;
   };
-  while (!holds_ && !ended_ && wanted()) {
+  const auto goes_on = [&] { return !holds_ && !ended_ && !action_; };
+  while (goes_on() && wanted()) {
     if (!stages_.items.next(item_)) {
       ended_ = true;
     } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
       add(*segment);
     } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
       holds_ = true;
+    } else if (action.kind == Action::Kind::probe_begin || action.kind == Action::Kind::probe_end) {
+      action_ = action;
     } else {
       add(board_outputs(action.outputs));
     }
   }
-  if ((ended_ || holds_) && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = Tail{.rest = given_};
+  if (!goes_on() && !pulled_.empty() && !pulled_.back().tail) pulled_.back().tail = Tail{.rest = given_};
 }
 
 void Refiller::add(const LinkItem& item) {
@@ -172,8 +239,10 @@ std::size_t Refiller::free_places() const {
 
 // How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
 // one's tail begins.
-std::size_t Refiller::size_of_refill() const {
-  if (pulled_.empty() || ahead_ >= options_.refill_at) return 0;
+std::size_t Refiller::size_of_refill() {
+  if (pulled_.empty() || ahead_ >= refill_at()) return 0;
+  if (waits_for_answer()) return 0;
+  const bool at_once = asking_ == Asking::before_refills;
   const std::size_t room = free_places();
   std::size_t fits = 0;
   std::size_t fits_well = 0;
@@ -183,9 +252,9 @@ std::size_t Refiller::size_of_refill() const {
     if (i + tail <= room) fits = i;
     if (i + 2 * tail + (tail > 0 ? worth_sending : 0) <= room) fits_well = i;
   }
-  if (refills_under_way_.empty()) return fits_well > 0 ? fits_well : fits;
+  if (refills_under_way_.empty() || at_once) return fits_well > 0 ? fits_well : fits;
   if (fits_well >= std::min(worth_sending, pulled_.size())) return fits_well;
-  if (ahead_ >= options_.refill_at / 2) return 0;
+  if (ahead_ >= refill_at() / 2) return 0;
   return fits;
 }
 
@@ -208,6 +277,7 @@ void Refiller::send(std::size_t items) {
   }
   refill.last_of_motion = behind_ = static_cast<ItemNumber>(refill.first + items - 1);
   refill.last = static_cast<ItemNumber>(refill.first + items_.size() - 1);
+  assert(refill.last == stages_.link.sent());
   for (std::size_t i = 0; executed_watcher_ && i < items_.size(); ++i) {
     Sent sent{.number = static_cast<ItemNumber>(refill.first + i), .item = items_[i]};
     if (i >= items) sent.end_of_tail = refill.last;
@@ -219,6 +289,13 @@ void Refiller::send(std::size_t items) {
   refill.rested = std::move(pulled_[items - 1].tail->rested);
   refills_under_way_.push_back(std::move(refill));
   pulled_.erase(pulled_.begin(), pulled_.begin() + static_cast<std::ptrdiff_t>(items));
+  if (asking_ != Asking::none) ask();
+}
+
+void Refiller::ask() {
+  if (asking_ == Asking::before_refills) longest_ahead_ = std::max(longest_ahead_, ahead_);
+  asked_ = true;
+  stages_.link.ask();
 }
 
 void Refiller::switch_outputs(const BoardOutputs& outputs) {

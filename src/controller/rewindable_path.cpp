@@ -54,6 +54,13 @@ void RewindablePath::rewind(const PathPlace& place) {
   rewound_ = place;
 }
 
+Point RewindablePath::point_at(const PathPlace& place) const {
+  assert(place.item >= first_ && place.item < first_ + kept_.size());
+  const PathItem& item = kept_[place.item - first_];
+  if (const auto* action = std::get_if<Action>(&item)) return action->place;
+  return std::get<Segment>(item).curve.at(place.s);
+}
+
 void RewindablePath::forget_before(std::uint64_t item) {
   for (; first_ < item && first_ < next_ && !kept_.empty(); ++first_) kept_.pop_front();
 }

@@ -1,6 +1,7 @@
 #include "passo/controller/spindle_follower.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,9 @@ constexpr double measured_over = 0.03;
 
 // What is missing is made up for at this rate, in 1/s: slow against the time from a reading to its effect.
 constexpr double eagerness = 15;
+
+// What is planned next takes so long.
+constexpr Seconds half_a_move{0.001};
 
 // From this part of the spindle's speed on the tool's place counts.
 constexpr double up_to_speed = 0.95;
@@ -33,6 +37,7 @@ void SpindleFollower::begin(const SpindleReading& index) {
   index_ = index.turns;
   lag_ = -1;
   followed_ = reached_ = 0;
+  direction_ = 1;
   in_place_ = false;
   read(index);
 }
@@ -43,7 +48,7 @@ void SpindleFollower::watch(const PlannedMove& move) {
   const double pitch = move.segment.pitch.value();
   programmed_ = move.segment.speed.value() / pitch;
   if (lag_ < 0) lag_ = lag_of(move);
-  followed_ += (move.to - move.from()).value() / pitch;
+  followed_ += direction_ * (move.to - move.from()).value() / pitch;
   const Phase& last = *(move.end() - 1);
   reached_ = last.velocity_at(last.duration).value() / pitch;
   in_place_ = in_place_ || reached_ >= up_to_speed * turns_a_second();
@@ -90,15 +95,48 @@ std::optional<double> SpindleFollower::ratio(Seconds committed) {
   return ratio_ = wanted;
 }
 
+// A parabola through the readings, by least squares: a spindle that is reversed changes its speed evenly.
+SpindleFollower::Course SpindleFollower::course(Seconds later) const {
+  const double last = readings_.back().time.value();
+  const auto turns_of = [this](const SpindleReading& reading) { return std::abs(reading.turns - index_); };
+  const double base = turns_of(readings_.back());
+  std::array<double, 5> powers{};
+  std::array<double, 3> right{};
+  for (const SpindleReading& reading : readings_) {
+    const double t = (reading.time.value() - last) / measured_over;
+    double power = 1;
+    for (std::size_t i = 0; i < powers.size(); ++i, power *= t) {
+      powers[i] += power;
+      if (i < right.size()) right[i] += power * (turns_of(reading) - base);
+    }
+  }
+  const auto [s0, s1, s2, s3, s4] = powers;
+  const auto determinant = [](double a, double b, double c, double d, double e, double f, double g, double h,
+                              double i) { return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g); };
+  const double whole = determinant(s0, s1, s2, s1, s2, s3, s2, s3, s4);
+  const double at = later.value() / measured_over;
+  if (readings_.size() < 4 || std::abs(whole) < 1e-9)
+    return {base + turns_a_second() * later.value(), turns_a_second()};
+  const auto [r0, r1, r2] = right;
+  const double c0 = determinant(r0, s1, s2, r1, s2, s3, r2, s3, s4) / whole;
+  const double c1 = determinant(s0, r0, s2, s1, r1, s3, s2, r2, s4) / whole;
+  const double c2 = determinant(s0, s1, r0, s1, s2, r1, s2, s3, r2) / whole;
+  return {base + c0 + at * (c1 + at * c2), (c1 + 2 * c2 * at) / measured_over};
+}
+
+bool SpindleFollower::turns_back(Seconds committed) const {
+  return readings_.size() > 2 && course(committed).speed < least_ratio * programmed_;
+}
+
 double SpindleFollower::wanted_ratio(Seconds committed) const {
+  if (lock_ == SpindleLock::place && in_place_ && programmed_ > 0) {
+    const Course there = course(committed + half_a_move);
+    const double missing = there.turns - lag_ - followed_;
+    return std::clamp(direction_ * (there.speed + eagerness * missing) / programmed_, least_ratio, most_ratio);
+  }
   const double speed = turns_a_second();
   if (!(speed > 0) || !(programmed_ > 0)) return 1;
-  double wanted = speed;
-  if (lock_ == SpindleLock::place && in_place_) {
-    const double turned = std::abs(readings_.back().turns - index_) + speed * committed.value();
-    wanted += eagerness * (turned - lag_ - followed_);
-  }
-  return std::clamp(wanted / programmed_, least_ratio, most_ratio);
+  return std::clamp(speed / programmed_, least_ratio, most_ratio);
 }
 
 }  // namespace passo

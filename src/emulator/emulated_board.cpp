@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -27,33 +28,42 @@ struct Kind {
   const char* mcu;
   const char* ports;
   std::vector<MotorPins> motors;
+  std::map<BoardInput, Pin> switches;
 };
 
-template <class Pins>
-std::vector<MotorPins> motors_of(const Pins& pins, Drive drive = {}) {
-  std::vector<MotorPins> motors(std::begin(pins.motor), std::end(pins.motor));
-  for (MotorPins& motor : motors) motor.drive = drive;
-  return motors;
+template <class Map>
+Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = {}) {
+  Kind kind{.mcu = mcu,
+            .ports = ports,
+            .motors = {std::begin(pins.motor), std::end(pins.motor)},
+            .switches = {{input_probe, pins.probe},
+                         {input_emergency_stop, pins.emergency_stop},
+                         {input_hold, pins.feed_hold},
+                         {input_start, pins.cycle_start}}};
+  for (MotorPins& motor : kind.motors) motor.drive = drive;
+  return kind;
+}
+
+template <class Map>
+Kind kind_of(bool is_mega, const Map& pins, Drive drive = {}) {
+  return is_mega ? kind_of("atmega2560", "ABCDEFGHJKL", pins, drive) : kind_of("atmega328p", "BCD", pins, drive);
 }
 
 Kind kind_named(std::string_view name) {
   const bool is_mega = name.starts_with("mega");
-  const Kind kind = is_mega ? Kind{.mcu = "atmega2560", .ports = "ABCDEFGHJKL", .motors = motors_of(mega_ramps)}
-                            : Kind{.mcu = "atmega328p", .ports = "BCD", .motors = motors_of(uno_cnc_shield)};
   for (const auto& [ending, drive] : {std::pair{"_two_on", Drive::two_on}, std::pair{"_wave", Drive::wave},
                                       std::pair{"_half_step", Drive::half_step}}) {
     if (!name.ends_with(ending)) continue;
-    return {.mcu = kind.mcu,
-            .ports = kind.ports,
-            .motors = is_mega ? motors_of(mega_windings, drive) : motors_of(uno_windings, drive)};
+    return is_mega ? kind_of(is_mega, mega_windings, drive) : kind_of(is_mega, uno_windings, drive);
   }
-  return kind;
+  return is_mega ? kind_of(is_mega, mega_ramps) : kind_of(is_mega, uno_cnc_shield);
 }
 
 class AvrBoard final : public EmulatedBoard {
  public:
   AvrBoard(Kind kind, const std::string& program)
       : motors_(std::move(kind.motors)),
+        switches_(std::move(kind.switches)),
         positions_(motors_.size(), 0),
         chip_(program, kind.mcu),
         timer_(chip_),
@@ -63,6 +73,7 @@ class AvrBoard final : public EmulatedBoard {
       said_.push_back(byte);
       chip_.stop();
     };
+    ports_.on_change = [this](const PortChange& change) { count_steps(change); };
   }
 
   void receive(std::span<const std::uint8_t> bytes) override { uart_.send(bytes); }
@@ -72,7 +83,6 @@ class AvrBoard final : public EmulatedBoard {
     const std::uint64_t end = chip_.cycles() + static_cast<std::uint64_t>(std::max(seconds, 0.0) * clock_rate);
     while (said_.empty() && chip_.cycles() < end) {
       chip_.run_for(std::min<std::uint64_t>(end - chip_.cycles(), look_cycles));
-      count_steps();
     }
     return !said_.empty();
   }
@@ -84,27 +94,38 @@ class AvrBoard final : public EmulatedBoard {
 
   Seconds elapsed() const override { return Seconds(static_cast<double>(chip_.cycles()) / clock_rate); }
   std::vector<std::int64_t> positions() const override { return positions_; }
+  void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) override {
+    touches_ = std::move(touches);
+    look_at_touch();
+  }
+  bool set_switch(BoardInput which, bool closed) override {
+    const auto found = switches_.find(which);
+    if (found == switches_.end() || !found->second.exists()) return false;
+    ports_.set_input(found->second.port, found->second.bit, !closed);
+    return true;
+  }
 
  private:
   static constexpr std::uint64_t look_cycles = 1'000'000;
 
-  void count_steps() {
-    for (const PortChange& change : ports_.changes()) {
-      const unsigned rose = change.now & ~unsigned{change.before};
-      const unsigned turned_over = change.now ^ unsigned { change.before };
-      levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
-      for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
-        const MotorPins& pins = motors_[motor];
-        if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
-          count(change.cycle, motor, (levels_of(pins.direction) & pins.direction.mask()) != 0);
-        }
-        if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
+  void count_steps(const PortChange& change) {
+    const unsigned rose = change.now & ~unsigned{change.before};
+    const unsigned turned_over = change.now ^ unsigned { change.before };
+    levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
+    stepped_ = false;
+    for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
+      const MotorPins& pins = motors_[motor];
+      if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
+        count(change.cycle, motor, (levels_of(pins.direction) & pins.direction.mask()) != 0);
       }
+      if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
     }
-    ports_.forget_changes();
+    if (stepped_ && touches_) look_at_touch();
   }
+  void look_at_touch() { static_cast<void>(set_switch(input_probe, touches_(positions_))); }
   void count(std::uint64_t cycle, std::size_t motor, bool down) {
     positions_[motor] += down ? -1 : 1;
+    stepped_ = true;
     if (on_step) on_step(cycle, motor, down);
   }
   // Where a motor's windings lie on two ports there is a moment between the two, whose pattern is in no table.
@@ -122,7 +143,10 @@ class AvrBoard final : public EmulatedBoard {
   std::uint8_t levels_of(Pin pin) const { return levels_[static_cast<std::size_t>(pin.port - 'A')]; }
 
   std::vector<MotorPins> motors_;
+  std::map<BoardInput, Pin> switches_;
   std::vector<std::int64_t> positions_;
+  bool stepped_ = false;  // at the change that is looked at
+  std::function<bool(const std::vector<std::int64_t>&)> touches_;
   std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
   EmulatedChip chip_;
   EmulatedTimer timer_;

@@ -63,8 +63,14 @@ EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr
 void EmulatedPorts::write(Port& port, std::uint8_t value) {
   std::uint8_t& output = avr_.data[port.pin + 2];
   const std::uint64_t cycle = avr_.cycle + (port.pin >= first_memory_register ? 1 : 0);
-  if (output != value) changes_.push_back({.cycle = cycle, .port = port.name, .before = output, .now = value});
+  const PortChange change{.cycle = cycle, .port = port.name, .before = output, .now = value};
   output = value;
+  if (change.before == value) return;
+  if (on_change) {
+    on_change(change);
+  } else {
+    changes_.push_back(change);
+  }
 }
 
 std::uint8_t EmulatedPorts::outputs(char port) const {

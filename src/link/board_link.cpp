@@ -4,8 +4,16 @@
 #include <cassert>
 #include <cstdlib>
 #include <span>
+#include <utility>
 
 namespace passo {
+namespace {
+
+constexpr ProbeUntil until_is(bool touched) {
+  return touched ? ProbeUntil::touched : ProbeUntil::released;
+}
+
+}  // namespace
 
 BoardLink::BoardLink(BoardPort& port, std::uint8_t motors, const LineCare& care)
     : port_(port),
@@ -87,17 +95,37 @@ void BoardLink::let_pass(Seconds time) {
   while (!error_ && until - port_.elapsed() > hardly_any) hear(until - port_.elapsed());
 }
 
+// An answer to an earlier question may come first: it counts if it tells of the same rest.
 void BoardLink::watch_probe(ProbeUntil until) {
-  drain();
-  probe_until_ = until;
+  probe_until_ = ProbeUntil::off;
   probe_report_ = {};
+  if (until == ProbeUntil::off) return;
+  const auto rests = [this] {
+    return status_ && status_->executed == executed_ && (status_->state & (board_moves | board_kept)) == 0;
+  };
   status_.reset();
-  ask();
-  while (!status_ && listen()) {
+  answered_ = true;  // what went before is over
+  ask(Question::watch);
+  while (!rests() && listen([this] { ask(Question::watch); })) {
   }
-  if (!status_) return;
+  probe_report_ = {};
+  if (error_) return;
+  probe_until_ = until;
   probe_report_.touched = (status_->inputs & input_probe) != 0;
+  began_as_wanted_ = until == until_is(probe_report_.touched);
   std::copy_n(status_->positions, probed_from_.size(), probed_from_.begin());
+}
+
+void BoardLink::recall_contact() {
+  recalled_.reset();
+  ask(Question::kept);
+  while (!recalled_ && listen([this] { ask(Question::kept); })) {
+  }
+  if (!recalled_) return;
+  const bool touched = (recalled_->input & captured_released) == 0;
+  probe_report_.happened = (recalled_->input & input_probe) != 0 && probe_until_ == until_is(touched);
+  if (!probe_report_.happened) return;
+  for (std::size_t m = 0; m < motors_; ++m) probe_report_.steps[m] = recalled_->positions[m] - probed_from_[m];
 }
 
 void BoardLink::wait_for_room() {
@@ -105,18 +133,24 @@ void BoardLink::wait_for_room() {
   }
 }
 
-// Waits for what the board has to say, for as long as it may take. False when it is no use to wait any longer.
-bool BoardLink::listen() {
-  const bool heard = hear(care_.answer_within);
+// Waits for what the board has to say, for as long as it may take; after a silence asks again. False when it is no use
+// to wait any longer.
+template <class Again>
+bool BoardLink::listen(Again again) {
+  const bool heard = hear();
   if (error_) return false;
   if (!may_lose()) {
     if (!heard) error_ = LinkError::no_answer;
   } else if (port_.elapsed() - heard_ > care_.patience) {
     error_ = LinkError::no_answer;
   } else if (!heard || overdue()) {
-    ask();
+    again();
   }
   return !error_;
+}
+
+bool BoardLink::listen() {
+  return listen([this] { ask(); });
 }
 
 // An answer comes in pieces, on a slow line byte by byte: what was asked is asked again only when its time is over.
@@ -127,6 +161,17 @@ bool BoardLink::hear_until(Done done) {
   while (!error_ && !done() && port_.elapsed() - asked <= care_.answer_within && hear(care_.answer_within))
     heard = true;
   return heard;
+}
+
+void BoardLink::listen_for(Seconds most) {
+  const Seconds end = port_.elapsed() + most;
+  ask();
+  while (!error_ && pressed_ == 0 && port_.elapsed() < end && hear(end - port_.elapsed())) {
+  }
+}
+
+bool BoardLink::hear() {
+  return hear(care_.answer_within);
 }
 
 bool BoardLink::hear(Seconds most) {
@@ -145,10 +190,11 @@ bool BoardLink::overdue() const {
   return !kept_.empty() && port_.elapsed() - moved_on_ > care_.answer_within;
 }
 
-void BoardLink::ask() {
+void BoardLink::ask(Question question) {
   moved_on_ = port_.elapsed();
   asked_behind_ = sent_;
-  say(Ask{.motors = motors_}, std::uint8_t{0});
+  if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
+  say(Ask{.motors = motors_, .question = question}, std::uint8_t{0});
 }
 
 void BoardLink::take(const WireFrame& frame) {
@@ -199,6 +245,8 @@ void BoardLink::take(const BoardStatus& status) {
     error_ = LinkError::manual;
     return;
   }
+  note_inputs(status);
+  note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
     // Before the board has heard of the session it is no wonder.
     if (care_.session != 0 && sent_ != care_.greeting) error_ = LinkError::was_reset;
@@ -210,15 +258,43 @@ void BoardLink::take(const BoardStatus& status) {
   if (later_by(asked_behind_, taken_) > 0) repeat();
 }
 
-// Each tells of a change, and is told once.
 void BoardLink::take(const Captured& captured) {
+  if ((captured.input & captured_kept) != 0) {
+    recalled_ = captured;
+    return;
+  }
+  const auto pressed = static_cast<std::uint16_t>(captured.input & ~(input_probe | captured_kept | captured_released));
+  pressed_ |= pressed;
+  inputs_ |= pressed;
   if ((captured.input & input_probe) == 0) return;
-  probe_report_.touched = !probe_report_.touched;
-  const bool waited_for = probe_until_ == (probe_report_.touched ? ProbeUntil::touched : ProbeUntil::released);
-  if (!waited_for || probe_report_.happened) return;
-  probe_report_.happened = true;
-  for (std::size_t m = 0; m < motors_; ++m) probe_report_.steps[m] = captured.positions[m] - probed_from_[m];
-  news_ = true;
+  probe_report_.touched = (captured.input & captured_released) == 0;
+  if (probe_until_ != until_is(probe_report_.touched)) return;
+  probe_report_.happened = news_ = true;
+}
+
+void BoardLink::note_inputs(const BoardStatus& status) {
+  pressed_ |= static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{input_probe});
+  inputs_ = status.inputs;
+}
+
+// A captured may be lost; what it told shows in every status. Where the probe was at the beginning as it is to become,
+// its first change is away from that, and the watch begins again.
+void BoardLink::note_probe(const BoardStatus& status) {
+  if (static_cast<std::uint8_t>(sent_) == status.taken && !answered_) {
+    answered_ = news_ = true;
+    answer_time_ = port_.elapsed() - unanswered_since_;
+  }
+  const bool touched = (status.inputs & input_probe) != 0;
+  const bool came = std::exchange(probe_report_.touched, touched) != touched;
+  if (probe_until_ == ProbeUntil::off) return;
+  const bool as_wanted = probe_until_ == until_is(touched);
+  const bool kept = (status.state & board_kept) != 0;
+  if (as_wanted ? came || kept : kept && !began_as_wanted_) {
+    probe_report_.happened = news_ = true;
+  } else if (!as_wanted && began_as_wanted_) {
+    began_as_wanted_ = kept;
+    if (kept) ask(Question::watch);
+  }
 }
 
 void BoardLink::take(const ErrorReport& error) {
@@ -265,6 +341,8 @@ void BoardLink::send_counted(const Message& message, More... more) {
   Frame frame{.number = ++sent_};
   frame.size = encode(message, more..., static_cast<std::uint8_t>(sent_), frame.bytes);
   if (may_lose()) kept_.push_back(frame);
+  answered_ = false;
+  unanswered_since_ = port_.elapsed();
   moved_on_ = port_.elapsed();
   put_on_wire(frame.bytes, frame.size);
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace passo {
 
@@ -72,7 +73,14 @@ void VirtualMachine::look_at_bodies() {
   const bool touched = hardware_.is_in_a_body();
   if (touched == touched_) return;
   touched_ = touched;
-  board_.set_inputs(touched ? input_probe : 0, input_probe);
+  board_.set_inputs(static_cast<std::uint16_t>(touched ? switches_ | input_probe : switches_), input_probe);
+}
+
+void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
+  const auto before =
+      std::exchange(switches_, static_cast<std::uint16_t>(closed ? switches_ | which : switches_ & ~which));
+  board_.set_inputs(static_cast<std::uint16_t>(touched_ ? switches_ | input_probe : switches_),
+                    static_cast<std::uint16_t>(switches_ & ~before));
 }
 
 void VirtualMachine::wait(Ticks time) {
@@ -117,12 +125,9 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
 }
 
 bool VirtualMachine::Hardware::is_in_a_body() const {
-  return std::any_of(bodies.begin(), bodies.end(), [this](const TouchBody& body) {
-    for (std::size_t m = 0; m < motors.size(); ++m) {
-      if (motors[m].position < body.motors[m].low || motors[m].position > body.motors[m].high) return false;
-    }
-    return true;
-  });
+  std::array<std::int64_t, max_motors> positions{};
+  for (std::size_t m = 0; m < motors.size(); ++m) positions[m] = motors[m].position;
+  return std::ranges::any_of(bodies, [&](const TouchBody& body) { return body.contains(positions); });
 }
 
 MachineCounts VirtualMachine::counts() const {

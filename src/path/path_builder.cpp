@@ -40,15 +40,6 @@ concept OfOthers =
               operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::Comment, operation::Message,
               operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
 
-constexpr SpindleDirection reversed(SpindleDirection direction) {
-  switch (direction) {
-    case SpindleDirection::clockwise: return SpindleDirection::counterclockwise;
-    case SpindleDirection::counterclockwise: return SpindleDirection::clockwise;
-    case SpindleDirection::off: break;
-  }
-  return SpindleDirection::off;
-}
-
 bool turns_only_rotary_axes(const Curve& curve) {
   for (const Axis axis : all_axes) {
     if (!is_rotary(axis) && curve.tangent(Mm(0))[axis] != 0) return false;
@@ -102,7 +93,7 @@ bool PathBuilder::next(PathItem& item) {
     held_.pop_front();
     return true;
   }
-  bool has_item = take_chord(item) || take_spline_piece(item) || take_probe_step(item);
+  bool has_item = take_chord(item) || take_spline_piece(item) || take_probe_step(item) || take_tap_step(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
   // What comes before the item in hand; at the end of the operations there is none.
@@ -122,6 +113,7 @@ bool PathBuilder::next(PathItem& item) {
 // One thread after the other without a move between goes on in step.
 bool PathBuilder::must_await_index(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
+  if (followed_tap_ == TapStep::back && segment == nullptr) return false;
   const bool was = in_step_;
   in_step_ = segment != nullptr && segment->lock == SpindleLock::place;
   return in_step_ && !was;
@@ -132,13 +124,6 @@ bool PathBuilder::next_operation() {
   if (tap_step_ == tap_.size()) return operations_.next(operation_);
   operation_.what = tap_[tap_step_++];
   return true;
-}
-
-// In step with the spindle down to the end, and with the spindle reversed back to where it began.
-void PathBuilder::expand(const operation::RigidTap& tap) {
-  tap_ = {operation::StraightFeed{tap.end}, operation::TurnSpindle{reversed(commanded_.spindle)},
-          operation::StraightFeed{frame_.work_from_machine(position_)}, operation::TurnSpindle{commanded_.spindle}};
-  tap_step_ = 0;
 }
 
 // What the program forgot to, wherever it ends.
@@ -168,7 +153,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::NurbsFeed& curve) { return take_spline(curve, item); },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
-          [&](const operation::RigidTap& tap) { return expand(tap), false; },
+          [&](const operation::RigidTap& tap) { return take_tap(tap, item); },
           [&](const operation::StartSpeedFeedSync& sync) { return synchronised_pitch_ = sync.pitch, false; },
           [&](const operation::StopSpeedFeedSync&) { return synchronised_pitch_.reset(), false; },
           [&](const operation::SetPathMode& mode) { return set_path_mode(mode), false; },
@@ -464,7 +449,7 @@ Heeds PathBuilder::heeds() const {
       .feed_override = false, .spindle_override = heeds_.spindle_override, .adaptive_feed = false, .feed_hold = false};
 }
 
-// A tap is in step by its speed alone: it begins while the spindle turns and ends where that is reversed.
+// A tap that is not followed is in step by its speed alone: it ends where the spindle is reversed.
 SpindleLock PathBuilder::lock() const {
   if (synchronised_pitch_) return tap_step_ == tap_.size() ? SpindleLock::place : SpindleLock::speed;
   return feed_mode_ == FeedMode::units_per_revolution ? SpindleLock::speed : SpindleLock::none;

@@ -95,6 +95,22 @@ TEST_F(Boards, that_hold_little_dwell_for_hours) {
   EXPECT_EQ(json["steps"], nlohmann::json::parse(passo("run " + program + " --json -m " + uno).out)["steps"]);
 }
 
+TEST_F(Boards, probe_by_their_firmware_what_stands_on_an_emulated_machine) {
+  const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
+  const std::string program = write("p.ngc", "G21 G90 F300\nG38.2 Z-5\nF60 G38.4 Z0\nG0 Z1\nX[0-#5063]\nM2\n");
+  const Outcome outcome = passo("run " + program + " --json -m " + uno + " --touch Z:-1.5 --board sim:uno");
+  if (outcome.err.find("was built without") != std::string::npos ||
+      outcome.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << outcome.err;
+  }
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["probes"]["touched"], 2);
+  // Free again a step above the plate.
+  EXPECT_DOUBLE_EQ(json["probes"]["last_contact_mm"]["Z"], -1.5 + 1.0 / 640);
+  EXPECT_EQ(json["steps"]["X"]["net"], 640 * 1.5 - 1);
+}
+
 TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {
   const std::string router =
       (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "router.toml").string();
@@ -118,9 +134,10 @@ TEST_F(Boards, that_do_not_suit_a_machine_are_refused_with_words) {
   EXPECT_EQ(clock.code, 1);
   EXPECT_NE(clock.err.find("18000000 ticks a second"), std::string::npos) << clock.err;
   const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");
-  const Outcome probe = passo("run " + probing + " -m " + (machines / "router.toml").string() + " --board " + board);
+  const Outcome probe =
+      passo("run " + probing + " -m " + (machines / "router.toml").string() + " --touch Z:-0.5 --board " + board);
   EXPECT_EQ(probe.code, 2);
-  EXPECT_NE(probe.err.find("probe moves"), std::string::npos) << probe.err;
+  EXPECT_NE(probe.err.find("--touch is for the virtual machine"), std::string::npos) << probe.err;
 }
 
 TEST_F(Boards, that_are_not_there_are_said_to_be_missing) {

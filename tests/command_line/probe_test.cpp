@@ -61,6 +61,18 @@ TEST_F(Probe, with_a_hold_and_an_override_finds_the_same) {
   EXPECT_DOUBLE_EQ(json["probes"]["last_contact_mm"]["Z"], -1.5);
 }
 
+TEST_F(Probe, over_a_line_that_is_cut_finds_the_same) {
+  for (const char* cut : {"9999:1", "0.05:0.5", "0.12:0.5"}) {
+    const Outcome outcome =
+        run_text("G21 G90 F600\nG38.2 Z-20\nM2\n", "--json --touch Z:-1.5 --cut-cable-at " + std::string(cut));
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const auto probes = nlohmann::json::parse(outcome.out)["probes"];
+    EXPECT_EQ(probes["touched"], 1);
+    EXPECT_DOUBLE_EQ(probes["last_contact_mm"]["Z"], -1.5);
+    EXPECT_LT(probes["farthest_overrun_mm"], 0.6) << "as the manual promises";
+  }
+}
+
 TEST_F(Probe, refuses_what_is_no_box_of_the_machine) {
   for (const char* wrong : {"Z", "Z-1.5", "A:3", "Z:x", "Z2:1", "X1:2,", "3:4", "Znan:"}) {
     const Outcome outcome = run_text("M2\n", "--touch " + std::string(wrong));

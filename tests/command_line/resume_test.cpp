@@ -185,6 +185,8 @@ TEST_F(Resumed, only_over_a_line) {
   const Outcome alone = passo("run " + program_ + " -m " + machine_ + " --resume");
   EXPECT_EQ(alone.code, 2);
   EXPECT_NE(alone.err.find("--resume and --journal are for a board that outlives the run"), std::string::npos);
+  const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");
+  EXPECT_EQ(passo("run " + probing + " -m " + machine_ + " --board " + board_ + " --resume").code, 2);
   const Outcome unwritable =
       passo("run " + program_ + " -m " + machine_ + " --board " + board_ + " --journal /dev/null/j");
   EXPECT_EQ(unwritable.code, 1);

@@ -71,6 +71,7 @@ class JournaledHost {
     return done;
   }
   MemoryStore store;
+  bool may_fail = false;  // the line is so bad that it may give up, in words
 
  private:
   void work(MortalPort& port, bool& done) {
@@ -99,15 +100,19 @@ class JournaledHost {
     Diagnostics diagnostics;
     Job job(reader.again(), machine_, InterpreterOptions(), diagnostics,
             {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
-    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+    if (fails(job)) return;
     ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
     job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
     job.resume();
     while (job.advance()) {
       if (port.is_to_stop() && !job.drive().stopped()) job.drive().stop();
     }
-    done = !job.drive().stopped();
-    ASSERT_FALSE(job.link().error()) << message_of(*job.link().error());
+    done = !fails(job) && !job.drive().stopped();
+  }
+  bool fails(const Job& job) const {
+    const auto error = job.link().error();
+    EXPECT_TRUE(!error || may_fail) << message_of(*error);
+    return error.has_value();
   }
 
   const MachineDescription& machine_;

@@ -13,6 +13,7 @@
 
 #include "kit/example_machine.hpp"
 #include "kit/journaled_host.hpp"
+#include "kit/line_trouble.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ namespace {
 using test::expect_same_way;
 using test::expect_within_limits;
 using test::HostEnd;
+using test::RandomTrouble;
 using test::StepLog;
 
 const MachineDescription& machine_named(const std::string& name) {
@@ -103,6 +105,13 @@ class Bench {
     done = host_.live(line_, ends_at, end, moments);
     if (!done && rest_is_lost) line_.cut(machine_.elapsed(), Seconds(0.01));
     return moments;
+  }
+  // From now on the line loses, doubles, flips and swaps.
+  void go_bad(std::uint64_t seed) {
+    host_.may_fail = true;
+    line_.set_trouble([trouble = RandomTrouble(seed)](bool to_board, const VirtualLine::Bytes& bytes) mutable {
+      return trouble(to_board, bytes);
+    });
   }
   void let_pass(Seconds time) {
     const Seconds until = machine_.elapsed() + time;
@@ -206,6 +215,27 @@ void die_at_random(int trials, const std::string& machine, Counted& counted) {
   }
 }
 
+// And the line is bad, too.
+void die_on_a_bad_line(int trials, const std::string& machine, Counted& counted) {
+  const std::uint64_t seed = test::seed();
+  for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
+    std::mt19937_64 random(seed + static_cast<std::uint64_t>(i));
+    const std::size_t program = random() % programs().size();
+    Bench bench(machine, program);
+    bench.go_bad(random());
+    ++counted.trials;
+    for (int host = 0; host < 50 && !bench.done && !testing::Test::HasFatalFailure(); ++host) {
+      const bool lives = random() % 5 == 0;
+      bench.host(lives ? test::never : random() % 500, ends[random() % ends.size()]);
+      if (!bench.done) ++counted.deaths;
+      bench.let_pass(Seconds(0.03 * static_cast<double>(random() % 5)));
+    }
+    ASSERT_TRUE(bench.done);
+    bench.expect_as_if_nothing_had_been();
+  }
+}
+
 void print(const Counted& counted) {
   std::printf("%d trials, %d hosts died, %d were stopped\n", counted.trials, counted.deaths, counted.stops);
 }
@@ -239,6 +269,13 @@ TEST_P(HostRestart, again_and_again) {
   EXPECT_GT(counted.deaths + counted.stops, counted.trials);
 }
 
+TEST_P(HostRestart, on_a_bad_line) {
+  Counted counted;
+  die_on_a_bad_line(10, GetParam(), counted);
+  print(counted);
+  EXPECT_GT(counted.deaths, counted.trials);
+}
+
 TEST_P(HostRestartInFull, at_every_moment_of_all_programs) {
   Counted counted;
   for (std::size_t program = 0; program < programs().size(); ++program) {
@@ -259,6 +296,12 @@ TEST_P(HostRestartInFull, at_every_moment_of_many_beginnings) {
 TEST_P(HostRestartInFull, again_and_again) {
   Counted counted;
   die_at_random(1500, GetParam(), counted);
+  print(counted);
+}
+
+TEST_P(HostRestartInFull, on_a_bad_line) {
+  Counted counted;
+  die_on_a_bad_line(1000, GetParam(), counted);
   print(counted);
 }
 

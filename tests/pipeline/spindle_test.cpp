@@ -38,12 +38,13 @@ class Thread final : public MachineObserver {
     if ((stepped & 4U) == 0) return;
     const bool down = ((directions & 4U) != 0) != z.inverted;
     place_ += down ? -1 : 1;
-    if (down) {
+    if (down || both_ways) {
       const double seconds = static_cast<double>(time.count) / description_.board.clock.value();
       cuts.push_back({place_ / z.steps_per_unit, machine_.spindle().turns_at(Seconds(seconds))});
     }
   }
   std::vector<Cut> cuts;
+  bool both_ways = false;
 
  private:
   const MachineDescription& description_;
@@ -55,10 +56,11 @@ struct Played {
   std::vector<Cut> cuts;
   double time = 0;
 };
-Played run(const std::string& program, const MachineDescription& machine) {
+Played run(const std::string& program, const MachineDescription& machine, bool both_ways = false) {
   Diagnostics diagnostics;
   Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
   Thread thread(machine, job.machine());
+  thread.both_ways = both_ways;
   job.machine().add_observer(thread);
   while (job.advance()) {
   }
@@ -104,7 +106,7 @@ TEST(SpindleFollowing, a_thread_has_its_pitch_though_the_spindle_ripples_by_5_pe
     std::printf("%s: along 10 turns the groove wanders %.4f mm, without ripple %.4f mm, without encoder %.4f mm\n",
                 jerk ? "with jerk limit" : "without", uneven, even, unfollowed);
     EXPECT_LT(even, 0.01);
-    EXPECT_LT(uneven, jerk ? 0.1 : 0.04);
+    EXPECT_LT(uneven, jerk ? 0.03 : 0.015);
     EXPECT_GT(unfollowed, 0.4);
   }
 }
@@ -124,7 +126,72 @@ TEST(SpindleFollowing, several_passes_cut_the_same_groove) {
   }
   ASSERT_GE(passes.size(), 5U);
   std::printf("5 passes lie within %.4f mm of each other\n", all.mm(1.5));
-  EXPECT_LT(all.mm(1.5), 0.04);
+  EXPECT_LT(all.mm(1.5), 0.01);
+}
+
+// Of all passes, at one depth, where on the circumference the groove is: modulo whole turns.
+std::vector<double> grooves_at(const std::vector<Cut>& cuts, double pitch, double z) {
+  std::vector<double> passes;
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    if (cuts[i - 1].z > z && cuts[i].z <= z) passes.push_back(groove(cuts[i], pitch));
+  }
+  // The circumference has no beginning: what is near its seam is told from the first.
+  for (double& pass : passes) pass -= std::round(pass - passes[0]);
+  return passes;
+}
+
+TEST(SpindleFollowing, all_passes_of_a_threading_cycle_lie_in_one_groove) {
+  const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-15 I-1 J0.2 K0.9 R1.5 H2\nM5\nM2\n";
+  for (const bool jerk : {false, true}) {
+    const Played result = run(program, lathe(rippling, jerk));
+    double worst = 0;
+    std::size_t passes = 0;
+    for (const double z : {-5.0, -8.0, -11.0, -14.0}) {
+      Spread all;
+      const std::vector<double> grooves = grooves_at(result.cuts, 1.5, z);
+      for (const double each : grooves) all.see(each);
+      passes = grooves.size();
+      EXPECT_GE(passes, 8U);
+      worst = std::max(worst, all.mm(1.5));
+    }
+    std::printf("%s: %zu passes of a G76 lie within %.4f mm of each other\n", jerk ? "with jerk limit" : "without",
+                passes, worst);
+    EXPECT_LT(worst, jerk ? 0.03 : 0.012);
+  }
+}
+
+TEST(SpindleFollowing, a_tap_is_in_the_groove_down_through_the_reversal_and_back) {
+  SpindleDescription even = rippling;
+  even.ripple = 0;
+  for (const SpindleDescription& spindle : {even, rippling}) {
+    const Played result = run("G21 S600 M3\nG0 Z2\nG33.1 Z-12 K1.5\nM5\nM2\n", lathe(spindle), true);
+    double deepest = 0;
+    std::size_t bottom = 0;
+    for (std::size_t i = 0; i < result.cuts.size(); ++i) {
+      if (result.cuts[i].z >= deepest) continue;
+      deepest = result.cuts[i].z;
+      bottom = i;
+    }
+    Spread down;
+    Spread round;
+    Spread back;
+    for (std::size_t i = 0; i < result.cuts.size(); ++i) {
+      const Cut& cut = result.cuts[i];
+      if (cut.z > -3) continue;
+      (cut.z < -12 ? round : i < bottom ? down : back).see(groove(cut, 1.5));
+    }
+    Spread all = down;
+    for (const Spread& part : {round, back}) {
+      all.see(part.low);
+      all.see(part.high);
+    }
+    std::printf(
+        "ripple %.0f %%: %.2f mm beyond the end; the groove wanders %.4f mm down, %.4f mm round, %.4f mm back, "
+        "%.4f mm in all\n",
+        100 * spindle.ripple, -12 - deepest, down.mm(1.5), round.mm(1.5), back.mm(1.5), all.mm(1.5));
+    EXPECT_LT(all.mm(1.5), 0.08);
+    EXPECT_GT(-12 - deepest, 1);
+  }
 }
 
 TEST(SpindleFollowing, a_feed_a_revolution_is_as_fast_as_the_spindle_turns) {

@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "passo/controller/job.hpp"
+#include "passo/controller/operator_panel.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
@@ -100,13 +101,15 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   job.drive().probe().watch([&](const ProbeOutcome& outcome) { count(outcome, machine, probes); });
   outputs.watch(job);
   changes.begin(job.drive());
+  OperatorPanel panel(job.drive());
   TailWatch tails;
   LineLoad load;
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
       if (interrupted_by != 0 && !job.drive().stopped()) job.drive().stop();
-      if (changes.any()) changes.act(job.drive(), job.machine(), machine);
+      if (board != nullptr) panel.look();
+      if (changes.any() && !panel.holds()) changes.act(job.drive(), job.machine(), machine);
       if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
       load.look(job.drive().now(), job.link().bytes_sent());
       if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
@@ -177,14 +180,11 @@ int print(const RunSummary& summary, const RunArguments& arguments) {
   return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
 }
 
-bool suits_the_board(const RunArguments& arguments, const ProgramCheck& check) {
+bool suits_the_board(const RunArguments& arguments) {
   const char* words = nullptr;
-  const bool cut = !arguments.cable_cut.empty();
-  if (check.probes && (cut || arguments.board != "virtual")) {
-    words = "over a line: not for a program with probe moves yet";
-  } else if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
+  if ((arguments.resume || !arguments.journal.empty()) && !keeps_journal(arguments)) {
     words = "--resume and --journal are for a board that outlives the run: serial: or tcp:";
-  } else if (cut && arguments.board != "virtual") {
+  } else if (!arguments.cable_cut.empty() && arguments.board != "virtual") {
     words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
   }
   if (words != nullptr) fail(exit_bad_program, words);
@@ -214,7 +214,7 @@ int run(const RunArguments& arguments) {
   const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
   show(findings);
   if (!check.good) return exit_bad_program;
-  if (!suits_the_board(arguments, check)) return exit_bad_program;
+  if (!suits_the_board(arguments)) return exit_bad_program;
 
   std::signal(SIGINT, end_on_signal);
   std::signal(SIGTERM, end_on_signal);
@@ -236,7 +236,8 @@ int run(const RunArguments& arguments) {
 
   Diagnostics late;
   Job job(std::move(*program), *machine, *options, late, reaches);
-  for (const TouchBox& box : *boxes) job.machine().add_body(touch_body(box, *machine));
+  const bool touchable = put_touch_boxes(*boxes, *machine, job.machine(), reaches.board);
+  if (!touchable) return fail(exit_bad_program, "--touch is for the virtual machine and emulated boards");
   if ((cut || board) && !job.link().error()) {
     if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
     if (job.drive().refiller() == nullptr) {

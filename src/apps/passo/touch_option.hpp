@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "passo/controller/touch_box.hpp"
+#include "passo/link/board_port.hpp"
+#include "passo/machine/virtual_machine.hpp"
 
 namespace passo {
 
@@ -14,5 +16,10 @@ namespace passo {
 // that the machine has not; that is told on standard error.
 std::optional<std::vector<TouchBox>> read_touch_options(const std::vector<std::string>& texts,
                                                         const MachineDescription& machine);
+
+// For the probe of the virtual machine; where `board` is not null, for that of the emulated board that it is. False
+// where it is a real one.
+bool put_touch_boxes(const std::vector<TouchBox>& boxes, const MachineDescription& description, VirtualMachine& machine,
+                     BoardPort* board);
 
 }  // namespace passo

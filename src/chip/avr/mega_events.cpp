@@ -35,6 +35,7 @@ volatile uint8_t stop_low_d;
 volatile uint8_t stop_low_e;
 volatile uint8_t stop_low_j;
 volatile uint8_t probe_mask;
+volatile uint8_t probe_flip;
 volatile uint16_t probe_entry;
 volatile uint8_t halted;
 
@@ -179,6 +180,8 @@ volatile uint8_t halted;
       lds r25, stop_low_b
       and r25, r24
       brne 8f
+      lds r25, probe_flip
+      eor r24, r25
       lds r25, probe_mask
       and r24, r25
       breq 6f

@@ -40,6 +40,10 @@ inline void watch_switches() {
   Pcifr::write(7);
   Eifr::write(0xff);
 }
+// What it is to notice of the probe: that it closes, or opens.
+inline void notice_probe(bool closing) {
+  probe_flip = closing ? uint8_t{0} : pins.probe.mask();
+}
 static_assert(pins.spindle_pwm == Pin{'H', 5} && pins.probe.port == 'B');
 // The interrupt compares PCIFR with EIFR: equal only where both are 0. So no bit may be used in both; PCIFR has 0
 // and 1.

@@ -84,30 +84,39 @@ void start_watchdog() {
   halted = 0;
 }
 
+// For the next change. One that has come already, where it bounces, nobody will be told of but by looking.
+[[gnu::noinline]] void watch_probe() {
+  const bool touched = (reader.inputs() & input_probe) != 0;
+  notice_probe(!touched);
+  ChipPlayer::watch_probe(Wiring::probe);
+  if (Wiring::probe_closed() != touched && !ChipPlayer::captured()) ChipPlayer::watch_probe(0);
+}
+
 [[gnu::noinline]] void look_at_inputs() {
   const bool tick = (Tifr1::read() & timer_overflow) != 0;
   if (tick) Tifr1::write(timer_overflow);
   if (halted != 0) return stop_at_once();
   uint16_t raw = Wiring::inputs();
   const bool probed = ChipPlayer::captured();
-  // Amid motion it is the interrupt that tells where the probe touched.
-  if (running != 0 && ChipPlayer::watches_probe() && !probed) raw &= static_cast<uint16_t>(~input_probe);
+  const uint16_t before = reader.inputs();
+  // Amid motion it is the interrupt that tells that the probe has changed, and where.
+  if (probed || (running != 0 && ChipPlayer::watches_probe())) {
+    raw &= static_cast<uint16_t>(~input_probe);
+    raw |= (probed ? ~before : before) & input_probe;
+  }
   const uint16_t on = reader.look(raw, tick);
   constexpr uint16_t stopping = input_emergency_stop | 7 * input_limit;
   // Amid motion the interrupt has stopped already; at rest nobody else looks.
   if ((on & stopping) != 0 && !board.idle()) return stop_at_once();
   if ((on & input_emergency_stop) != 0) return stop_at_once();
-  uint16_t told = on & (InputReader::pressed_by_people | input_probe);
-  if (probed) {
-    told |= input_probe;
-    board.settle();  // what was finished before the touch is let go of
-  }
+  uint16_t told = on & InputReader::pressed_by_people;
+  told |= (reader.inputs() ^ before) & input_probe;
+  if (probed) board.settle();  // what was finished before the touch is let go of
   SerialLine::breathe();
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   if (tick) manual.tick();
-  // Watched only while it is open, so that the first touch counts.
-  if (probed || (on & input_probe) != 0) ChipPlayer::watch_probe(0);
-  if ((raw & input_probe) == 0 && !ChipPlayer::captured()) ChipPlayer::watch_probe(Wiring::probe);
+  if ((told & input_probe) != 0) ChipPlayer::watch_probe(0);
+  if (!ChipPlayer::watches_probe()) watch_probe();
 }
 
 // The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.

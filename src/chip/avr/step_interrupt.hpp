@@ -49,6 +49,7 @@ extern volatile uint8_t stop_low_b;
 extern volatile uint8_t stop_low_d;
 extern volatile uint8_t stop_low_e;
 extern volatile uint8_t stop_low_j;
+extern volatile uint8_t probe_flip;  // the probe's pin, where it is to open
 #else
 extern volatile uint8_t stop_low_b;  // here: when they are
 extern volatile uint8_t stop_low_c;  //   not as in `quiet`

@@ -30,6 +30,11 @@ inline void watch_switches() {
   Pcmsk1::write(static_cast<uint8_t>(c | pins.probe.mask()));
   Pcifr::write(7);
 }
+// What it is to notice of the probe: that it closes, or opens.
+inline void notice_probe(bool closing) {
+  const uint8_t quiet = quiet_c;
+  quiet_c = closing ? quiet | pins.probe.mask() : quiet & static_cast<uint8_t>(~pins.probe.mask());
+}
 static_assert(!pins.spindle_pwm.exists() || pins.spindle_pwm == Pin{'B', 3});
 static_assert(pins.probe.port == 'C' && pins.stops_on('D') == 0);
 

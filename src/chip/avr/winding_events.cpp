@@ -47,6 +47,14 @@ constexpr uint8_t vectors_before = 11;
   return low_of('B', stop_low_b) != 0;
 }
 
+[[gnu::always_inline]] inline bool probe_changed() {
+#ifdef __AVR_ATmega2560__
+  return (low_of(pins.probe.port, probe_mask) ^ (probe_flip & probe_mask)) != 0;
+#else
+  return ((register_of(pins.probe.port, 0) ^ quiet_c) & probe_mask) != 0;
+#endif
+}
+
 [[gnu::always_inline]] inline void stop_playing() {
   Timsk1::write(0);
   running = 0;
@@ -64,8 +72,8 @@ constexpr uint8_t vectors_before = 11;
     act(safe_action);
     return false;
   }
-  if (low_of(pins.probe.port, probe_mask) != 0) {
-    probe_mask = 0;  // the first touch counts
+  if (probe_changed()) {
+    probe_mask = 0;  // the first change counts
     probe_entry = entry;
   }
   return true;
@@ -129,8 +137,10 @@ volatile uint8_t stop_low_b;
 volatile uint8_t stop_low_d;
 volatile uint8_t stop_low_e;
 volatile uint8_t stop_low_j;
+volatile uint8_t probe_flip;
 #else
 volatile uint8_t stop_low_c;
+volatile uint8_t quiet_c = 0xff;
 #endif
 
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void vectors() {

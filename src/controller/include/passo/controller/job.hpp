@@ -104,6 +104,7 @@ class Job {
   PathOptions path_options_;
   MotionLimits limits_;
   ProbeOutcome probe_outcome_;
+  Point tap_rest_;
 
   // The street.
   Interpreter interpreter_;   // text -> blocks -> operations

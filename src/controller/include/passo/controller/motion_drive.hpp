@@ -74,6 +74,9 @@ class MotionDrive {
   // Who wants to know what probe moves find, before the first advance(); and whether a probe that is touched in another
   // move stops the drive.
   ProbeMove& probe() { return probe_; }
+  void guard_by_probe();
+  // Where the place is written at which a tap has turned round. Outlives it.
+  void tell_tap(Point& rest) { tap_rest_ = &rest; }
   // That happened.
   bool stopped_by_probe() const { return stopped_by_probe_; }
 
@@ -95,6 +98,13 @@ class MotionDrive {
   bool stopped() const { return stopping_; }
   // Lets time pass while it is held.
   void wait(Seconds time);
+  // The same, until something is switched on that the board tells of.
+  void listen(Seconds most);
+  // Asks how the board's switches are: amid motion it tells only when one goes on, and that may be lost.
+  void ask() { link_.ask(); }
+  // As BoardLink has them.
+  std::uint16_t take_pressed() { return link_.take_pressed(); }
+  std::uint16_t inputs() const { return link_.inputs(); }
 
   State state() const { return state_; }
   // Of the board's side.
@@ -119,7 +129,10 @@ class MotionDrive {
   LiveOptions commits() const;
   void commit_ahead(const LiveOptions& options);
   void let_pass(Seconds time);
+  void watch_tap(const PlannedMove& move);
+  void turn_tap(const Action& action);
   void look_at_probe();
+  void commit_to_probe();
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void let_planner_go_on();
@@ -149,7 +162,11 @@ class MotionDrive {
   bool contact_seen_ = false;  // of what the board watches for now
   bool probe_brakes_ = false;  // after a contact, until the path is at rest
   bool stopped_by_probe_ = false;
-  std::optional<Point> end_of_probe_;  // of the motion that is committed, in a probe move
+  std::optional<Point> end_of_probe_;  // where the motion in a probe move ends, if that is not the end of the move
+  Point* tap_rest_ = nullptr;
+  Point end_of_tap_;        // of the motion that is committed
+  bool tap_turns_ = false;  // the spindle was told to turn round
+  bool tap_brakes_ = false;
   double feed_override_ = 1;
   double adaptive_feed_ = 1;
   double spindle_override_ = 1;

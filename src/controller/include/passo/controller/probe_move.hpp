@@ -28,6 +28,7 @@ class ProbeMove {
 
   // Also in other moves: contact() tells that the probe, which was free, was touched.
   void guard_other_moves();
+  bool guards() const { return guards_; }
 
   // At rest, at the place that the action tells.
   void begin(const Action& action);

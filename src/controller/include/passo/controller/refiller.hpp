@@ -62,12 +62,30 @@ class Refiller {
   enum class Turn : std::uint8_t {
     goes_on,
     rests_in_hold,  // the planner holds, and all that was given is executed
+    at_action,      // one that is the host's, with all before it executed: action() tells which
     ended,          // all of the path is executed, or the link has an error
   };
   // Sends a refill, or waits for the board.
   Turn advance();
   // At rest, with nothing under way: outputs that are no part of the path, by themselves. Waits until they are.
   void switch_outputs(const BoardOutputs& outputs);
+  // That it rests at; the path goes on behind it.
+  Action take_action();
+
+  // How the board is asked about its probe.
+  enum class Asking : std::uint8_t {
+    none,
+    with_refills,    // with each of them
+    before_refills,  // and none goes out before the question of the one before is answered; they are short
+  };
+  void ask_for_probe(Asking asking);
+  // No refill takes the place of the tail that the board has now: it brakes, and the path is taken up again from there.
+  void brake_by_tail() { brakes_ = true; }
+  // In a hold: the planner has dropped the path up to the next action. Where the machine rests.
+  Point drop();
+  // The longest motion that the board had, its tail besides, when questions came before refills. What it had behind a
+  // contact is at most twice as long: the answer that the probe is free is no older than that.
+  Seconds longest_ahead() const { return longest_ahead_; }
 
   // To be told of all motion that the planner gives.
   void watch(const MotionItem& motion) { given_ = stages_.path.behind(given_, motion); }
@@ -113,6 +131,10 @@ class Refiller {
     std::optional<Tail> tail = {};  // behind it; none: no refill ends here
   };
 
+  void commit();
+  Seconds horizon() const;
+  Seconds refill_at() const;
+  bool waits_for_answer();
   void note_executed();
   void show_executed(ItemNumber executed);
   void take_up(const Refill& refill);
@@ -121,8 +143,9 @@ class Refiller {
   bool is_far_from_last_tail() const;
   Tail find_tail();
   std::size_t free_places() const;
-  std::size_t size_of_refill() const;
+  std::size_t size_of_refill();
   void send(std::size_t items);
+  void ask();
   Seconds time_of(const LinkItem& item) const;
 
   Stages stages_;
@@ -142,8 +165,17 @@ class Refiller {
 
   std::deque<Pulled> pulled_;  // and not sent
   Seconds pulled_time_{0};
-  bool holds_ = false;  // behind it, the planner holds
-  bool ended_ = false;  // behind it, the path has ended
+  bool holds_ = false;            // behind it, the planner holds
+  bool ended_ = false;            // behind it, the path has ended
+  std::optional<Action> action_;  // behind it, this is to be done
+
+  Asking asking_ = Asking::none;
+  Seconds answer_{0};  // within which a question that comes with a refill is answered
+  Seconds slowest_answer_{0};
+  bool asked_ = false;       // and the answer not seen
+  Seconds longest_move_{0};  // as the planner was told
+  bool brakes_ = false;
+  Seconds longest_ahead_{0};
 
   BoardItem item_;
   std::vector<PlannedMove> plan_;

@@ -38,6 +38,10 @@ class RewindablePath final : public Source<PathItem> {
   PathPlace behind(const PathPlace& place, const MotionItem& motion) const;
   // Hands out again what comes from there on.
   void rewind(const PathPlace& place);
+  // Where that is; of what was handed out and is kept.
+  Point point_at(const PathPlace& place) const;
+  // Of the item handed out last.
+  PathPlace last() const { return {.item = next_ - 1}; }
   // There will be no way back before this item.
   void forget_before(std::uint64_t item);
   std::size_t items_kept() const { return kept_.size(); }

@@ -5,8 +5,8 @@
 //
 //     turns wanted = turns of the spindle since its index - lag
 //
-// at the time when the committed motion ends. The lag is what speeding up to the programmed speed costs: the same
-// in each pass, so that all passes of a thread lie in one groove.
+// at the time when the committed motion ends, as the last readings go on. The lag is what speeding up to the programmed
+// speed costs: the same in each pass, so that all passes of a thread lie in one groove.
 #pragma once
 
 #include <deque>
@@ -24,6 +24,10 @@ class SpindleFollower {
 
   // The spindle is at its index, and the next locked move begins.
   void begin(const SpindleReading& index);
+  // From now on the moves go back the way that they came, as the spindle does.
+  void turn_round() { direction_ = -1; }
+  // As the readings go on, so long after the last one the spindle stands or turns back.
+  bool turns_back(Seconds committed) const;
   // A move was committed.
   void watch(const PlannedMove& move);
   // A new reading.
@@ -39,6 +43,12 @@ class SpindleFollower {
   static constexpr double most_ratio = 2;
 
  private:
+  // What the readings make of a time after the last of them.
+  struct Course {
+    double turns = 0;  // since the index
+    double speed = 0;  // turns a second; below 0: back
+  };
+  Course course(Seconds later) const;
   double turns_a_second() const;
   double wanted_ratio(Seconds committed) const;
   double lag_of(const PlannedMove& move) const;
@@ -54,6 +64,7 @@ class SpindleFollower {
   double index_ = 0;       // turns of the spindle there
   double lag_ = -1;        // turns; below 0: not known yet
   double followed_ = 0;    // turns, by what is committed
+  double direction_ = 1;   // of the moves; -1: back
   bool in_place_ = false;  // has once been as fast as the spindle
 };
 

@@ -15,6 +15,7 @@
 
 #include "passo/base/result.hpp"
 #include "passo/link/board_port.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -28,6 +29,11 @@ class EmulatedBoard : public BoardPort {
   virtual std::vector<std::int64_t> positions() const = 0;
   // Called with each of these steps, in the order of its pins, and the cycle of its edge.
   std::function<void(std::uint64_t cycle, std::size_t motor, bool down)> on_step;
+
+  // Whether the probe is touched while the motors stand there; asked now, and behind each step.
+  virtual void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) = 0;
+  // Closes a switch, or opens it. False where the board has no such.
+  virtual bool set_switch(BoardInput which, bool closed) = 0;
 };
 
 // Those that there are: with drivers for step and direction, and with the windings on the board's own pins.

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class EmulatedPorts {
   EmulatedPorts(EmulatedChip& chip, const std::string& ports);
   EmulatedPorts(const EmulatedPorts&) = delete;
 
+  // Called with every change of an output register as it is made, in the place of keeping it.
+  std::function<void(const PortChange&)> on_change;
   // Every change of an output register, in order of time.
   const std::vector<PortChange>& changes() const { return changes_; }
   void forget_changes() { changes_.clear(); }

@@ -74,7 +74,11 @@ class Board {
   // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
     inputs_ = inputs;
-    if (captured != 0 && motors_ != 0) tell_captured(captured);
+    if (motors_ == 0) return;
+    // By itself: it may go off while another goes on.
+    if ((captured & input_probe) != 0) tell_captured(input_probe);
+    captured &= static_cast<uint16_t>(~input_probe);
+    if (captured != 0) tell_captured(captured);
   }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
@@ -232,6 +236,8 @@ class Board {
     }
     breathe();
     if (ask.question == Question::about) return send(identity_.about);
+    if (ask.question == Question::kept) return tell_kept();
+    if (ask.question == Question::watch) kept_ = 0;
     tell_status(ask.motors);
   }
 
@@ -240,6 +246,7 @@ class Board {
     if (!idle()) state |= board_moves;
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
+    if (kept_ != 0) state |= board_kept;
     if (manual()) state |= board_manual;
     BoardStatus status{.session = session_,
                        .executed = executed_,
@@ -259,10 +266,23 @@ class Board {
   }
 
   [[gnu::noinline]] void tell_captured(uint16_t captured) {
+    if ((captured & inputs_) == 0) captured |= captured_released;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
+    const bool keeps = (captured & input_probe) != 0 && kept_ == 0;
+    if (keeps) kept_ = static_cast<uint8_t>(captured >> 8);
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = position(motor);
+      if (keeps) kept_positions_[motor] = message.positions[motor];
+    }
+    send_for_motors(message, motors_);
+  }
+
+  [[gnu::noinline]] void tell_kept() {
+    Captured message{.input = static_cast<uint16_t>(kept_ << 8 | captured_kept)};
+    for (uint8_t motor = 0; motor < motors_; ++motor) {
+      breathe();
+      message.positions[motor] = kept_positions_[motor];
     }
     send_for_motors(message, motors_);
   }
@@ -454,6 +474,10 @@ class Board {
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
+  // The first change of the probe since the host told to watch it: the high byte of a captured's input, 0 before; and
+  // where.
+  uint8_t kept_ = 0;
+  int32_t kept_positions_[most_motors] = {};
 };
 
 }  // namespace passo

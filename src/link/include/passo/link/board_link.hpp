@@ -16,6 +16,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "passo/link/board_port.hpp"
@@ -51,6 +52,16 @@ class BoardLink final : public Link {
   void let_pass(Seconds time);
   void watch_probe(ProbeUntil until) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
+  void recall_contact() override;
+  void ask() override { ask(Question::status); }
+  bool answered() const override { return answered_; }
+  Seconds answer_time() const override { return answer_time_; }
+  // What has been switched on, as the board told or its status shows, since this was asked last. Bits of BoardInput.
+  std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
+  // What is switched on now, as far as it has told.
+  std::uint16_t inputs() const { return inputs_; }
+  // At rest: asks how the board is, and lets time pass until something is switched on, but no more than `most`.
+  void listen_for(Seconds most);
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error_.value_or(error); }
 
@@ -76,17 +87,22 @@ class BoardLink final : public Link {
   void say_hello();
   void name_session();
   void wait_for_room();
+  template <class Again>
+  bool listen(Again again);
   bool listen();
   template <class Done>
   bool hear_until(Done done);
+  bool hear();
   bool hear(Seconds most);
   bool overdue() const;
-  void ask();
+  void ask(Question question);
   void take(const WireFrame& frame);
   void take(const Credit& credit);
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
   void take(const Captured& captured);
+  void note_inputs(const BoardStatus& status);
+  void note_probe(const BoardStatus& status);
   void note_taken(std::uint8_t sequence);
   void repeat();
   template <class Message, class... More>
@@ -109,11 +125,18 @@ class BoardLink final : public Link {
   int free_ = 0;             // room that it had when it told so
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
+  bool began_as_wanted_ = false;  // the probe was as it is to become
+  std::optional<Captured> recalled_;
   std::array<std::int32_t, max_motors> probed_from_{};  // positions when the watch began
-  bool news_ = false;                                   // since wait() began
-  std::deque<Frame> kept_;                              // those that were sent and, as far as we know, not taken
-  Seconds heard_{0};                                    // when the board last said anything
-  Seconds moved_on_{0};                                 // when it last took something, or we asked or sent
+  bool answered_ = true;                                // since the last frame was sent
+  Seconds unanswered_since_{0};
+  std::uint16_t inputs_ = 0;
+  std::uint16_t pressed_ = 0;
+  Seconds answer_time_{0};
+  bool news_ = false;       // since wait() began
+  std::deque<Frame> kept_;  // those that were sent and, as far as we know, not taken
+  Seconds heard_{0};        // when the board last said anything
+  Seconds moved_on_{0};     // when it last took something, or we asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "passo/link/probe.hpp"
+#include "passo/units/units.hpp"
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
@@ -63,9 +64,18 @@ class Link {
   // Waits until the board has told something new: it has done one more item, taken what was sent, or
   // seen what its probe is watched for.
   virtual void wait() = 0;
-  // From now on, at rest: asks how the probe is, and counts the motors' steps until what is waited for.
+  // At rest, with all that was not too late executed: asks how the probe is. From now on the board keeps where it
+  // changes first.
   virtual void watch_probe(ProbeUntil until) = 0;
   virtual const ProbeReport& probe_report() const = 0;
+  // At rest again: asks what the board has kept. Only then the report has the steps.
+  virtual void recall_contact() = 0;
+  // Asks how the board is, amid motion too; what it says of the probe comes into the report.
+  virtual void ask() = 0;
+  // It has said so behind all that was sent.
+  virtual bool answered() const = 0;
+  // How long that took when it last did.
+  virtual Seconds answer_time() const = 0;
   virtual std::optional<LinkError> error() const = 0;
   // Whoever uses the link has found that it cannot go on.
   virtual void fail(LinkError error) = 0;

@@ -1,7 +1,8 @@
 // ProbeWatch and ProbeReport: what a host watches its board's probe for, and what it has heard.
 //
-// The board tells every change of the probe with the motors' positions at that very event. So the place of a contact is
-// known to the step, however late the host hears of it.
+// The board tells every change of the probe with the motors' positions at that very event, and keeps those of the first
+// since the watch began. So the place of a contact is known to the step, however late the host hears of it, and
+// whatever was lost on the way.
 #pragma once
 
 #include <array>
@@ -18,9 +19,10 @@ enum class ProbeUntil : std::uint8_t {
 };
 
 struct ProbeReport {
-  bool touched = false;                          // the probe, as far as the host has heard
-  bool happened = false;                         // what is watched for
-  std::array<std::int32_t, max_motors> steps{};  // of each motor from the beginning of the watch to that event
+  bool touched = false;   // the probe, as far as the host has heard
+  bool happened = false;  // what is watched for
+  std::array<std::int32_t, max_motors>
+      steps{};  // of each motor from the beginning of the watch to that event, recalled
 };
 
 }  // namespace passo

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "passo/wire/board_segment.hpp"
 
@@ -15,6 +17,14 @@ struct TouchBody {
     std::int64_t high = INT64_MAX;
   };
   std::array<Range, max_motors> motors{};
+
+  // `positions`: of as many motors as there are.
+  bool contains(std::span<const std::int64_t> positions) const {
+    for (std::size_t m = 0; m < positions.size(); ++m) {
+      if (positions[m] < motors[m].low || positions[m] > motors[m].high) return false;
+    }
+    return true;
+  }
 };
 
 }  // namespace passo

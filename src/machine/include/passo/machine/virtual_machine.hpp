@@ -38,6 +38,8 @@ class VirtualMachine final : public BoardPort {
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
   void add_body(const TouchBody& body);
+  // Closes a switch of the board, or opens it: bits of BoardInput, not the probe's.
+  void set_switch(std::uint16_t which, bool closed);
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
@@ -96,6 +98,7 @@ class VirtualMachine final : public BoardPort {
   Hertz clock_;
   std::uint8_t motor_count_;
   bool touched_ = false;  // as the board was told
+  std::uint16_t switches_ = 0;
   std::int64_t next_event_ = 0;
   bool waits_ = false;  // for the next event, which is due then
   std::int64_t events_ = 0;

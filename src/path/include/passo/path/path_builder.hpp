@@ -41,7 +41,11 @@ struct PathOptions {
   Point start;                  // machine position at the start
   // What the machine has found in its last probe move, which is where the path goes on; null: it came to its end.
   const ProbeOutcome* probe = nullptr;
-  std::string file;  // names the program in diagnostics
+  // Where the tool rested when the spindle turned round in its last tap; null: nothing follows that, and a tap goes
+  // back from its end.
+  const Point* tap_rest = nullptr;
+  Seconds spindle_run_up{0};  // from rest to 1000 turns a minute: so much room is left for a tap to turn round
+  std::string file;           // names the program in diagnostics
 };
 
 class PathBuilder final : public Source<PathItem> {
@@ -56,7 +60,10 @@ class PathBuilder final : public Source<PathItem> {
 
  private:
   bool next_operation();
+  bool take_tap(const operation::RigidTap& tap, PathItem& item);
+  bool take_tap_step(PathItem& item);
   void expand(const operation::RigidTap& tap);
+  Mm room_to_turn(const Curve& way) const;
   void switch_off();
   // Each says whether it wrote an item.
   bool take(const Operation& operation, PathItem& item);
@@ -110,6 +117,11 @@ class PathBuilder final : public Source<PathItem> {
   enum class ProbeStep : std::uint8_t { none, move, end, rest };
   ProbeStep probe_step_ = ProbeStep::none;
   Point probe_end_;  // work coordinates
+
+  // And so is a tap that is followed: down, turned round, back to where it began.
+  enum class TapStep : std::uint8_t { none, turn, back, end };
+  TapStep followed_tap_ = TapStep::none;
+  Point tap_start_;  // machine
 
   Operation operation_;  // the one in hand
   std::array<OperationKind, 4> tap_;

@@ -33,8 +33,20 @@ struct Segment {
   Heeds heeds{};
   SpindleLock lock = SpindleLock::none;
   Mm pitch{0};  // of a lock: a turn. `speed` is as the commanded speed of the spindle has it
+  // Of a tap on its way down: there the spindle is to be reversed. The rest of the segment is room for it to come to
+  // rest.
+  Mm reverse_at{0};
   OperationSource source{};
 };
+
+constexpr SpindleDirection reversed(SpindleDirection direction) {
+  switch (direction) {
+    case SpindleDirection::clockwise: return SpindleDirection::counterclockwise;
+    case SpindleDirection::counterclockwise: return SpindleDirection::clockwise;
+    case SpindleDirection::off: break;
+  }
+  return SpindleDirection::off;
+}
 
 // All outputs of the board as they are to be from here on.
 struct OutputState {
@@ -57,6 +69,7 @@ struct Action {
     probe_begin,  // behind it comes the probe move, and
     probe_end,    // then this: no stage reads further before the machine is there
     await_index,
+    tap_turns,  // behind the way down: no stage reads further before tool and spindle turn round
   };
   Kind kind = Kind::dwell;
   Seconds dwell{0};

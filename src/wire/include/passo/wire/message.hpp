@@ -37,7 +37,12 @@ struct Replace {
 };
 
 // Host to board, at any time: how are you? The only message of the host's, with hello and session, that is not counted.
-enum class Question : uint8_t { status = 0, about = 1 };
+enum class Question : uint8_t {
+  status = 0,
+  about = 1,
+  watch = 2,  // and keep from now on where the probe changes first; the answer is the status
+  kept = 3,   // what was kept: the answer is a captured
+};
 struct Ask {
   uint8_t version = protocol_version;
   uint8_t motors = 0;  // for how many positions are wanted
@@ -73,7 +78,8 @@ enum BoardState : uint8_t {
   board_trusted = 2,   // since the hello the motors have made every step that is counted, as far as the board knows
   board_replaces = 4,  // items are still to come for a replacement
   board_slipped = 8,   // since the hello it stood still amid motion: it could not make events in time. No step is lost
-  board_manual = 16,   // a person moves the machine by the board's keypad
+  board_kept = 16,     // since it was told to watch, the probe has changed
+  board_manual = 32,   // a person moves the machine by the board's keypad
 };
 // What the board's input pins say: a bit is set where the switch is on.
 enum BoardInput : uint16_t {
@@ -84,6 +90,9 @@ enum BoardInput : uint16_t {
   input_hold = 0x800,
   input_start = 0x1000,
 };
+// Beside the input of a captured.
+inline constexpr uint16_t captured_kept = 0x4000;      // it answers a question
+inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
 
 // Board to host, when asked. Positions are the motors' steps since the board was switched on.
 struct BoardStatus {
@@ -99,9 +108,10 @@ struct BoardStatus {
   int32_t positions[max_motors] = {};
 };
 
-// Board to host: an input has changed that is watched, at this very event.
+// Board to host: an input has changed that is watched, at this very event. As an answer: where the probe changed first;
+// without an input it did not, and there is no item.
 struct Captured {
-  uint16_t input = 0;  // BoardInput
+  uint16_t input = 0;  // BoardInput, captured_kept, captured_released
   uint8_t item = 0;    // low byte of the number of the item that was played
   uint16_t event = 0;  // how many of its events were
   int32_t positions[max_motors] = {};

@@ -1,0 +1,84 @@
+// The emulated Uno's buttons, by their pins: how soon the machine gets slower, and that nothing is lost.
+#include "passo/controller/operator_panel.hpp"
+
+#include <cstdio>
+#include <vector>
+
+#include "kit/example_machine.hpp"
+#include "kit/step_log.hpp"
+#include "pipeline/panel_kit.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+#include "passo/emulator/emulated_board.hpp"
+
+namespace passo {
+namespace {
+
+using test::StepLog;
+
+struct Outcome {
+  StepLog::Steps steps;
+  int rests = 0;
+  double end = 0;
+};
+
+// `pressed`: hold, for 50 ms; start is pressed two seconds later. Below 0: nobody does.
+Outcome run(double pressed) {
+  auto board = EmulatedBoard::start("uno", PASSO_MOTION_UNO);
+  EXPECT_TRUE(board);
+  StepLog log;
+  (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
+    log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
+  };
+  const MachineDescription machine = test::example_machine("uno");
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", "G21 G90 G1 F2400\nX120\nM2\n"), machine, {}, diagnostics,
+          {.board = board->get()});
+  OperatorPanel panel(job.drive());
+  struct Press {
+    double at;
+    BoardInput which;
+    bool closed;
+  };
+  const Press presses[] = {{pressed, input_hold, true},
+                           {pressed + 0.05, input_hold, false},
+                           {pressed + 2, input_start, true},
+                           {pressed + 2.05, input_start, false}};
+  std::size_t next = pressed < 0 ? std::size(presses) : 0;
+  Outcome result;
+  auto before = MotionDrive::State::running;
+  while (job.advance()) {
+    for (; next < std::size(presses) && job.drive().now() >= Seconds(presses[next].at); ++next) {
+      EXPECT_TRUE((*board)->set_switch(presses[next].which, presses[next].closed));
+    }
+    panel.look();
+    const auto state = job.drive().state();
+    if (state == MotionDrive::State::held && before != state) ++result.rests;
+    before = state;
+  }
+  EXPECT_FALSE(job.link().error());
+  static_cast<void>((*board)->run(Seconds(0.01)));
+  test::expect_within_limits(machine, log.steps);
+  result.steps = log.steps;
+  result.end = job.drive().now().value();
+  return result;
+}
+
+TEST(EmulatedPanel, hold_slows_the_machine_soon_and_start_goes_on) {
+  const Outcome whole = run(-1);
+  double longest = 0;
+  for (const double pressed : {1.0, 1.013, 1.027, 1.041}) {
+    const Outcome held = run(pressed);
+    EXPECT_EQ(held.rests, 1);
+    EXPECT_GT(held.end, whole.end + 1.8);
+    test::expect_same_way(held.steps, whole.steps);
+    longest = std::max(longest, test::reaction(held.steps[0], 16e6, pressed));
+  }
+  std::printf("from the button's pin to the first step that is late: %.1f ms at most\n", longest * 1000);
+  EXPECT_GT(longest, 0.012) << "so long it must be pressed";
+  EXPECT_LT(longest, 0.15);
+}
+
+}  // namespace
+}  // namespace passo
