@@ -227,8 +227,9 @@ void die_on_a_bad_line(int trials, const std::string& machine, Counted& counted)
     ++counted.trials;
     for (int host = 0; host < 50 && !bench.done && !testing::Test::HasFatalFailure(); ++host) {
       const bool lives = random() % 5 == 0;
-      bench.host(lives ? test::never : random() % 500, ends[random() % ends.size()]);
-      if (!bench.done) ++counted.deaths;
+      const HostEnd end = ends[random() % ends.size()];
+      bench.host(lives ? test::never : random() % 500, end);
+      if (!bench.done) ++(end == HostEnd::stopped ? counted.stops : counted.deaths);
       bench.let_pass(Seconds(0.03 * static_cast<double>(random() % 5)));
     }
     ASSERT_TRUE(bench.done);

@@ -194,6 +194,18 @@ TEST(SpindleFollowing, a_tap_is_in_the_groove_down_through_the_reversal_and_back
   }
 }
 
+TEST(SpindleFollowing, a_hole_is_tapped_twice_in_one_groove_and_either_way_round) {
+  for (const char* turn : {"M3", "M4"}) {
+    const std::string tap = "G33.1 Z-12 K1.5\nG4 P0.137\n";
+    const Played result = run("G21 S600 " + std::string(turn) + "\nG0 Z2\n" + tap + tap + "M5\nM2\n", lathe(rippling));
+    std::vector<Cut> cuts = result.cuts;
+    for (Cut& cut : cuts) cut.turns = turn[1] == '3' ? cut.turns : -cut.turns;
+    const std::vector<double> taps = grooves_at(cuts, 1.5, -8);
+    ASSERT_EQ(taps.size(), 2U);
+    EXPECT_NEAR(taps[0] * 1.5, taps[1] * 1.5, 0.02) << turn;
+  }
+}
+
 TEST(SpindleFollowing, a_feed_a_revolution_is_as_fast_as_the_spindle_turns) {
   SpindleDescription slow{.counts_per_turn = 4096, .droop = 0.2};
   const std::string program = "G21 G95 S600 M3\nG1 Z-20 F0.5\nM2\n";
