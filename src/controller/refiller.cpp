@@ -270,7 +270,8 @@ void Refiller::add(const LinkItem& item) {
   pulled_time_ += pulled_.back().time;
   limited_for_ += pulled_.back().time;
   const StepGenerator& generator = stages_.generator;
-  if (generator.stands()) {
+  // A long dwell has more items than a board has places: it may end amid it, and go on with the next refill.
+  if (generator.at_rest() || generator.waits_at_rest()) {
     pulled_.back().tail = tail_of_nothing();
   } else if (generator.ends_at_rest()) {
     return;  // it is to come to rest by itself

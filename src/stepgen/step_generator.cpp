@@ -46,8 +46,9 @@ class StepGenerator::Implementation {
   }
 
   bool ends_at_rest() const { return rests_; }
-  bool stands() const { return rests_ && !play_ && !stream_.in_move(); }
   bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !stream_.in_move(); }
+
+  bool waits_at_rest() const { return rest_ && !play_; }
 
   bool next(BoardItem& item) {
     for (;;) {
@@ -213,8 +214,8 @@ void StepGenerator::assume(const StepGenerator& other) {
 bool StepGenerator::ends_at_rest() const {
   return implementation_->ends_at_rest();
 }
-bool StepGenerator::stands() const {
-  return implementation_->stands();
+bool StepGenerator::waits_at_rest() const {
+  return implementation_->waits_at_rest();
 }
 bool StepGenerator::at_rest() const {
   return implementation_->at_rest();

@@ -85,6 +85,16 @@ TEST_F(Boards, run_a_program_with_the_windings_on_their_own_pins) {
   }
 }
 
+// 67 seconds are the longest item, and an Uno holds 31: it goes on with the next refill.
+TEST_F(Boards, that_hold_little_dwell_for_hours) {
+  const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
+  const std::string program = write("p.ngc", "G21 G90 F600\nG1 X5\nG4 P10800\nG1 X0\nM2\n");
+  const Outcome outcome = passo("run " + program + " --json -m " + uno + " --cut-cable-at 99999:1");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["steps"], nlohmann::json::parse(passo("run " + program + " --json -m " + uno).out)["steps"]);
+}
+
 TEST_F(Boards, probe_by_their_firmware_what_stands_on_an_emulated_machine) {
   const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();
   const std::string program = write("p.ngc", "G21 G90 F300\nG38.2 Z-5\nF60 G38.4 Z0\nG0 Z1\nX[0-#5063]\nM2\n");

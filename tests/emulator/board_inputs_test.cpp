@@ -121,6 +121,35 @@ void expect_stop_within(std::int64_t edge, std::int64_t off, const SwitchedBoard
   EXPECT_LE(worst.outputs_off, off);
 }
 
+// The drivers are off with an emergency stop, and on again with the next host, but not while it is still pressed.
+void expect_no_motion_while_pressed(const SwitchedBoard& kind, Pin stop) {
+  BoardBench bench(kind.board);
+  const Pin enable = kind.board.motors[0].enable;
+  const auto drivers_on = [&] { return (bench.ports().outputs(enable.port) & enable.mask()) == 0; };
+  bench.start(long_run(kind.interval * 4, 5));
+  bench.run(200'000);
+  EXPECT_TRUE(drivers_on());
+  bench.ports().set_input(stop.port, stop.bit, false);
+  bench.run(300'000);
+  EXPECT_TRUE(bench.fault().has_value());
+  EXPECT_FALSE(drivers_on());
+  bench.start(long_run(kind.interval * 4, 5));
+  bench.run(1'000'000);
+  EXPECT_FALSE(drivers_on());
+  EXPECT_EQ(last_edge_after(bench, kind.board, 0), 0) << "it is still pressed";
+  bench.ports().set_input(stop.port, stop.bit, true);
+  bench.run(200'000);
+  EXPECT_FALSE(drivers_on()) << "nobody has said that it is safe";
+  EXPECT_TRUE(bench.play(long_run(kind.interval * 4, 5)).exact());
+  EXPECT_TRUE(drivers_on());
+}
+TEST(UnoInputs, an_emergency_stop_holds_until_it_is_let_go_and_a_host_says_hello) {
+  expect_no_motion_while_pressed(uno(), uno_cnc_shield.emergency_stop);
+}
+TEST(MegaInputs, an_emergency_stop_holds_until_it_is_let_go_and_a_host_says_hello) {
+  expect_no_motion_while_pressed(mega(), mega_ramps.emergency_stop);
+}
+
 TEST(UnoInputs, an_emergency_stop_lets_no_further_step_out) {
   expect_stop_within(4, 240, uno(), uno_cnc_shield.emergency_stop, FaultReason::emergency_stop);
 }

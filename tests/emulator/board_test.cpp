@@ -88,6 +88,24 @@ TEST(Uno, is_as_exact_when_it_is_slow) {
   expect_every_edge(bench.play({slow, slow, slow, slow, slow}), unavoidable);
 }
 
+// By itself: 4,096 events of 39,062.5 ticks from step to step.
+void expect_one_step_in_ten_seconds(const BoardUnderTest& board, std::int64_t most_error) {
+  BoardBench bench(board);
+  const BoardSegment slow{.events = 128, .interval = 0x9896'8000, .increments = {16}};
+  const EdgeCheck check = bench.play(std::vector<BoardSegment>(64, slow));
+  EXPECT_TRUE(check.exact());
+  EXPECT_EQ(check.overruns, 0U);
+  const SeenSteps steps = bench.seen()[0];
+  ASSERT_EQ(steps.size(), 2U);
+  EXPECT_NEAR(static_cast<double>(steps[1].time - steps[0].time), 160e6, static_cast<double>(most_error));
+}
+TEST(Uno, makes_one_step_in_ten_seconds) {
+  expect_one_step_in_ten_seconds(uno_under_test(PASSO_MOTION_UNO), unavoidable);
+}
+TEST(Mega, makes_one_step_in_ten_seconds) {
+  expect_one_step_in_ten_seconds(mega_under_test(PASSO_MOTION_MEGA, 4), unavoidable_on_mega);
+}
+
 // 30 events a segment at its highest rate: more segments than the line has room for.
 TEST(Uno, loses_no_step_and_tells_it_where_its_events_come_too_late) {
   std::mt19937_64 random(test::seed());

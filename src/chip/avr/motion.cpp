@@ -24,6 +24,7 @@ struct Hardware {
   void outputs(const BoardOutputs&) {}  // the player has switched them, at their event
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() { return line.room(); }
+  void enable() { Wiring::enable_motors(true); }
   static void breathe() { SerialLine::breathe(); }
 
   SerialLine line;

@@ -221,5 +221,20 @@ TEST_F(BoardTest, starts_fractions_afresh_with_each_hello) {
   }
 }
 
+TEST_F(BoardTest, takes_nothing_while_its_emergency_stop_is_pressed) {
+  board_.set_inputs(input_emergency_stop);
+  send(Hello{.motors = 3}, std::uint8_t{0});
+  ASSERT_EQ(bench_.replies.size(), 2U);
+  EXPECT_EQ(bench_.replies[0].type, MessageType::hello_reply);
+  EXPECT_EQ(bench_.replies[1].type, MessageType::fault);
+  send_segment(1);
+  EXPECT_EQ(last_error().reason, WireError::unexpected);
+  EXPECT_TRUE(board_.idle());
+  board_.set_inputs(0);
+  greet();
+  send_segment(1);
+  EXPECT_FALSE(board_.idle());
+}
+
 }  // namespace
 }  // namespace passo

@@ -9,6 +9,8 @@
 //   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
+//   void enable();                                    may be left out: the motors are to move, though a stop let go of
+//                                                     them
 //   static void breathe();                            may be left out: called between two pieces of work
 //   uint8_t room();                                   may be left out: how many bytes may be sent now
 //
@@ -22,31 +24,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "passo/firmware/board_identity.hpp"
 #include "passo/firmware/play_list.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
-
-// What a board knows of itself.
-struct BoardIdentity {
-  uint8_t motors = 0;  // the most that it can turn
-  uint32_t clock = 0;  // ticks a second
-  ResetCause reset = ResetCause::power_on;
-  uint32_t shortest_interval = 0;  // of a segment that it takes; shortest_interval() tells which goes with a rate
-  About about = {};
-  uint8_t places = 0xFF;  // for items, where it is to have fewer than there is memory for
-};
-
-// The interval at this many events a second, and a whole tick less: the host fits its segments that closely. 0: any.
-constexpr uint32_t shortest_interval(uint32_t clock, uint32_t highest_event_rate) {
-  if (highest_event_rate == 0) return 0;
-  const uint64_t interval = (uint64_t{clock} << 16) / highest_event_rate;
-  if (interval < uint64_t{whole_tick}) return 0;
-  return static_cast<uint32_t>(interval < largest_interval ? interval : largest_interval) -
-         static_cast<uint32_t>(whole_tick);
-}
 
 // `most_motors`: what a place for an item has room for.
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
@@ -98,7 +82,7 @@ class Board {
   // so the session is over. Only at rest.
   void begin_manual() {
     motors_ = identity_.motors;
-    breathe();
+    enable();
     player_.restart(motors_);
     breathe();
     drop_all();
@@ -200,7 +184,7 @@ class Board {
                   : uint8_t{0};
     decoder_.set_motors(motors_);
     // Both sides count fractions of steps from the same start. Whole ones go on.
-    breathe();
+    enable();
     player_.restart(motors_);
     breathe();
     drop_all();
@@ -210,6 +194,16 @@ class Board {
     trusted_ = true;
     manual_ = Manual::off;
     send_hello_reply();
+    // Not while it is still pressed.
+    if (is_pressed()) stop_at_once(FaultReason::emergency_stop);
+  }
+  bool is_pressed() const { return (inputs_ & input_emergency_stop) != 0; }
+  void enable() {
+    breathe();
+    if constexpr (requires { hardware_.enable(); }) {
+      if (!is_pressed()) hardware_.enable();
+    }
+    breathe();
   }
   void send_hello_reply() {
     send(HelloReply{.motors = identity_.motors, .capacity = places(), .clock = identity_.clock});
@@ -376,23 +370,8 @@ class Board {
     const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
     // Most segments are far from it, and so need no product.
     const uint16_t times = static_cast<uint16_t>(segment.events - 1);
-    return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits(change, times, room);
+    return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits<Breath>(change, times, room);
   }
-  // change * times <= room, bit by bit: the product has 39 bits.
-  [[gnu::noinline]] static bool product_fits(uint32_t change, uint16_t times, uint32_t room) {
-    while (true) {
-      if ((times & 1U) != 0) {
-        if (change > room) return false;
-        room -= change;
-      }
-      times >>= 1;
-      if (times == 0) return true;
-      if (change >> 31 != 0) return false;
-      change <<= 1;
-      breathe();
-    }
-  }
-
   void accept() {
     ++expected_;
     complained_ = false;

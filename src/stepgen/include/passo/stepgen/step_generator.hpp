@@ -63,10 +63,11 @@ class StepGenerator final : public Source<BoardItem> {
   // From now on goes on as `other` would, which was made with the same options, but with its own motion, waiting and
   // exactness. So a fork tells what another motion from here on would be, and its end is a place to go on from.
   void assume(const StepGenerator& other);
-  // All the motion that was pulled ends at rest; it is given, too, but for the rest of a dwell; and all of that.
+  // All the motion that was pulled ends at rest; and it is given, too.
   bool ends_at_rest() const;
-  bool stands() const;
   bool at_rest() const;
+  // What was given last is waiting at rest, of which there may be more: a dwell.
+  bool waits_at_rest() const;
 
  private:
   class Implementation;
