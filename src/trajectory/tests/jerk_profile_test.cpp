@@ -16,7 +16,8 @@ std::vector<MotionItem> planned_with(int repairs, const std::vector<PathItem>& p
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const bool is_last = i + 1 == segments.size();
     cutter.begin(segments[i], {.entry_squared = i == 0 ? 0 : cutter.joint_cap(segments[i - 1], segments[i]),
-                               .exit_squared = is_last ? 0 : cutter.joint_cap(segments[i], segments[i + 1])});
+                               .exit_squared = is_last ? 0 : cutter.joint_cap(segments[i], segments[i + 1]),
+                               .feed = segments[i].speed.value()});
     bool is_first = i == 0;
     for (JerkCell cell; cutter.next(cell, shapes.data()); is_first = false) {
       profile.push(cell, shapes.data(), is_first);
