@@ -201,8 +201,10 @@ TEST_P(BrokenLineInFull, every_frame_boundary) {
   EXPECT_GE(trials, 5000);
 }
 
+// PASSO_RUNS: how many runs.
 TEST_P(BrokenLineInFull, random_faults) {
-  random_faults(GetParam(), 4000);
+  const char* const runs = std::getenv("PASSO_RUNS");
+  random_faults(GetParam(), runs != nullptr ? std::atoi(runs) : 4000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Board, BrokenLine, testing::Values("router", "uno", "smooth_router", "smooth_uno"));
