@@ -236,8 +236,9 @@ class ChipPlayer {
   static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
-    if (captured()) note_capture();
-    const uint16_t played = noted_ ? captured_at_ : static_cast<uint16_t>(made_ - waiting());
+    uint16_t played = static_cast<uint16_t>(made_ - waiting());
+    if (captured()) note_capture();  // after that look: the probe may touch at any time
+    if (noted_) played = captured_at_;
     return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
   }
   // Which event it was, told by the entry; in time, before the interrupt has been round the ring once more.
