@@ -34,7 +34,9 @@ struct LineProbing {
   Seconds longest_ahead{0};
 };
 
-inline void expect_place(const MachineDescription& machine, const Point& place, const Point& expected) {
+// `others`: steps by which axes beside Z may be off.
+inline void expect_place(const MachineDescription& machine, const Point& place, const Point& expected,
+                         double others = 0.5) {
   for (const AxisDescription& axis : machine.axes) {
     // An axis that does not move stands between two steps or not; and where ports are written one after the other, as
     // on the Mega, X makes its step of the very event of the touch some cycles behind Z.
@@ -73,7 +75,8 @@ inline void expect_as_the_oracle_saw(const MachineDescription& machine, const Li
     SCOPED_TRACE("probe move " + std::to_string(i));
     const ProbeOutcome& outcome = result.outcomes[i];
     EXPECT_TRUE(outcome.touched);
-    expect_place(machine, outcome.contact, seen[i]);
+    // Where ports are written one after the other, as on the Mega, X steps some cycles behind Z at the very event.
+    expect_place(machine, outcome.contact, seen[i], 1.5);
     const double steps = outcome.contact[Axis::z] * machine.axes[2].steps_per_unit;
     EXPECT_NEAR(steps, std::round(steps), 1e-6);
     EXPECT_LE(std::abs(outcome.contact[Axis::z] - seen[i][Axis::z]), 1e-9) << "to the step";
