@@ -38,9 +38,8 @@ struct LineProbing {
 inline void expect_place(const MachineDescription& machine, const Point& place, const Point& expected,
                          double others = 0.5) {
   for (const AxisDescription& axis : machine.axes) {
-    // An axis that does not move stands between two steps or not; and where ports are written one after the other, as
-    // on the Mega, X makes its step of the very event of the touch some cycles behind Z.
-    const double steps = axis.axis == Axis::z ? 0.5 : 1.5;
+    // An axis that does not move stands between two steps or not.
+    const double steps = axis.axis == Axis::z ? 0.5 : others;
     EXPECT_NEAR(place[axis.axis], expected[axis.axis], steps / axis.steps_per_unit + 1e-9) << letter_of(axis.axis);
   }
 }
