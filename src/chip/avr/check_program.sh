@@ -15,7 +15,7 @@ code=$("$objdump" -d "$elf")
     line = $0
     sub(/^[^\t]*\t[^\t]*\t/, "", line)
     sub(/[ \t]*;.*/, "", line)
-    if (line ~ /^movw\tr(1[6-9]|2[0-9]|30), r2$/ || line ~ /^movw\tr2, r/ || line ~ /^mov\tr[25], r/ || line ~ /^mov\tr(1[6-9]|2[0-9]|30), r2$/) next
+    if (line ~ /^movw\tr(1[0-9]|2[0-9]|30), r2$/ || line ~ /^movw\tr2, r/ || line ~ /^mov\tr[25], r/ || line ~ /^mov\tr(1[0-9]|2[0-9]|30), r2$/) next
     if (name ~ /ctors|dtors|progmem/) next
     print "check_program: " name " uses a register of the interrupt: " line
     bad = 1
