@@ -132,7 +132,8 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
                          : std::nullopt),
       drive_(smoother_, limits_, step_options_at(machine, options.resume_at), machine_, board_line(options, line_)),
       clock_(machine.board.clock),
-      resume_at_(options.resume_at) {
+      resume_at_(options.resume_at),
+      wants_encoder_(machine.spindle.counts_per_turn > 0) {
   if (resume_at_) {
     machine_.stand_at(resume_at_->steps);
     drive_.begin_at(resume_at_->place);
@@ -140,9 +141,10 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
   const bool over_a_line = line_ || options.board != nullptr;
   if (over_a_line && !unsuited()) drive_.use_tails({});
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
-  // The encoder is not on the wire yet: over a line nothing may follow what this spindle does.
-  if (!over_a_line) fit_spindle(machine.spindle);
-  if (!over_a_line && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)) {
+  if (options.board == nullptr) fit_spindle(machine.spindle);
+  if (wants_encoder_) drive_.use_encoder(machine.spindle.counts_per_turn);
+  // Over a line no tap turns round with the spindle: it rests meanwhile, and its holder floats.
+  if (!over_a_line && wants_encoder_ && !has_jerk_limit(machine)) {
     path_options_.tap_rest = &tap_rest_;
     path_options_.spindle_run_up = machine.spindle.run_up;
     drive_.tell_tap(tap_rest_);
@@ -198,6 +200,10 @@ std::optional<std::string> Job::unsuited() const {
   if (static_cast<double>(board->clock) != clock_.value()) {
     return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", board->clock,
                        clock_.value());
+  }
+  const auto& status = link().status();
+  if (wants_encoder_ && status && (status->state & board_encodes) == 0) {
+    return "it has no encoder, and [spindle] of the machine file tells of one";
   }
   return {};
 }

@@ -42,6 +42,15 @@ LiveOptions with_horizon(const LiveOptions& live, SpindleLock lock) {
 constexpr double near_speed = 0.1;
 constexpr double steady = 0.02;
 constexpr int most_turns = 1000;
+// While it is waited for, an encoder is looked at so often; and it may stand so long, running up and in a thread.
+constexpr Seconds between_looks{0.005};
+constexpr Seconds longest_run_up{5};
+constexpr Seconds longest_stand{0.25};
+constexpr double counts_at_least = 8;
+// A thread that begins later than by so many turns has no lead-in that makes up for it.
+constexpr double latest_start = 0.25;
+constexpr int sure_of_start = 3;
+constexpr Seconds longest_lead{0.2};
 
 }  // namespace
 
@@ -60,6 +69,7 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       link_(port_, steps.motor_count, line.care),
       steps_(steps),
       probe_(link_, steps),
+      encoder_(0, tick_rate_),
       follower_(limits),
       rested_(now()) {
   watched_path_.watch([this](const PathItem& item) { look_at(item); });
@@ -69,7 +79,7 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
 // Where something follows the spindle nothing is read far ahead from there on.
 void MotionDrive::look_at(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
-  if (segment == nullptr || segment->lock == SpindleLock::none || !machine_.spindle().has_encoder()) return;
+  if (segment == nullptr || segment->lock == SpindleLock::none || !encoder_.exists() || refiller_) return;
   live_ = with_horizon(live_, SpindleLock::speed);
   if (ahead_.horizon > live_.horizon) commit_ahead(live_);
 }
@@ -80,13 +90,13 @@ void MotionDrive::watch(const MotionItem& item) {
   const auto* move = std::get_if<PlannedMove>(&item);
   // With tails not all that is given is done.
   if (move != nullptr && probe_.is_running() && !refiller_) end_of_probe_ = move->segment.curve.at(move->to);
-  if (machine_.spindle().has_encoder()) {
+  if (encoder_.exists()) {
     // What is committed is blind to what the spindle does.
     if (move != nullptr) {
       follower_.watch(*move);
       if (move->segment.reverse_at > Mm(0)) watch_tap(*move);
-      commit_ahead(with_horizon(commits(), follower_.lock()));
-    } else if (std::get<Action>(item).kind == Action::Kind::await_index) {
+      if (!refiller_) commit_ahead(with_horizon(commits(), follower_.lock()));
+    } else if (!refiller_ && std::get<Action>(item).kind == Action::Kind::await_index) {
       commit_ahead(with_horizon(commits(), SpindleLock::place));
     }
   }
@@ -135,6 +145,7 @@ void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
 
 bool MotionDrive::advance_with_tails() {
   switch (refiller_->advance()) {
+    case Refiller::Turn::lost_thread: return lose_thread();
     case Refiller::Turn::goes_on: return true;
     case Refiller::Turn::ended: state_ = State::ended; break;
     case Refiller::Turn::rests_in_hold: rest_in_feed_hold(); break;
@@ -147,7 +158,12 @@ bool MotionDrive::advance() {
   if (state_ == State::ended) return false;
   if (state_ == State::held) return true;
   look_at_probe();
-  if (follower_.lock() != SpindleLock::none) follow_spindle();
+  if (follower_.lock() != SpindleLock::none) {
+    follow_spindle();
+  } else if (follows_ && !index_time_) {
+    follows_ = false;
+    commit_to_asked();
+  }
   if (refiller_) return advance_with_tails();
   if (committed() >= ahead_.horizon && link_.busy()) {
     link_.wait();
@@ -198,16 +214,17 @@ void MotionDrive::look_at_probe() {
 
 void MotionDrive::guard_by_probe() {
   probe_.guard_other_moves();
-  commit_to_probe();
+  commit_to_asked();
 }
 
-// As much as is right for what the probe is watched for now.
-void MotionDrive::commit_to_probe() {
+// As much as is right for what the board is watched for now.
+void MotionDrive::commit_to_asked() {
   if (!refiller_) return commit_ahead(commits());
   using Asking = Refiller::Asking;
-  refiller_->ask_for_probe(probe_.is_running() ? Asking::before_refills
-                           : probe_.guards()   ? Asking::with_refills
-                                               : Asking::none);
+  refiller_->ask(probe_.is_running() ? Asking::before_refills
+                 : follows_          ? Asking::for_spindle
+                 : probe_.guards()   ? Asking::with_refills
+                                     : Asking::none);
 }
 
 void MotionDrive::begin_probe(const Action& action) {
@@ -215,13 +232,13 @@ void MotionDrive::begin_probe(const Action& action) {
   probe_.begin(action);
   contact_seen_ = false;
   end_of_probe_.reset();
-  commit_to_probe();
+  commit_to_asked();
 }
 
 void MotionDrive::end_probe(const Action& action) {
   if (!refiller_) link_.drain();
   probe_.end(end_of_probe_.value_or(action.place));
-  commit_to_probe();
+  commit_to_asked();
   contact_seen_ = false;
   // The contact may have come when the path was at its end already.
   if (std::exchange(probe_brakes_, false)) let_planner_go_on();
@@ -272,6 +289,7 @@ void MotionDrive::rest_in_hold() {
       link_.send(BoardOutputs{});
     }
     end();
+    if (trouble_) link_.fail(*trouble_);
     return;
   }
   if (!refiller_) link_.drain();  // it has waited, and what came too late is never executed
@@ -323,39 +341,123 @@ void MotionDrive::stop() {
   state_ = State::holding;
 }
 
-// At rest: until the spindle is at speed, and then until its index comes by.
-void MotionDrive::await_index(const OutputState& outputs) {
-  const VirtualSpindle& spindle = machine_.spindle();
-  if (!spindle.has_encoder()) return;
-  link_.drain();
-  double before = 0;
-  for (int i = 0; i < most_turns; ++i) {
-    const Seconds from = now();
-    const std::optional<Seconds> index = spindle.next_index(from);
-    if (!index) return;
-    // By two readings, so that the speed is known when the motion begins.
-    let_pass((*index - from) / 2);
-    follower_.read(spindle.read(now()));
-    let_pass(*index - now());
-    const double turn = (now() - from).value();
-    const double wanted = seconds_per_minute / outputs.revolutions_per_minute;
-    const bool at_speed = std::abs(turn - wanted) < near_speed * wanted || std::abs(turn - before) < steady * turn;
-    before = turn;
-    if (i > 0 && at_speed) break;
-  }
-  follower_.begin(spindle.read(now()));
+void MotionDrive::use_encoder(int counts_per_turn) {
+  encoder_ = SpindleEncoder(counts_per_turn, tick_rate_);
+  if (refiller_) refiller_->guard_threads();
 }
 
-// What was pulled last is followed by what is pulled next.
+void MotionDrive::begin_following() {
+  if (std::exchange(follows_, true)) return;
+  encoder_.restart();
+  follower_.restart();
+  if (refiller_) commit_to_asked();
+}
+
+// At rest: until the spindle is at speed, and then until its index comes by.
+void MotionDrive::await_index(const OutputState& outputs) {
+  if (!encoder_.exists()) return;
+  if (!refiller_) link_.drain();
+  follows_ = false;
+  begin_following();
+  const double wanted = seconds_per_minute / outputs.revolutions_per_minute;
+  SpindleReading begun;
+  double before = 0;
+  bool at_speed = false;
+  for (int turns = 0; read_spindle() && mind_encoder(longest_run_up);) {
+    const SpindleReading& now = encoder_.now();
+    const double turned = std::abs(now.turns - begun.turns);
+    if (turned >= 1) {
+      const double turn = (now.time - begun.time).value() / turned;
+      at_speed = at_speed || std::abs(turn - wanted) < near_speed * wanted || std::abs(turn - before) < steady * turn ||
+                 ++turns == most_turns;
+      before = turn;
+      begun = now;
+    }
+    const Seconds left = time_to_index(refiller_ ? link_.answer_time() + late_ : Seconds(0));
+    const bool begins = at_speed && encoder_.index() && left < 2 * between_looks;
+    let_pass(begins ? left : between_looks);
+    if (begins) return;
+  }
+}
+
+// Told where it begins; so much time the answer has taken, and takes what is sent.
+Seconds MotionDrive::time_to_index(Seconds answer) {
+  const double speed = follower_.turns_a_second();
+  if (!encoder_.index() || speed == 0) return longest_wait;
+  const double way = speed < 0 ? -1 : 1;
+  const double ahead = encoder_.now().turns + speed * answer.value() - *encoder_.index();
+  const double index = *encoder_.index() + way * (std::floor(way * ahead) + 1);
+  looks_at_start_ = 0;
+  index_time_ = encoder_.now().time + Seconds((index - encoder_.now().turns) / speed);
+  follower_.begin(index);
+  return *index_time_ - encoder_.now().time - answer;
+}
+
+bool MotionDrive::read_spindle() {
+  if (!link_.read_spindle()) return false;
+  note(*link_.take_turned());
+  return true;
+}
+
+void MotionDrive::note(const Turned& turned) {
+  encoder_.read(turned.spindle);
+  follower_.read(encoder_.now());
+}
+
+// What was pulled last is followed by what is pulled next. Over a line it is what the answer behind the last refill
+// tells, when that has come.
 void MotionDrive::follow_spindle() {
-  follower_.read(machine_.spindle().read(now()));
-  const Seconds ahead = committed();
+  begin_following();
+  if (!refiller_ && !link_.read_spindle()) return;
+  const std::optional<Turned> turned = link_.take_turned();
+  if (!turned) return;
+  note(*turned);
+  const Seconds ahead = refiller_ ? refiller_->ahead_of(*turned, encoder_.now().time) : committed();
+  const bool by_place = follower_.lock() == SpindleLock::place;
+  if (!mind_encoder(by_place ? longest_stand : longest_run_up)) return;
+  if (index_time_) mind_start();
   if (tap_turns_ && follower_.turns_back(ahead)) {
     tap_turns_ = false;
     tap_brakes_ = true;
     planner_.stop();
   }
   if (const auto ratio = follower_.ratio(ahead)) planner_.set_spindle_ratio(*ratio);
+}
+
+// It has begun: by what the board tells later than it should, the next one is begun sooner.
+void MotionDrive::mind_start() {
+  if (refiller_) {
+    if (!refiller_->began() || ++looks_at_start_ < sure_of_start) return;
+    const Seconds late = *refiller_->began() - *index_time_;
+    late_ = std::clamp(late_ + late, Seconds(0), longest_lead);
+    if (std::abs(late.value() * follower_.turns_a_second()) > latest_start) give_up(LinkError::thread_lost);
+  }
+  index_time_.reset();
+}
+
+// A feed a revolution needs no index.
+bool MotionDrive::mind_encoder(Seconds longest) {
+  if (trouble_) return false;
+  const bool wrong = follower_.lock() != SpindleLock::speed && encoder_.is_wrong();
+  if (wrong) give_up(LinkError::encoder_wrong);
+  if (!wrong && encoder_.stood() > longest + encoder_.time_of_counts(counts_at_least)) {
+    give_up(LinkError::spindle_stands);
+  }
+  return !trouble_;
+}
+
+// Brakes on the path, and ends there.
+void MotionDrive::give_up(LinkError error) {
+  trouble_ = error;
+  stop();
+}
+
+// At rest in a thread, whose next turn would not be where the ones before are.
+bool MotionDrive::lose_thread() {
+  refiller_->switch_outputs({});
+  link_.fail(LinkError::thread_lost);
+  state_ = State::ended;
+  return false;
 }
 
 void MotionDrive::wait(Seconds time) {

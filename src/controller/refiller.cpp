@@ -34,6 +34,11 @@ constexpr double moves_an_answer = 3;
 constexpr Seconds shortest_answer{0.003};
 constexpr Seconds made_ahead{0.002};
 
+constexpr bool is_the_hosts(const Action& action) {
+  using Kind = Action::Kind;
+  return action.kind == Kind::probe_begin || action.kind == Kind::probe_end || action.kind == Kind::await_index;
+}
+
 // The planner's braking, handed out as motion.
 class Braking final : public Source<MotionItem> {
  public:
@@ -74,13 +79,15 @@ void Refiller::watch(const MotionItem& motion) {
 
 Refiller::Turn Refiller::advance() {
   if (stages_.link.error()) return Turn::ended;
+  const int recoveries = recoveries_;
   note_executed();
+  if (recoveries_ != recoveries && guards_threads_ && stages_.path.is_in_thread()) return Turn::lost_thread;
   if (refills_under_way_.empty()) {
     brakes_ = false;
     if (pulled_.empty()) rested_ = tail_of_nothing().rest;
   }
   if (!on_tail_ && !brakes_) {
-    pull();
+    if (may_plan()) pull();
     if (const std::size_t items = size_of_refill(); items > 0) {
       send(items);
       return Turn::goes_on;
@@ -100,13 +107,20 @@ Refiller::Turn Refiller::advance() {
   return Turn::goes_on;
 }
 
+// What follows the spindle is planned when it is due, by the newest answer.
+bool Refiller::may_plan() {
+  return asking_ != Asking::for_spindle || (ahead_ < refill_at() && !waits_for_answer());
+}
+
 Action Refiller::take_action() {
   return *std::exchange(action_, std::nullopt);
 }
 
-void Refiller::ask_for_probe(Asking asking) {
+void Refiller::ask(Asking asking) {
+  if (asking == asking_) return;
   asking_ = asking;
-  if (asking == Asking::before_refills) {
+  stages_.link.ask_for_spindle(asking == Asking::for_spindle);
+  if (in_haste()) {
     answer_ = std::max(slowest_answer_, std::min(behind_a_refill * stages_.link.answer_time(), options_.refill_at));
   }
   commit();
@@ -115,8 +129,7 @@ void Refiller::ask_for_probe(Asking asking) {
 // As much as it takes to ask and to be answered.
 void Refiller::commit() {
   answer_ = std::max(answer_, shortest_answer);
-  const bool in_haste = asking_ == Asking::before_refills;
-  longest_move_ = in_haste ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
+  longest_move_ = in_haste() ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
   stages_.generator.be_exact_to(counts_items() ? options_.motion_in_few_places : options_.motion);
   stages_.planner.limit_moves_to(longest_move_);
   stages_.generator.limit_waiting_to(longest_move_);
@@ -124,20 +137,20 @@ void Refiller::commit() {
 
 // The fewer the better.
 bool Refiller::counts_items() const {
-  return asking_ == Asking::before_refills || places_ < options_.few_places;
+  return in_haste() || places_ < options_.few_places;
 }
 
 // While one refill is on its way and answered, the next one not yet there, the board has enough.
 Seconds Refiller::horizon() const {
-  return asking_ == Asking::before_refills ? 2 * answer_ + longest_move_ + made_ahead : options_.horizon;
+  return in_haste() ? 2 * answer_ + longest_move_ + made_ahead : options_.horizon;
 }
 Seconds Refiller::refill_at() const {
-  return asking_ == Asking::before_refills ? horizon() - longest_move_ : options_.refill_at;
+  return in_haste() ? horizon() - longest_move_ : options_.refill_at;
 }
 
 // One that has taken too long tells of a time that is too long ago: the board is asked again, and trusted to be slower.
 bool Refiller::waits_for_answer() {
-  if (asking_ != Asking::before_refills) return false;
+  if (!in_haste()) return false;
   if (!stages_.link.answered()) return true;
   if (!std::exchange(asked_, false)) return false;
   const Seconds time = stages_.link.answer_time();
@@ -155,6 +168,22 @@ bool Refiller::waits_for_answer() {
 Point Refiller::drop() {
   const PathPlace rest = std::exchange(given_, stages_.path.last());
   return stages_.path.point_at(rest);
+}
+
+// What is played of the item at hand is known to an event; all answers of one motion together tell better.
+Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {
+  Seconds played = sent_time_;
+  Seconds next{0};
+  for (const Motion& motion : motion_) {
+    if (later_by(motion.number, turned.progress.executed) <= 0) continue;
+    const Seconds begins = motion.end - motion.time;
+    played = begins + time_of(motion.item, turned.event);
+    next = begins + time_of(motion.item, turned.event + 1) - played;
+    break;
+  }
+  const Seconds latest = time - played;
+  began_ = std::clamp(began_.value_or(latest), latest - next, latest);
+  return sent_time_ + pulled_time_ - (time - *began_);
 }
 
 // What the board has told of how far it is.
@@ -217,7 +246,7 @@ bool Refiller::begin_more_slowly() {
   if (limit < least_limit) return false;
   limit_speed_to(limit);
   take_up();
-  return true;
+  return !(guards_threads_ && stages_.path.is_in_thread());
 }
 
 void Refiller::limit_speed_to(double speed) {
@@ -256,7 +285,7 @@ void Refiller::pull() {
       add(*segment);
     } else if (const auto& action = std::get<Action>(item_); action.kind == Action::Kind::feed_hold) {
       holds_ = true;
-    } else if (action.kind == Action::Kind::probe_begin || action.kind == Action::Kind::probe_end) {
+    } else if (is_the_hosts(action)) {
       action_ = action;
     } else {
       add(board_outputs(action.outputs));
@@ -324,7 +353,7 @@ std::size_t Refiller::free_places() const {
 std::size_t Refiller::size_of_refill() {
   if (pulled_.empty() || ahead_ >= refill_at()) return 0;
   if (waits_for_answer()) return 0;
-  const bool at_once = asking_ == Asking::before_refills;
+  const bool at_once = in_haste();
   const std::size_t places = free_places();
   const std::size_t room = static_cast<std::size_t>(std::max(stages_.link.room() - 1, 0));
   std::size_t fits = 0;
@@ -356,8 +385,16 @@ void Refiller::send(std::size_t items) {
     rest_watcher_({.executed = last, .place = tail.rest.place});
   }
   refill.first = stages_.link.replace(behind_, items_);
+  if (refills_under_way_.empty()) {
+    sent_time_ = Seconds(0);
+    began_.reset();
+  }
   for (std::size_t i = 0; i < items; ++i) {
-    motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i), .time = pulled_[i].time});
+    sent_time_ += pulled_[i].time;
+    motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i),
+                       .time = pulled_[i].time,
+                       .end = sent_time_,
+                       .item = pulled_[i].item});
     ahead_ += pulled_[i].time;
     pulled_time_ -= pulled_[i].time;
   }
@@ -379,7 +416,7 @@ void Refiller::send(std::size_t items) {
 }
 
 void Refiller::ask() {
-  if (asking_ == Asking::before_refills) longest_ahead_ = std::max(longest_ahead_, ahead_);
+  if (in_haste()) longest_ahead_ = std::max(longest_ahead_, ahead_);
   asked_ = true;
   stages_.link.ask();
 }
@@ -394,10 +431,10 @@ void Refiller::switch_outputs(const BoardOutputs& outputs) {
   if (executed_watcher_) executed_watcher_(outputs);
 }
 
-Seconds Refiller::time_of(const LinkItem& item) const {
+Seconds Refiller::time_of(const LinkItem& item, int of_events) const {
   const auto* segment = std::get_if<BoardSegment>(&item);
   if (segment == nullptr) return Seconds(0);
-  const double events = segment->events;
+  const double events = std::min(of_events, int{segment->events});
   const double time = events * segment->interval + events * (events - 1) / 2 * segment->change;
   return Seconds(time / static_cast<double>(whole_tick) / steps_.clock.tick_rate.value());
 }

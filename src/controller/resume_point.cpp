@@ -66,6 +66,8 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
     if (segment == nullptr || place.s >= segment->curve.length()) return {};
     point.point = segment->curve.at(place.s);
   }
+  path.rewind(place);
+  point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
   const StepOptions steps = step_options(machine);
   for (std::size_t m = 0; m < steps.motor_count; ++m) {
     point.steps[m] = std::llround(point.point[steps.motors[m].axis] * steps.motors[m].steps_per_unit);

@@ -12,6 +12,7 @@ std::string_view code_of(ResumeRefusal refusal) {
     case ResumeRefusal::rest_unknown: return "resume.rest-unknown";
     case ResumeRefusal::path_changed: return "resume.path-changed";
     case ResumeRefusal::counts_differ: return "resume.counts-differ";
+    case ResumeRefusal::in_thread: return "resume.in-thread";
   }
   return "resume";
 }
@@ -26,6 +27,8 @@ std::string_view message_of(ResumeRefusal refusal) {
     case ResumeRefusal::rest_unknown: return "the journal does not know where the board has come to rest";
     case ResumeRefusal::path_changed: return "the program does not mean any more what it meant";
     case ResumeRefusal::counts_differ: return "the board's step counts are not those of the place where the job ended";
+    case ResumeRefusal::in_thread:
+      return "the machine stands in a thread, which cannot go on there: move the tool out of it, and start anew";
   }
   return "the job cannot go on";
 }
@@ -42,6 +45,7 @@ Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const
   if (!place) return Failure{ResumeRefusal::rest_unknown};
   const auto point = find_resume_point(program.again(), machine, options, *place);
   if (!point) return Failure{ResumeRefusal::path_changed};
+  if (point->in_thread) return Failure{ResumeRefusal::in_thread};
   if (!stands_at(journal.head(), *point, status)) return Failure{ResumeRefusal::counts_differ};
   return *point;
 }

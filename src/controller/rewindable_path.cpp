@@ -61,6 +61,12 @@ Point RewindablePath::point_at(const PathPlace& place) const {
   return std::get<Segment>(item).curve.at(place.s);
 }
 
+bool RewindablePath::is_in_thread() const {
+  if (next_ < first_ || next_ >= first_ + kept_.size()) return false;
+  const auto* segment = std::get_if<Segment>(&kept_[next_ - first_]);
+  return segment != nullptr && segment->lock == SpindleLock::place;
+}
+
 void RewindablePath::forget_before(std::uint64_t item) {
   for (; first_ < item && first_ < next_ && !kept_.empty(); ++first_) kept_.pop_front();
 }

@@ -10,6 +10,7 @@ namespace {
 
 // The speed is measured over so long: less is rough, for the encoder counts, more is late.
 constexpr double measured_over = 0.03;
+constexpr std::size_t least_readings = 6;  // a slow line brings no more in that time
 
 // What is missing is made up for at this rate, in 1/s: slow against the time from a reading to its effect.
 constexpr double eagerness = 15;
@@ -33,13 +34,17 @@ SpindleFollower::SpindleFollower(const MotionLimits& limits) : limits_(limits) {
   }
 }
 
-void SpindleFollower::begin(const SpindleReading& index) {
-  index_ = index.turns;
+void SpindleFollower::restart() {
+  readings_.clear();
+  changed_at_ = -1;
+}
+
+void SpindleFollower::begin(double index) {
+  index_ = index;
   lag_ = -1;
   followed_ = reached_ = 0;
   direction_ = 1;
   in_place_ = false;
-  read(index);
 }
 
 void SpindleFollower::watch(const PlannedMove& move) {
@@ -51,20 +56,21 @@ void SpindleFollower::watch(const PlannedMove& move) {
   followed_ += direction_ * (move.to - move.from()).value() / pitch;
   const Phase& last = *(move.end() - 1);
   reached_ = last.velocity_at(last.duration).value() / pitch;
-  in_place_ = in_place_ || reached_ >= up_to_speed * turns_a_second();
+  in_place_ = in_place_ || reached_ >= up_to_speed * speed();
 }
 
 void SpindleFollower::read(const SpindleReading& reading) {
   if (!readings_.empty() && reading.time <= readings_.back().time) return;
   readings_.push_back(reading);
-  while (readings_.size() > 2 && (reading.time - readings_[1].time).value() >= measured_over) readings_.pop_front();
+  while (readings_.size() > least_readings && (reading.time - readings_[1].time).value() >= measured_over)
+    readings_.pop_front();
 }
 
 double SpindleFollower::turns_a_second() const {
   if (readings_.size() < 2) return 0;
   const SpindleReading& from = readings_.front();
   const SpindleReading& to = readings_.back();
-  return std::abs(to.turns - from.turns) / (to.time - from.time).value();
+  return (to.turns - from.turns) / (to.time - from.time).value();
 }
 
 // At an even acceleration, or with jerk at an even mean one, half of the way is lost.
@@ -115,8 +121,7 @@ SpindleFollower::Course SpindleFollower::course(Seconds later) const {
                               double i) { return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g); };
   const double whole = determinant(s0, s1, s2, s1, s2, s3, s2, s3, s4);
   const double at = later.value() / measured_over;
-  if (readings_.size() < 4 || std::abs(whole) < 1e-9)
-    return {base + turns_a_second() * later.value(), turns_a_second()};
+  if (readings_.size() < 4 || std::abs(whole) < 1e-9) return {base + speed() * later.value(), speed()};
   const auto [r0, r1, r2] = right;
   const double c0 = determinant(r0, s1, s2, r1, s2, s3, r2, s3, s4) / whole;
   const double c1 = determinant(s0, r0, s2, s1, r1, s3, s2, r2, s4) / whole;
@@ -134,9 +139,8 @@ double SpindleFollower::wanted_ratio(Seconds committed) const {
     const double missing = there.turns - lag_ - followed_;
     return std::clamp(direction_ * (there.speed + eagerness * missing) / programmed_, least_ratio, most_ratio);
   }
-  const double speed = turns_a_second();
-  if (!(speed > 0) || !(programmed_ > 0)) return 1;
-  return std::clamp(speed / programmed_, least_ratio, most_ratio);
+  if (!(speed() > 0) || !(programmed_ > 0)) return 1;
+  return std::clamp(speed() / programmed_, least_ratio, most_ratio);
 }
 
 }  // namespace passo

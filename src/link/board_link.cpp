@@ -166,7 +166,7 @@ bool BoardLink::listen(Again again) {
 }
 
 bool BoardLink::listen() {
-  return listen([this] { ask(); });
+  return listen([this] { ask(Question::status); });
 }
 
 // An answer comes in pieces, on a slow line byte by byte: what was asked is asked again only when its time is over.
@@ -181,7 +181,7 @@ bool BoardLink::hear_until(Done done) {
 
 void BoardLink::listen_for(Seconds most) {
   const Seconds end = port_.elapsed() + most;
-  ask();
+  ask(Question::status);
   while (!error_ && pressed_ == 0 && port_.elapsed() < end && hear(end - port_.elapsed())) {
   }
 }
@@ -209,6 +209,7 @@ bool BoardLink::overdue() const {
 void BoardLink::ask(Question question) {
   moved_on_ = port_.elapsed();
   asked_behind_ = sent_;
+  last_question_ = question;
   if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
   say(Ask{.motors = motors_, .question = question}, ++question_);
 }
@@ -221,7 +222,7 @@ void BoardLink::take(const WireFrame& frame) {
       decode(frame, credit);
       take(credit);
       // It has dropped what was sent. Is that so?
-      if (may_lose() && holds_nothing_of(credit) && executed_ != sent_) ask();
+      if (may_lose() && holds_nothing_of(credit) && executed_ != sent_) ask(Question::status);
       return;
     }
     case MessageType::status: {
@@ -239,6 +240,11 @@ void BoardLink::take(const WireFrame& frame) {
       Captured captured;
       decode(frame, motors_, captured);
       return take(captured);
+    }
+    case MessageType::turned: {
+      Turned turned;
+      decode(frame, turned);
+      return take(turned);
     }
     case MessageType::about: break;
     default:
@@ -272,6 +278,8 @@ void BoardLink::take(const BoardStatus& status) {
     error_ = LinkError::manual;
     return;
   }
+  const bool is_asked_for_more = last_question_ == Question::spindle && status.answers == question_;
+  if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder);
   note_inputs(status);
   note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
@@ -282,19 +290,39 @@ void BoardLink::take(const BoardStatus& status) {
   if ((status.state & board_trusted) == 0) return doubt(LinkError::stopped);
   doubts_ = 0;
   const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
-  take(credit);
+  note_progress(credit, status.answers);
   rests_ = holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0;
   news_ = news_ || rests_;
-  if (status.answers != question_) return;
+}
+
+void BoardLink::note_progress(const Credit& credit, std::uint8_t answers) {
+  take(credit);
+  if (answers != question_) return;
   // What was sent before the question, and has not arrived before it, is lost.
-  if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) repeat();
+  if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) return repeat();
+  // An answer that told where the spindle is was lost, or the question.
+  if (!answered_ && usual_question_ == Question::spindle) ask();
+}
+
+void BoardLink::take(const Turned& turned) {
+  turned_ = turned;
+  note_answer(turned.progress.taken);
+  note_progress(turned.progress, turned.answers);
+}
+
+bool BoardLink::read_spindle() {
+  turned_.reset();
+  ask(Question::spindle);
+  while (!turned_ && listen([this] { ask(Question::spindle); })) {
+  }
+  return turned_.has_value();
 }
 
 void BoardLink::doubt(LinkError error) {
   if (++doubts_ == sure_of_status) {
     error_ = error;
   } else {
-    ask();
+    ask(Question::status);
   }
 }
 
@@ -320,10 +348,7 @@ void BoardLink::note_inputs(const BoardStatus& status) {
 // A captured may be lost; what it told shows in every status. Where the probe was at the beginning as it is to become,
 // its first change is away from that, and the watch begins again.
 void BoardLink::note_probe(const BoardStatus& status) {
-  if (static_cast<std::uint8_t>(sent_) == status.taken && !answered_) {
-    answered_ = news_ = true;
-    answer_time_ = port_.elapsed() - unanswered_since_;
-  }
+  if (usual_question_ == Question::status) note_answer(status.taken);
   const bool touched = (status.inputs & input_probe) != 0;
   const bool came = std::exchange(probe_report_.touched, touched) != touched;
   if (probe_until_ == ProbeUntil::off) return;
@@ -335,6 +360,12 @@ void BoardLink::note_probe(const BoardStatus& status) {
     began_as_wanted_ = kept;
     if (kept) ask(Question::watch);
   }
+}
+
+void BoardLink::note_answer(std::uint8_t taken) {
+  if (answered_ || static_cast<std::uint8_t>(sent_) != taken) return;
+  answered_ = news_ = true;
+  answer_time_ = port_.elapsed() - unanswered_since_;
 }
 
 void BoardLink::take(const ErrorReport& error) {

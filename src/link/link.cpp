@@ -14,6 +14,17 @@ std::string_view message_of(LinkError error) {
     case LinkError::too_few_places: return "the board cannot hold as much as it takes to bring the machine to rest";
     case LinkError::manual:
       return "the board was put into manual mode by its keypad: leave it there by *, and start again";
+    case LinkError::no_encoder:
+      return "the program follows the spindle, and the board has no encoder: it needs other firmware, or [spindle] of "
+             "the machine file is not this machine's";
+    case LinkError::spindle_stands:
+      return "the spindle does not turn, or its encoder does not count: nothing can follow it";
+    case LinkError::encoder_wrong:
+      return "the spindle's encoder does not count encoder_counts_per_turn from index to index, or there is no index";
+    case LinkError::thread_lost:
+      return "the machine came to rest in a thread, for the line was broken or too slow: it stands on the path, "
+             "spindle "
+             "off, and the thread cannot go on there";
   }
   return "the link to the board failed";
 }

@@ -119,9 +119,15 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   const bool reverse = (wanted.switches & OutputSwitch::spindle_reverse) != 0;
   const bool on = (wanted.switches & OutputSwitch::spindle_on) != 0;
   const double rpm = on ? wanted.spindle_rpm : 0;
-  spindle.command(Seconds(static_cast<double>(now) * seconds_a_tick), reverse ? -rpm : rpm);
+  turning.command(Seconds(static_cast<double>(now) * seconds_a_tick), reverse ? -rpm : rpm);
   ++output_changes;
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
+}
+
+SpindleCount VirtualMachine::Hardware::spindle() const {
+  SpindleCount count = turning.count_at(Seconds(static_cast<double>(now) * seconds_a_tick));
+  count.tick = static_cast<std::uint32_t>(now);
+  return count;
 }
 
 bool VirtualMachine::Hardware::is_in_a_body() const {

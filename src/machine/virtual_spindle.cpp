@@ -41,31 +41,13 @@ double VirtualSpindle::turns_at(Seconds time) const {
   return turns;
 }
 
-SpindleReading VirtualSpindle::read(Seconds time) const {
-  const double counts = model_.counts_per_turn;
-  return {.time = time, .turns = std::floor(turns_at(time) * counts) / counts};
-}
-
-std::optional<Seconds> VirtualSpindle::next_index(Seconds after) const {
-  if (target_ == 0) return std::nullopt;
-  const double from = turns_at(after);
-  const double aim = target_ > 0 ? std::floor(from) + 1 : std::ceil(from) - 1;
-  const auto beyond = [&](double time) {
-    return target_ > 0 ? turns_at(Seconds(time)) >= aim : turns_at(Seconds(time)) <= aim;
-  };
-  double low = after.value();
-  double step = 0.1 / std::abs(target_);
-  double high = low + step;
-  // While it still turns the other way it takes longer.
-  for (int i = 0; i < 100'000 && !beyond(high); ++i) {
-    low = high;
-    high += step;
-  }
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (beyond(middle) ? high : low) = middle;
-  }
-  return Seconds(high);
+SpindleCount VirtualSpindle::count_at(Seconds time) const {
+  const double turns = turns_at(time);
+  const double last = target_ < 0 ? std::ceil(turns) : std::floor(turns);
+  const auto modulo = [](double counts) { return static_cast<std::uint32_t>(static_cast<std::int64_t>(counts)); };
+  return {.count = modulo(std::floor(turns * model_.counts_per_turn)),
+          .at_index = modulo(last * model_.counts_per_turn),
+          .indexes = static_cast<std::uint8_t>(modulo(std::abs(last)))};
 }
 
 }  // namespace passo

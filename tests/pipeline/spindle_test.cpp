@@ -1,99 +1,30 @@
 // Threads and feeds a revolution follow the spindle as it turns, not as it was told to.
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "kit/example_machine.hpp"
-#include "kit/stage_test.hpp"
-
-#include "passo/controller/job.hpp"
+#include "pipeline/spindle_kit.hpp"
+#include <gtest/gtest.h>
 
 namespace passo {
 namespace {
 
-MachineDescription lathe(const SpindleDescription& spindle, bool jerk = false) {
-  const MachineDescription router = test::example_machine("router");
-  MachineDescription lathe = jerk ? test::with_jerk_limits(router) : router;
-  lathe.spindle = spindle;
-  return lathe;
-}
+using test::Cut;
+using test::groove;
+using test::grooves_at;
+using test::ideal;
+using test::lathe;
+using test::play;
+using test::Played;
+using test::rippling;
+using test::Spread;
+using test::spread;
+using test::thread_program;
 
-constexpr SpindleDescription ideal{.counts_per_turn = 4096};
-constexpr SpindleDescription rippling{
-    .counts_per_turn = 4096, .run_up = Seconds(0.5), .droop = 0.03, .ripple = 0.05, .ripple_rate = Hertz(2)};
-
-// Each step of Z in one direction, and the angle of the spindle, known to the machine and not to the controller, at
-// that time.
-struct Cut {
-  double z = 0;
-  double turns = 0;
-};
-class Thread final : public MachineObserver {
- public:
-  Thread(const MachineDescription& description, const VirtualMachine& machine)
-      : description_(description), machine_(machine) {}
-  void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
-    const AxisDescription& z = description_.axes[2];
-    if ((stepped & 4U) == 0) return;
-    const bool down = ((directions & 4U) != 0) != z.inverted;
-    place_ += down ? -1 : 1;
-    if (down || both_ways) {
-      const double seconds = static_cast<double>(time.count) / description_.board.clock.value();
-      cuts.push_back({place_ / z.steps_per_unit, machine_.spindle().turns_at(Seconds(seconds))});
-    }
-  }
-  std::vector<Cut> cuts;
-  bool both_ways = false;
-
- private:
-  const MachineDescription& description_;
-  const VirtualMachine& machine_;
-  double place_ = 0;
-};
-
-struct Played {
-  std::vector<Cut> cuts;
-  double time = 0;
-};
 Played run(const std::string& program, const MachineDescription& machine, bool both_ways = false) {
-  Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
-  Thread thread(machine, job.machine());
-  thread.both_ways = both_ways;
-  job.machine().add_observer(thread);
-  while (job.advance()) {
-  }
-  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
-  EXPECT_FALSE(job.link().error());
-  return {thread.cuts, job.drive().now().value()};
-}
-
-// Where on the circumference the groove is, for a cut: what is left of the turns when the thread's own are taken off.
-double groove(const Cut& cut, double pitch) {
-  return cut.turns + cut.z / pitch;
-}
-
-struct Spread {
-  double low = 1e9;
-  double high = -1e9;
-  void see(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  double mm(double pitch) const { return (high - low) * pitch; }
-};
-// Of one thread, between two depths.
-Spread spread(const std::vector<Cut>& cuts, double pitch, double from, double to) {
-  Spread all;
-  for (const Cut& cut : cuts) {
-    if (cut.z <= from && cut.z >= to) all.see(groove(cut, pitch));
-  }
-  return all;
-}
-
-std::string thread_program(const std::string& rpm) {
-  return "G21 S" + rpm + " M3\nG33 Z-20 K1.5\nM5\nM2\n";
+  const Played played = play(program, machine, Job::Options(), both_ways);
+  EXPECT_FALSE(played.error);
+  return played;
 }
 
 TEST(SpindleFollowing, a_thread_has_its_pitch_though_the_spindle_ripples_by_5_percent) {
@@ -127,17 +58,6 @@ TEST(SpindleFollowing, several_passes_cut_the_same_groove) {
   ASSERT_GE(passes.size(), 5U);
   std::printf("5 passes lie within %.4f mm of each other\n", all.mm(1.5));
   EXPECT_LT(all.mm(1.5), 0.01);
-}
-
-// Of all passes, at one depth, where on the circumference the groove is: modulo whole turns.
-std::vector<double> grooves_at(const std::vector<Cut>& cuts, double pitch, double z) {
-  std::vector<double> passes;
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    if (cuts[i - 1].z > z && cuts[i].z <= z) passes.push_back(groove(cuts[i], pitch));
-  }
-  // The circumference has no beginning: what is near its seam is told from the first.
-  for (double& pass : passes) pass -= std::round(pass - passes[0]);
-  return passes;
 }
 
 TEST(SpindleFollowing, all_passes_of_a_threading_cycle_lie_in_one_groove) {

@@ -3,6 +3,7 @@
 #include "keypad_wiring.hpp"
 #include "output_actions.hpp"
 #include "serial_line.hpp"
+#include "spindle_counter.hpp"
 #include "wiring.hpp"
 
 #include "passo/chip/input_reader.hpp"
@@ -25,6 +26,8 @@ struct Hardware {
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() { return line.room(); }
   void enable() { Wiring::enable_motors(true); }
+  static constexpr bool has_encoder() { return SpindleCounter::exists(); }
+  static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
 
   SerialLine line;
@@ -95,7 +98,11 @@ void start_watchdog() {
 
 [[gnu::noinline]] void look_at_inputs() {
   const bool tick = (Tifr1::read() & timer_overflow) != 0;
-  if (tick) Tifr1::write(timer_overflow);
+  if (tick) {
+    Tifr1::write(timer_overflow);
+    SpindleCounter::note_overflow();
+  }
+  SpindleCounter::take_pulses();
   if (halted != 0) return stop_at_once();
   uint16_t raw = Wiring::inputs();
   const bool probed = ChipPlayer::captured();
@@ -131,6 +138,7 @@ void start_watchdog() {
   static uint8_t turns = 0;
   asm volatile("wdr");
   SerialLine& line = hardware.line;
+  SpindleCounter::look();
   line.poll();
   if (ChipPlayer::wants_more() && board.ahead() != 0) board.settle();
   for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
@@ -163,6 +171,7 @@ extern "C" int main() {
   Wiring::prepare();
   manual.begin();
   ChipPlayer::prepare();
+  SpindleCounter::prepare();
   board.player().restart(0);
   SerialLine::open(clock, PASSO_BAUD);
   Wiring::enable_motors(true);

@@ -30,6 +30,7 @@ struct Port {
 };
 
 using Tifr1 = Register<0x36>;
+using Tifr4 = Register<0x39>;  // of the ATmega2560 only, as all of timers 4 and 5
 using Pcifr = Register<0x3b>;
 using Eifr = Register<0x3c>;
 using Gpior0 = Register<0x3e>;
@@ -51,7 +52,7 @@ using Tcnt1l = Register<0x84>;
 using Tcnt1h = Register<0x85>;
 using Ocr1al = Register<0x88>;
 using Ocr1ah = Register<0x89>;
-using Tccr4a = Register<0xa0>;  // of the ATmega2560 only, as the next three
+using Tccr4a = Register<0xa0>;
 using Tccr4b = Register<0xa1>;
 using Ocr4cl = Register<0xac>;
 using Ocr4ch = Register<0xad>;
@@ -64,9 +65,14 @@ using Ucsr0c = Register<0xc2>;
 using Ubrr0l = Register<0xc4>;
 using Ubrr0h = Register<0xc5>;
 using Udr0 = Register<0xc6>;
+using Tccr5a = Register<0x120>;
+using Tccr5b = Register<0x121>;
+using Tcnt5l = Register<0x124>;
+using Tcnt5h = Register<0x125>;
 
 inline constexpr uint8_t timer_overflow = 1 << 0;   // in TIFR1: every 65,536 cycles
 inline constexpr uint8_t compare_match_a = 1 << 1;  // in TIFR1 and TIMSK1
+inline constexpr uint8_t input_captured = 1 << 5;   // in TIFR4
 inline constexpr uint8_t byte_received = 1 << 7;    // in UCSR0A
 inline constexpr uint8_t may_send = 1 << 5;
 

@@ -55,6 +55,8 @@ class ListedBoard final : public Link {
   const ProbeReport& probe_report() const override { return report_; }
   void recall_contact() override {}
   void ask() override {}
+  void ask_for_spindle(bool) override {}
+  std::optional<Turned> take_turned() override { return {}; }
   bool answered() const override { return true; }
   Seconds answer_time() const override { return Seconds(0); }
   std::optional<LinkError> error() const override { return error_; }

@@ -132,6 +132,22 @@ TEST(Message, what_version_2_brings_keeps_every_field) {
   }
 }
 
+TEST(Message, what_version_5_brings_keeps_every_field) {
+  const std::uint64_t seed = test::seed();
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
+  RandomMessages random(seed);
+  for (int i = 0; i < 2000; ++i) {
+    std::uint8_t frame[largest_frame];
+    const Turned sent = random.turned();
+    Turned heard;
+    decode(carried(frame, encode(sent, 1, frame)), heard);
+    ASSERT_EQ(std::tie(heard.progress.executed, heard.progress.taken, heard.progress.free, heard.event, heard.answers),
+              std::tie(sent.progress.executed, sent.progress.taken, sent.progress.free, sent.event, sent.answers));
+    ASSERT_EQ(std::tie(heard.spindle.count, heard.spindle.tick, heard.spindle.at_index, heard.spindle.indexes),
+              std::tie(sent.spindle.count, sent.spindle.tick, sent.spindle.at_index, sent.spindle.indexes));
+  }
+}
+
 TEST(Message, carries_its_sequence_number_even_where_that_is_a_sync_byte) {
   std::uint8_t frame[largest_frame];
   EXPECT_EQ(carried(frame, encode(Credit(), 0xA5, frame)).sequence, 0xA5);

@@ -70,6 +70,15 @@ class RandomMessages {
     for (std::int32_t& place : captured.positions) place = position();
     return captured;
   }
+  Turned turned() {
+    Turned turned{
+        .progress = {.executed = word(), .taken = byte(), .free = byte()}, .event = word(), .answers = byte()};
+    turned.spindle.count = static_cast<std::uint32_t>(position());
+    turned.spindle.tick = static_cast<std::uint32_t>(position());
+    turned.spindle.at_index = static_cast<std::uint32_t>(position());
+    turned.spindle.indexes = byte();
+    return turned;
+  }
   About about() {
     About about{.firmware = word(),
                 .highest_event_rate = static_cast<std::uint32_t>(position()),
@@ -83,7 +92,7 @@ class RandomMessages {
     std::array<std::uint8_t, largest_frame> frame{};
     std::uint8_t size = 0;
     const std::uint8_t sequence = byte();
-    switch (below(16)) {
+    switch (below(17)) {
       case 0: size = encode(Hello{.version = byte(), .motors = byte()}, sequence, frame.data()); break;
       case 1: size = encode(BoardOutputs{.switches = byte(), .spindle_rpm = word()}, sequence, frame.data()); break;
       case 2: {
@@ -119,6 +128,7 @@ class RandomMessages {
         break;
       }
       case 11: size = encode(about(), sequence, frame.data()); break;
+      case 12: size = encode(turned(), sequence, frame.data()); break;
       default: size = encode(segment(motors), motors, sequence, frame.data()); break;
     }
     return {frame.begin(), frame.begin() + size};

@@ -59,6 +59,12 @@ std::vector<std::string> example_session() {
                            .answers = 1,
                            .positions = {-350, 103}};
   line(encode(status, 2, 7, frame));
+  // 41,300 counts, 340 behind the tenth index; at rest.
+  line(encode(Ask{.motors = 2, .question = Question::spindle}, 2, frame));
+  const Turned turned{.progress = {.executed = 4, .taken = 4, .free = 32},
+                      .answers = 2,
+                      .spindle = {.count = 41'300, .tick = 30'000'000, .at_index = 40'960, .indexes = 10}};
+  line(encode(turned, 8, frame));
   return lines;
 }
 

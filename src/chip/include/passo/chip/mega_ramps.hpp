@@ -27,16 +27,18 @@ inline constexpr PinMap<6> mega_ramps = {
     .spindle_relay = {'B', 5},                                               // D11
     .mist = {'H', 6},                                                        // D9
     .flood = {'B', 4},                                                       // D10
-    .keypad = {.rows = {{'L', 2}, {'L', 4}, {'L', 6}, {'G', 0}},             // D47, D45, D43, D41, in a row on AUX-4
-               .columns = {{'G', 2}, {'C', 0}, {'C', 2}},                    // D39, D37, D35
-               .tool_button = {'C', 4},                                      // D33
-               .automatic_indicator = {'C', 6},                              // D31
-               .manual_indicator = {'A', 7},                                 // D29
+    .keypad = {.rows = {{'L', 4}, {'L', 6}, {'G', 0}, {'G', 2}},             // D45, D43, D41, D39, in a row on AUX-4
+               .columns = {{'C', 0}, {'C', 2}, {'C', 4}},                    // D37, D35, D33
+               .tool_button = {'C', 6},                                      // D31
+               .automatic_indicator = {'A', 7},                              // D29
+               .manual_indicator = {'A', 5},                                 // D27
                // Sixteen microsteps: half a turn a second from rest, up to five.
                .speeds = {.start_stop = 1'600, .highest = 16'000, .acceleration = 32'000, .tap = 16}},
+    .encoder = {.pulses = {'L', 2}, .index = {'L', 0}},  // D47 on AUX-4, D49 on AUX-3
 };
 static_assert(mega_ramps.without_conflict(), "a pin has two jobs");
 static_assert(mega_ramps.fits_the_interrupt());
 static_assert(mega_ramps.has_whole_keypad(16'000'000));
+static_assert(mega_ramps.encoder.is_whole());
 
 }  // namespace passo

@@ -66,6 +66,15 @@ struct KeypadPins {
   }
 };
 
+// An encoder at the spindle: its pulses on the pin that clocks a timer, its index on one that captures. Both, or none.
+struct EncoderPins {
+  Pin pulses = {};
+  Pin index = {};
+
+  constexpr bool exists() const { return pulses.exists(); }
+  constexpr bool is_whole() const { return pulses.exists() == index.exists(); }
+};
+
 inline constexpr uint8_t most_step_ports = 4;
 inline constexpr uint8_t most_axis_switches = 6;
 
@@ -93,6 +102,7 @@ struct PinMap {
   Pin flood = {};
 
   KeypadPins keypad = {};
+  EncoderPins encoder = {};
 
   constexpr bool drives_windings() const { return motor[0].windings[0].exists(); }
 
@@ -130,7 +140,7 @@ struct PinMap {
     return static_cast<uint8_t>(limits_on(port) | (emergency_stop.port == port ? emergency_stop.mask() : 0));
   }
   constexpr uint8_t inputs_on(char port) const {
-    const Pin others[] = {probe, door, feed_hold, cycle_start};
+    const Pin others[] = {probe, door, feed_hold, cycle_start, encoder.pulses, encoder.index};
     uint8_t mask = stops_on(port);
     for (const Pin one : others) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
     keypad.each_input([&](Pin one) { mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0)); });
@@ -158,7 +168,7 @@ struct PinMap {
 
   // No pin has two jobs; but for the enable pins, which motors may share with each other only.
   constexpr bool without_conflict() const {
-    constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10 + 10;
+    constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10 + 10 + 2;
     Pin pins[most] = {};
     uint8_t count = 0;
     for (const MotorPins& one : motor) {
@@ -171,6 +181,8 @@ struct PinMap {
                           spindle_pwm, spindle_direction, spindle_relay, mist,      flood};
     for (const Pin one : others) pins[count++] = one;
     keypad.each([&](Pin one) { pins[count++] = one; });
+    pins[count++] = encoder.pulses;
+    pins[count++] = encoder.index;
     for (uint8_t a = 0; a < most; ++a) {
       if (!pins[a].exists()) continue;
       for (uint8_t b = 0; b < a; ++b) {

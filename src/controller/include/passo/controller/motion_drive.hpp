@@ -19,6 +19,7 @@
 #include "passo/controller/probe_move.hpp"
 #include "passo/controller/refiller.hpp"
 #include "passo/controller/rewindable_path.hpp"
+#include "passo/controller/spindle_encoder.hpp"
 #include "passo/controller/spindle_follower.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/link/board_link.hpp"
@@ -75,6 +76,8 @@ class MotionDrive {
   // move stops the drive.
   ProbeMove& probe() { return probe_; }
   void guard_by_probe();
+  // Before the first advance(), behind use_tails(): the board has an encoder, and what is to follows the spindle.
+  void use_encoder(int counts_per_turn);
   // Where the place is written at which a tap has turned round. Outlives it.
   void tell_tap(Point& rest) { tap_rest_ = &rest; }
   // That happened.
@@ -125,14 +128,22 @@ class MotionDrive {
   void send(const BoardItem& item);
   void set_outputs(const OutputState& outputs);
   void await_index(const OutputState& outputs);
+  Seconds time_to_index(Seconds answer);
+  void begin_following();
   void follow_spindle();
+  bool read_spindle();
+  void mind_start();
+  bool mind_encoder(Seconds longest);
+  void note(const Turned& turned);
+  bool lose_thread();
+  void give_up(LinkError error);
   LiveOptions commits() const;
   void commit_ahead(const LiveOptions& options);
   void let_pass(Seconds time);
   void watch_tap(const PlannedMove& move);
   void turn_tap(const Action& action);
   void look_at_probe();
-  void commit_to_probe();
+  void commit_to_asked();
   void begin_probe(const Action& action);
   void end_probe(const Action& action);
   void let_planner_go_on();
@@ -176,9 +187,16 @@ class MotionDrive {
   LiveOptions live_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
                     .longest_move = Seconds(std::numeric_limits<double>::infinity())};
   LiveOptions ahead_ = live_;  // less while a spindle is followed
+  SpindleEncoder encoder_;
   SpindleFollower follower_;
-  Seconds planned_{0};  // time of all motion given by the planner
-  Seconds rested_;      // time of the machine that was no motion of this drive
+  bool follows_ = false;  // the spindle, or is about to
+  // By the board's clock, when the next thread is to begin; and how much later than by that the one before did.
+  std::optional<Seconds> index_time_;
+  Seconds late_{0};
+  int looks_at_start_ = 0;
+  std::optional<LinkError> trouble_;  // with which the drive ends when it has come to rest
+  Seconds planned_{0};                // time of all motion given by the planner
+  Seconds rested_;                    // time of the machine that was no motion of this drive
 };
 
 }  // namespace passo

@@ -70,6 +70,7 @@ class Refiller {
     goes_on,
     rests_in_hold,  // the planner holds, and all that was given is executed
     at_action,      // one that is the host's, with all before it executed: action() tells which
+    lost_thread,    // a tail was played to its end in a thread; nothing goes on there
     ended,          // all of the path is executed, or the link has an error
   };
   // Sends a refill, or waits for the board.
@@ -79,13 +80,16 @@ class Refiller {
   // That it rests at; the path goes on behind it.
   Action take_action();
 
-  // How the board is asked about its probe.
+  // What the board is asked, and when.
   enum class Asking : std::uint8_t {
     none,
-    with_refills,    // with each of them
+    with_refills,    // about its probe, with each of them
     before_refills,  // and none goes out before the question of the one before is answered; they are short
+    for_spindle,     // the same, but where the spindle is; and what a refill brings is planned behind the answer
   };
-  void ask_for_probe(Asking asking);
+  void ask(Asking asking);
+  // Where a tail is played in what follows the spindle by place, all ends.
+  void guard_threads() { guards_threads_ = true; }
   // No refill takes the place of the tail that the board has now: it brakes, and the path is taken up again from there.
   void brake_by_tail() { brakes_ = true; }
   // In a hold: the planner has dropped the path up to the next action. Where the machine rests.
@@ -102,6 +106,10 @@ class Refiller {
   void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
   // The motion that was pulled and is, as far as we know, not executed. The tail does not count.
   Seconds ahead() const { return ahead_ + pulled_time_; }
+  // The same, as it was when the board told where the spindle is: `time` then. Before the next advance().
+  Seconds ahead_of(const Turned& turned, Seconds time);
+  // When, by the same clock, the motion began that is under way; as far as such answers tell.
+  std::optional<Seconds> began() const { return began_; }
   // How often a tail was played to its end, and the path taken up again there.
   int recoveries() const { return recoveries_; }
   // How often the speed was limited since a tail was long.
@@ -114,6 +122,8 @@ class Refiller {
   struct Motion {
     ItemNumber number = 0;
     Seconds time{0};
+    Seconds end{0};  // since the last rest
+    LinkItem item = {};
   };
   struct Sent {
     ItemNumber number = 0;
@@ -147,6 +157,8 @@ class Refiller {
 
   void commit();
   bool counts_items() const;
+  bool in_haste() const { return asking_ == Asking::before_refills || asking_ == Asking::for_spindle; }
+  bool may_plan();
   Seconds horizon() const;
   Seconds refill_at() const;
   bool waits_for_answer();
@@ -166,7 +178,8 @@ class Refiller {
   std::size_t size_of_refill();
   void send(std::size_t items);
   void ask();
-  Seconds time_of(const LinkItem& item) const;
+  // Of so many events of it.
+  Seconds time_of(const LinkItem& item, int of_events = most_events) const;
 
   Stages stages_;
   StepOptions steps_;
@@ -180,6 +193,8 @@ class Refiller {
   std::function<void(const BoardRest&)> rest_watcher_;
   std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
+  Seconds sent_time_{0};                                          // of all motion since the last rest
+  std::optional<Seconds> began_;                                  // by the board's clock
   PathPlace given_;                                               // by the planner
   double speed_ = 0;                                              // there
   double fastest_ = 0;                                            // since the last rest
@@ -202,6 +217,7 @@ class Refiller {
   bool asked_ = false;       // and the answer not seen
   Seconds longest_move_{0};  // as the planner was told
   bool brakes_ = false;
+  bool guards_threads_ = false;
   Seconds longest_ahead_{0};
 
   BoardItem item_;

@@ -22,6 +22,7 @@ struct ResumePoint {
   OutputState outputs;                           // as they are there
   // As long as the program itself has waited after it had switched the spindle, before it went on.
   Seconds spindle_wait{0};
+  bool in_thread = false;  // what comes there follows an encoder by place: it cannot begin there
   std::uint32_t line = 0;  // of the program, where it goes on; 0: at its end
 };
 

@@ -21,6 +21,7 @@ enum class ResumeRefusal : std::uint8_t {
   rest_unknown,   // the journal does not know where it rests
   path_changed,   // the program's path has no such place
   counts_differ,  // its motors stand elsewhere
+  in_thread,      // what follows the spindle by place has no other beginning than its own
 };
 // For scripts; never changes.
 std::string_view code_of(ResumeRefusal refusal);

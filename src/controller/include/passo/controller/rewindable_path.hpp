@@ -40,6 +40,8 @@ class RewindablePath final : public Source<PathItem> {
   void rewind(const PathPlace& place);
   // Where that is; of what was handed out and is kept.
   Point point_at(const PathPlace& place) const;
+  // What comes there is known, and follows the spindle by place.
+  bool is_in_thread() const;
   // Of the item handed out last.
   PathPlace last() const { return {.item = next_ - 1}; }
   // There will be no way back before this item.

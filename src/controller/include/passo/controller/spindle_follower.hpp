@@ -9,10 +9,11 @@
 // speed costs: the same in each pass, so that all passes of a thread lie in one groove.
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <optional>
 
-#include "passo/machine/virtual_spindle.hpp"
+#include "passo/controller/spindle_encoder.hpp"
 #include "passo/trajectory/motion_limits.hpp"
 #include "passo/trajectory/phase.hpp"
 
@@ -22,10 +23,14 @@ class SpindleFollower {
  public:
   explicit SpindleFollower(const MotionLimits& limits);
 
-  // The spindle is at its index, and the next locked move begins.
-  void begin(const SpindleReading& index);
+  // Readings begin anew, at any time.
+  void restart();
+  // The next locked move begins when the spindle has turned so far: to an index.
+  void begin(double index);
   // From now on the moves go back the way that they came, as the spindle does.
   void turn_round() { direction_ = -1; }
+  // Of the spindle, by the last readings; below 0: down.
+  double turns_a_second() const;
   // As the readings go on, so long after the last one the spindle stands or turns back.
   bool turns_back(Seconds committed) const;
   // A move was committed.
@@ -49,7 +54,7 @@ class SpindleFollower {
     double speed = 0;  // turns a second; below 0: back
   };
   Course course(Seconds later) const;
-  double turns_a_second() const;
+  double speed() const { return std::abs(turns_a_second()); }
   double wanted_ratio(Seconds committed) const;
   double lag_of(const PlannedMove& move) const;
 

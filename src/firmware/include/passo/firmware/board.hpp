@@ -13,6 +13,7 @@
 //                                                     them
 //   static void breathe();                            may be left out: called between two pieces of work
 //   uint8_t room();                                   may be left out: how many bytes may be sent now
+//   bool has_encoder(); SpindleCount spindle();       may be left out, both: of an encoder at the spindle
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -52,12 +53,12 @@ class Board {
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
   void report() {
-    if (!has_room(frame_overhead + payload_size(static_cast<uint8_t>(MessageType::credit), 0))) {
+    if (!has_room(MessageType::credit)) {
       if (owed_ == 0) owed_ = 1;
       return;
     }
     owed_ = 0;
-    send(Credit{.executed = executed_, .taken = taken(), .free = list_.free()});
+    send(progress());
   }
   // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
@@ -223,13 +224,15 @@ class Board {
       return complain(WireError::bad_value);
     }
     breathe();
+    const bool known = motors_ != 0 && manual_ == Manual::off;
+    if (ask.question == Question::spindle && known && has_encoder()) return tell_spindle(frame.sequence);
     const bool kept = ask.question == Question::kept;
     const MessageType answer = ask.question == Question::about ? MessageType::about
                                : kept                          ? MessageType::captured
                                                                : MessageType::status;
     // A question that nobody waits to hear answered, as many of them as there may be, drives out nothing else.
     const uint8_t motors = kept ? motors_ : ask.motors;
-    if (!has_room(static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(answer), motors)))) return;
+    if (!has_room(answer, motors)) return;
     if (answer == MessageType::about) return send(identity_.about);
     if (kept) return tell_kept();
     if (ask.question == Question::watch) kept_ = 0;
@@ -243,6 +246,7 @@ class Board {
     if (list_.gathering()) state |= board_replaces;
     if (kept_ != 0) state |= board_kept;
     if (manual()) state |= board_manual;
+    if (has_encoder()) state |= board_encodes;
     BoardStatusFor<most_motors> status{.session = session_,
                                        .executed = executed_,
                                        .taken = taken(),
@@ -259,6 +263,20 @@ class Board {
     }
     breathe();
     send_for_motors(status, motors);
+  }
+
+  bool has_encoder() {
+    if constexpr (requires { hardware_.has_encoder(); }) return hardware_.has_encoder();
+    return false;
+  }
+  // How far the motion is at the tick of the count: nothing comes between the two.
+  [[gnu::noinline]] void tell_spindle(uint8_t question) {
+    if constexpr (requires { hardware_.spindle(); }) {
+      if (!has_room(MessageType::turned)) return;
+      const SpindleCount spindle = hardware_.spindle();
+      const uint16_t event = played();
+      send(Turned{.progress = progress(), .event = event, .answers = question, .spindle = spindle});
+    }
   }
 
   [[gnu::noinline]] void tell_captured(uint16_t captured) {
@@ -322,9 +340,8 @@ class Board {
       decode(frame, motors_, item.segment);
       breathe();
       const uint8_t used = item.segment.directions | item.segment.flips;
-      if (item.segment.events == 0 || used >> motors_ != 0 || !is_slow_enough(item.segment)) {
-        return complain(WireError::bad_value);
-      }
+      const bool slow_enough = is_slow_enough<Breath>(item.segment, identity_.shortest_interval);
+      if (item.segment.events == 0 || used >> motors_ != 0 || !slow_enough) return complain(WireError::bad_value);
     } else {
       BoardOutputs outputs;
       decode(frame, outputs);
@@ -357,20 +374,6 @@ class Board {
       return WireError::wrong_sums;
     }
     return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
-  }
-
-  // Its first interval and its last one, and so all between.
-  [[gnu::noinline]] bool is_slow_enough(const Segment& segment) const {
-    const uint32_t interval = segment.interval;
-    if (interval < identity_.shortest_interval) return false;
-    if (segment.change == 0) return true;
-    const bool faster = segment.change < 0;
-    const uint32_t given = static_cast<uint32_t>(segment.change);
-    const uint32_t change = faster ? 0 - given : given;  // a coarse change has no opposite in 32 bits with a sign
-    const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
-    // Most segments are far from it, and so need no product.
-    const uint16_t times = static_cast<uint16_t>(segment.events - 1);
-    return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits<Breath>(change, times, room);
   }
   void accept() {
     ++expected_;
@@ -438,16 +441,19 @@ class Board {
     return positions_[motor] + (begun_ == 0 || motor >= motors_ ? int16_t{0} : player_.steps(motor));
   }
   uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
+  Credit progress() const { return {.executed = executed_, .taken = taken(), .free = list_.free()}; }
 
   // Once for each gap: all that comes after a lost frame is out of sequence, and the host knows it from the first word.
   void complain(WireError reason) {
-    if (complained_ || !has_room(frame_overhead + payload_size(static_cast<uint8_t>(MessageType::error), 0))) return;
+    if (complained_ || !has_room(MessageType::error)) return;
     complained_ = true;
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }
 
-  bool has_room(uint8_t size) {
-    if constexpr (requires { hardware_.room(); }) return hardware_.room() >= size;
+  bool has_room([[maybe_unused]] MessageType type, [[maybe_unused]] uint8_t motors = 0) {
+    if constexpr (requires { hardware_.room(); }) {
+      return hardware_.room() >= frame_overhead + payload_size(static_cast<uint8_t>(type), motors);
+    }
     return true;
   }
 

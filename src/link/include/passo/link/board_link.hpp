@@ -58,7 +58,11 @@ class BoardLink final : public Link {
   void watch_probe(ProbeUntil until) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
   void recall_contact() override;
-  void ask() override { ask(Question::status); }
+  void ask() override { ask(usual_question_); }
+  void ask_for_spindle(bool wanted) override { usual_question_ = wanted ? Question::spindle : Question::status; }
+  std::optional<Turned> take_turned() override { return std::exchange(turned_, std::nullopt); }
+  // Asks where the spindle is, and waits for the answer. False where there is none.
+  bool read_spindle();
   bool answered() const override { return answered_; }
   Seconds answer_time() const override { return answer_time_; }
   // What has been switched on, as the board told or its status shows, since this was asked last. Bits of BoardInput.
@@ -106,6 +110,9 @@ class BoardLink final : public Link {
   void take(const BoardStatus& status);
   void take(const ErrorReport& error);
   void take(const Captured& captured);
+  void take(const Turned& turned);
+  void note_answer(std::uint8_t taken);
+  void note_progress(const Credit& credit, std::uint8_t answers);
   bool holds_nothing_of(const Credit& credit) const;
   void doubt(LinkError error);
   void note_inputs(const BoardStatus& status);
@@ -131,11 +138,14 @@ class BoardLink final : public Link {
   ItemNumber executed_;        // of the last item that it told to be done
   ItemNumber asked_behind_;    // the last one sent when the board was last asked
   std::uint8_t question_ = 0;  // the number of that
-  bool repeating_ = false;     // and not heard the answer since
-  std::uint8_t refused_ = 0;   // sequence number of the frame that the board refused last
-  int refusals_ = 0;           // so many times in a row
-  int doubts_ = 0;             // statuses in a row that would end the job
-  int free_ = 0;               // room that it had when it told so
+  Question last_question_ = Question::status;
+  Question usual_question_ = Question::status;
+  std::optional<Turned> turned_;
+  bool repeating_ = false;    // and not heard the answer since
+  std::uint8_t refused_ = 0;  // sequence number of the frame that the board refused last
+  int refusals_ = 0;          // so many times in a row
+  int doubts_ = 0;            // statuses in a row that would end the job
+  int free_ = 0;              // room that it had when it told so
   bool rests_ = false;
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;

@@ -13,6 +13,7 @@
 #include "passo/link/probe.hpp"
 #include "passo/units/units.hpp"
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -25,6 +26,10 @@ enum class LinkError : std::uint8_t {
   stopped,         // it has stopped its motors at once
   too_few_places,  // it cannot hold as many items as it takes to bring the machine to rest
   manual,          // a person moves the machine by the board's keypad, or has since the hello
+  no_encoder,      // something is to follow the spindle, and it has no encoder
+  spindle_stands,  // the encoder counts nothing, though the spindle is to turn
+  encoder_wrong,   // what it counts from index to index are no turns
+  thread_lost,     // the machine had to rest in a thread, for want of what came too late
 };
 // A sentence without a full stop.
 std::string_view message_of(LinkError error);
@@ -78,6 +83,10 @@ class Link {
   virtual void recall_contact() = 0;
   // Asks how the board is, amid motion too; what it says of the probe comes into the report.
   virtual void ask() = 0;
+  // From now on that question is where the spindle is, or no more.
+  virtual void ask_for_spindle(bool wanted) = 0;
+  // What it answered to that last, since this was asked.
+  virtual std::optional<Turned> take_turned() = 0;
   // It has said so behind all that was sent.
   virtual bool answered() const = 0;
   // How long that took when it last did.

@@ -54,11 +54,11 @@ class VirtualMachine final : public BoardPort {
   auto& board() { return board_; }
 
   // At the start. Without it the spindle does as commanded, and has no encoder.
-  void fit_spindle(const SpindleModel& model) { hardware_.spindle = VirtualSpindle(model); }
+  void fit_spindle(const SpindleModel& model) { hardware_.turning = VirtualSpindle(model); }
   // At the start: its counters go on from these positions. The board's own begin at 0, as after a reset.
   void stand_at(const std::array<std::int64_t, max_motors>& positions);
-  // Its encoder, as it stands now.
-  const VirtualSpindle& spindle() const { return hardware_.spindle; }
+  // As it turns; what its encoder has counted of that the board tells.
+  const VirtualSpindle& spindle() const { return hardware_.turning; }
 
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
@@ -77,6 +77,8 @@ class VirtualMachine final : public BoardPort {
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
     void send(std::uint8_t byte) { to_host.push_back(byte); }
+    bool has_encoder() const { return turning.has_encoder(); }
+    SpindleCount spindle() const;
     bool is_in_a_body() const;
 
     std::int64_t now = 0;
@@ -85,7 +87,7 @@ class VirtualMachine final : public BoardPort {
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
     double seconds_a_tick = 0;
-    VirtualSpindle spindle;
+    VirtualSpindle turning;
     std::vector<MachineObserver*> observers;
     std::vector<TouchBody> bodies;
     std::vector<std::uint8_t> to_host;

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "passo/units/units.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -17,12 +17,6 @@ struct SpindleModel {
   double droop = 0;                  // part of the commanded speed that is missing
   double ripple = 0;                 // part of the speed by which it goes up and down
   double ripple_rate = 0;            // how often a second
-};
-
-// What the encoder has counted, and when that was.
-struct SpindleReading {
-  Seconds time{0};
-  double turns = 0;  // in whole counts
 };
 
 class VirtualSpindle {
@@ -35,10 +29,10 @@ class VirtualSpindle {
 
   // Turns since the start, without the encoder's steps.
   double turns_at(Seconds time) const;
-  SpindleReading read(Seconds time) const;
   bool has_encoder() const { return model_.counts_per_turn > 0; }
-  // When the turns are next a whole number; nothing where the spindle stands.
-  std::optional<Seconds> next_index(Seconds after) const;
+  // What it has counted, and at the last index: where the turns were a whole number, the way that it was commanded.
+  // Without the tick.
+  SpindleCount count_at(Seconds time) const;
 
  private:
   double speed_at(double time) const;  // turns a second since the last command, without the ripple

@@ -43,8 +43,9 @@ struct Replace {
 enum class Question : uint8_t {
   status = 0,
   about = 1,
-  watch = 2,  // and keep from now on where the probe changes first; the answer is the status
-  kept = 3,   // what was kept: the answer is a captured
+  watch = 2,    // and keep from now on where the probe changes first; the answer is the status
+  kept = 3,     // what was kept: the answer is a captured
+  spindle = 8,  // where is it: the answer is a turned, of a board without an encoder the status
 };
 struct Ask {
   uint8_t version = protocol_version;
@@ -78,12 +79,13 @@ struct ErrorReport {
 
 enum class ResetCause : uint8_t { power_on = 0, brown_out = 1, watchdog = 2, button = 3 };
 enum BoardState : uint8_t {
-  board_moves = 1,     // it plays something
-  board_trusted = 2,   // since the hello the motors have made every step that is counted, as far as the board knows
-  board_replaces = 4,  // items are still to come for a replacement
-  board_slipped = 8,   // since the hello it stood still amid motion: it could not make events in time. No step is lost
-  board_kept = 16,     // since it was told to watch, the probe has changed
-  board_manual = 32,   // a person moves the machine by the board's keypad
+  board_moves = 1,      // it plays something
+  board_trusted = 2,    // since the hello the motors have made every step that is counted, as far as the board knows
+  board_replaces = 4,   // items are still to come for a replacement
+  board_slipped = 8,    // since the hello it stood still amid motion: it could not make events in time. No step is lost
+  board_kept = 16,      // since it was told to watch, the probe has changed
+  board_manual = 32,    // a person moves the machine by the board's keypad
+  board_encodes = 128,  // it has an encoder at its spindle
 };
 // What the board's input pins say: a bit is set where the switch is on.
 enum BoardInput : uint16_t {
@@ -123,6 +125,23 @@ struct Captured {
   uint8_t item = 0;    // low byte of the number of the item that was played
   uint16_t event = 0;  // how many of its events were
   int32_t positions[max_motors] = {};
+};
+
+// What a board's encoder has counted, and when: counts and ticks run on from any start, modulo 2^32.
+struct SpindleCount {
+  uint32_t count = 0;
+  uint32_t tick = 0;      // of the board's clock, when it was that
+  uint32_t at_index = 0;  // the count at the last index
+  uint8_t indexes = 0;    // how many have come, modulo 256
+};
+
+// Board to host, when asked for it: how far the spindle is, and at that tick the motion. It tells all that a credit
+// does.
+struct Turned {
+  Credit progress = {};
+  uint16_t event = 0;   // how many events of the item at hand were played
+  uint8_t answers = 0;  // sequence number of the question
+  SpindleCount spindle = {};
 };
 
 // Board to host: the motors were stopped at once. The positions are not trusted from here on; a hello begins anew.
@@ -266,6 +285,21 @@ uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
 }
 
 template <class Pause = NoPause>
+uint8_t encode(const Turned& turned, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::turned, sequence);
+  encoder.put16(turned.progress.executed);
+  encoder.put8(turned.progress.taken);
+  encoder.put8(turned.progress.free);
+  encoder.put16(turned.event);
+  encoder.put8(turned.answers);
+  encoder.put8(turned.spindle.indexes);
+  encoder.put32(turned.spindle.count);
+  encoder.put32(turned.spindle.tick);
+  encoder.put32(turned.spindle.at_index);
+  return encoder.finish();
+}
+
+template <class Pause = NoPause>
 uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::error, sequence);
   encoder.put8(static_cast<uint8_t>(error.reason));
@@ -327,6 +361,15 @@ inline void decode(const WireFrame& frame, HelloReply& reply) {
 
 inline void decode(const WireFrame& frame, Credit& credit) {
   credit = {.executed = load16(frame.payload), .taken = frame.payload[2], .free = frame.payload[3]};
+}
+
+inline void decode(const WireFrame& frame, Turned& turned) {
+  const uint8_t* bytes = frame.payload;
+  decode(frame, turned.progress);
+  turned.event = load16(bytes + 4);
+  turned.answers = bytes[6];
+  turned.spindle = {
+      .count = load32(bytes + 8), .tick = load32(bytes + 12), .at_index = load32(bytes + 16), .indexes = bytes[7]};
 }
 
 inline void decode(const WireFrame& frame, Session& session) {

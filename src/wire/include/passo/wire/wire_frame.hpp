@@ -15,7 +15,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 4;
+inline constexpr uint8_t protocol_version = 5;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
 enum class MessageType : uint8_t {
@@ -34,6 +34,7 @@ enum class MessageType : uint8_t {
   captured = 0x99,
   fault = 0x96,
   about = 0x69,
+  turned = 0xFF,
 };
 
 inline constexpr uint8_t frame_overhead = 6;
@@ -64,6 +65,7 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::fault: return 5;
     case MessageType::replace:
     case MessageType::hello_reply: return 7;
+    case MessageType::turned: return 20;
     case MessageType::about: return 26;
     case MessageType::segment: return with_motors(segment_size, 2);
     case MessageType::status: return with_motors(status_size, 4);

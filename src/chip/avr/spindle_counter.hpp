@@ -1,0 +1,94 @@
+// SpindleCounter: an encoder at the spindle, counted by a timer: no pulse costs the program anything, however many
+// come.
+//
+// The index sets the flag of another timer's capture, which waits to be seen. Where nothing is played that takes a few
+// microseconds; amid motion the count at the index may be told some thousand cycles too late. Timer 1, whose alarms
+// are the steps', tells the time.
+#pragma once
+
+#include "event_ring.hpp"
+#include "registers.hpp"
+
+#include "passo/wire/message.hpp"
+
+namespace passo::chip {
+
+class SpindleCounter {
+ public:
+  static constexpr bool exists() { return pins.encoder.exists(); }
+
+  // Timer 5 counts rising edges; the index is a falling one, four times the same.
+  static void prepare() {
+    if (!exists()) return;
+    Tccr5a::write(0);
+    Tccr5b::write(7);
+    Tccr4b::write(static_cast<uint8_t>(Tccr4b::read() | 1 << 7));
+    Tifr4::write(input_captured);
+  }
+
+  // Again and again: at every turn of the main loop, before 65,536 pulses, and when timer 1 has overflowed.
+  [[gnu::always_inline]] static void look() {
+    if (exists() && (Tifr4::read() & input_captured) != 0) note_index();
+  }
+  static void take_pulses() {
+    if (!exists()) return;
+    const uint16_t now = pulses();
+    count_ += static_cast<uint16_t>(now - pulses_);
+    pulses_ = now;
+  }
+  static void note_overflow() {
+    if (exists()) ++overflows_;
+  }
+
+  [[gnu::noinline]] static SpindleCount count() {
+    look();
+    const uint16_t time = time_now();
+    take_pulses();
+    // One that has not been noted belongs to a time behind it only.
+    const bool overflowed = (Tifr1::read() & timer_overflow) != 0 && time < 0x8000;
+    const uint16_t overflows = static_cast<uint16_t>(overflows_ + (overflowed ? 1 : 0));
+    return {.count = count_,
+            .tick = static_cast<uint32_t>(overflows) << 16 | time,
+            .at_index = at_index_,
+            .indexes = indexes_};
+  }
+
+ private:
+  [[gnu::noinline]] static void note_index() {
+    Tifr4::write(input_captured);
+    take_pulses();
+    at_index_ = count_;
+    ++indexes_;
+  }
+  static uint16_t pulses() {
+    const uint8_t low = Tcnt5l::read();
+    return static_cast<uint16_t>(low | Tcnt5h::read() << 8);
+  }
+  // The interrupt writes its alarm by way of the same byte that a reader of the count needs: it must not come between.
+  static uint16_t time_now() {
+    constexpr uint16_t without_interrupt = 40;  // cycles from one reading to the next
+    for (;;) {
+      const uint16_t first = one_time();
+      const uint16_t second = one_time();
+      if (static_cast<uint16_t>(second - first) < without_interrupt) return second;
+    }
+  }
+  static uint16_t one_time() {
+    const uint8_t low = Tcnt1l::read();
+    return static_cast<uint16_t>(low | Tcnt1h::read() << 8);
+  }
+
+  static inline uint16_t pulses_ = 0;
+  static inline uint32_t count_ = 0;
+  static inline uint32_t at_index_ = 0;
+  static inline uint8_t indexes_ = 0;
+  static inline uint16_t overflows_ = 0;
+};
+#ifdef __AVR_ATmega2560__
+static_assert(!SpindleCounter::exists() || (pins.encoder.pulses == Pin{'L', 2} && pins.encoder.index == Pin{'L', 0}),
+              "timer 5 counts on D47, timer 4 captures on D49");
+#else
+static_assert(!SpindleCounter::exists(), "its timers are the steps' and the spindle's");
+#endif
+
+}  // namespace passo::chip
