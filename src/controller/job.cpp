@@ -133,7 +133,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       drive_(smoother_, limits_, step_options_at(machine, options.resume_at), machine_, board_line(options, line_)),
       clock_(machine.board.clock),
       resume_at_(options.resume_at),
-      wants_encoder_(machine.spindle.counts_per_turn > 0) {
+      wants_encoder_(options.board != nullptr && machine.spindle.counts_per_turn > 0) {
   if (resume_at_) {
     machine_.stand_at(resume_at_->steps);
     drive_.begin_at(resume_at_->place);
@@ -142,9 +142,10 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
   if (over_a_line && !unsuited()) drive_.use_tails({});
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   if (options.board == nullptr) fit_spindle(machine.spindle);
-  if (wants_encoder_) drive_.use_encoder(machine.spindle.counts_per_turn);
+  const bool has_encoder = machine.spindle.counts_per_turn > 0;
+  if (has_encoder) drive_.use_encoder(machine.spindle.counts_per_turn);
   // Over a line no tap turns round with the spindle: it rests meanwhile, and its holder floats.
-  if (!over_a_line && wants_encoder_ && !has_jerk_limit(machine)) {
+  if (!over_a_line && has_encoder && !has_jerk_limit(machine)) {
     path_options_.tap_rest = &tap_rest_;
     path_options_.spindle_run_up = machine.spindle.run_up;
     drive_.tell_tap(tap_rest_);

@@ -51,6 +51,7 @@ constexpr double counts_at_least = 8;
 constexpr double latest_start = 0.25;
 constexpr int sure_of_start = 3;
 constexpr Seconds longest_lead{0.2};
+constexpr std::size_t bytes_of_a_start = 460;  // twenty items
 
 }  // namespace
 
@@ -357,6 +358,7 @@ void MotionDrive::begin_following() {
 void MotionDrive::await_index(const OutputState& outputs) {
   if (!encoder_.exists()) return;
   if (!refiller_) link_.drain();
+  if (refiller_) rehearse_start();
   follows_ = false;
   begin_following();
   const double wanted = seconds_per_minute / outputs.revolutions_per_minute;
@@ -378,6 +380,14 @@ void MotionDrive::await_index(const OutputState& outputs) {
     let_pass(begins ? left : between_looks);
     if (begins) return;
   }
+}
+
+// So long after what is sent the machine begins.
+void MotionDrive::rehearse_start() {
+  if (!link_.read_spindle()) return;
+  const Seconds alone = link_.answer_time();
+  const Seconds behind_a_start = link_.rehearse(bytes_of_a_start);
+  if (late_ == Seconds(0)) late_ = std::max(behind_a_start - alone, Seconds(0));
 }
 
 // Told where it begins; so much time the answer has taken, and takes what is sent.

@@ -32,6 +32,12 @@ constexpr double late_answer = 2;
 constexpr double slower_answer = 1.5;
 constexpr double moves_an_answer = 3;
 constexpr Seconds shortest_answer{0.003};
+// Behind what follows the spindle refills become longer bit by bit: a long one would come too late where little is
+// ahead.
+constexpr double longer = 1.5;
+constexpr Seconds longest_following{0.01};
+constexpr double answers_ahead = 2.5;
+constexpr double patience_following = 0.95;
 constexpr Seconds made_ahead{0.002};
 
 constexpr bool is_the_hosts(const Action& action) {
@@ -71,6 +77,7 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
 void Refiller::watch(const MotionItem& motion) {
   given_ = stages_.path.behind(given_, motion);
   const auto* move = std::get_if<PlannedMove>(&motion);
+  given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
   if (move == nullptr || move->phase_count == 0) return;
   const Phase& last = move->phases[move->phase_count - 1];
   speed_ = last.velocity_at(last.duration).value();
@@ -84,7 +91,12 @@ Refiller::Turn Refiller::advance() {
   if (recoveries_ != recoveries && guards_threads_ && stages_.path.is_in_thread()) return Turn::lost_thread;
   if (refills_under_way_.empty()) {
     brakes_ = false;
-    if (pulled_.empty()) rested_ = tail_of_nothing().rest;
+    if (pulled_.empty()) {
+      rested_ = tail_of_nothing().rest;
+      given_time_ = sent_time_ = Seconds(0);
+      began_.reset();
+      told_ahead_.reset();
+    }
   }
   if (!on_tail_ && !brakes_) {
     if (may_plan()) pull();
@@ -109,7 +121,17 @@ Refiller::Turn Refiller::advance() {
 
 // What follows the spindle is planned when it is due, by the newest answer.
 bool Refiller::may_plan() {
-  return asking_ != Asking::for_spindle || (ahead_ < refill_at() && !waits_for_answer());
+  if (asking_ != Asking::for_spindle) return true;
+  if (waits_for_answer()) return false;
+  if (known_ahead() < refill_at()) return true;
+  // A later answer tells better.
+  stages_.link.ask();
+  return false;
+}
+
+// What was sent and is not executed: as told with the spindle's place, or by whole items.
+Seconds Refiller::known_ahead() const {
+  return asking_ == Asking::for_spindle ? told_ahead_.value_or(ahead_) : ahead_;
 }
 
 Action Refiller::take_action() {
@@ -118,10 +140,14 @@ Action Refiller::take_action() {
 
 void Refiller::ask(Asking asking) {
   if (asking == asking_) return;
+  if (asking_ == Asking::for_spindle) reach_ = horizon();
+  told_ahead_.reset();
   asking_ = asking;
   stages_.link.ask_for_spindle(asking == Asking::for_spindle);
   if (in_haste()) {
-    answer_ = std::max(slowest_answer_, std::min(behind_a_refill * stages_.link.answer_time(), options_.refill_at));
+    // Before a thread it was asked behind as much as a refill.
+    const double times = asking == Asking::for_spindle ? 1 : behind_a_refill;
+    answer_ = std::max(slowest_answer_, std::min(times * stages_.link.answer_time(), options_.refill_at));
   }
   commit();
 }
@@ -129,7 +155,8 @@ void Refiller::ask(Asking asking) {
 // As much as it takes to ask and to be answered.
 void Refiller::commit() {
   answer_ = std::max(answer_, shortest_answer);
-  longest_move_ = in_haste() ? std::min(options_.longest_move, answer_ / moves_an_answer) : options_.longest_move;
+  const Seconds longest = asking_ == Asking::for_spindle ? longest_following : options_.longest_move;
+  longest_move_ = in_haste() ? std::min(longest, answer_ / moves_an_answer) : options_.longest_move;
   stages_.generator.be_exact_to(counts_items() ? options_.motion_in_few_places : options_.motion);
   stages_.planner.limit_moves_to(longest_move_);
   stages_.generator.limit_waiting_to(longest_move_);
@@ -142,10 +169,11 @@ bool Refiller::counts_items() const {
 
 // While one refill is on its way and answered, the next one not yet there, the board has enough.
 Seconds Refiller::horizon() const {
-  return in_haste() ? 2 * answer_ + longest_move_ + made_ahead : options_.horizon;
+  if (asking_ == Asking::for_spindle) return answers_ahead * answer_ + longest_move_ + made_ahead;
+  return in_haste() ? 2 * answer_ + longest_move_ + made_ahead : std::min(options_.horizon, reach_);
 }
 Seconds Refiller::refill_at() const {
-  return in_haste() ? horizon() - longest_move_ : options_.refill_at;
+  return in_haste() ? horizon() - longest_move_ : std::min(options_.refill_at, reach_ - longest_move_);
 }
 
 // One that has taken too long tells of a time that is too long ago: the board is asked again, and trusted to be slower.
@@ -159,8 +187,9 @@ bool Refiller::waits_for_answer() {
     ask();
     return true;
   }
-  slowest_answer_ = std::max(time, slowest_answer_ * patience);
-  answer_ = std::max(time, answer_ * patience);
+  const double kept = asking_ == Asking::for_spindle ? patience_following : patience;
+  slowest_answer_ = std::max(time, slowest_answer_ * kept);
+  answer_ = std::max(time, answer_ * kept);
   commit();
   return false;
 }
@@ -183,7 +212,8 @@ Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {
   }
   const Seconds latest = time - played;
   began_ = std::clamp(began_.value_or(latest), latest - next, latest);
-  return sent_time_ + pulled_time_ - (time - *began_);
+  told_ahead_ = sent_time_ - (time - *began_);
+  return given_time_ - (time - *began_);
 }
 
 // What the board has told of how far it is.
@@ -275,7 +305,7 @@ void Refiller::mind_length_of(const Tail& tail) {
 void Refiller::pull() {
   const auto wanted = [&] {
     if (!pulled_.empty() && !pulled_.back().tail) return true;
-    return ahead_ + pulled_time_ < horizon() && pulled_.size() < places_;
+    return known_ahead() + pulled_time_ < horizon() && pulled_.size() < places_;
   };
   const auto goes_on = [&] { return !holds_ && !ended_ && !action_; };
   while (goes_on() && wanted()) {
@@ -351,7 +381,7 @@ std::size_t Refiller::free_places() const {
 // How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
 // one's tail begins.
 std::size_t Refiller::size_of_refill() {
-  if (pulled_.empty() || ahead_ >= refill_at()) return 0;
+  if (pulled_.empty() || known_ahead() >= refill_at()) return 0;
   if (waits_for_answer()) return 0;
   const bool at_once = in_haste();
   const std::size_t places = free_places();
@@ -385,10 +415,6 @@ void Refiller::send(std::size_t items) {
     rest_watcher_({.executed = last, .place = tail.rest.place});
   }
   refill.first = stages_.link.replace(behind_, items_);
-  if (refills_under_way_.empty()) {
-    sent_time_ = Seconds(0);
-    began_.reset();
-  }
   for (std::size_t i = 0; i < items; ++i) {
     sent_time_ += pulled_[i].time;
     motion_.push_back({.number = static_cast<ItemNumber>(refill.first + i),
@@ -396,6 +422,7 @@ void Refiller::send(std::size_t items) {
                        .end = sent_time_,
                        .item = pulled_[i].item});
     ahead_ += pulled_[i].time;
+    if (told_ahead_) *told_ahead_ += pulled_[i].time;
     pulled_time_ -= pulled_[i].time;
   }
   refill.last_of_motion = behind_ = static_cast<ItemNumber>(refill.first + items - 1);
@@ -406,6 +433,7 @@ void Refiller::send(std::size_t items) {
     if (i >= items) sent.end_of_tail = refill.last;
     sent_.push_back(sent);
   }
+  reach_ = reach_ * longer;
   tail_items_ += tail.items.size();
   ++refills_;
   refill.from = tail.from;

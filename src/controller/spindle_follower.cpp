@@ -10,7 +10,7 @@ namespace {
 
 // The speed is measured over so long: less is rough, for the encoder counts, more is late.
 constexpr double measured_over = 0.03;
-constexpr std::size_t least_readings = 6;  // a slow line brings no more in that time
+constexpr std::size_t least_readings = 4;  // a slow line brings no more in that time
 
 // What is missing is made up for at this rate, in 1/s: slow against the time from a reading to its effect.
 constexpr double eagerness = 15;
@@ -41,6 +41,7 @@ void SpindleFollower::restart() {
 
 void SpindleFollower::begin(double index) {
   index_ = index;
+  way_ = turns_a_second() < 0 ? -1 : 1;
   lag_ = -1;
   followed_ = reached_ = 0;
   direction_ = 1;
@@ -104,7 +105,7 @@ std::optional<double> SpindleFollower::ratio(Seconds committed) {
 // A parabola through the readings, by least squares: a spindle that is reversed changes its speed evenly.
 SpindleFollower::Course SpindleFollower::course(Seconds later) const {
   const double last = readings_.back().time.value();
-  const auto turns_of = [this](const SpindleReading& reading) { return std::abs(reading.turns - index_); };
+  const auto turns_of = [this](const SpindleReading& reading) { return way_ * (reading.turns - index_); };
   const double base = turns_of(readings_.back());
   std::array<double, 5> powers{};
   std::array<double, 3> right{};

@@ -310,8 +310,18 @@ void BoardLink::take(const Turned& turned) {
   note_progress(turned.progress, turned.answers);
 }
 
+Seconds BoardLink::rehearse(std::size_t bytes) {
+  const Seconds begun = port_.elapsed();
+  for (const std::uint64_t end = bytes_sent_ + bytes; bytes_sent_ < end && !error_;) {
+    say(Session{.number = care_.session}, std::uint8_t{0});
+  }
+  static_cast<void>(read_spindle());
+  return answer_time_ = port_.elapsed() - begun;
+}
+
 bool BoardLink::read_spindle() {
   turned_.reset();
+  answered_ = true;  // what went before is over
   ask(Question::spindle);
   while (!turned_ && listen([this] { ask(Question::spindle); })) {
   }

@@ -117,7 +117,7 @@ class Job {
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
   Hertz clock_;
   std::optional<ResumePoint> resume_at_;
-  bool wants_encoder_;
+  bool wants_encoder_;               // of the board that is found
   std::optional<BoardLink> shadow_;  // to the machine, where it is not the board
 
   Seconds nominal_time_{0};

@@ -128,6 +128,7 @@ class MotionDrive {
   void send(const BoardItem& item);
   void set_outputs(const OutputState& outputs);
   void await_index(const OutputState& outputs);
+  void rehearse_start();
   Seconds time_to_index(Seconds answer);
   void begin_following();
   void follow_spindle();

@@ -159,6 +159,7 @@ class Refiller {
   bool counts_items() const;
   bool in_haste() const { return asking_ == Asking::before_refills || asking_ == Asking::for_spindle; }
   bool may_plan();
+  Seconds known_ahead() const;
   Seconds horizon() const;
   Seconds refill_at() const;
   bool waits_for_answer();
@@ -193,7 +194,9 @@ class Refiller {
   std::function<void(const BoardRest&)> rest_watcher_;
   std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
-  Seconds sent_time_{0};                                          // of all motion since the last rest
+  Seconds given_time_{0};  // of all motion since the last rest, by the planner
+  Seconds sent_time_{0};   // and of what of that was sent
+  std::optional<Seconds> told_ahead_;
   std::optional<Seconds> began_;                                  // by the board's clock
   PathPlace given_;                                               // by the planner
   double speed_ = 0;                                              // there
@@ -214,8 +217,9 @@ class Refiller {
   Asking asking_ = Asking::none;
   Seconds answer_{0};  // within which a question that comes with a refill is answered
   Seconds slowest_answer_{0};
-  bool asked_ = false;       // and the answer not seen
-  Seconds longest_move_{0};  // as the planner was told
+  bool asked_ = false;                                      // and the answer not seen
+  Seconds longest_move_{0};                                 // as the planner was told
+  Seconds reach_{std::numeric_limits<double>::infinity()};  // a shorter horizon, for a while
   bool brakes_ = false;
   bool guards_threads_ = false;
   Seconds longest_ahead_{0};

@@ -67,6 +67,7 @@ class SpindleFollower {
   double programmed_ = 0;  // turns a second
   double reached_ = 0;     // turns a second, at the end of what is committed
   double index_ = 0;       // turns of the spindle there
+  double way_ = 1;         // that it turned then; -1: down
   double lag_ = -1;        // turns; below 0: not known yet
   double followed_ = 0;    // turns, by what is committed
   double direction_ = 1;   // of the moves; -1: back

@@ -61,6 +61,9 @@ class BoardLink final : public Link {
   void ask() override { ask(usual_question_); }
   void ask_for_spindle(bool wanted) override { usual_question_ = wanted ? Question::spindle : Question::status; }
   std::optional<Turned> take_turned() override { return std::exchange(turned_, std::nullopt); }
+  // Sends so many bytes that say nothing new, and a question: how long that takes until it is answered, as a refill of
+  // that size will. At rest.
+  Seconds rehearse(std::size_t bytes);
   // Asks where the spindle is, and waits for the answer. False where there is none.
   bool read_spindle();
   bool answered() const override { return answered_; }
