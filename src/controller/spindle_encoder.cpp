@@ -8,6 +8,7 @@ namespace {
 
 // From one index to the next a board may be off by so much: it looks at the two one after the other.
 constexpr double good_turn = 0.02;
+constexpr Seconds good_time{0.002};
 constexpr double good_counts = 2;
 constexpr double worst_turn = 0.3;
 // One may be missed. Damage that looks like a reading is rare, but not never: it must be wrong twice.
@@ -33,16 +34,20 @@ void SpindleEncoder::read(const SpindleCount& count) {
   }
   if (last_ && count.indexes != last_->indexes) {
     const double index = now_.turns + difference(count.at_index, count.count) / counts_per_turn_;
-    if (index_) {
-      const double turns = index - *index_;
-      const double off = std::abs(turns - std::round(turns));
-      const bool good =
-          std::round(turns) != 0 && off <= std::clamp(good_counts / counts_per_turn_, good_turn, worst_turn);
-      wrong_ = good ? 0 : wrong_ + 1;
-    }
+    if (index_) note_turns(index - *index_);
+    indexed_then_ = now_.time;
     index_ = indexed_at_ = index;
   }
   last_ = count;
+}
+
+// From one index to the next.
+void SpindleEncoder::note_turns(double turns) {
+  const double speed = std::abs(turns) / (now_.time - indexed_then_).value();
+  const double most =
+      std::min(std::max(good_turn + speed * good_time.value(), good_counts / counts_per_turn_), worst_turn);
+  const bool good = std::round(turns) != 0 && std::abs(turns - std::round(turns)) <= most;
+  wrong_ = good ? 0 : wrong_ + 1;
 }
 
 bool SpindleEncoder::is_wrong() const {

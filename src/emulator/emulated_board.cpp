@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "passo/chip/uno_cnc_shield.hpp"
 #include "passo/chip/uno_windings.hpp"
 #include "passo/emulator/emulated_chip.hpp"
+#include "passo/emulator/emulated_encoder.hpp"
 #include "passo/emulator/emulated_ports.hpp"
 #include "passo/emulator/emulated_timer.hpp"
 #include "passo/emulator/emulated_uart.hpp"
@@ -29,7 +32,16 @@ struct Kind {
   const char* ports;
   std::vector<MotorPins> motors;
   std::map<BoardInput, Pin> switches;
+  Pin spindle_direction = {};
+  bool has_encoder = false;
 };
+
+// Of the Mega: the spindle's PWM is timer 4's output C, connected to its pin by one bit. docs/boards.md has its speed.
+constexpr std::uint16_t tccr4a = 0xa0;
+constexpr std::uint16_t ocr4cl = 0xac;
+constexpr std::uint8_t connected = 1 << 3;
+constexpr double full_duty = 255;
+constexpr double full_rpm = 24'000;
 
 template <class Map>
 Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = {}) {
@@ -39,7 +51,9 @@ Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = 
             .switches = {{input_probe, pins.probe},
                          {input_emergency_stop, pins.emergency_stop},
                          {input_hold, pins.feed_hold},
-                         {input_start, pins.cycle_start}}};
+                         {input_start, pins.cycle_start}},
+            .spindle_direction = pins.spindle_direction,
+            .has_encoder = pins.encoder.exists()};
   for (MotorPins& motor : kind.motors) motor.drive = drive;
   return kind;
 }
@@ -64,6 +78,8 @@ class AvrBoard final : public EmulatedBoard {
   AvrBoard(Kind kind, const std::string& program)
       : motors_(std::move(kind.motors)),
         switches_(std::move(kind.switches)),
+        spindle_direction_(kind.spindle_direction),
+        has_encoder_(kind.has_encoder),
         positions_(motors_.size(), 0),
         chip_(program, kind.mcu),
         timer_(chip_),
@@ -98,6 +114,22 @@ class AvrBoard final : public EmulatedBoard {
     touches_ = std::move(touches);
     look_at_touch();
   }
+  bool fit_spindle(EmulatedSpindle spindle) override {
+    if (!has_encoder_) return false;
+    spindle_ = std::move(spindle);
+    encoder_.emplace(chip_, spindle_.pulses_per_turn, [this](std::uint64_t cycle) {
+      return std::abs(spindle_.turns(Seconds(static_cast<double>(cycle) / clock_rate)));
+    });
+    chip_.on_write(ocr4cl, [this](std::uint8_t value) {
+      duty_ = value;
+      command_spindle();
+    });
+    chip_.on_write(tccr4a, [this](std::uint8_t value) {
+      turns_ = (value & connected) != 0;
+      command_spindle();
+    });
+    return true;
+  }
   bool set_switch(BoardInput which, bool closed) override {
     const auto found = switches_.find(which);
     if (found == switches_.end() || !found->second.exists()) return false;
@@ -108,6 +140,11 @@ class AvrBoard final : public EmulatedBoard {
  private:
   static constexpr std::uint64_t look_cycles = 1'000'000;
 
+  void command_spindle() {
+    const bool back = (levels_of(spindle_direction_) & spindle_direction_.mask()) != 0;
+    const double rpm = turns_ ? duty_ / full_duty * full_rpm : 0;
+    spindle_.command(elapsed(), back ? -rpm : rpm);
+  }
   void count_steps(const PortChange& change) {
     const unsigned rose = change.now & ~unsigned{change.before};
     const unsigned turned_over = change.now ^ unsigned { change.before };
@@ -144,6 +181,11 @@ class AvrBoard final : public EmulatedBoard {
 
   std::vector<MotorPins> motors_;
   std::map<BoardInput, Pin> switches_;
+  Pin spindle_direction_;
+  bool has_encoder_;
+  EmulatedSpindle spindle_;
+  double duty_ = 0;
+  bool turns_ = false;
   std::vector<std::int64_t> positions_;
   bool stepped_ = false;  // at the change that is looked at
   std::function<bool(const std::vector<std::int64_t>&)> touches_;
@@ -152,6 +194,7 @@ class AvrBoard final : public EmulatedBoard {
   EmulatedTimer timer_;
   EmulatedUart uart_;
   EmulatedPorts ports_;
+  std::optional<EmulatedEncoder> encoder_;
   std::vector<std::uint8_t> said_;
   std::vector<std::uint8_t> taken_;
 };

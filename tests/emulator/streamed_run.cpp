@@ -104,6 +104,10 @@ void BoardBench::hear(std::uint8_t byte) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), captured_.emplace());
   } else if (frame.type == MessageType::status) {
     decode(frame, static_cast<std::uint8_t>(board_.motors.size()), status_.emplace());
+  } else if (frame.type == MessageType::turned && on_turned) {
+    Turned turned;
+    decode(frame, turned);
+    on_turned(turned);
   } else if (frame.type == MessageType::error) {
     decode(frame, error_.emplace());
     if (!before_item || error_->reason != WireError::bad_frame) ++complaints_;
@@ -130,10 +134,11 @@ void BoardBench::send_item(const BoardOutputs& outputs) {
   put_on_line({frame, encode(outputs, ++last_sent_, frame)});
 }
 
-void BoardBench::ask() {
+void BoardBench::ask(Question question) {
   std::uint8_t frame[largest_frame];
   status_.reset();
-  put_on_line({frame, encode(Ask{.motors = static_cast<std::uint8_t>(board_.motors.size())}, 0, frame)});
+  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
+  put_on_line({frame, encode(Ask{.motors = motors, .question = question}, 0, frame)});
 }
 
 void BoardBench::send_replace(std::span<const Item> items) {

@@ -89,8 +89,10 @@ class BoardBench {
   void follow_windings();
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
-  // Asks the board how it is; the answer comes while it runs.
-  void ask();
+  // Asks the board how it is, or something else; the answer comes while it runs.
+  void ask(Question question = Question::status);
+  // Called when it has told where its spindle is.
+  std::function<void(const Turned&)> on_turned;
   // Of the last frame that went to the board.
   std::uint8_t last_byte() const { return last_byte_; }
   const std::optional<BoardStatus>& status() const { return status_; }
@@ -102,6 +104,7 @@ class BoardBench {
   EmulatedPorts& ports() { return *ports_; }
   const EmulatedPorts& ports() const { return *ports_; }
   EmulatedUart& uart() { return *uart_; }
+  const EmulatedTimer& timer() const { return *timer_; }
   std::uint64_t cycles() const { return chip_->cycles(); }
 
  private:

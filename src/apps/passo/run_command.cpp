@@ -10,6 +10,7 @@
 
 #include "board_run.hpp"
 #include "commands.hpp"
+#include "emulated_spindle.hpp"
 #include "mid_run_changes.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
@@ -231,6 +232,7 @@ int run(const RunArguments& arguments) {
     const int code = reach_board({arguments, *machine, *options, check}, *program, board, resumable);
     if (code != exit_done) return code;
     reaches.board = &board->port();
+    fit_emulated_spindle(machine->spindle, reaches.board);
     if (resumable) resumable->add_to(reaches);
   }
 

@@ -96,13 +96,16 @@ void start_watchdog() {
   if (Wiring::probe_closed() != touched && !ChipPlayer::captured()) ChipPlayer::watch_probe(0);
 }
 
-[[gnu::noinline]] void look_at_inputs() {
+// Whether the timer has overflowed since this was asked last.
+bool take_tick() {
+  if (SpindleCounter::exists()) return SpindleCounter::take_tick();
   const bool tick = (Tifr1::read() & timer_overflow) != 0;
-  if (tick) {
-    Tifr1::write(timer_overflow);
-    SpindleCounter::note_overflow();
-  }
-  SpindleCounter::take_pulses();
+  if (tick) Tifr1::write(timer_overflow);
+  return tick;
+}
+
+[[gnu::noinline]] void look_at_inputs() {
+  const bool tick = take_tick();
   if (halted != 0) return stop_at_once();
   uint16_t raw = Wiring::inputs();
   const bool probed = ChipPlayer::captured();

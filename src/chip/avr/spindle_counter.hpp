@@ -26,18 +26,17 @@ class SpindleCounter {
     Tifr4::write(input_captured);
   }
 
-  // Again and again: at every turn of the main loop, before 65,536 pulses, and when timer 1 has overflowed.
+  // Again and again: before 65,536 pulses, or ticks.
   [[gnu::always_inline]] static void look() {
-    if (exists() && (Tifr4::read() & input_captured) != 0) note_index();
-  }
-  static void take_pulses() {
     if (!exists()) return;
-    const uint16_t now = pulses();
-    count_ += static_cast<uint16_t>(now - pulses_);
-    pulses_ = now;
+    if ((Tifr4::read() & input_captured) != 0) note_index();
+    if ((Tifr1::read() & timer_overflow) != 0) note_overflow();
   }
-  static void note_overflow() {
-    if (exists()) ++overflows_;
+  // Timer 1 has overflowed since this was asked last: its flag is cleared here.
+  static bool take_tick() {
+    const bool tick = ticked_;
+    ticked_ = false;
+    return tick;
   }
 
   [[gnu::noinline]] static SpindleCount count() {
@@ -54,11 +53,22 @@ class SpindleCounter {
   }
 
  private:
+  [[gnu::noinline]] static void note_overflow() {
+    Tifr1::write(timer_overflow);
+    ++overflows_;
+    ticked_ = true;
+    take_pulses();
+  }
   [[gnu::noinline]] static void note_index() {
     Tifr4::write(input_captured);
     take_pulses();
     at_index_ = count_;
     ++indexes_;
+  }
+  static void take_pulses() {
+    const uint16_t now = pulses();
+    count_ += static_cast<uint16_t>(now - pulses_);
+    pulses_ = now;
   }
   static uint16_t pulses() {
     const uint8_t low = Tcnt5l::read();
@@ -83,6 +93,7 @@ class SpindleCounter {
   static inline uint32_t at_index_ = 0;
   static inline uint8_t indexes_ = 0;
   static inline uint16_t overflows_ = 0;
+  static inline bool ticked_ = false;
 };
 #ifdef __AVR_ATmega2560__
 static_assert(!SpindleCounter::exists() || (pins.encoder.pulses == Pin{'L', 2} && pins.encoder.index == Pin{'L', 0}),

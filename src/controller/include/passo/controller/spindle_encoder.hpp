@@ -37,6 +37,8 @@ class SpindleEncoder {
   bool is_wrong() const;
 
  private:
+  void note_turns(double turns);
+
   int counts_per_turn_;
   Hertz clock_;
   std::optional<SpindleCount> last_;
@@ -45,6 +47,7 @@ class SpindleEncoder {
   double moved_to_ = 0;
   std::optional<double> index_;
   double indexed_at_ = 0;  // turns at the last one, or at the start
+  Seconds indexed_then_{0};
   int wrong_ = 0;
 };
 

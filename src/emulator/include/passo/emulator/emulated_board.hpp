@@ -19,6 +19,14 @@
 
 namespace passo {
 
+// What hangs on the board's spindle output, and on its encoder's pins.
+struct EmulatedSpindle {
+  int pulses_per_turn = 0;
+  // Revolutions a minute from that time on, below 0 the other way, as the board's pins command it.
+  std::function<void(Seconds time, double revolutions_per_minute)> command;
+  std::function<double(Seconds time)> turns;  // since the start
+};
+
 class EmulatedBoard : public BoardPort {
  public:
   // `kind`: one of emulated_boards; `program`: the firmware's ELF file. The error is a sentence with the reason.
@@ -32,6 +40,8 @@ class EmulatedBoard : public BoardPort {
 
   // Whether the probe is touched while the motors stand there; asked now, and behind each step.
   virtual void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) = 0;
+  // At the start. False where the board has no pins for an encoder.
+  virtual bool fit_spindle(EmulatedSpindle spindle) = 0;
   // Closes a switch, or opens it. False where the board has no such.
   virtual bool set_switch(BoardInput which, bool closed) = 0;
 };

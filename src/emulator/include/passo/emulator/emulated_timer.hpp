@@ -21,6 +21,9 @@ class EmulatedTimer {
   explicit EmulatedTimer(EmulatedChip& chip);
   EmulatedTimer(const EmulatedTimer&) = delete;
 
+  // The cycle at which it stood at 0, and ran.
+  std::uint64_t started() const { return started_; }
+
  private:
   std::uint16_t count() const;
   std::uint64_t overflows() const;

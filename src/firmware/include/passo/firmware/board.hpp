@@ -339,9 +339,7 @@ class Board {
       breathe();
       decode(frame, motors_, item.segment);
       breathe();
-      const uint8_t used = item.segment.directions | item.segment.flips;
-      const bool slow_enough = is_slow_enough<Breath>(item.segment, identity_.shortest_interval);
-      if (item.segment.events == 0 || used >> motors_ != 0 || !slow_enough) return complain(WireError::bad_value);
+      if (!identity_.can_play<Breath>(item.segment, motors_)) return complain(WireError::bad_value);
     } else {
       BoardOutputs outputs;
       decode(frame, outputs);

@@ -1,0 +1,111 @@
+// Threads on the firmware itself, emulated: its encoder's pins are driven by a spindle that its own outputs command, and
+// the groove is where the steps come out of its pins.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "emulator/bad_line.hpp"
+#include "pipeline/spindle_kit.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/emulator/emulated_board.hpp"
+
+namespace passo {
+namespace {
+
+using test::BadLine;
+using test::Cut;
+using test::grooves_at;
+using test::Spread;
+using test::spread;
+using test::thread_program;
+
+constexpr double clock_rate = 16e6;
+
+MachineDescription lathe_on_mega(const SpindleDescription& spindle) {
+  MachineDescription machine = test::example_machine("uno");
+  machine.board.highest_event_rate = Hertz(100'000);
+  machine.spindle = spindle;
+  return machine;
+}
+
+// As the virtual machine's; a disc of 1,024 lines.
+SpindleDescription rippling_disc() {
+  SpindleDescription spindle = test::rippling;
+  spindle.counts_per_turn = 1024;
+  return spindle;
+}
+
+struct TurnedPart {
+  std::vector<Cut> cuts;
+  std::optional<LinkError> error;
+  int rests = 0;
+};
+
+template <class Spoil>
+TurnedPart turn(const std::string& program, const MachineDescription& machine, const Spoil& spoil) {
+  TurnedPart result;
+  auto board = EmulatedBoard::start("mega", PASSO_MOTION_MEGA);
+  EXPECT_TRUE(board);
+  const SpindleDescription& described = machine.spindle;
+  VirtualSpindle spindle({.counts_per_turn = described.counts_per_turn,
+                          .run_up = described.run_up.value(),
+                          .droop = described.droop,
+                          .ripple = described.ripple,
+                          .ripple_rate = described.ripple_rate.value()});
+  EXPECT_TRUE((*board)->fit_spindle(
+      {.pulses_per_turn = described.counts_per_turn,
+       .command = [&](Seconds time, double rpm) { spindle.command(time, rpm); },
+       .turns = [&](Seconds time) { return spindle.turns_at(time); }}));
+  const AxisDescription& z = machine.axes[2];
+  double place = 0;
+  (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
+    if (motor != 2) return;
+    const bool deeper = down != z.inverted;
+    place += deeper ? -1 : 1;
+    const double turns = spindle.turns_at(Seconds(static_cast<double>(cycle) / clock_rate));
+    if (deeper) result.cuts.push_back({place / z.steps_per_unit, turns});
+  };
+  BadLine line(**board);
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", program), machine, {}, diagnostics, {.board = &line});
+  EXPECT_FALSE(job.unsuited()) << *job.unsuited();
+  spoil(line);
+  while (job.advance()) {
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  result.error = job.link().error();
+  result.rests = job.drive().refiller()->recoveries();
+  return result;
+}
+
+TEST(MegaThread, has_its_pitch_though_the_spindle_ripples_by_5_percent) {
+  const TurnedPart result = turn(thread_program("600"), lathe_on_mega(rippling_disc()), [](BadLine&) {});
+  EXPECT_FALSE(result.error) << message_of(*result.error);
+  const double wander = spread(result.cuts, 1.5, -4, -19).mm(1.5);
+  std::printf("along 10 turns the groove wanders %.4f mm\n", wander);
+  EXPECT_LT(wander, 0.02);
+}
+
+TEST(MegaThread, passes_of_a_threading_cycle_lie_in_one_groove) {
+  const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-9 I-1 J0.3 K0.9 R1.5 H0\nM5\nM2\n";
+  const TurnedPart result = turn(program, lathe_on_mega(rippling_disc()), [](BadLine&) {});
+  EXPECT_FALSE(result.error) << message_of(*result.error);
+  double worst = 0;
+  std::size_t passes = 0;
+  for (const double z : {-5.0, -6.0, -8.0}) {
+    Spread all;
+    const std::vector<double> grooves = grooves_at(result.cuts, 1.5, z);
+    for (const double pass : grooves) all.see(pass);
+    passes = grooves.size();
+    EXPECT_GE(passes, 5U);
+    worst = std::max(worst, all.mm(1.5));
+  }
+  std::printf("%zu passes lie within %.4f mm of each other\n", passes, worst);
+  EXPECT_LT(worst, 0.02);
+}
+
+}  // namespace
+}  // namespace passo
