@@ -49,7 +49,8 @@ void MotionDrive::await_index(const OutputState& outputs) {
   SpindleReading begun;
   double before = 0;
   bool at_speed = false;
-  for (int turns = 0; read_spindle() && mind_encoder(longest_run_up);) {
+  for (int turns = 0; read_spindle();) {
+    if (!mind_encoder(longest_run_up)) return rest_in_hold();  // where it rests already
     const SpindleReading& now = encoder_.now();
     const double turned = std::abs(now.turns - begun.turns);
     if (turned >= 1) {
@@ -60,7 +61,8 @@ void MotionDrive::await_index(const OutputState& outputs) {
       begun = now;
     }
     const Seconds left = time_to_index(refiller_ ? link_.answer_time() + late_ : Seconds(0));
-    const bool begins = at_speed && encoder_.index() && left < 2 * between_looks;
+    encoder_known_ = encoder_known_ || encoder_.is_right();
+    const bool begins = at_speed && encoder_known_ && encoder_.index() && left < 2 * between_looks;
     let_pass(begins ? left : between_looks);
     if (begins) return;
   }

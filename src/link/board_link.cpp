@@ -279,7 +279,7 @@ void BoardLink::take(const BoardStatus& status) {
     return;
   }
   const bool is_asked_for_more = last_question_ == Question::spindle && status.answers == question_;
-  if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder);
+  if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder, Question::spindle);
   note_inputs(status);
   note_probe(status);
   if (care_.session == 0 || status.session != care_.session) {
@@ -328,11 +328,11 @@ bool BoardLink::read_spindle() {
   return turned_.has_value();
 }
 
-void BoardLink::doubt(LinkError error) {
+void BoardLink::doubt(LinkError error, Question again) {
   if (++doubts_ == sure_of_status) {
     error_ = error;
   } else {
-    ask(Question::status);
+    ask(again);
   }
 }
 

@@ -60,6 +60,9 @@ TEST(SpindleEncoder, one_index_may_be_missed) {
 TEST(SpindleEncoder, indexes_that_end_no_turn_are_wrong_and_so_are_none) {
   EXPECT_TRUE(read_for({.index_off = 60}, 1).is_wrong());
   EXPECT_FALSE(read_for({.index_off = 35}, 1).is_wrong()) << "within 2 % of a turn and 2 ms";
+  SpindleEncoder nearly(1000, clock_rate);  // and the encoder has 1010: within 2 % of a turn, but not in the long run
+  for (int i = 0; i < 250; ++i) nearly.read(Shaft{.counts = 1010}.at(i * 0.004));
+  EXPECT_TRUE(nearly.is_wrong());
   SpindleEncoder half(500, clock_rate);  // and the encoder has 730
   for (int i = 0; i < 250; ++i) half.read(Shaft{.counts = 730}.at(i * 0.004));
   EXPECT_TRUE(half.is_wrong());

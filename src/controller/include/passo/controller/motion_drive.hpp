@@ -190,7 +190,8 @@ class MotionDrive {
   LiveOptions ahead_ = live_;  // less while a spindle is followed
   SpindleEncoder encoder_;
   SpindleFollower follower_;
-  bool follows_ = false;  // the spindle, or is about to
+  bool encoder_known_ = false;  // to be right
+  bool follows_ = false;        // the spindle, or is about to
   // By the board's clock, when the next thread is to begin; and how much later than by that the one before did.
   std::optional<Seconds> index_time_;
   Seconds late_{0};

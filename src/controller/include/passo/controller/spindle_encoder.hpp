@@ -33,11 +33,13 @@ class SpindleEncoder {
   Seconds stood() const { return now_.time - moved_at_; }
   // So many, at a turn a second.
   Seconds time_of_counts(double counts) const { return Seconds(counts / counts_per_turn_); }
-  // Indexes that came where no turn ends, one after the other; or no index though it turns and turns.
+  // Indexes came where no turn ends, by the count since the first; or there was none though it turns and turns.
   bool is_wrong() const;
+  // Two indexes were a turn apart, or some, and none came elsewhere.
+  bool is_right() const { return known_good_ && doubts_ == 0; }
 
  private:
-  void note_turns(double turns);
+  void note_turns(double turns, double speed);
 
   int counts_per_turn_;
   Hertz clock_;
@@ -46,9 +48,11 @@ class SpindleEncoder {
   Seconds moved_at_{0};
   double moved_to_ = 0;
   std::optional<double> index_;
+  std::optional<double> first_index_;
   double indexed_at_ = 0;  // turns at the last one, or at the start
   Seconds indexed_then_{0};
-  int wrong_ = 0;
+  int doubts_ = 0;
+  bool known_good_ = false;
 };
 
 }  // namespace passo

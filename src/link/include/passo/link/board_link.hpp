@@ -117,7 +117,7 @@ class BoardLink final : public Link {
   void note_answer(std::uint8_t taken);
   void note_progress(const Credit& credit, std::uint8_t answers);
   bool holds_nothing_of(const Credit& credit) const;
-  void doubt(LinkError error);
+  void doubt(LinkError error, Question again = Question::status);
   void note_inputs(const BoardStatus& status);
   void note_probe(const BoardStatus& status);
   void note_taken(std::uint8_t sequence);
