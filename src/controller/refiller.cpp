@@ -37,6 +37,7 @@ constexpr Seconds shortest_answer{0.003};
 constexpr double longer = 1.5;
 constexpr Seconds longest_following{0.01};
 constexpr double answers_ahead = 2.5;
+constexpr Seconds spare{0.003};  // a tail may have many items more than the one before
 constexpr double patience_following = 0.95;
 constexpr Seconds made_ahead{0.002};
 
@@ -169,7 +170,7 @@ bool Refiller::counts_items() const {
 
 // While one refill is on its way and answered, the next one not yet there, the board has enough.
 Seconds Refiller::horizon() const {
-  if (asking_ == Asking::for_spindle) return answers_ahead * answer_ + longest_move_ + made_ahead;
+  if (asking_ == Asking::for_spindle) return answers_ahead * answer_ + longest_move_ + made_ahead + spare;
   return in_haste() ? 2 * answer_ + longest_move_ + made_ahead : std::min(options_.horizon, reach_);
 }
 Seconds Refiller::refill_at() const {

@@ -21,6 +21,8 @@ constexpr double counts_at_least = 8;
 // A thread that begins later than by so many turns has no lead-in that makes up for it.
 constexpr double latest_start = 0.25;
 constexpr int sure_of_start = 3;
+// And where the tool is off by so much of a turn behind its lead-in, the line is too slow to follow this spindle.
+constexpr double most_missing = 0.1;
 constexpr Seconds longest_lead{0.2};
 constexpr std::size_t bytes_of_a_start = 460;  // twenty items
 
@@ -112,6 +114,7 @@ void MotionDrive::follow_spindle() {
   const bool by_place = follower_.lock() == SpindleLock::place;
   if (!mind_encoder(by_place ? longest_stand : longest_run_up)) return;
   if (index_time_) mind_start();
+  if (refiller_ && by_place && std::abs(follower_.missing(ahead)) > most_missing) give_up(LinkError::thread_lost);
   if (tap_turns_ && follower_.turns_back(ahead)) {
     tap_turns_ = false;
     tap_brakes_ = true;

@@ -18,8 +18,12 @@ constexpr double eagerness = 15;
 // What is planned next takes so long.
 constexpr Seconds half_a_move{0.001};
 
+// In turns: what has made up for its start by then.
+constexpr double lead_in = 4;
+
 // From this part of the spindle's speed on the tool's place counts.
 constexpr double up_to_speed = 0.95;
+constexpr double most_of_it = 0.8;
 
 // With jerk: changes that are worth it, while it speeds up and then.
 constexpr double coarse = 0.05;
@@ -132,6 +136,12 @@ SpindleFollower::Course SpindleFollower::course(Seconds later) const {
 
 bool SpindleFollower::turns_back(Seconds committed) const {
   return readings_.size() > 2 && course(committed).speed < least_ratio * programmed_;
+}
+
+double SpindleFollower::missing(Seconds committed) const {
+  const bool goes_with_it = in_place_ && reached_ > most_of_it * speed();  // and does not brake for its end
+  if (!goes_with_it || followed_ < lead_in || readings_.size() < least_readings) return 0;
+  return course(committed).turns - lag_ - followed_;
 }
 
 double SpindleFollower::wanted_ratio(Seconds committed) const {

@@ -297,7 +297,7 @@ void BoardLink::take(const BoardStatus& status) {
 
 void BoardLink::note_progress(const Credit& credit, std::uint8_t answers) {
   take(credit);
-  if (answers != question_) return;
+  if (answers != question_ && !(repeating_ && answers == repeated_before_)) return;
   // What was sent before the question, and has not arrived before it, is lost.
   if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) return repeat();
   // An answer that told where the spindle is was lost, or the question.
@@ -419,6 +419,7 @@ void BoardLink::repeat() {
   frames_repeated_ += count;
   ask();
   repeating_ = care_.session != 0;  // else nobody tells
+  repeated_before_ = question_;
 }
 
 template <class Message, class... More>

@@ -22,8 +22,7 @@ std::string_view message_of(LinkError error) {
     case LinkError::encoder_wrong:
       return "the spindle's encoder does not count encoder_counts_per_turn from index to index, or there is no index";
     case LinkError::thread_lost:
-      return "the machine came to rest in a thread, for the line was broken or too slow: it stands on the path, "
-             "spindle "
+      return "the line was broken in a thread, or too slow for it: the machine has come to rest on the path, spindle "
              "off, and the thread cannot go on there";
   }
   return "the link to the board failed";

@@ -38,10 +38,11 @@ struct LineCase {
   LineOptions line;
   double wander[2];
   double apart[2];
+  bool may_be_too_slow = false;  // with limits of jerk: then the thread is ended in words
 };
 const std::vector<LineCase>& lines() {
   static const std::vector<LineCase> all = {
-      {"115,200, 1 ms", {.baud = 115'200, .latency = Seconds(0.001)}, {0.12, 0.2}, {0.12, 0.4}},
+      {"115,200, 1 ms", {.baud = 115'200, .latency = Seconds(0.001)}, {0.12, 0.2}, {0.12, 0.4}, true},
       {"500,000, 1 ms", {.baud = 500'000, .latency = Seconds(0.001)}, {0.016, 0.035}, {0.016, 0.035}},
       {"1,000,000, 1 ms", {.baud = 1'000'000, .latency = Seconds(0.001)}, {0.012, 0.06}, {0.012, 0.06}},
       {"500,000, 8 ms", {.baud = 500'000, .latency = Seconds(0.008)}, {0.08, 0.08}, {0.08, 0.08}}};
@@ -73,7 +74,12 @@ TEST(SpindleOverALine, all_passes_of_a_threading_cycle_lie_in_one_groove) {
   const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-15 I-1 J0.2 K0.9 R1.5 H2\nM5\nM2\n";
   for (const LineCase& each : lines()) {
     for (const bool jerk : {false, true}) {
-      const Played result = run(program, lathe(rippling, jerk), each.line);
+      const Played result = play(program, lathe(rippling, jerk), {.line = each.line});
+      if (each.may_be_too_slow && jerk && result.error == LinkError::thread_lost) {
+        std::printf("%-16s jerk limited: too slow\n", each.name);
+        continue;
+      }
+      EXPECT_FALSE(result.error) << message_of(*result.error);
       double worst = 0;
       std::size_t passes = 0;
       for (const double z : {-5.0, -8.0, -11.0, -14.0}) {
@@ -151,7 +157,7 @@ void expect_whole_or_lost(const Troubled& result, const Troubled& reference, int
   expect_begins_as(result.steps, reference.steps, !result.error);
   Spread all;
   for (const double groove : grooves_at(result.cuts, 1.5, -6)) all.see(groove);
-  EXPECT_LT(all.mm(1.5), 0.06);
+  EXPECT_LT(all.mm(1.5), 0.15) << "a tenth of a turn";
   if (!result.error) return;
   EXPECT_EQ(*result.error, LinkError::thread_lost) << message_of(*result.error);
   EXPECT_EQ(result.outputs.switches, 0) << "the spindle is off";

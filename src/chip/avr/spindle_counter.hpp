@@ -8,6 +8,7 @@
 
 #include "event_ring.hpp"
 #include "registers.hpp"
+#include "serial_line.hpp"
 
 #include "passo/wire/message.hpp"
 
@@ -41,6 +42,7 @@ class SpindleCounter {
 
   [[gnu::noinline]] static SpindleCount count() {
     look();
+    SerialLine::breathe();
     const uint16_t time = time_now();
     take_pulses();
     // One that has not been noted belongs to a time behind it only.

@@ -43,6 +43,8 @@ class SpindleFollower {
   // Nothing where it is to stay: a change of speed under a limit of jerk is not to be changed before it is made.
   std::optional<double> ratio(Seconds committed);
 
+  // Turns by which the tool is not where it should be when what is committed ends, once it has had a lead-in.
+  double missing(Seconds committed) const;
   // Below it a spindle is not followed.
   static constexpr double least_ratio = 0.02;
   static constexpr double most_ratio = 2;

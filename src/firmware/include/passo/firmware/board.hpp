@@ -269,13 +269,12 @@ class Board {
     if constexpr (requires { hardware_.has_encoder(); }) return hardware_.has_encoder();
     return false;
   }
-  // How far the motion is at the tick of the count: nothing comes between the two.
+  // How far the motion is at the tick of the count: hardly anything comes between the two.
   [[gnu::noinline]] void tell_spindle(uint8_t question) {
     if constexpr (requires { hardware_.spindle(); }) {
       if (!has_room(MessageType::turned)) return;
-      const SpindleCount spindle = hardware_.spindle();
-      const uint16_t event = played();
-      send(Turned{.progress = progress(), .event = event, .answers = question, .spindle = spindle});
+      breathe();
+      send(Turned{.progress = progress(), .event = played(), .answers = question, .spindle = hardware_.spindle()});
     }
   }
 

@@ -144,11 +144,12 @@ class BoardLink final : public Link {
   Question last_question_ = Question::status;
   Question usual_question_ = Question::status;
   std::optional<Turned> turned_;
-  bool repeating_ = false;    // and not heard the answer since
-  std::uint8_t refused_ = 0;  // sequence number of the frame that the board refused last
-  int refusals_ = 0;          // so many times in a row
-  int doubts_ = 0;            // statuses in a row that would end the job
-  int free_ = 0;              // room that it had when it told so
+  std::uint8_t repeated_before_ = 0;  // the question behind what was repeated last
+  bool repeating_ = false;            // and not heard the answer since
+  std::uint8_t refused_ = 0;          // sequence number of the frame that the board refused last
+  int refusals_ = 0;                  // so many times in a row
+  int doubts_ = 0;                    // statuses in a row that would end the job
+  int free_ = 0;                      // room that it had when it told so
   bool rests_ = false;
   ProbeUntil probe_until_ = ProbeUntil::off;
   ProbeReport probe_report_;
