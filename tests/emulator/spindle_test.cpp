@@ -1,5 +1,5 @@
-// Threads on the firmware itself, emulated: its encoder's pins are driven by a spindle that its own outputs command, and
-// the groove is where the steps come out of its pins.
+// Threads on the firmware itself, emulated: its encoder's pins are driven by a spindle that its own outputs command,
+// and the groove is where the steps come out of its pins.
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -55,10 +55,9 @@ TurnedPart turn(const std::string& program, const MachineDescription& machine, c
                           .droop = described.droop,
                           .ripple = described.ripple,
                           .ripple_rate = described.ripple_rate.value()});
-  EXPECT_TRUE((*board)->fit_spindle(
-      {.pulses_per_turn = described.counts_per_turn,
-       .command = [&](Seconds time, double rpm) { spindle.command(time, rpm); },
-       .turns = [&](Seconds time) { return spindle.turns_at(time); }}));
+  EXPECT_TRUE((*board)->fit_spindle({.pulses_per_turn = described.counts_per_turn,
+                                     .command = [&](Seconds time, double rpm) { spindle.command(time, rpm); },
+                                     .turns = [&](Seconds time) { return spindle.turns_at(time); }}));
   const AxisDescription& z = machine.axes[2];
   double place = 0;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {

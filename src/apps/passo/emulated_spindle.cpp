@@ -16,10 +16,10 @@ void fit_emulated_spindle(const SpindleDescription& spindle, BoardPort* board) {
                                                                      .ripple = spindle.ripple,
                                                                      .ripple_rate = spindle.ripple_rate.value()});
   // A board without pins for an encoder says so itself.
-  static_cast<void>(emulated->fit_spindle(
-      {.pulses_per_turn = spindle.counts_per_turn,
-       .command = [turning](Seconds time, double rpm) { turning->command(time, rpm); },
-       .turns = [turning](Seconds time) { return turning->turns_at(time); }}));
+  static_cast<void>(
+      emulated->fit_spindle({.pulses_per_turn = spindle.counts_per_turn,
+                             .command = [turning](Seconds time, double rpm) { turning->command(time, rpm); },
+                             .turns = [turning](Seconds time) { return turning->turns_at(time); }}));
 }
 
 }  // namespace passo
