@@ -1,6 +1,7 @@
 #include "passo/controller/stage_options.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace passo {
@@ -30,12 +31,20 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
   return AccelerationCurve::below(all, axis.acceleration);
 }
 
+// The exact curve: the referee does not take the planner's samples for it.
+std::function<MmPerSecond2(MmPerSecond)> proven_limit(const AxisDescription& axis) {
+  if (!axis.motor) return {};
+  return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
+}
+
 }  // namespace
 
+bool has_jerk_limit(const MachineDescription& machine) {
+  return std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
+}
+
 Smoothness smoothness(const MachineDescription& machine) {
-  const bool limits_jerk =
-      std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
-  return limits_jerk ? Smoothness::slow_bending : Smoothness::least_bending;
+  return has_jerk_limit(machine) ? Smoothness::slow_bending : Smoothness::least_bending;
 }
 
 MotionLimits motion_limits(const MachineDescription& machine) {
@@ -56,6 +65,20 @@ StepOptions step_options(const MachineDescription& machine) {
         .axis = axis.axis, .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit};
   }
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
+  return options;
+}
+
+ProofOptions proof_options(const MachineDescription& machine) {
+  ProofOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.push_back({.axis = axis.axis,
+                            .step = axis.step(),
+                            .velocity = axis.velocity,
+                            .acceleration = axis.acceleration,
+                            .jerk = axis.jerk,
+                            .acceleration_at = proven_limit(axis)});
+  }
+  options.tick_rate = machine.board.clock;
   return options;
 }
 

@@ -7,14 +7,18 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
+#include "passo/proof/motion_proof.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace passo {
 
+bool has_jerk_limit(const MachineDescription& machine);
+
 PathOptions path_options(const MachineDescription& machine, const std::string& program);
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
+ProofOptions proof_options(const MachineDescription& machine);
 
 }  // namespace passo
