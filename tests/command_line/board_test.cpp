@@ -85,6 +85,27 @@ TEST_F(Boards, run_a_program_with_the_windings_on_their_own_pins) {
   }
 }
 
+// The emulated spindle turns as the board's outputs say, and its encoder is on the board's pins.
+TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) {
+  std::string machine = read(std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml");
+  const std::size_t rate = machine.find("140_000");
+  ASSERT_NE(rate, std::string::npos);
+  machine.replace(rate, 7, "100_000");
+  machine += "\n[spindle]\nencoder_counts_per_turn = 1024\nrun_up_s = 0.5\nripple_percent = 3\n";
+  const std::string program = write("p.ngc", "G21 S600 M3\nG0 Z1\nG33 Z-8 K1.5\nG0 X1\nZ1\nM5\nM2\n");
+  const std::string command = "run " + program + " --json -m " + write("lathe.toml", machine);
+  const Outcome outcome = passo(command + " --board sim:mega");
+  if (outcome.err.find("was built without") != std::string::npos ||
+      outcome.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << outcome.err;
+  }
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], nlohmann::json::parse(passo(command).out)["steps"]);
+  const Outcome refused = passo(command + " --board sim:uno");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.err.find("has no encoder"), std::string::npos) << refused.err;
+}
+
 // 67 seconds are the longest item, and an Uno holds 31: it goes on with the next refill.
 TEST_F(Boards, that_hold_little_dwell_for_hours) {
   const std::string uno = (std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml").string();

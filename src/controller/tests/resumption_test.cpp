@@ -40,6 +40,21 @@ std::optional<ResumePoint> point_at(std::uint64_t item, double s = 0) {
   return find_resume_point(program(), two_axes(), InterpreterOptions(), {.item = item, .s = Mm(s)});
 }
 
+TEST(ResumePoints, know_that_they_are_in_a_thread) {
+  MachineDescription lathe = two_axes();
+  const auto point = [&](std::uint64_t item, double s) {
+    const auto thread = ProgramReader::from_text("t", "G21 G90 G61.1 S600 M3\nG0 X3\nG33 X9 K1\nG0 Y1\nM2\n");
+    return find_resume_point(thread.again(), lathe, InterpreterOptions(), {.item = item, .s = Mm(s)});
+  };
+  // M3, the rapid, the wait for the index, the thread, the way out.
+  lathe.spindle.counts_per_turn = 1000;
+  EXPECT_FALSE(point(2, 0)->in_thread) << "it begins there";
+  EXPECT_TRUE(point(3, 2)->in_thread);
+  EXPECT_FALSE(point(4, 0.5)->in_thread);
+  lathe.spindle.counts_per_turn = 0;
+  EXPECT_FALSE(point(3, 2)->in_thread) << "it follows no encoder";
+}
+
 TEST(ResumePoints, stand_where_the_path_is_and_name_the_line) {
   const auto start = point_at(0);
   ASSERT_TRUE(start);
