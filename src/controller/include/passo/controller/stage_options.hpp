@@ -7,6 +7,7 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
+#include "passo/proof/motion_proof.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -18,5 +19,6 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
+ProofOptions proof_options(const MachineDescription& machine);
 
 }  // namespace passo
