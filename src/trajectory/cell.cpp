@@ -13,6 +13,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // it is about (3/4) turn², on a cubic as much again for the change of its bend.
 constexpr double turn_a_cell_of_arc = 0.04;
 constexpr double turn_a_cell_of_cubic = 0.025;
+// Of the limit of an axis: what is taken off for what it may do between the ends of a cell.
+constexpr double most_slack = 0.5;
 
 // The switch from speeding up to braking is at the end of some cell. At its ends, where an arc is slow, a cell is no
 // longer than this part of the way that braking from full speed takes; from there they grow, to this or to a part of
@@ -81,14 +83,14 @@ void CellCutter::begin(const Segment& segment) {
   }
   if (curve.shape() == Curve::Shape::line) return;
   if (curve.shape() == Curve::Shape::arc) {
-    const double by_turn = length * turn_a_cell_of_arc / std::abs(curve.arc_data().sweep);
+    const double by_turn = length * turn_a_cell_of_arc / curve.turning(steepest);
     longest_ =
         std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
     // Turning takes all of the acceleration at a speed from which braking takes but a radius.
     const double slowing = std::min(braking, 1 / curve.curvature());
     shortest_ = std::clamp(slowing * braking_share, longest_ / 64, longest_);
   } else {
-    const double turn = length * curve.curvature();
+    const double turn = curve.turning(steepest);
     const double by_turn = length * turn_a_cell_of_cubic / std::max(turn, turn_a_cell_of_cubic);
     const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share));
     longest_ = shortest_ = length / std::ceil(length / wanted);
@@ -251,23 +253,34 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   }
   cell.top_squared = top * top;
   // Between the ends v² is between theirs.
-  const double top_squared = std::min(top * top, std::max(in.turning, out.turning));
+  double top_squared = std::min(top * top, std::max(in.turning, out.turning));
   // Turning may hide as much again of an axis's acceleration along its slope.
   strength = std::min({2 * strength, top_squared / (2 * h), strongest});
+  const auto slack_of = [&](const Bend& bend) {
+    return eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
+  };
+  for (const AxisLimits& axis : axes) {
+    const Bend bend = bend_on(curve, of_arc, axis.axis);
+    if (!(axis.acceleration > 0) || slack_of(bend) <= most_slack * axis.acceleration) continue;
+    // Too coarse for it: slower.
+    top_squared = most_slack * axis.acceleration / (eighth * (bend.fourth + 5 * bend.third / (2 * h)));
+    strength = std::min(strength, top_squared / (2 * h));
+    cell.top_squared = std::min(cell.top_squared, top_squared);
+  }
 
   for (const AxisLimits& axis : axes) {
     const std::size_t i = axis.axis;
     const Bend bend = bend_on(curve, of_arc, i);
     const double steep = steepest(i, bend);
     if (!(axis.acceleration > 0) || (steep == 0 && in.bend.values[i] == 0 && out.bend.values[i] == 0)) continue;
-    const double slack = eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
+    const double slack = slack_of(bend);
     const double slope_in = in.slope.values[i] / (2 * h);
     const double slope_out = out.slope.values[i] / (2 * h);
     place.demands[cell.demand_count++] = {.entry_x = in.bend.values[i] - slope_in,
                                           .entry_y = slope_in,
                                           .exit_x = -slope_out,
                                           .exit_y = out.bend.values[i] + slope_out,
-                                          .limit = std::max(axis.acceleration - slack, axis.acceleration / 2)};
+                                          .limit = axis.acceleration - slack};
     if (axis.falling->empty() || !(squared(steep) * top_squared > axis.falling->shoulder())) continue;
     // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
     const double second = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i])) + h * bend.third;
