@@ -12,6 +12,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The most that the path turns in a cell, in radians. What is taken off the limits grows with its square: on an arc
 // it is about (3/4) turn², on a cubic as much again for the change of its bend.
 constexpr double turn_a_cell_of_arc = 0.04;
+// Where the feed is beyond an axis's velocity: what that allows goes up and down as the arc turns, and the least of a
+// cell counts in all of it.
+constexpr double turn_a_cell_of_fast_arc = 0.01;
 constexpr double turn_a_cell_of_cubic = 0.025;
 // Of the limit of an axis: what is taken off for what it may do between the ends of a cell.
 constexpr double most_slack = 0.5;
@@ -83,7 +86,8 @@ void CellCutter::begin(const Segment& segment) {
   }
   if (curve.shape() == Curve::Shape::line) return;
   if (curve.shape() == Curve::Shape::arc) {
-    const double by_turn = length * turn_a_cell_of_arc / curve.turning(steepest);
+    const double turn = top < segment.speed.value() ? turn_a_cell_of_fast_arc : turn_a_cell_of_arc;
+    const double by_turn = length * turn / curve.turning(steepest);
     longest_ =
         std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
     // Turning takes all of the acceleration at a speed from which braking takes but a radius.
