@@ -131,14 +131,13 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
       drive_(smoother_, limits_, step_options_at(machine, options.resume_at), machine_, board_line(options, line_)),
-      clock_(machine.board.clock),
       resume_at_(options.resume_at) {
   if (resume_at_) {
     machine_.stand_at(resume_at_->steps);
     drive_.begin_at(resume_at_->place);
   }
   const bool over_a_line = line_ || options.board != nullptr;
-  if (over_a_line && !unsuited()) drive_.use_tails({});
+  if (over_a_line && !drive_.unsuited()) drive_.use_tails({});
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   // The encoder is not on the wire yet: over a line nothing may follow what this spindle does.
   if (!over_a_line) fit_spindle(machine.spindle);
@@ -156,15 +155,9 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
 }
 
 BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& line) {
-  // A line may be slow, but a board that lives answers at once.
-  if (line) return {.port = &*line, .care = {.answer_within = Seconds(0.05), .session = 1}};
+  if (line) return BoardLine::to(*line);
   if (options.board == nullptr) return {};
-  return {.port = options.board,
-          .care = {.answer_within = Seconds(0.1),
-                   .patience = Seconds(60),
-                   .session = options.session,
-                   .greeting = options.greeting},
-          .real_time = true};
+  return BoardLine::to_board(*options.board, options.session, options.greeting);
 }
 
 void Job::fit_spindle(const SpindleDescription& spindle) {
@@ -190,16 +183,6 @@ bool Job::advance() {
   const bool goes_on = drive_.advance();
   if (shadow_ && (!goes_on || drive_.state() == MotionDrive::State::held)) shadow_->drain();
   return goes_on;
-}
-
-std::optional<std::string> Job::unsuited() const {
-  const auto& board = link().board();
-  if (link().error() || !board) return {};  // the link says it
-  if (static_cast<double>(board->clock) != clock_.value()) {
-    return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", board->clock,
-                       clock_.value());
-  }
-  return {};
 }
 
 }  // namespace passo

@@ -36,7 +36,10 @@ Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = 
   Kind kind{.mcu = mcu,
             .ports = ports,
             .motors = {std::begin(pins.motor), std::end(pins.motor)},
-            .switches = {{input_probe, pins.probe},
+            .switches = {{input_limit, pins.limits[0]},
+                         {static_cast<BoardInput>(input_limit << 1U), pins.limits[1]},
+                         {static_cast<BoardInput>(input_limit << 2U), pins.limits[2]},
+                         {input_probe, pins.probe},
                          {input_emergency_stop, pins.emergency_stop},
                          {input_hold, pins.feed_hold},
                          {input_start, pins.cycle_start}}};

@@ -66,6 +66,14 @@ struct JogArguments {
 };
 int jog(const JogArguments& arguments);
 
+struct HomeArguments {
+  std::string machine;
+  std::string board = "virtual";  // as parse_board_address() has it
+  bool json = false;
+  bool quiet = false;
+};
+int home(const HomeArguments& arguments);
+
 struct CheckArguments {
   ProgramArguments program;
   std::string machine;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "progress_display.hpp"
 #include "resumable_run.hpp"
 #include "run_outputs.hpp"
+#include "run_signals.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -31,21 +31,6 @@ namespace {
 
 // How often the clock is read for the progress line: every so many board segments.
 constexpr unsigned segments_between_looks = 1024;
-
-// The first Ctrl-C over a line.
-volatile std::sig_atomic_t interrupted_by = 0;
-
-extern "C" void end_on_signal(int signal) {
-  OutputFile::remove_unfinished();
-  std::_Exit(128 + signal);
-}
-
-extern "C" void brake_on_signal(int signal) {
-  if (interrupted_by != 0) end_on_signal(signal);
-  interrupted_by = signal;
-  constexpr std::string_view words = "\npasso: brakes on the path; a second time leaves at once\n";
-  static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
-}
 
 void add_board(RunSummary& summary, Job& job, const MachineDescription& machine) {
   const MachineCounts counts = job.machine().counts();
@@ -107,7 +92,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
-      if (interrupted_by != 0 && !job.drive().stopped()) job.drive().stop();
+      if (interrupted_by() != 0 && !job.drive().stopped()) job.drive().stop();
       if (board != nullptr) panel.look();
       if (changes.any() && !panel.holds()) changes.act(job.drive(), job.machine(), machine);
       if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
@@ -128,7 +113,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
 
 // Why a run ended before its program did, and where.
 std::string stopped_words(const Job& job, const RunSummary& summary) {
-  std::string words = interrupted_by != 0              ? "interrupted; "
+  std::string words = interrupted_by() != 0            ? "interrupted; "
                       : job.drive().stopped_by_probe() ? "the probe was touched in a move that is no probe move; "
                                                        : "the program cannot go on; ";
   words += "the machine rests at";
@@ -166,8 +151,7 @@ int reach_board(const ResumableRun::Subject& subject, const ProgramReader& progr
   const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
   board = BoardRun::open(arguments.board, motors, arguments.resume, code);
   if (!board || (resumable && !resumable->begin(*board, program, subject, code))) return code;
-  std::signal(SIGINT, brake_on_signal);
-  std::signal(SIGTERM, brake_on_signal);
+  brake_on_signals();
   return exit_done;
 }
 
@@ -216,8 +200,7 @@ int run(const RunArguments& arguments) {
   if (!check.good) return exit_bad_program;
   if (!suits_the_board(arguments)) return exit_bad_program;
 
-  std::signal(SIGINT, end_on_signal);
-  std::signal(SIGTERM, end_on_signal);
+  end_on_signals();
   const std::string tools = check.tools_change ? tool_table_file(arguments.program, *options) : std::string();
   Result<RunOutputs, OutputError> outputs =
       RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
@@ -250,10 +233,10 @@ int run(const RunArguments& arguments) {
     if (const auto words = board->compare(job.machine().counts())) return fail(exit_failed, "the board: " + *words);
     board->tell(*job.drive().refiller());
   }
-  if (late.any_error() || job.drive().stopped_by_probe() || interrupted_by != 0) {
+  if (late.any_error() || job.drive().stopped_by_probe() || interrupted_by() != 0) {
     show(late);
     const int failed = fail(exit_failed, stopped_words(job, summary));
-    return interrupted_by != 0 ? 128 + interrupted_by : failed;
+    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
   }
   const Status<OutputError> written =
       outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);

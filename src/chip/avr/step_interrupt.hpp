@@ -40,19 +40,29 @@ extern volatile uint8_t line_is_watched;  // by the interrupt, which comes often
 extern volatile uint8_t turns_tail;       // low byte of the address of the next turn
 extern volatile uint8_t action_at_end;    // low byte of the address of what to do at the end of the ring; 0: nothing
 extern volatile uint8_t received_head;    // low byte of the address where the next byte off the line goes
-extern volatile uint8_t probe_mask;       // armed: the probe's pin
-extern volatile uint16_t probe_entry;     // the ring's register when it touched
+extern volatile uint8_t armed;            // what is watched has not changed yet
+extern volatile uint16_t captured_entry;  // the ring's register when it did
 extern volatile uint8_t halted;           // by a pin
-// The pins of a port that stop everything when they are low.
+// Of each port: the pins that stop everything when they are low, those that are watched, and those of them that are low
+// as long as nothing has changed.
 #ifdef __AVR_ATmega2560__
 extern volatile uint8_t stop_low_b;
 extern volatile uint8_t stop_low_d;
 extern volatile uint8_t stop_low_e;
 extern volatile uint8_t stop_low_j;
-extern volatile uint8_t probe_flip;  // the probe's pin, where it is to open
+extern volatile uint8_t watch_b;
+extern volatile uint8_t watch_d;
+extern volatile uint8_t watch_e;
+extern volatile uint8_t watch_j;
+extern volatile uint8_t flip_b;
+extern volatile uint8_t flip_d;
+extern volatile uint8_t flip_e;
+extern volatile uint8_t flip_j;
 #else
 extern volatile uint8_t stop_low_b;  // here: when they are
 extern volatile uint8_t stop_low_c;  //   not as in `quiet`
+extern volatile uint8_t watch_b;
+extern volatile uint8_t watch_c;
 extern volatile uint8_t quiet_b;
 extern volatile uint8_t quiet_c;
 #endif

@@ -28,8 +28,10 @@ volatile uint8_t stop_low_b;
 volatile uint8_t stop_low_c;
 volatile uint8_t quiet_b = 0xff;
 volatile uint8_t quiet_c = 0xff;
-volatile uint8_t probe_mask;
-volatile uint16_t probe_entry;
+volatile uint8_t watch_b;
+volatile uint8_t watch_c;
+volatile uint8_t armed;
+volatile uint16_t captured_entry;
 volatile uint8_t halted;
 
 // No instruction of the plain way changes a flag, so there is nothing to save but Z.
@@ -144,13 +146,23 @@ volatile uint8_t halted;
       lds r25, stop_low_c
       and r25, r24
       brne 8f
-      lds r25, probe_mask
+      lds r25, armed
+      and r25, r25
+      breq 6f
+      lds r25, watch_c
+      and r24, r25
+      brne .Lpasso_captured
+      in r24, %[pinb]
+      lds r25, quiet_b
+      eor r24, r25
+      lds r25, watch_b
       and r24, r25
       breq 6f
-      ldi r24, 0                    ; the first touch counts
-      sts probe_mask, r24
-      sts probe_entry, r2
-      sts probe_entry + 1, r3
+  .Lpasso_captured:
+      ldi r24, 0                    ; the first change counts
+      sts armed, r24
+      sts captured_entry, r2
+      sts captured_entry + 1, r3
   6:  pop r25
       pop r24
       out %[sreg], r24

@@ -47,11 +47,14 @@ constexpr uint8_t vectors_before = 11;
   return low_of('B', stop_low_b) != 0;
 }
 
-[[gnu::always_inline]] inline bool probe_changed() {
+[[gnu::always_inline]] inline bool watched_changed() {
 #ifdef __AVR_ATmega2560__
-  return (low_of(pins.probe.port, probe_mask) ^ (probe_flip & probe_mask)) != 0;
+  if ((low_of('B', watch_b) ^ flip_b) != 0) return true;
+  if ((low_of('D', watch_d) ^ flip_d) != 0 || (low_of('E', watch_e) ^ flip_e) != 0) return true;
+  return (low_of('J', watch_j) ^ flip_j) != 0;
 #else
-  return ((register_of(pins.probe.port, 0) ^ quiet_c) & probe_mask) != 0;
+  if (((register_of('B', 0) ^ quiet_b) & watch_b) != 0) return true;
+  return ((register_of('C', 0) ^ quiet_c) & watch_c) != 0;
 #endif
 }
 
@@ -72,9 +75,9 @@ constexpr uint8_t vectors_before = 11;
     act(safe_action);
     return false;
   }
-  if (probe_changed()) {
-    probe_mask = 0;  // the first change counts
-    probe_entry = entry;
+  if (armed != 0 && watched_changed()) {
+    armed = 0;  // the first change counts
+    captured_entry = entry;
   }
   return true;
 }
@@ -129,17 +132,26 @@ volatile uint8_t turns_tail = turns_address & 0xff;
 volatile uint8_t action_at_end;
 volatile uint8_t received_head;
 volatile uint8_t next_entry;
-volatile uint8_t probe_mask;
-volatile uint16_t probe_entry;
+volatile uint8_t armed;
+volatile uint16_t captured_entry;
 volatile uint8_t halted;
 volatile uint8_t stop_low_b;
+volatile uint8_t watch_b;
 #ifdef __AVR_ATmega2560__
 volatile uint8_t stop_low_d;
 volatile uint8_t stop_low_e;
 volatile uint8_t stop_low_j;
-volatile uint8_t probe_flip;
+volatile uint8_t watch_d;
+volatile uint8_t watch_e;
+volatile uint8_t watch_j;
+volatile uint8_t flip_b;
+volatile uint8_t flip_d;
+volatile uint8_t flip_e;
+volatile uint8_t flip_j;
 #else
 volatile uint8_t stop_low_c;
+volatile uint8_t watch_c;
+volatile uint8_t quiet_b = 0xff;
 volatile uint8_t quiet_c = 0xff;
 #endif
 

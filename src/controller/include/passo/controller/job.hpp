@@ -75,7 +75,7 @@ class Job {
   // Switches on what is on there.
   void resume();
   // What keeps the job from being run on the board that it found, as a sentence without a full stop.
-  std::optional<std::string> unsuited() const;
+  std::optional<std::string> unsuited() const { return drive_.unsuited(); }
 
   // To hold, resume, change and stop it in mid-run.
   MotionDrive& drive() { return drive_; }
@@ -115,7 +115,6 @@ class Job {
   VirtualMachine machine_;  // what is at the other end of the wire
   std::optional<VirtualLine> line_;
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
-  Hertz clock_;
   std::optional<ResumePoint> resume_at_;
   std::optional<BoardLink> shadow_;  // to the machine, where it is not the board
 

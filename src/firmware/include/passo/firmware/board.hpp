@@ -11,6 +11,7 @@
 //   void send(uint8_t byte);                          to the host
 //   void enable();                                    may be left out: the motors are to move, though a stop let go of
 //                                                     them
+//   void watch();                                     may be left out: what is watched is another (Board::watched())
 //   static void breathe();                            may be left out: called between two pieces of work
 //   uint8_t room();                                   may be left out: how many bytes may be sent now
 //
@@ -25,6 +26,7 @@
 #include <stdint.h>
 
 #include "passo/firmware/board_identity.hpp"
+#include "passo/firmware/input_watch.hpp"
 #include "passo/firmware/play_list.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
@@ -64,10 +66,13 @@ class Board {
     inputs_ = inputs;
     if (motors_ == 0) return;
     // By itself: it may go off while another goes on.
-    if ((captured & input_probe) != 0) tell_captured(input_probe);
-    captured &= static_cast<uint16_t>(~input_probe);
+    if ((captured & watched()) != 0) tell_captured(watched());
+    captured &= static_cast<uint16_t>(~watched());
     if (captured != 0) tell_captured(captured);
   }
+  // Bits of BoardInput: the one that is captured, and those that stop the motors when they go on.
+  uint16_t watched() const { return watch_.input(); }
+  uint16_t stopping() const { return watch_.stopping(); }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
     const Fault fault{.reason = reason, .event = played(), .executed = executed_};
@@ -82,6 +87,7 @@ class Board {
   // so the session is over. Only at rest.
   void begin_manual() {
     motors_ = identity_.motors;
+    watch(0);
     enable();
     player_.restart(motors_);
     breathe();
@@ -183,6 +189,7 @@ class Board {
                   ? hello.motors
                   : uint8_t{0};
     decoder_.set_motors(motors_);
+    watch(0);
     // Both sides count fractions of steps from the same start. Whole ones go on.
     enable();
     player_.restart(motors_);
@@ -219,7 +226,8 @@ class Board {
   [[gnu::noinline]] void answer(const WireFrame& frame) {
     Ask ask;
     decode(frame, ask);
-    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors) {
+    const bool one_limit = (ask.limit & (ask.limit - 1)) == 0;
+    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors || !one_limit) {
       return complain(WireError::bad_value);
     }
     breathe();
@@ -232,8 +240,18 @@ class Board {
     if (!has_room(static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(answer), motors)))) return;
     if (answer == MessageType::about) return send(identity_.about);
     if (kept) return tell_kept();
-    if (ask.question == Question::watch) kept_ = 0;
+    if (ask.question == Question::watch) begin_watch(ask.limit);
     tell_status(ask.motors, frame.sequence);
+  }
+
+  // Another one only at rest: what is on its way was made for the one before.
+  void begin_watch(uint8_t limit) {
+    if (limit != watch_.limit() && rests() && !manual()) watch(limit);
+    if (limit == watch_.limit()) watch_.forget();
+  }
+  void watch(uint8_t limit) {
+    watch_.watch(limit);
+    if constexpr (requires { hardware_.watch(); }) hardware_.watch();
   }
 
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
@@ -241,8 +259,9 @@ class Board {
     if (!idle()) state |= board_moves;
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
-    if (kept_ != 0) state |= board_kept;
+    if (watch_.has_kept()) state |= board_kept;
     if (manual()) state |= board_manual;
+    if (watch_.limit() != 0) state |= board_homes;
     BoardStatusFor<most_motors> status{.session = session_,
                                        .executed = executed_,
                                        .taken = taken(),
@@ -264,21 +283,20 @@ class Board {
   [[gnu::noinline]] void tell_captured(uint16_t captured) {
     if ((captured & inputs_) == 0) captured |= captured_released;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
-    const bool keeps = (captured & input_probe) != 0 && kept_ == 0;
-    if (keeps) kept_ = static_cast<uint8_t>(captured >> 8);
+    const bool keeps = watch_.keeps(captured);
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = position(motor);
-      if (keeps) kept_positions_[motor] = message.positions[motor];
+      if (keeps) watch_.positions[motor] = message.positions[motor];
     }
     send_for_motors(message, motors_);
   }
 
   [[gnu::noinline]] void tell_kept() {
-    Captured message{.input = static_cast<uint16_t>(kept_ << 8 | captured_kept)};
+    Captured message{.input = watch_.kept_input()};
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
-      message.positions[motor] = kept_positions_[motor];
+      message.positions[motor] = watch_.positions[motor];
     }
     send_for_motors(message, motors_);
   }
@@ -322,7 +340,8 @@ class Board {
       decode(frame, motors_, item.segment);
       breathe();
       const uint8_t used = item.segment.directions | item.segment.flips;
-      if (item.segment.events == 0 || used >> motors_ != 0 || !is_slow_enough(item.segment)) {
+      if (item.segment.events == 0 || used >> motors_ != 0 ||
+          !is_slow_enough<Breath>(item.segment, identity_.shortest_interval)) {
         return complain(WireError::bad_value);
       }
     } else {
@@ -359,19 +378,6 @@ class Board {
     return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
   }
 
-  // Its first interval and its last one, and so all between.
-  [[gnu::noinline]] bool is_slow_enough(const Segment& segment) const {
-    const uint32_t interval = segment.interval;
-    if (interval < identity_.shortest_interval) return false;
-    if (segment.change == 0) return true;
-    const bool faster = segment.change < 0;
-    const uint32_t given = static_cast<uint32_t>(segment.change);
-    const uint32_t change = faster ? 0 - given : given;  // a coarse change has no opposite in 32 bits with a sign
-    const uint32_t room = faster ? interval - identity_.shortest_interval : largest_interval - interval;
-    // Most segments are far from it, and so need no product.
-    const uint16_t times = static_cast<uint16_t>(segment.events - 1);
-    return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits<Breath>(change, times, room);
-  }
   void accept() {
     ++expected_;
     complained_ = false;
@@ -487,10 +493,7 @@ class Board {
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
-  // The first change of the probe since the host told to watch it: the high byte of a captured's input, 0 before; and
-  // where.
-  uint8_t kept_ = 0;
-  int32_t kept_positions_[most_motors] = {};
+  InputWatch<most_motors> watch_;
 };
 
 }  // namespace passo

@@ -42,4 +42,19 @@ template <class Pause>
   }
 }
 
+// Its first interval and its last one, and so all between.
+template <class Pause, uint8_t room_for>
+[[gnu::noinline]] bool is_slow_enough(const SegmentFor<room_for>& segment, uint32_t shortest) {
+  const uint32_t interval = segment.interval;
+  if (interval < shortest) return false;
+  if (segment.change == 0) return true;
+  const bool faster = segment.change < 0;
+  const uint32_t given = static_cast<uint32_t>(segment.change);
+  const uint32_t change = faster ? 0 - given : given;  // a coarse change has no opposite in 32 bits with a sign
+  const uint32_t room = faster ? interval - shortest : largest_interval - interval;
+  // Most segments are far from it, and so need no product.
+  const uint16_t times = static_cast<uint16_t>(segment.events - 1);
+  return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits<Pause>(change, times, room);
+}
+
 }  // namespace passo

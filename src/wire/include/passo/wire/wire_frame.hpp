@@ -15,7 +15,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 4;
+inline constexpr uint8_t protocol_version = 5;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
 enum class MessageType : uint8_t {
@@ -58,8 +58,8 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::hello:
     case MessageType::session:
     case MessageType::error: return 2;
-    case MessageType::outputs:
-    case MessageType::ask: return 3;
+    case MessageType::outputs: return 3;
+    case MessageType::ask:
     case MessageType::credit: return 4;
     case MessageType::fault: return 5;
     case MessageType::replace:
