@@ -47,7 +47,7 @@ struct AxisDescription {
   std::optional<AxisMotor> motor;  // where the file tells it: acceleration follows its torque
   MmPerSecond3 jerk{0};            // 0: no limit
   bool inverted = false;           // the motor turns the other way
-  std::optional<HomeDescription> home;
+  std::optional<HomeDescription> home = {};
 
   MmPerSecond2 acceleration_at(MmPerSecond speed) const {
     return motor ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;
@@ -96,7 +96,7 @@ struct MachineDescription {
   ProbeDescription probe;
   SpindleDescription spindle;
   std::vector<AxisDescription> axes;  // in the order of the board's motors
-  std::vector<Axis> homing;           // those that are homed, in that order
+  std::vector<Axis> homing = {};      // those that are homed, in that order
 };
 
 // Reads and checks a machine file. Everything that is wrong is in `diagnostics` (line, key, nearest key, what is
