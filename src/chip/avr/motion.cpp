@@ -91,15 +91,19 @@ void start_watchdog() {
   const uint16_t watched = board.watched();
   const bool closed = (reader.inputs() & watched) != 0;
   choose_watch(watched, closed);
+  SerialLine::breathe();
   ChipPlayer::watch(true);
   if (((Wiring::inputs() & watched) != 0) != closed && !ChipPlayer::captured()) ChipPlayer::watch(false);
 }
 
 // Another input, at rest.
 [[gnu::noinline]] void Hardware::watch() {
+  SerialLine::breathe();
   ChipPlayer::watch(false);
   stop_on(board.watched());
+  SerialLine::breathe();
   watch_input();
+  SerialLine::breathe();
 }
 
 [[gnu::noinline]] void look_at_inputs() {
@@ -126,6 +130,7 @@ void start_watchdog() {
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   if (tick) manual.tick();
   if ((told & watched) != 0) ChipPlayer::watch(false);
+  SerialLine::breathe();
   if (!ChipPlayer::watches()) watch_input();
 }
 

@@ -246,10 +246,11 @@ class Board {
 
   // Another one only at rest: what is on its way was made for the one before.
   void begin_watch(uint8_t limit) {
-    if (limit != watch_.limit() && rests() && !manual()) watch(limit);
+    if (rests() && !manual()) watch(limit);
     if (limit == watch_.limit()) watch_.forget();
   }
   void watch(uint8_t limit) {
+    if (limit == watch_.limit()) return;
     watch_.watch(limit);
     if constexpr (requires { hardware_.watch(); }) hardware_.watch();
   }
