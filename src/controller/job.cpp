@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "passo/base/fingerprint.hpp"
 #include "passo/controller/stage_options.hpp"
 
 namespace passo {
@@ -22,28 +21,6 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
     if (steepest[axis] > 0) speed = std::min(speed, limits.velocity[axis].value() / steepest[axis]);
   }
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
-}
-
-// What the motion depends on.
-void add_to(Fingerprint& fingerprint, const PathItem& item) {
-  if (const auto* segment = std::get_if<Segment>(&item)) {
-    const Curve& curve = segment->curve;
-    for (const Point& point : {curve.start(), curve.at(curve.length() / 3), curve.end()}) {
-      for (const Axis axis : all_axes) fingerprint.add(point[axis]);
-    }
-    for (const double value : {curve.length().value(), segment->speed.value(), segment->tolerance.value(),
-                               segment->merge.value(), segment->pitch.value()}) {
-      fingerprint.add(value);
-    }
-    fingerprint.add(std::uint64_t{segment->rapid} + (static_cast<std::uint64_t>(segment->mode) << 8U));
-    return;
-  }
-  const auto& action = std::get<Action>(item);
-  const OutputState& outputs = action.outputs;
-  fingerprint.add(static_cast<std::uint64_t>(action.kind) + (static_cast<std::uint64_t>(outputs.spindle) << 8U) +
-                  (std::uint64_t{outputs.mist} << 16U) + (std::uint64_t{outputs.flood} << 17U));
-  fingerprint.add(action.dwell.value());
-  fingerprint.add(outputs.revolutions_per_minute);
 }
 
 // So many moves behind a probe move are checked.
@@ -70,11 +47,6 @@ bool is_probe(const PathItem& item) {
   return action != nullptr && action->kind == Action::Kind::probe_end;
 }
 
-// With one a change of speed is made before the next is asked for: too slow to turn round with a spindle.
-bool has_jerk_limit(const MachineDescription& machine) {
-  return std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
-}
-
 // The check is not the whole program's.
 void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
   const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
@@ -90,19 +62,18 @@ void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem&
 }  // namespace
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                           Diagnostics& diagnostics) {
+                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch) {
   const PathOptions path = path_options(machine, program.name());
   const MotionLimits limits = motion_limits(machine);
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path, diagnostics);
   ProgramCheck check;
   std::uint64_t behind_a_probe = 0;
-  Fingerprint fingerprint;
   PathItem item;
   while (!diagnostics.full() && behind_a_probe < most_moves_behind_a_probe && builder.next(item)) {
     check.nominal_time += nominal_time_of(item, limits);
     if (std::holds_alternative<Segment>(item)) ++check.moves;
-    add_to(fingerprint, item);
+    if (watch) watch(item);
     if (check.probes) ++behind_a_probe;
     if (!check.probes && is_probe(item)) {
       check.probes = true;
@@ -112,7 +83,6 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
   if (behind_a_probe == most_moves_behind_a_probe) tell_end(diagnostics, path.file, item);
   diagnostics.doubt_errors({});
   check.tools_change = interpreter.tools() != options.tools;
-  check.fingerprint = fingerprint.value();
   check.good = !diagnostics.any_error();
   return check;
 }
@@ -141,6 +111,7 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   // The encoder is not on the wire yet: over a line nothing may follow what this spindle does.
   if (!over_a_line) fit_spindle(machine.spindle);
+  // With a limit of jerk a change of speed is made before the next is asked for: too slow to turn round with a spindle.
   if (!over_a_line && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)) {
     path_options_.tap_rest = &tap_rest_;
     path_options_.spindle_run_up = machine.spindle.run_up;

@@ -30,13 +30,16 @@ std::string_view message_of(ResumeRefusal refusal) {
   return "the job cannot go on";
 }
 
+std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const BoardStatus& status) {
+  if (journal.is_of(status)) return {};
+  const bool reset = status.session == 0 && status.motors == 0;
+  return reset ? ResumeRefusal::board_reset : ResumeRefusal::other_session;
+}
+
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
                                                    const ProgramReader& program, const MachineDescription& machine,
                                                    const InterpreterOptions& options) {
-  if (!journal.is_of(status)) {
-    const bool reset = status.session == 0 && status.motors == 0;
-    return Failure{reset ? ResumeRefusal::board_reset : ResumeRefusal::other_session};
-  }
+  if (const auto stranger = refuse_stranger(journal, status)) return Failure{*stranger};
   if ((status.state & board_trusted) == 0) return Failure{ResumeRefusal::not_trusted};
   const auto place = journal.place_of(status);
   if (!place) return Failure{ResumeRefusal::rest_unknown};
@@ -53,12 +56,18 @@ bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardSta
   return true;
 }
 
-JournalHead head_of_resumption(const JournalHead& before, const BoardStatus& status, const ResumePoint& point) {
-  JournalHead head = before;
-  head.session_before = status.session;
-  head.executed_before = status.executed;
-  head.place = point.place;
-  return head;
+JournalHead head_of_beginning(JournalHead job, const BoardStatus& status, std::size_t motors) {
+  job.job_counts.assign(status.positions, status.positions + motors);
+  job.session_before = status.session;
+  job.executed_before = status.executed;
+  return job;
+}
+
+JournalHead head_of_resumption(JournalHead before, const BoardStatus& status, const ResumePoint& point) {
+  before.session_before = status.session;
+  before.executed_before = status.executed;
+  before.place = point.place;
+  return before;
 }
 
 }  // namespace passo

@@ -32,10 +32,12 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
 
 }  // namespace
 
+bool has_jerk_limit(const MachineDescription& machine) {
+  return std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
+}
+
 Smoothness smoothness(const MachineDescription& machine) {
-  const bool limits_jerk =
-      std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
-  return limits_jerk ? Smoothness::slow_bending : Smoothness::least_bending;
+  return has_jerk_limit(machine) ? Smoothness::slow_bending : Smoothness::least_bending;
 }
 
 MotionLimits motion_limits(const MachineDescription& machine) {

@@ -1,11 +1,14 @@
 // passo run over a line, killed or stopped in mid-run, and passo run --resume: the board's counts end where they would
 // have ended; and what is not certain is refused, with a code.
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "kit/served_board.hpp"
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 namespace {
 
@@ -159,8 +162,28 @@ TEST_F(Resumed, not_by_a_journal_that_was_torn) {
   }
   write("j", without_rests);
   expect_refused("resume.torn-journal", "the board's rest is not in it");
+  write("j", whole + std::string(2 << 20, '\n'));
+  expect_refused("resume.torn-journal", "is not whole");
   write("j", whole);
   EXPECT_EQ(passo(command("--resume")).code, 0);
+}
+
+// A pipe is read only once; what comes out of it is known again by its path.
+TEST_F(Resumed, with_the_program_from_a_pipe) {
+  program_ = path("pipe");
+  ASSERT_EQ(mkfifo(program_.c_str(), S_IRUSR | S_IWUSR), 0);
+  const auto through_the_pipe = [&](const std::string& more, const std::string& program) {
+    std::thread writer([&] { std::ofstream(program_) << program; });
+    const Outcome outcome = passo(command(more));
+    writer.join();
+    return outcome;
+  };
+  const Outcome held = through_the_pipe("--hold-at 0.4", text);
+  EXPECT_NE(held.err.find("--resume goes on"), std::string::npos) << held.err;
+  const Outcome other = through_the_pipe("--resume", "G21 G1 F3000 Z1\n" + text);
+  EXPECT_NE(other.err.find("[resume.path-changed]"), std::string::npos) << other.err;
+  const Outcome resumed = through_the_pipe("--resume", text);
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
 }
 
 TEST_F(Resumed, is_not_what_a_run_does_unasked_but_it_mentions_it) {

@@ -79,10 +79,7 @@ class JournaledHost {
     const std::optional<BoardStatus> status = inquiry.status_at_rest(Seconds(5));
     ASSERT_TRUE(status);
     const auto reader = ProgramReader::from_text("t", program_);
-    JournalHead head;
-    head.job_counts.assign(status->positions, status->positions + machine_.axes.size());
-    head.session_before = status->session;
-    head.executed_before = status->executed;
+    JournalHead head = head_of_beginning({}, *status, machine_.axes.size());
     std::optional<ResumePoint> point;
     if (!store.bytes.empty()) {
       const auto journal = Journal::read(store.bytes);

@@ -1,10 +1,10 @@
 #include "journal_file.hpp"
 
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 #include <fcntl.h>
@@ -38,6 +38,21 @@ bool write_all(int descriptor, std::string_view bytes, std::size_t offset) {
   return true;
 }
 
+// A head with two long names, and the lines: half a megabyte would be much.
+constexpr std::size_t largest_journal = 1 << 20;
+
+// Until `take` has enough. False where the file cannot be read.
+template <typename Take>
+bool read_pieces(const std::string& path, const Take& take) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return false;
+  std::array<char, 1 << 16> piece;
+  do {
+    file.read(piece.data(), piece.size());
+  } while (take(std::string_view(piece.data(), static_cast<std::size_t>(file.gcount()))) && file);
+  return !file.bad();
+}
+
 }  // namespace
 
 std::string usual_journal(const std::string& board) {
@@ -48,21 +63,31 @@ std::string usual_journal(const std::string& board) {
   return (folder / (name + ".journal")).string();
 }
 
-std::optional<std::string> read_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) return {};
+std::optional<std::string> read_journal(const std::string& path) {
+  std::string text;
+  if (!read_pieces(path, [&text](std::string_view piece) {
+        text += piece;
+        return text.size() <= largest_journal;
+      })) {
+    return {};
+  }
+  if (text.size() > largest_journal) text.clear();  // none at all
   return text;
 }
 
 FileStamp stamp_of(const std::string& path) {
-  if (path == "-") return {};
-  const std::string text = read_whole(path).value_or("");
-  Fingerprint fingerprint;
-  fingerprint.add(text);
   std::error_code none;
-  return {.name = fs::absolute(path, none).string(), .size = text.size(), .fingerprint = fingerprint.value()};
+  if (path == "-" || !fs::is_regular_file(path, none)) return {};
+  FileStamp stamp;
+  Fingerprint fingerprint;
+  (void)read_pieces(path, [&](std::string_view piece) {
+    stamp.size += piece.size();
+    fingerprint.add(piece);
+    return true;
+  });
+  stamp.name = fs::absolute(path, none).string();
+  stamp.fingerprint = fingerprint.value();
+  return stamp;
 }
 
 JournalFile::~JournalFile() {

@@ -12,9 +12,9 @@ namespace passo {
 // Where the journal of what runs on that board is kept: XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither
 // is known.
 std::string usual_journal(const std::string& board);
-// Nothing where there is no such file, or it cannot be read.
-std::optional<std::string> read_whole(const std::string& path);
-// Of a file as it is now; "-" has none, and its stamp no name.
+// What is in a journal's file, at most as much as a journal may have. Nothing where there is none that can be read.
+std::optional<std::string> read_journal(const std::string& path);
+// Of a file as it is now. What is read only once, standard input or a pipe, has a stamp without a name.
 FileStamp stamp_of(const std::string& path);
 
 class JournalFile final : public JournalStore {

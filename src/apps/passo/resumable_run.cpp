@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <random>
+#include <utility>
 
 #include "program_input.hpp"
 #include <fmt/format.h>
@@ -65,12 +66,12 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const Subject& subject, int& co
   }
   std::unique_ptr<ResumableRun> run(new ResumableRun(path));
   run->resumes_ = arguments.resume;
-  const std::optional<std::string> text = read_whole(path);
+  const std::optional<std::string> text = read_journal(path);
   if (text) run->before_ = Journal::read(*text);
   run->head_.made_by = PASSO_VERSION;
   run->head_.program = stamp_of(arguments.program.program);
   run->head_.machine = stamp_of(arguments.machine);
-  run->head_.path = subject.check.fingerprint;
+  run->head_.path = subject.path;
   if (!arguments.resume) return run;
 
   const JournalHead& now = run->head_;
@@ -94,13 +95,10 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const Subject& subject, int& co
 }
 
 bool ResumableRun::find_place(BoardRun& board, const ProgramReader& program, const Subject& subject, int& code) {
-  const auto is_known = [&] {
-    if (before_->is_of(board.before())) return true;
-    const auto found = resume_point_of(*before_, board.before(), program, subject.machine, subject.options);
-    code = refuse(found ? ResumeRefusal::other_session : found.error());
+  if (const auto stranger = refuse_stranger(*before_, board.before())) {
+    code = refuse(*stranger);
     return false;
-  };
-  if (!is_known()) return false;
+  }
   if (!board.wait_for_rest()) {
     code = fail(exit_failed, "the board: it does not answer any more");
     return false;
@@ -115,8 +113,7 @@ bool ResumableRun::find_place(BoardRun& board, const ProgramReader& program, con
     return false;
   }
   point_ = *found;
-  head_.job_counts = before_->head().job_counts;
-  head_.place = point_->place;
+  head_ = head_of_resumption(before_->head(), board.before(), *point_);
   board.count_from(head_.job_counts);
   fmt::print(stderr, "passo: goes on {}\n", place_words(*point_, subject.machine));
   return true;
@@ -124,19 +121,16 @@ bool ResumableRun::find_place(BoardRun& board, const ProgramReader& program, con
 
 bool ResumableRun::begin(BoardRun& board, const ProgramReader& program, const Subject& subject, int& code) {
   const BoardStatus& status = board.before();
-  const std::size_t motors = subject.machine.axes.size();
   if (resumes_) {
     if (!find_place(board, program, subject, code)) return false;
   } else {
-    head_.job_counts.assign(status.positions, status.positions + motors);
+    head_ = head_of_beginning(std::move(head_), status, subject.machine.axes.size());
     if (before_ && before_->is_of(status)) {
       const std::string name = std::filesystem::path(before_->head().program.name).filename().string();
       note(fmt::format("{} was not finished on this board; --resume would have gone on with it",
                        name.empty() ? "a program" : name));
     }
   }
-  head_.session_before = status.session;
-  head_.executed_before = status.executed;
   head_.session = any_session(status.session);
   head_.greeting = any_greeting();
   writer_.begin(head_);

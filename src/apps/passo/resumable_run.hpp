@@ -1,6 +1,7 @@
 // ResumableRun: what a run over a line leaves behind so that another can go on, and how that other one does.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ class ResumableRun {
     const MachineDescription& machine;
     const InterpreterOptions& options;
     const ProgramCheck& check;
+    std::uint64_t path;  // its fingerprint
   };
   // Reads the journal that is there. With --resume it must be one, and of this program on this machine; else null, and
   // said why, with `code` to exit with. Also null, with exit_done, where no journal is kept.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -21,6 +22,7 @@
 
 #include "passo/controller/job.hpp"
 #include "passo/controller/operator_panel.hpp"
+#include "passo/controller/path_fingerprint.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
@@ -141,6 +143,11 @@ bool keeps_journal(const RunArguments& arguments) {
   return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
 }
 
+std::function<void(const PathItem&)> known_again(PathFingerprint& path, const RunArguments& arguments) {
+  if (!keeps_journal(arguments)) return {};
+  return [&path](const PathItem& item) { path.add(item); };
+}
+
 // Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
 int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, std::unique_ptr<BoardRun>& board,
                 std::unique_ptr<ResumableRun>& resumable) {
@@ -195,7 +202,9 @@ int run(const RunArguments& arguments) {
   if (!program || !options) return exit_bad_program;
   options->main_passes = arguments.passes;
   Diagnostics findings;
-  const ProgramCheck check = check_program(program->again(), *machine, *options, findings);
+  PathFingerprint path;
+  const ProgramCheck check =
+      check_program(program->again(), *machine, *options, findings, known_again(path, arguments));
   show(findings);
   if (!check.good) return exit_bad_program;
   if (!suits_the_board(arguments)) return exit_bad_program;
@@ -211,7 +220,7 @@ int run(const RunArguments& arguments) {
   Job::Options reaches;
   if (cut) reaches.line.emplace();
   if (arguments.board != "virtual") {
-    const int code = reach_board({arguments, *machine, *options, check}, *program, board, resumable);
+    const int code = reach_board({arguments, *machine, *options, check, path.value()}, *program, board, resumable);
     if (code != exit_done) return code;
     reaches.board = &board->port();
     if (resumable) resumable->add_to(reaches);

@@ -24,28 +24,6 @@ constexpr uint8_t page(uint16_t address) {
 
 extern "C" {
 
-Expansion expansion;
-volatile uint8_t running;
-volatile uint8_t line_is_watched;
-volatile uint8_t turns_tail = turns_address & 0xff;
-volatile uint8_t action_at_end;
-volatile uint8_t received_head;
-volatile uint8_t stop_low_b;
-volatile uint8_t stop_low_d;
-volatile uint8_t stop_low_e;
-volatile uint8_t stop_low_j;
-volatile uint8_t watch_b;
-volatile uint8_t watch_d;
-volatile uint8_t watch_e;
-volatile uint8_t watch_j;
-volatile uint8_t flip_b;
-volatile uint8_t flip_d;
-volatile uint8_t flip_e;
-volatile uint8_t flip_j;
-volatile uint8_t armed;
-volatile uint16_t captured_entry;
-volatile uint8_t halted;
-
 // No instruction of the plain way changes a flag, so there is nothing to save but Z. All ports' bytes are at hand
 // before the first is written: the edges of one event come within four cycles, always in the same order.
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {

@@ -18,22 +18,6 @@ constexpr uint8_t io(uint16_t address) {
 
 extern "C" {
 
-Expansion expansion;
-volatile uint8_t running;
-volatile uint8_t line_is_watched;
-volatile uint8_t turns_tail = turns_address & 0xff;
-volatile uint8_t action_at_end;
-volatile uint8_t received_head;
-volatile uint8_t stop_low_b;
-volatile uint8_t stop_low_c;
-volatile uint8_t quiet_b = 0xff;
-volatile uint8_t quiet_c = 0xff;
-volatile uint8_t watch_b;
-volatile uint8_t watch_c;
-volatile uint8_t armed;
-volatile uint16_t captured_entry;
-volatile uint8_t halted;
-
 // No instruction of the plain way changes a flag, so there is nothing to save but Z.
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {
   asm volatile(

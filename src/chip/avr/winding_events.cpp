@@ -125,35 +125,7 @@ template <uint8_t motor = 0>
 
 extern "C" {
 
-Expansion expansion;
-volatile uint8_t running;
-volatile uint8_t line_is_watched;
-volatile uint8_t turns_tail = turns_address & 0xff;
-volatile uint8_t action_at_end;
-volatile uint8_t received_head;
 volatile uint8_t next_entry;
-volatile uint8_t armed;
-volatile uint16_t captured_entry;
-volatile uint8_t halted;
-volatile uint8_t stop_low_b;
-volatile uint8_t watch_b;
-#ifdef __AVR_ATmega2560__
-volatile uint8_t stop_low_d;
-volatile uint8_t stop_low_e;
-volatile uint8_t stop_low_j;
-volatile uint8_t watch_d;
-volatile uint8_t watch_e;
-volatile uint8_t watch_j;
-volatile uint8_t flip_b;
-volatile uint8_t flip_d;
-volatile uint8_t flip_e;
-volatile uint8_t flip_j;
-#else
-volatile uint8_t stop_low_c;
-volatile uint8_t watch_c;
-volatile uint8_t quiet_b = 0xff;
-volatile uint8_t quiet_c = 0xff;
-#endif
 
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void vectors() {
   asm volatile(R"(

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -29,18 +30,17 @@ struct ProgramCheck {
   bool good = false;        // no error: it may run
   Seconds nominal_time{0};  // at the programmed speeds, without ramps: good for progress only
   std::uint64_t moves = 0;
-  bool tools_change = false;      // the program sets some in the tool table
-  bool probes = false;            // and what comes behind was checked as if probe moves were touched at their ends
-  std::uint64_t fingerprint = 0;  // of all that it means
+  bool tools_change = false;  // the program sets some in the tool table
+  bool probes = false;        // and what comes behind was checked as if probe moves were touched at their ends
 };
 
 // Interprets the whole program and builds its path; what is wrong is in `diagnostics`.
 //
 // What a probe will find is not known yet. Probe moves are taken to be touched at their ends; so the path may be
 // another in the run, and behind the first probe move what is wrong with it is told as a warning. Errors in how the
-// program is written remain errors. A loop that only a probe can end is not followed for ever.
+// program is written remain errors. A loop that only a probe can end is not followed for ever. `watch` gets the path.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                           Diagnostics& diagnostics);
+                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch = {});
 
 class Job {
  public:

@@ -5,7 +5,9 @@
 // counts must fit even where the journal is sure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "passo/base/result.hpp"
@@ -27,6 +29,9 @@ std::string_view code_of(ResumeRefusal refusal);
 // A sentence without a full stop.
 std::string_view message_of(ResumeRefusal refusal);
 
+// Why this board cannot be the one that the journal's job was last at, moving or not. Nothing: it is.
+std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const BoardStatus& status);
+
 // The board rests.
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
                                                    const ProgramReader& program, const MachineDescription& machine,
@@ -34,7 +39,9 @@ Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const
 // Its motors are where the job of that journal has them at that point.
 bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status);
 
-// The head of the journal that goes on there, before the board's new session.
-JournalHead head_of_resumption(const JournalHead& before, const BoardStatus& status, const ResumePoint& point);
+// The head of a journal, before the board's new session: of a job that begins where the board rests, or of one that
+// goes on from that point.
+JournalHead head_of_beginning(JournalHead job, const BoardStatus& status, std::size_t motors);
+JournalHead head_of_resumption(JournalHead before, const BoardStatus& status, const ResumePoint& point);
 
 }  // namespace passo

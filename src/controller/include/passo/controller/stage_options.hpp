@@ -12,6 +12,8 @@
 
 namespace passo {
 
+bool has_jerk_limit(const MachineDescription& machine);
+
 PathOptions path_options(const MachineDescription& machine, const std::string& program);
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);

@@ -6,9 +6,10 @@
 // behind `*`.
 //
 // Hardware is a type with
-//   static uint8_t rows();                               of the column that is drawn low: a bit for each with a key
-//   down static void draw_column(uint8_t column);             this one low, the others floating static bool
-//   tool_button(); static void indicators(bool automatic, bool manual);
+//   static uint8_t rows();                                a bit for each with a key down in the column drawn low
+//   static void draw_column(uint8_t column);              this one low, the others floating
+//   static bool tool_button();
+//   static void indicators(bool automatic, bool manual);
 //
 // Invariant: the list holds some pieces ahead while a key is held; without a key the ramp's rest follows them.
 // Portable.

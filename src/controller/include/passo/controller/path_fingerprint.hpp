@@ -1,0 +1,24 @@
+// PathFingerprint: by which the path of a program is known again, whatever its text, its tools and its parameters are.
+#pragma once
+
+#include <cstdint>
+
+#include "passo/base/fingerprint.hpp"
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+class PathFingerprint {
+ public:
+  // In the path's order.
+  void add(const PathItem& item);
+  std::uint64_t value() const { return of_all_.value(); }
+
+ private:
+  void add(const Segment& segment);
+  void add(const Action& action);
+
+  Fingerprint of_all_;
+};
+
+}  // namespace passo
