@@ -22,7 +22,22 @@ double in_steps(const AxisDescription& axis, double place) {
   return std::round(place * axis.steps_per_unit);
 }
 
+// Whole steps, so that it rests on one.
+double pull_off_of(const AxisDescription& axis) {
+  return in_steps(axis, axis.home->pull_off) / axis.steps_per_unit;
+}
+
 }  // namespace
+
+Point home_rest(const MachineDescription& machine) {
+  Point place;
+  for (const Axis letter : machine.homing) {
+    const AxisDescription& axis = *find(machine, letter);
+    const double off = axis.home->toward_high ? -pull_off_of(axis) : pull_off_of(axis);
+    place[letter] = axis.home->switch_at + off;
+  }
+  return place;
+}
 
 std::string_view code_of(HomingFault fault) {
   switch (fault) {
@@ -74,6 +89,10 @@ Action HomingPath::action(Action::Kind kind, const Point& place) const {
           .probe_toward = until_closed_,
           .limit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(home().input)),
           .place = place};
+}
+
+double HomingPath::off(double place) const {
+  return place - direction() * pull_off_of(*axis_);
 }
 
 void HomingPath::begin_axis() {
@@ -136,7 +155,7 @@ void HomingPath::judge_retreat() {
   if (!until_closed_) {
     fault_ = HomingFault::still_closed;
   } else if (stage_ == HomingStage::back_off) {
-    begin(HomingStage::latch, place() + direction() * pull_offs_to_latch * home().pull_off);
+    begin(HomingStage::latch, place() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
   } else {
     end_axis();
   }

@@ -36,9 +36,9 @@ PathOptions answered_by(const ProbeOutcome& outcome, PathOptions options, Job::P
   return options;
 }
 
-StepOptions step_options_at(const MachineDescription& machine, const std::optional<ResumePoint>& point) {
+StepOptions step_options_at(const MachineDescription& machine, const Point& start) {
   StepOptions options = step_options(machine);
-  if (point) options.start = point->point;
+  options.start = start;
   return options;
 }
 
@@ -63,7 +63,7 @@ void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem&
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch) {
-  const PathOptions path = path_options(machine, program.name());
+  const PathOptions path = path_options(machine, program.name(), options.start);
   const MotionLimits limits = motion_limits(machine);
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path, diagnostics);
@@ -89,7 +89,7 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& interpretation,
          Diagnostics& diagnostics, const Options& options)
-    : path_options_(answered_by(probe_outcome_, path_options(machine, program.name()), options.probing)),
+    : path_options_(answered_by(probe_outcome_, path_options(machine, program.name(), interpretation.start), options.probing)),
       limits_(motion_limits(machine)),
       interpreter_(std::move(program), answered_by(probe_outcome_, interpretation, options.probing), diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
@@ -100,10 +100,10 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
                static_cast<std::size_t>(machine.board.held_items)),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
-      drive_(smoother_, limits_, step_options_at(machine, options.resume_at), machine_, board_line(options, line_)),
+      drive_(smoother_, limits_, step_options_at(machine, options.resume_at ? options.resume_at->point : interpretation.start), machine_, board_line(options, line_)),
       resume_at_(options.resume_at) {
+  machine_.stand_at(resume_at_ ? resume_at_->steps : steps_at(machine, interpretation.start));
   if (resume_at_) {
-    machine_.stand_at(resume_at_->steps);
     drive_.begin_at(resume_at_->place);
   }
   const bool over_a_line = line_ || options.board != nullptr;

@@ -51,6 +51,7 @@ struct RunArguments {
   std::string board = "virtual";       // as parse_board_address() has it
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was broken off
+  bool home = false;                   // the machine is homed first, and the program begins where it rests then
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };

@@ -136,6 +136,8 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("--touch", run_arguments.touches,
                          "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
   add_board(run_command, run_arguments.board);
+  run_command.add_flag("--home", run_arguments.home,
+                       "the machine is homed first, and the program begins where it then stands");
   run_command.add_flag("--resume", run_arguments.resume,
                        "over a line: goes on where this program was broken off on that board");
   run_command.add_option("--journal", run_arguments.journal,

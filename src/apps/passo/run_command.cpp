@@ -10,6 +10,7 @@
 
 #include "board_run.hpp"
 #include "commands.hpp"
+#include "homing_run.hpp"
 #include "mid_run_changes.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
@@ -22,6 +23,7 @@
 
 #include "passo/controller/job.hpp"
 #include "passo/controller/operator_panel.hpp"
+#include "passo/controller/stage_options.hpp"
 #include "passo/controller/path_fingerprint.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
@@ -148,6 +150,17 @@ std::function<void(const PathItem&)> known_again(PathFingerprint& path, const Ru
   return [&path](const PathItem& item) { path.add(item); };
 }
 
+// The exit code; `board` is null where the machine is virtual.
+int home_first(const MachineDescription& machine, BoardRun* board, bool shows) {
+  const HomingReport report = home_machine(machine, board, shows);
+  if (!report.code.empty()) {
+    const int failed = fail(exit_failed, words_of(report));
+    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
+  }
+  if (board == nullptr || board->stands_at(steps_at(machine, report.place))) return exit_done;
+  return fail(exit_failed, "the board: it does not answer any more");
+}
+
 // Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
 int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, std::unique_ptr<BoardRun>& board,
                 std::unique_ptr<ResumableRun>& resumable) {
@@ -157,9 +170,12 @@ int reach_board(const ResumableRun::Subject& subject, const ProgramReader& progr
   if (code != exit_done) return code;
   const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
   board = BoardRun::open(arguments.board, motors, arguments.resume, code);
-  if (!board || (resumable && !resumable->begin(*board, program, subject, code))) return code;
+  if (!board) return code;
   brake_on_signals();
-  return exit_done;
+  // A job that is resumed began so.
+  if (arguments.home && !arguments.resume) code = home_first(subject.machine, board.get(), !arguments.quiet);
+  if (code == exit_done && resumable) static_cast<void>(resumable->begin(*board, program, subject, code));
+  return code;
 }
 
 int print(const RunSummary& summary, const RunArguments& arguments) {
@@ -201,6 +217,10 @@ int run(const RunArguments& arguments) {
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   options->main_passes = arguments.passes;
+  if (arguments.home && machine->homing.empty()) {
+    return fail(exit_bad_machine, words_without_homing(arguments.machine));
+  }
+  if (arguments.home) options->start = home_rest(*machine);
   Diagnostics findings;
   PathFingerprint path;
   const ProgramCheck check =
@@ -224,6 +244,8 @@ int run(const RunArguments& arguments) {
     if (code != exit_done) return code;
     reaches.board = &board->port();
     if (resumable) resumable->add_to(reaches);
+  } else if (arguments.home) {
+    if (const int code = home_first(*machine, nullptr, !arguments.quiet); code != exit_done) return code;
   }
 
   Diagnostics late;

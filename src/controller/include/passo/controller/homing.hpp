@@ -31,6 +31,9 @@ enum class HomingFault : std::uint8_t {
 std::string_view code_of(HomingFault fault);
 std::string_view message_of(HomingFault fault);
 
+// Where a machine rests when it has been homed; axes that are not stand at 0. Machine coordinates.
+Point home_rest(const MachineDescription& machine);
+
 struct HomedAxis {
   Axis axis = Axis::x;
   double way = 0;    // from where it stood to where the switch closed
@@ -56,7 +59,7 @@ class HomingPath final : public Source<PathItem> {
   double direction() const { return home().toward_high ? 1 : -1; }
   double place() const { return position_[axis_->axis]; }
   // The place where the switch is to be open, off another one.
-  double off(double place) const { return place - direction() * home().pull_off; }
+  double off(double place) const;
   Action action(Action::Kind kind, const Point& place) const;
   void begin_axis();
   void begin(HomingStage stage, double target);
