@@ -89,7 +89,8 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& interpretation,
          Diagnostics& diagnostics, const Options& options)
-    : path_options_(answered_by(probe_outcome_, path_options(machine, program.name(), interpretation.start), options.probing)),
+    : path_options_(
+          answered_by(probe_outcome_, path_options(machine, program.name(), interpretation.start), options.probing)),
       limits_(motion_limits(machine)),
       interpreter_(std::move(program), answered_by(probe_outcome_, interpretation, options.probing), diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
@@ -100,7 +101,9 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
                static_cast<std::size_t>(machine.board.held_items)),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
-      drive_(smoother_, limits_, step_options_at(machine, options.resume_at ? options.resume_at->point : interpretation.start), machine_, board_line(options, line_)),
+      drive_(smoother_, limits_,
+             step_options_at(machine, options.resume_at ? options.resume_at->point : interpretation.start), machine_,
+             board_line(options, line_)),
       resume_at_(options.resume_at) {
   machine_.stand_at(resume_at_ ? resume_at_->steps : steps_at(machine, interpretation.start));
   if (resume_at_) {

@@ -68,6 +68,29 @@ TEST_F(HomeCommand, tells_what_is_wrong_by_a_stable_code) {
   EXPECT_EQ(passo("home").code, 2);
 }
 
+// The program begins where the machine rests when it has been homed.
+TEST_F(HomeCommand, goes_before_a_run) {
+  const std::string machine = near_machine();
+  const std::string command = "run " + write("p.ngc", "G21 G90 G1 F600 X2\nM2\n") + " --home --json" + machine;
+  const nlohmann::json all = nlohmann::json::parse(passo(command).out, nullptr, false);
+  EXPECT_EQ(all["steps"]["X"]["total"], 6.7 * 640);
+  EXPECT_EQ(all["steps"]["X"]["net"], 2 * 640);
+  EXPECT_EQ(all["position_mm"]["X"], 2);
+  EXPECT_NEAR(all["position_mm"]["Z"], 4.6, 1.0 / 640);
+  const Outcome emulated = passo(command + " --board sim:uno");
+  if (emulated.err.find("was built without") == std::string::npos &&
+      emulated.err.find("is not there") == std::string::npos) {
+    EXPECT_EQ(emulated.code, 0) << emulated.err;
+    EXPECT_EQ(nlohmann::json::parse(emulated.out, nullptr, false)["steps"], all["steps"]);
+  }
+  const Outcome closed =
+      passo("run " + path("p.ngc") + " --home" + near_machine("direction = 'low'\nswitch_at_mm = 3\n"));
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_THAT(closed.err, HasSubstr("[home.still-closed]"));
+  const std::string bare = std::string(PASSO_SOURCE_DIR) + "/examples/machines/pantograph.toml";
+  EXPECT_EQ(passo("run " + path("p.ngc") + " --home -m " + bare).code, 3);
+}
+
 TEST_F(HomeCommand, help_shows_examples) {
   const Outcome outcome = passo("home --help");
   EXPECT_EQ(outcome.code, 0);

@@ -1,6 +1,7 @@
 // A machine with switches, and what must be true when it has been homed by them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -63,6 +64,7 @@ struct Homed {
   std::uint64_t frames = 0;
   int recoveries = 0;
   std::uint16_t inputs = 0;
+  Seconds longest_ahead{0};
 };
 
 inline void note(const Homing& homing, Homed& result) {
@@ -71,7 +73,35 @@ inline void note(const Homing& homing, Homed& result) {
   result.error = homing.drive().link().error();
   result.place = homing.place();
   result.axes = homing.path().homed();
-  if (homing.drive().refiller() != nullptr) result.recoveries = homing.drive().refiller()->recoveries();
+  const Refiller* const refiller = homing.drive().refiller();
+  if (refiller == nullptr) return;
+  result.recoveries = refiller->recoveries();
+  result.longest_ahead = refiller->longest_ahead();
+}
+
+// Along the direction of homing, from where the axis stood.
+inline double way_of(const AxisDescription& axis, std::int64_t count) {
+  const bool forward = axis.home->toward_high != axis.inverted;
+  return static_cast<double>(forward ? count : -count);
+}
+
+// How far an axis has gone on behind the place where its switch closed, in millimetres; from a switch that was closed
+// already it goes no further. As bounded as that of a probe move.
+inline double expect_small_overrun(const MachineDescription& machine, const Distances& distances, const Homed& result) {
+  double largest = 0;
+  for (std::size_t m = 0; m < 3; ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    double farthest = 0;
+    for (const StepLog::Step& step : result.steps[m]) farthest = std::max(farthest, way_of(axis, step.place[m]));
+    const double closed = std::max(static_cast<double>(distances.steps[m]), 0.0);
+    const double overrun = (farthest - closed) / axis.steps_per_unit;
+    const double speed = axis.home->seek.value();
+    const double blind = result.longest_ahead > Seconds(0) ? 2 * result.longest_ahead.value() : 0.007;
+    const double slowest = axis.acceleration_at(axis.velocity).value();
+    EXPECT_LE(overrun, speed * blind + speed * speed / (2 * slowest) + 2 / axis.steps_per_unit) << "motor " << m;
+    largest = std::max(largest, overrun);
+  }
+  return largest;
 }
 
 // The machine stands where it says, to the step, and a pull-off away from each switch.
@@ -83,9 +113,7 @@ inline void expect_homed(const MachineDescription& machine, const Distances& dis
     SCOPED_TRACE("motor " + std::to_string(m));
     const AxisDescription& axis = machine.axes[m];
     const double sign = axis.home->toward_high ? 1 : -1;
-    // Along the direction of homing, from where it stood.
-    const double made = (axis.inverted ? -sign : sign) * static_cast<double>(result.counts[m]);
-    const double off = static_cast<double>(distances.steps[m]) - made;
+    const double off = static_cast<double>(distances.steps[m]) - way_of(axis, result.counts[m]);
     EXPECT_NEAR(off, axis.home->pull_off * axis.steps_per_unit, 1);
     EXPECT_NEAR(result.place[axis.axis], axis.home->switch_at - sign * off / axis.steps_per_unit, 1e-9)
         << "to the step";

@@ -23,8 +23,8 @@
 
 #include "passo/controller/job.hpp"
 #include "passo/controller/operator_panel.hpp"
-#include "passo/controller/stage_options.hpp"
 #include "passo/controller/path_fingerprint.hpp"
+#include "passo/controller/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
