@@ -124,8 +124,8 @@ void cut_before_frames(const Kind& kind, std::uint64_t stride) {
     expect_homed(machine, near, cut);
     recoveries += cut.recoveries;
   }
-  std::printf("%s: %llu frames, %d cuts, %d rests\n", kind.name, static_cast<unsigned long long>(whole.frames), trials,
-              recoveries);
+  std::printf("%s: %llu frames, %d rests without need; %d cuts, %d rests\n", kind.name,
+              static_cast<unsigned long long>(whole.frames), whole.recoveries, trials, recoveries);
   EXPECT_GT(recoveries, trials / 4);
 }
 
