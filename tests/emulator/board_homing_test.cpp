@@ -155,14 +155,14 @@ void expect_closed_others_not_to_stop(const HomingBoard& kind) {
 TEST(UnoHoming, a_watched_limit_switch_captures_the_very_event) {
   const HomingBoard kind = uno();
   for (std::size_t limit = 0; limit < kind.limits.size(); ++limit) {
-    expect_exact_capture(kind, limit, true, limit == 0 ? 1 : 7);
+    expect_exact_capture(kind, limit, true, limit == 0 ? 1 : 3);
     expect_exact_capture(kind, limit, false, 13);
   }
 }
 TEST(MegaHoming, a_watched_limit_switch_captures_the_very_event) {
   const HomingBoard kind = mega();
   for (std::size_t limit = 0; limit < kind.limits.size(); ++limit) {
-    expect_exact_capture(kind, limit, true, limit == 0 ? 1 : 7);
+    expect_exact_capture(kind, limit, true, limit == 0 ? 1 : 3);
     expect_exact_capture(kind, limit, false, 13);
   }
 }

@@ -15,24 +15,16 @@ volatile uint8_t received_head;
 volatile uint8_t armed;
 volatile uint16_t captured_entry;
 volatile uint8_t halted;
+volatile uint16_t watch_port;
+volatile uint8_t watch_pins;
+volatile uint8_t watch_quiet;
 volatile uint8_t stop_low_b;
-volatile uint8_t watch_b;
 #ifdef __AVR_ATmega2560__
 volatile uint8_t stop_low_d;
 volatile uint8_t stop_low_e;
 volatile uint8_t stop_low_j;
-volatile uint8_t watch_d;
-volatile uint8_t watch_e;
-volatile uint8_t watch_j;
-volatile uint8_t flip_b;
-volatile uint8_t flip_d;
-volatile uint8_t flip_e;
-volatile uint8_t flip_j;
 #else
 volatile uint8_t stop_low_c;
-volatile uint8_t watch_c;
-volatile uint8_t quiet_b = 0xff;
-volatile uint8_t quiet_c = 0xff;
 #endif
 }
 

@@ -163,11 +163,22 @@ extern "C" {
       in r24, %[pinb]
       com r24
       lds r25, stop_low_b
-      and r25, r24
+      and r24, r25
       brne 8f
       lds r25, armed
       and r25, r25
-      brne .Lpasso_watched
+      breq 6f
+      lds r30, watch_port
+      lds r31, watch_port + 1
+      ld r24, Z
+      lds r25, watch_quiet
+      eor r24, r25
+      lds r25, watch_pins
+      and r24, r25
+      breq 6f
+      ldi r24, 0                    ; the first change counts
+      sts armed, r24
+      sts captured_entry, r2
   6:  pop r25
       pop r24
       out %[sreg], r24
@@ -185,42 +196,6 @@ extern "C" {
       pop r24
       ldi r30, %[safe]
       rjmp .Lpasso_act
-
-  .Lpasso_watched:                  ; r24 is what of port B is low
-      lds r25, flip_b
-      eor r24, r25
-      lds r25, watch_b
-      and r24, r25
-      brne .Lpasso_captured
-      and r25, r25                  ; the probe is watched, and nothing else
-      brne .Lpasso_unchanged
-      in r24, %[pind]
-      com r24
-      lds r25, flip_d
-      eor r24, r25
-      lds r25, watch_d
-      and r24, r25
-      brne .Lpasso_captured
-      in r24, %[pine]
-      com r24
-      lds r25, flip_e
-      eor r24, r25
-      lds r25, watch_e
-      and r24, r25
-      brne .Lpasso_captured
-      lds r24, %[pinj]
-      com r24
-      lds r25, flip_j
-      eor r24, r25
-      lds r25, watch_j
-      and r24, r25
-      breq .Lpasso_unchanged
-  .Lpasso_captured:
-      ldi r24, 0                    ; the first change counts
-      sts armed, r24
-      sts captured_entry, r2
-  .Lpasso_unchanged:
-      rjmp 6b
   )" ::[port_f] "n"(toggle_f),
       [port_a] "n"(toggle_a), [port_c] "n"(toggle_c), [port_l] "n"(toggle_l), [pcifr] "n"(io(Pcifr::where)),
       [eifr] "n"(io(Eifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),

@@ -29,17 +29,6 @@ inline void stop_on(uint16_t watched) {
   stop_low_e = stops_beside<'E'>(watched);
   stop_low_j = stops_beside<'J'>(watched);
 }
-// What the interrupt is to notice: that it closes, or opens. Only while nothing is armed.
-inline void choose_watch(uint16_t watched, bool closed) {
-  watch_b = watchable<'B'>(watched, closed);
-  watch_d = watchable<'D'>(watched, closed);
-  watch_e = watchable<'E'>(watched, closed);
-  watch_j = watchable<'J'>(watched, closed);
-  flip_b = closed ? watch_b : uint8_t{0};
-  flip_d = closed ? watch_d : uint8_t{0};
-  flip_e = closed ? watch_e : uint8_t{0};
-  flip_j = closed ? watch_j : uint8_t{0};
-}
 
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled. Pins of ports D and E
 // have flags of their own, INT2 to INT5; those of B and J one for the port.

@@ -24,7 +24,7 @@ struct Expansion {
   uint8_t flips;
   uint8_t directions;
 #else
-  PortBits flips;                    // as bits of the step ports
+  PortBits flips;  // as bits of the step ports
 #endif
   uint16_t address;  // of the entry to be written next
   uint8_t motors;    // that the host knows of
@@ -43,28 +43,19 @@ extern volatile uint8_t received_head;    // low byte of the address where the n
 extern volatile uint8_t armed;            // what is watched has not changed yet
 extern volatile uint16_t captured_entry;  // the ring's register when it did
 extern volatile uint8_t halted;           // by a pin
-// Of each port: the pins that stop everything when they are low, those that are watched, and those of them that are low
-// as long as nothing has changed.
+// What is watched, on one port: the address of its PINx, its pins, and their levels as long as nothing has changed.
+extern volatile uint16_t watch_port;
+extern volatile uint8_t watch_pins;
+extern volatile uint8_t watch_quiet;
+// The pins of a port that stop everything when they are low.
 #ifdef __AVR_ATmega2560__
 extern volatile uint8_t stop_low_b;
 extern volatile uint8_t stop_low_d;
 extern volatile uint8_t stop_low_e;
 extern volatile uint8_t stop_low_j;
-extern volatile uint8_t watch_b;
-extern volatile uint8_t watch_d;
-extern volatile uint8_t watch_e;
-extern volatile uint8_t watch_j;
-extern volatile uint8_t flip_b;
-extern volatile uint8_t flip_d;
-extern volatile uint8_t flip_e;
-extern volatile uint8_t flip_j;
 #else
-extern volatile uint8_t stop_low_b;  // here: when they are
-extern volatile uint8_t stop_low_c;  //   not as in `quiet`
-extern volatile uint8_t watch_b;
-extern volatile uint8_t watch_c;
-extern volatile uint8_t quiet_b;
-extern volatile uint8_t quiet_c;
+extern volatile uint8_t stop_low_b;
+extern volatile uint8_t stop_low_c;
 #endif
 
 // Makes the next `events` events (at least one) of the segment and puts them into the ring. The first keeps both flags

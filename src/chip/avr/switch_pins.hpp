@@ -36,11 +36,28 @@ template <char port>
   return static_cast<uint8_t>(stops & ~(limits & low_pins<port>()) & ~pins_of<port>(watched));
 }
 
-// The pins whose change is that of `watched`; where it is closed, those that close it.
-template <char port>
-[[gnu::noinline]] uint8_t watchable(uint16_t watched, bool closed) {
-  const uint8_t mask = pins_of<port>(watched);
-  return closed ? static_cast<uint8_t>(mask & low_pins<port>()) : mask;
+constexpr bool has_its_pins_on_one_port(uint8_t limit) {
+  const Pin second = pins.limits[limit + 3];
+  return !second.exists() || second.port == pins.limits[limit].port;
+}
+static_assert(has_its_pins_on_one_port(0) && has_its_pins_on_one_port(1) && has_its_pins_on_one_port(2));
+
+// What the interrupt is to notice: that it closes, or opens. Only while nothing is armed.
+[[gnu::noinline]] inline void choose_watch(uint16_t watched, bool closed) {
+  uint16_t port = port_registers(pins.probe.port);
+  uint8_t mask = (watched & input_probe) != 0 ? pins.probe.mask() : uint8_t{0};
+#pragma clang loop unroll(full)
+  for (uint8_t i = 0; i < most_axis_switches; ++i) {
+    if (!pins.limits[i].exists() || (watched & (input_limit << (i % 3))) == 0) continue;
+    port = port_registers(pins.limits[i].port);
+    mask = static_cast<uint8_t>(mask | pins.limits[i].mask());
+  }
+  // Where it is closed, the pins that close it.
+  const uint8_t high = *reinterpret_cast<volatile uint8_t*>(port);
+  if (closed) mask = static_cast<uint8_t>(mask & ~high);
+  watch_port = port;
+  watch_pins = mask;
+  watch_quiet = closed ? uint8_t{0} : uint8_t{0xff};
 }
 
 }  // namespace passo::chip

@@ -25,15 +25,6 @@ inline void stop_on(uint16_t watched) {
   stop_low_b = stops_beside<'B'>(watched);
   stop_low_c = stops_beside<'C'>(watched);
 }
-// What the interrupt is to notice: that it closes, or opens. Only while nothing is armed.
-inline void choose_watch(uint16_t watched, bool closed) {
-  const uint8_t b = watchable<'B'>(watched, closed);
-  const uint8_t c = watchable<'C'>(watched, closed);
-  watch_b = b;
-  watch_c = c;
-  quiet_b = closed ? static_cast<uint8_t>(~b) : uint8_t{0xff};
-  quiet_c = closed ? static_cast<uint8_t>(~c) : uint8_t{0xff};
-}
 
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled.
 inline void watch_switches() {

@@ -48,14 +48,7 @@ constexpr uint8_t vectors_before = 11;
 }
 
 [[gnu::always_inline]] inline bool watched_changed() {
-#ifdef __AVR_ATmega2560__
-  if ((low_of('B', watch_b) ^ flip_b) != 0) return true;
-  if ((low_of('D', watch_d) ^ flip_d) != 0 || (low_of('E', watch_e) ^ flip_e) != 0) return true;
-  return (low_of('J', watch_j) ^ flip_j) != 0;
-#else
-  if (((register_of('B', 0) ^ quiet_b) & watch_b) != 0) return true;
-  return ((register_of('C', 0) ^ quiet_c) & watch_c) != 0;
-#endif
+  return ((*reinterpret_cast<volatile uint8_t*>(watch_port) ^ watch_quiet) & watch_pins) != 0;
 }
 
 [[gnu::always_inline]] inline void stop_playing() {
