@@ -60,7 +60,7 @@ std::vector<Axis> usual_order(const std::vector<AxisDescription>& axes) {
   for (const AxisDescription& axis : axes) {
     if (is_homed(axis)) order.push_back(axis.axis);
   }
-  std::ranges::stable_partition(order, [](Axis axis) { return axis == Axis::z; });
+  std::stable_partition(order.begin(), order.end(), [](Axis axis) { return axis == Axis::z; });
   return order;
 }
 
