@@ -160,26 +160,23 @@ TEST(HomingTest, a_switch_of_another_axis_stops_it_at_once) {
   }
 }
 
-// As a real one bounces: it is open for some steps behind the place where it closes, and closed for some before that
-// where it opens.
-TEST(HomingTest, a_switch_that_bounces_is_homed_by_its_first_edge) {
-  const MachineDescription machine = homing_machine();
-  const Distances distances;
-  std::vector<TravelSwitch> switches = switches_of(machine, distances);
-  // Closed from 1000 to 1003 and from 1010 on: three switches in one, as TravelSwitch knows only ends.
-  struct Bounce final : MachineObserver {
-    VirtualMachine* board = nullptr;
+// The switch of Z is closed where `closed` says so, in its steps.
+template <class Closed>
+Homed home_by(const MachineDescription& machine, const Closed& closed) {
+  struct Switch final : MachineObserver {
+    Switch(VirtualMachine& machine, const Closed& where) : board(machine), closed_at(where) {}
+    VirtualMachine& board;
+    const Closed& closed_at;
     std::int64_t place = 0;
     void on_steps(Ticks, std::uint8_t stepped, std::uint8_t directions) override {
       if ((stepped & 4U) != 0) place += (directions & 4U) != 0 ? -1 : 1;
-      const bool closed = place >= 1010 || (place >= 1000 && place < 1003);
-      board->set_switch(4, closed);
+      board.set_switch(4, closed_at(place));
     }
   };
   VirtualMachine board(3, machine.board.clock, machine.board.highest_event_rate, 31);
-  Bounce bounce;
-  bounce.board = &board;
-  board.add_observer(bounce);
+  Switch of_z(board, closed);
+  board.add_observer(of_z);
+  const std::vector<TravelSwitch> switches = switches_of(machine, Distances());
   board.add_switch(switches[0]);
   board.add_switch(switches[1]);
   Homing homing(machine, board);
@@ -188,7 +185,24 @@ TEST(HomingTest, a_switch_that_bounces_is_homed_by_its_first_edge) {
   Homed result;
   test::note(homing, result);
   for (std::size_t m = 0; m < 3; ++m) result.counts[m] = board.counts().motors[m].position;
+  return result;
+}
+
+TEST(HomingTest, a_switch_that_bounces_is_homed_by_its_first_edge) {
+  const MachineDescription machine = homing_machine();
+  const Homed result =
+      home_by(machine, [](std::int64_t at) { return at >= 1010 || (at >= 1000 && at < 1003) || at == 990; });
+  // It also closes for a step in front of the place.
+  Distances distances;
+  distances.steps[2] = 990;
   expect_homed(machine, distances, result);
+}
+
+TEST(HomingTest, tells_a_switch_that_never_comes_to_rest) {
+  const Homed result = home_by(homing_machine(), [](std::int64_t at) { return (at / 4) % 2 != 0; });
+  EXPECT_EQ(result.fault, HomingFault::unsteady);
+  EXPECT_FALSE(result.done);
+  EXPECT_EQ(result.counts[0], 0);
 }
 
 TEST(HomingTest, an_operators_stop_ends_it_at_rest) {
