@@ -13,16 +13,15 @@ template <char port>
   return static_cast<uint8_t>(~*reinterpret_cast<volatile uint8_t*>(port_registers(port)));
 }
 
-// Of an input, the probe or a limit switch, which may have two pins.
+// Of a limit switch, which may have two pins.
 template <char port>
-[[gnu::always_inline]] inline uint8_t pins_of(uint16_t input) {
+[[gnu::always_inline]] inline uint8_t pins_of(uint16_t limit) {
   uint8_t mask = 0;
 #pragma clang loop unroll(full)
   for (uint8_t i = 0; i < most_axis_switches; ++i) {
-    const bool is_it = pins.limits[i].port == port && (input & (input_limit << (i % 3))) != 0;
+    const bool is_it = pins.limits[i].port == port && (limit & (input_limit << (i % 3))) != 0;
     if (is_it) mask = static_cast<uint8_t>(mask | pins.limits[i].mask());
   }
-  if (pins.probe.port == port && (input & input_probe) != 0) mask = static_cast<uint8_t>(mask | pins.probe.mask());
   return mask;
 }
 
