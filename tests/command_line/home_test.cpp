@@ -1,5 +1,7 @@
 // passo home: homed as a user types it.
-#include "kit/command_line.hpp"
+#include <cmath>
+
+#include "kit/served_board.hpp"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -8,7 +10,7 @@ namespace {
 using passo::test::Outcome;
 using testing::HasSubstr;
 
-class HomeCommand : public passo::test::CommandLine {
+class HomeCommand : public passo::test::ServedBoard {
  protected:
   // A machine of the Uno's whose switches are near; that of X as it is given.
   std::string near_machine(const std::string& x = "direction = 'low'\nswitch_at_mm = -5.2\n") const {
@@ -89,6 +91,25 @@ TEST_F(HomeCommand, goes_before_a_run) {
   EXPECT_THAT(closed.err, HasSubstr("[home.still-closed]"));
   const std::string bare = std::string(PASSO_SOURCE_DIR) + "/examples/machines/pantograph.toml";
   EXPECT_EQ(passo("run " + path("p.ngc") + " --home -m " + bare).code, 3);
+}
+
+// Over a line, and broken off: the job goes on from where it began, which was found by homing.
+TEST_F(HomeCommand, goes_before_a_run_that_is_resumed) {
+  const std::string machine = near_machine();
+  const std::string board = serve("16000000", path("near.toml"));
+  const std::string command = "run " + write("p.ngc", "G21 G90 G1 F600 X2\nX-2\nX1\nM2\n") + " --home --json" +
+                              machine + " --board " + board + " --journal " + path("j");
+  const Outcome held = passo(command + " --hold-at 0.5");
+  EXPECT_EQ(held.code, 0) << held.err;
+  EXPECT_THAT(held.err, HasSubstr("--resume goes on"));
+  const Outcome resumed = passo(command + " --resume");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  const nlohmann::json all = nlohmann::json::parse(resumed.out, nullptr, false);
+  EXPECT_EQ(all["position_mm"]["X"], 1);
+  // The board has counted from machine zero, where it stood.
+  const auto info = nlohmann::json::parse(passo("board info --json " + board).out, nullptr, false);
+  EXPECT_EQ(info["status"]["positions"][0], 640);
+  EXPECT_EQ(info["status"]["positions"][2], std::lround(4.6 * 640));
 }
 
 TEST_F(HomeCommand, help_shows_examples) {

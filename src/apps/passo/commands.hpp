@@ -138,7 +138,8 @@ struct BoardServeArguments {
   unsigned motors = 4;
   double clock = 16e6;
   unsigned port = 7070;
-  bool once = false;  // one host, then end
+  std::string machine;  // a machine file: its switches are there, and it stands at machine zero; empty: none
+  bool once = false;    // one host, then end
 };
 int board_serve(const BoardServeArguments& arguments);
 
