@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace passo {
@@ -30,6 +31,12 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
     all.push_back({.speed = speed, .acceleration = axis.motor->acceleration_at(speed)});
   }
   return AccelerationCurve::below(all, axis.acceleration);
+}
+
+// The exact curve: the referee does not take the planner's samples for it.
+std::function<MmPerSecond2(MmPerSecond)> proven_limit(const AxisDescription& axis) {
+  if (!axis.motor) return {};
+  return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
 }
 
 }  // namespace
@@ -69,6 +76,20 @@ StepOptions step_options(const MachineDescription& machine) {
         .axis = axis.axis, .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit};
   }
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
+  return options;
+}
+
+ProofOptions proof_options(const MachineDescription& machine) {
+  ProofOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.push_back({.axis = axis.axis,
+                            .step = axis.step(),
+                            .velocity = axis.velocity,
+                            .acceleration = axis.acceleration,
+                            .jerk = axis.jerk,
+                            .acceleration_at = proven_limit(axis)});
+  }
+  options.tick_rate = machine.board.clock;
   return options;
 }
 

@@ -251,6 +251,23 @@ Point Curve::steepest() const {
   return steepest;
 }
 
+// A cubic's bend is linear; a slope of at most k, a quadratic, bends by at most 8 k over the length (Markov).
+double Curve::turning(const Point& steep) const {
+  if (shape_ == Shape::arc) return std::abs(arc_.sweep);
+  if (shape_ == Shape::line) return 0;
+  const Point bends[] = {second_derivative(Mm(0)), second_derivative(Mm(length_))};
+  double most = 0;
+  for (const Point& bend : bends) {
+    double squares = 0;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      const double part = steep.values[i] > 1 ? bend.values[i] / steep.values[i] : bend.values[i];
+      squares += part * part;
+    }
+    most = std::max(most, squares);
+  }
+  return length_ * std::sqrt(most);
+}
+
 double Curve::curvature() const {
   if (shape_ == Shape::line || !(length_ > 0)) return 0;
   if (shape_ == Shape::cubic) {

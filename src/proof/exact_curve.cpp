@@ -1,6 +1,7 @@
 #include "exact_curve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace passo::proof {
@@ -12,6 +13,17 @@ double dot(const Point& a, const Point& b) {
   double sum = 0;
   for (std::size_t i = 0; i < axis_count; ++i) sum += a.values[i] * b.values[i];
   return sum;
+}
+
+// Three sums side by side: one would wait for each of its nine additions.
+static_assert(axis_count % 3 == 0);
+double squared_distance(const Point& a, const Point& b) {
+  std::array<double, 3> sums{};
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double between = b.values[i] - a.values[i];
+    sums[i % sums.size()] += between * between;
+  }
+  return sums[0] + sums[1] + sums[2];
 }
 
 // An arc's radius, angle and their rates at s.
@@ -30,8 +42,7 @@ Polar polar_at(const Curve& curve, double s) {
 }  // namespace
 
 double distance(const Point& a, const Point& b) {
-  const Point between = b - a;
-  return std::sqrt(dot(between, between));
+  return std::sqrt(squared_distance(a, b));
 }
 
 bool ExactCurve::in_plane(Axis axis) const {
@@ -96,6 +107,32 @@ double ExactCurve::turning_of_all() const {
   return sum * length() / (3 * parts);
 }
 
+// A cubic's slope is within the convex hull of its Bézier points.
+double ExactCurve::fastest_of_all() const {
+  double squares = 0;
+  for (const Axis axis : all_axes) {
+    if (in_plane(axis)) continue;
+    double most = std::abs(at(axis, 0).first);
+    if (curve_.shape() == Curve::Shape::cubic) {
+      const Curve::CubicData data = curve_.cubic_data();
+      const double middle = data.first[axis] + data.second[axis] * length();
+      most = std::max({most, std::abs(middle), std::abs(at(axis, length()).first)});
+    }
+    squares += most * most;
+  }
+  if (curve_.shape() == Curve::Shape::arc) {
+    const Curve::ArcData& arc = curve_.arc_data();
+    const double around = std::max(arc.start_radius, arc.end_radius) * arc.sweep;
+    const double growing = arc.end_radius - arc.start_radius;
+    squares += (around * around + growing * growing) / (length() * length());
+  }
+  return std::sqrt(squares);
+}
+
+double ExactCurve::nearest_at_best(const Point& point, double from, double to) const {
+  return distance(point, place((from + to) / 2)) - fastest_ * (to - from) / 2;
+}
+
 ExactCurve::Nearest ExactCurve::nearest(const Point& point, double from, double to) const {
   if (!is_line()) return nearest_of_bent(point, from, to);
   const Point way = curve_.end() - curve_.start();
@@ -113,7 +150,7 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
   int best = 0;
   double least = INFINITY;
   for (int i = 0; i <= parts; ++i) {
-    const double here = distance(point, place(from + step * i));
+    const double here = squared_distance(point, place(from + step * i));
     if (here < least) {
       least = here;
       best = i;
@@ -124,24 +161,24 @@ ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from,
   double high = from + step * std::min(best + 1, parts);
   double a = high - golden * (high - low);
   double b = low + golden * (high - low);
-  double at_a = distance(point, place(a));
-  double at_b = distance(point, place(b));
+  double at_a = squared_distance(point, place(a));
+  double at_b = squared_distance(point, place(b));
   for (int i = 0; i < 44; ++i) {
     if (at_a < at_b) {
       high = b;
       b = a;
       at_b = at_a;
-      at_a = distance(point, place(a = high - golden * (high - low)));
+      at_a = squared_distance(point, place(a = high - golden * (high - low)));
     } else {
       low = a;
       a = b;
       at_a = at_b;
-      at_b = distance(point, place(b = low + golden * (high - low)));
+      at_b = squared_distance(point, place(b = low + golden * (high - low)));
     }
   }
   const double s = (low + high) / 2;
-  const double here = distance(point, place(s));
-  return here <= least ? Nearest{s, here} : Nearest{from + step * best, least};
+  const double here = squared_distance(point, place(s));
+  return here <= least ? Nearest{s, std::sqrt(here)} : Nearest{from + step * best, std::sqrt(least)};
 }
 
 }  // namespace passo::proof

@@ -2,28 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace passo::proof {
 namespace {
 
 // mm: as near as an exact path must be met. Programs round the ends of tangent arcs, and only so can they be passed.
 constexpr double exact = 1e-3;
-constexpr int pieces_of_a_line = 8;
+constexpr int least_strides = 8;
 constexpr double turn_of_a_piece = 0.05;  // radians
 constexpr double most_pieces = 100'000;
-constexpr int samples_of_a_line = 4;
-// How far about the last place the next one is looked for: tolerances, and steps of the walk.
-constexpr double tolerances_about = 10;
-constexpr double steps_about = 2;
-// Farther back than so many tolerances the path does not go: where it does, it has turned without reaching the tip.
-constexpr double tolerances_back = 2;
-// And how far behind it nothing can be nearer any more.
-constexpr double kept_behind = 8;
+// What needs more than so many tolerances, and so many times what the best needs, is given up.
+constexpr double kept = 2;
+// But so many pieces beyond those: a detour that is left out is known by its own size.
+constexpr std::size_t looked_ahead = 8;
 
 int pieces_of(const ExactCurve& curve, double share) {
-  if (curve.is_line()) return pieces_of_a_line;
-  return pieces_of_a_line + static_cast<int>(std::min(curve.turning() * share / turn_of_a_piece, most_pieces));
+  if (curve.is_line()) return 1;
+  return 1 + static_cast<int>(std::min(curve.turning() * share / turn_of_a_piece, most_pieces));
 }
 
 }  // namespace
@@ -36,138 +31,145 @@ void PathDeviation::programmed(const PathItem& item) {
     return;
   }
   if (!segment->curve.has_length()) return;
-  const ExactCurve curve(segment->curve);
   const double own = segment->tolerance.value();
-  const double tolerance = std::max({own, last_tolerance_, exact});
+  const ExactCurve curve(segment->curve);
+  const int count = pieces_of(curve, 1);
+  Programmed& programmed = chain_.emplace_back(Programmed{.curve = curve,
+                                                          .tolerance = std::max({own, last_tolerance_, exact}),
+                                                          .line = segment->source.line,
+                                                          .pieces = count});
   last_tolerance_ = own;
-  chain_.push_back({.curve = curve,
-                    .begin = length_,
-                    .tolerance = tolerance,
-                    .stretch = programmed_stretch_,
-                    .line = segment->source.line});
-  const int count = curve.is_line() ? samples_of_a_line : pieces_of(curve, 1);
-  for (int i = 0; i <= count; ++i) {
-    const double s = curve.length() * i / count;
-    samples_.push_back({.at = length_ + s,
-                        .place = curve.place(s),
-                        .tolerance = tolerance,
-                        .distance = INFINITY,
-                        .stretch = programmed_stretch_,
-                        .line = segment->source.line});
+  for (int i = 0; i < count; ++i) {
+    const double from = curve.length() * i / count;
+    pieces_.push_back({.of = &programmed,
+                       .from = from,
+                       .to = curve.length() * (i + 1) / count,
+                       .begin = curve.place(from),
+                       .stretch = programmed_stretch_,
+                       .now = {}});
   }
-  length_ += curve.length();
-}
-
-// The nearest place between from and to. Before all others those within the tolerance that do not lead back, where a
-// path turns and goes beside itself; of places equally near (a drill goes down and up the same way) the one that is
-// nearest to `expected`.
-PathDeviation::Match PathDeviation::match(const Point& point, double from, double to, double expected) const {
-  constexpr double nearer = 1e-7;  // mm
-  Match best{.at = at_, .distance = INFINITY};
-  auto segment =
-      std::partition_point(chain_.begin(), chain_.end(), [&](const Programmed& one) { return one.end() < from; });
-  for (; segment != chain_.end() && segment->begin <= to && segment->stretch <= planned_stretch_; ++segment) {
-    if (segment->stretch < planned_stretch_) continue;
-    const double low = std::clamp(from - segment->begin, 0.0, segment->curve.length());
-    const double high = std::clamp(to - segment->begin, low, segment->curve.length());
-    const ExactCurve::Nearest nearest = segment->curve.nearest(point, low, high);
-    const double at = segment->begin + nearest.s;
-    const bool alike = std::abs(nearest.distance - best.distance) <= nearer;
-    const bool onwards =
-        nearest.distance <= segment->tolerance && at >= farthest_ - tolerances_back * segment->tolerance;
-    const bool better = onwards != best.onwards ? onwards
-                        : alike                 ? std::abs(at - expected) < std::abs(best.at - expected)
-                                                : nearest.distance < best.distance;
-    if (better) best = {.at = at, .distance = nearest.distance, .onwards = onwards, .segment = &*segment};
-  }
-  return best;
-}
-
-// Near the last place, and not behind the farthest one: a path that goes back beside itself would be followed the wrong
-// way. Where nothing there is within the tolerance, farther ahead, and behind.
-PathDeviation::Match PathDeviation::match_ahead(const Point& point, double step, double expected) const {
-  const auto here =
-      std::partition_point(chain_.begin(), chain_.end(), [&](const Programmed& one) { return one.end() < at_; });
-  const double about = tolerances_about * (here != chain_.end() ? here->tolerance : exact);
-  const double behind = about + step;
-  const double ahead = about + steps_about * step;
-  Match best;
-  for (const auto& [from, wider] : {std::pair{farthest_, 1.0}, {farthest_, 8.0}, {at_, 1.0}, {at_, 8.0}, {at_, 64.0}}) {
-    const Match found = match(point, from - behind, from + wider * ahead, expected);
-    if (best.segment == nullptr || found.distance < best.distance) best = found;
-    if (best.segment != nullptr && best.distance <= best.segment->tolerance) break;
-  }
-  return best;
 }
 
 void PathDeviation::planned(const PlannedMove& move, Seconds time) {
   if (!move.segment.curve.has_length() || move.phase_count == 0) return;
-  walk(ExactCurve(move.segment.curve), move.from().value(), move.to.value(), time);
+  const ExactCurve curve(move.segment.curve);
+  const double from = move.from().value();
+  const double way = move.to.value() - from;
+  if (reached_ == 0) begin(curve.place(from), time);
+  const int count = least_strides - 1 + pieces_of(curve, way / curve.length());
+  double at = from;
+  for (int i = 1; i <= count; ++i) {
+    const double next = from + way * i / count;
+    step({.curve = curve, .from = at, .to = next, .time = time});
+    at = next;
+  }
 }
 
-void PathDeviation::walk(const ExactCurve& curve, double from, double to, Seconds time) {
-  const int count = pieces_of(curve, (to - from) / curve.length());
-  const double step = (to - from) / count;
-  for (int i = 0; i <= count; ++i) {
-    const double s = from + step * i;
-    const double before = at_;
-    const Match found = match_ahead(curve.place(s), step, i > 0 ? at_ + step : at_);
-    if (found.segment == nullptr) {  // nothing was programmed that this could be
-      raise(INFINITY, exact, 0, time);
-      continue;
+bool PathDeviation::is_in_stretch(std::size_t piece) const {
+  return piece < pieces_.size() && pieces_[piece].stretch == planned_stretch_;
+}
+
+// Both paths begin at their first points.
+void PathDeviation::begin(const Point& place, Seconds time) {
+  place_ = place;
+  if (!is_in_stretch(0)) return;
+  Piece& first = pieces_.front();
+  first.now = {.multiple = 0, .finding = {}};
+  first.now.raise(distance(first.begin, place), *first.of, time);
+  reached_ = 1;
+  most_ = kept * std::max(1.0, first.now.multiple);
+}
+
+// While the planned path's point makes its stride the other one stays on its piece, or comes to it from the one before;
+// at the stride's end they must be near.
+void PathDeviation::step(const Stride& stride) {
+  if (reached_ == 0) {  // nothing was programmed that this could be
+    proof_.deviation = {.value = INFINITY, .limit = exact, .time = stride.time, .line = 0};
+    return;
+  }
+  place_ = stride.curve.place(stride.to);
+  Worst before;
+  std::size_t ahead = 0;
+  for (std::size_t i = 0; is_in_stretch(i) && (i < reached_ || ahead <= looked_ahead); ++i) {
+    Piece& piece = pieces_[i];
+    if (before.multiple < piece.now.multiple) {
+      const Worst there = passed(before, piece, stride);
+      if (there.multiple < piece.now.multiple) piece.now = there;
     }
-    raise(found.distance, found.segment->tolerance, found.segment->line, time);
-    at_ = found.at;
-    farthest_ = std::max(farthest_, at_);
-    place_ = curve.place(s);
-    if (i > 0) approach(curve, s - step, s, before, step);
+    reached_ = std::max(reached_, i + 1);
+    before = piece.now;  // it may go on before the stride ends
+    stay(piece, *place_, stride.time);
+    ahead = piece.now.multiple > most_ ? ahead + 1 : 0;
   }
-  forget(at_ - kept_behind * (step + tolerances_about * (chain_.empty() ? exact : chain_.front().tolerance)), time);
+  give_up();
 }
 
-// The programmed points about a piece of the walk see how near it comes.
-void PathDeviation::approach(const ExactCurve& curve, double from, double to, double before, double step) {
-  const double about = steps_about * step + tolerances_about * (chain_.empty() ? exact : chain_.front().tolerance);
-  const double first = std::min(before, at_) - about;
-  const double last = std::max(before, at_) + about;
-  auto sample =
-      std::partition_point(samples_.begin(), samples_.end(), [&](const Sample& one) { return one.at < first; });
-  for (; sample != samples_.end() && sample->at <= last; ++sample) {
-    if (sample->stretch != planned_stretch_ || sample->distance == 0) continue;
-    sample->distance = std::min(sample->distance, curve.nearest(sample->place, from, to).distance);
-  }
+void PathDeviation::Worst::raise(double away, const Programmed& of, Seconds time) {
+  if (away <= multiple * of.tolerance) return;
+  multiple = away / of.tolerance;
+  finding = {.value = away, .limit = of.tolerance, .time = time, .line = of.line};
 }
 
-void PathDeviation::forget(double before, Seconds time) {
-  const auto played = [&](std::uint64_t stretch, double end) {
-    return stretch < planned_stretch_ || (stretch == planned_stretch_ && end < before);
-  };
-  while (!samples_.empty() && played(samples_.front().stretch, samples_.front().at)) {
-    const Sample& sample = samples_.front();
-    // What was never passed is as far away as the path is now.
-    const bool passed = std::isfinite(sample.distance) || !place_;
-    raise(passed ? sample.distance : distance(sample.place, *place_), sample.tolerance, sample.line, time);
-    samples_.pop_front();
+// Past the beginning of a piece, when the planned path's point is nearest to it; where that cannot be near enough to
+// count, at the stride's end.
+PathDeviation::Worst PathDeviation::passed(const Worst& before, const Piece& piece, const Stride& stride) const {
+  Worst past = before;
+  const double tolerance = piece.of->tolerance;
+  const double at_end = distance(piece.begin, *place_);
+  if (at_end <= before.multiple * tolerance) return past;
+  const double most = std::min(most_, piece.now.multiple);
+  const bool counts = stride.curve.nearest_at_best(piece.begin, stride.from, stride.to) < most * tolerance;
+  past.raise(counts ? stride.curve.nearest(piece.begin, stride.from, stride.to).distance : at_end, *piece.of,
+             stride.time);
+  return past;
+}
+
+void PathDeviation::stay(Piece& piece, const Point& place, Seconds time) {
+  if (distance(piece.begin, place) <= piece.now.multiple * piece.of->tolerance) return;
+  piece.now.raise(piece.of->curve.nearest(place, piece.from, piece.to).distance, *piece.of, time);
+}
+
+void PathDeviation::give_up() {
+  double best = INFINITY;
+  for (std::size_t i = 0; i < reached_; ++i) best = std::min(best, pieces_[i].now.multiple);
+  most_ = kept * std::max(1.0, best);
+  for (; pieces_.front().now.multiple > most_; --reached_) drop_front();
+  std::size_t last = reached_;
+  while (pieces_[last - 1].now.multiple > most_) --last;
+  for (; reached_ > last + looked_ahead; --reached_) pieces_[reached_ - 1].now = {};
+}
+
+void PathDeviation::drop_front() {
+  pieces_.pop_front();
+  if (--chain_.front().pieces == 0) chain_.pop_front();
+}
+
+// What is left of the programmed path is passed with the planned path's point at its end; where that never came to the
+// stretch, all of it.
+void PathDeviation::end_stretch(Seconds time) {
+  if (!is_in_stretch(0)) return;
+  Worst best{.multiple = reached_ > 0 ? INFINITY : 0, .finding = {}};
+  for (; is_in_stretch(0); drop_front()) {
+    const Piece& piece = pieces_.front();
+    best.raise(distance_from_last(piece.begin), *piece.of, time);
+    if (piece.now.multiple < best.multiple) best = piece.now;
+    if (!is_in_stretch(1)) best.raise(distance_from_last(piece.of->curve.place(piece.to)), *piece.of, time);
   }
-  while (!chain_.empty() && played(chain_.front().stretch, chain_.front().end())) chain_.pop_front();
+  if (best.multiple > proof_.deviation.multiple()) proof_.deviation = best.finding;
+}
+
+double PathDeviation::distance_from_last(const Point& place) const {
+  return place_ ? distance(place, *place_) : INFINITY;
 }
 
 void PathDeviation::rest(Seconds time) {
+  end_stretch(time);
   ++planned_stretch_;
-  forget(at_, time);
-  at_ = chain_.empty() ? length_ : chain_.front().begin;
-  farthest_ = at_;
+  reached_ = 0;
 }
 
 void PathDeviation::finish(Seconds time) {
-  planned_stretch_ = programmed_stretch_;
-  rest(time);
-}
-
-void PathDeviation::raise(double value, double tolerance, std::uint32_t line, Seconds time) {
-  Finding& finding = proof_.deviation;
-  const bool more = finding.limit > 0 ? value * finding.limit > finding.value * tolerance : true;
-  if (more) finding = {.value = value, .limit = tolerance, .time = time, .line = line};
+  while (planned_stretch_ <= programmed_stretch_) rest(time);
 }
 
 }  // namespace passo::proof

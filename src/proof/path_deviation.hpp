@@ -1,14 +1,19 @@
-// PathDeviation: how far programmed and planned path are from each other, in both directions.
+// PathDeviation: how far programmed and planned path are from each other, the worst place for both.
 //
-// Both lead the same way in the same order. The planned path is walked in small pieces; for each of its points the
-// nearest place of the programmed path is looked for a little before and behind the place of the point before, and each
-// point of the programmed path (its corners, and some between them) keeps its distance from the nearest piece that
-// passes by. Actions are in both paths: there the two are together again.
+// Two points go along the two paths, both from start to end and neither ever back: the least distance that they can
+// keep, a Fréchet distance (Alt and Godau 1995), each place measured in its tolerance. Nearest places alone would not
+// do: a path that turns, or goes round in dust finer than its tolerance, is near itself.
+//
+// The planned path is walked in small pieces. For each piece of the programmed path the least is kept with which the
+// two points can be there now; pieces that need twice as much as the best one, and more than twice the tolerance, are
+// given up. Actions are in both paths: there the two points are together again.
 //
 // A place's tolerance is the larger one of the junctions at both ends of its segment; where that is 0 the path must be
 // met, to rounding.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -33,45 +38,52 @@ class PathDeviation {
  private:
   struct Programmed {
     ExactCurve curve;
-    double begin;  // way from the program's start, as that of all places here
     double tolerance;
+    std::uint32_t line;
+    int pieces;  // that are still kept
+  };
+  // The worst so far of the best way to be at a place.
+  struct Worst {
+    double multiple = INFINITY;
+    Finding finding;
+
+    void raise(double away, const Programmed& of, Seconds time);
+  };
+  struct Piece {
+    Programmed* of;
+    double from;
+    double to;
+    Point begin;
     std::uint64_t stretch;  // of the path between two actions
-    std::uint32_t line;
-
-    double end() const { return begin + curve.length(); }
+    Worst now;              // with the planned path's point somewhere on it
   };
-  struct Sample {
-    double at;
-    Point place;
-    double tolerance;
-    double distance;  // from the planned path, so far
-    std::uint64_t stretch;
-    std::uint32_t line;
-  };
-  struct Match {
-    double at = 0;
-    double distance = 0;
-    bool onwards = false;  // within the tolerance, and not back
-    const Programmed* segment = nullptr;
+  // A piece of the planned path.
+  struct Stride {
+    const ExactCurve& curve;
+    double from;
+    double to;
+    Seconds time;
   };
 
-  Match match(const Point& point, double from, double to, double expected) const;
-  Match match_ahead(const Point& point, double step, double expected) const;
-  void walk(const ExactCurve& curve, double from, double to, Seconds time);
-  void approach(const ExactCurve& curve, double from, double to, double before, double step);
-  void forget(double before, Seconds time);
-  void raise(double value, double tolerance, std::uint32_t line, Seconds time);
+  bool is_in_stretch(std::size_t piece) const;
+  void begin(const Point& place, Seconds time);
+  void step(const Stride& stride);
+  Worst passed(const Worst& before, const Piece& piece, const Stride& stride) const;
+  static void stay(Piece& piece, const Point& place, Seconds time);
+  void give_up();
+  void drop_front();
+  void end_stretch(Seconds time);
+  double distance_from_last(const Point& place) const;
 
   MotionProof& proof_;
   std::deque<Programmed> chain_;
-  std::deque<Sample> samples_;
-  double length_ = 0;  // of all that is programmed
+  std::deque<Piece> pieces_;
+  std::size_t reached_ = 0;  // so many of them, from the first one on
+  double most_ = 0;          // multiple that is kept
   std::uint64_t programmed_stretch_ = 0;
   std::uint64_t planned_stretch_ = 0;
   double last_tolerance_ = 0;
-  double at_ = 0;               // where the last planned point is on the programmed path
-  double farthest_ = 0;         // of those of the stretch
-  std::optional<Point> place_;  // that point
+  std::optional<Point> place_;  // of the planned path, at last
 };
 
 }  // namespace passo::proof

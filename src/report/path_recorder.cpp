@@ -35,7 +35,7 @@ double chords_of(const Curve& curve, double length, double tolerance) {
       return chords_of(std::max(arc.start_radius, arc.end_radius), angle, tolerance);
     }
     case Curve::Shape::cubic: {
-      const double bend = curve.curvature();
+      const double bend = curve.turning() / curve.length().value();
       return bend > 0 ? chords_of(1 / bend, length * bend, tolerance) : 1;
     }
     case Curve::Shape::line: break;

@@ -106,7 +106,7 @@ double MotorPath::reach(unsigned motor, const Spot& spot) const {
   const Term& term = terms_[motor];
   switch (term.way) {
     case Way::round: return std::fabs(term.scale) * radius_;
-    case Way::cubic: return std::fabs(cubics_[motor].slope(spot.s)) / curve_->curvature();
+    case Way::cubic: return std::fabs(cubics_[motor].slope(spot.s)) * curve_->length().value() / curve_->turning();
     case Way::straight: break;
   }
   return infinity;

@@ -13,6 +13,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // it is about (3/4) turn², on a cubic as much again for the change of its bend.
 constexpr double turn_a_cell_of_arc = 0.04;
 constexpr double turn_a_cell_of_cubic = 0.025;
+// Of the limit of an axis: what is taken off for what it may do between the ends of a cell.
+constexpr double most_slack = 0.5;
 
 // The switch from speeding up to braking is at the end of some cell. At its ends, where an arc is slow, a cell is no
 // longer than this part of the way that braking from full speed takes; from there they grow, to this or to a part of
@@ -65,7 +67,6 @@ std::size_t CellCutter::most_falling() const {
 void CellCutter::begin(const Segment& segment) {
   segment_ = &segment;
   const Curve& curve = segment.curve;
-  at_ = place_at(curve, 0);
   const double length = curve.length().value();
   longest_ = shortest_ = length;
   grade_ = 0;
@@ -74,6 +75,7 @@ void CellCutter::begin(const Segment& segment) {
   for (const AxisLimits& axis : limited_) {
     if (steepest.values[axis.axis] > 0) moving_.push_back(axis);
   }
+  at_ = place_at(curve, moving_, 0);
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
   const double braking = top * top / (2 * top_acceleration(moving_, steepest));
   if (flat_top(moving_, steepest) < room_for_override * top) {
@@ -81,14 +83,14 @@ void CellCutter::begin(const Segment& segment) {
   }
   if (curve.shape() == Curve::Shape::line) return;
   if (curve.shape() == Curve::Shape::arc) {
-    const double by_turn = length * turn_a_cell_of_arc / std::abs(curve.arc_data().sweep);
+    const double by_turn = length * turn_a_cell_of_arc / curve.turning(steepest);
     longest_ =
         std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
     // Turning takes all of the acceleration at a speed from which braking takes but a radius.
     const double slowing = std::min(braking, 1 / curve.curvature());
     shortest_ = std::clamp(slowing * braking_share, longest_ / 64, longest_);
   } else {
-    const double turn = length * curve.curvature();
+    const double turn = curve.turning(steepest);
     const double by_turn = length * turn_a_cell_of_cubic / std::max(turn, turn_a_cell_of_cubic);
     const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share));
     longest_ = shortest_ = length / std::ceil(length / wanted);
@@ -112,7 +114,7 @@ void CellCutter::next(const CellPlace& to) {
   if (cut_line(*segment_, moving_, at_.s, end, to)) {
     at_.s = end;
   } else {
-    const Place there = place_at(segment_->curve, end);
+    const Place there = place_at(segment_->curve, moving_, end);
     cut_curve(*segment_, moving_, at_, there, to);
     at_ = there;
   }
@@ -120,7 +122,7 @@ void CellCutter::next(const CellPlace& to) {
 
 void CellCutter::cut(const Segment& segment, double from, double to, const CellPlace& place) const {
   if (cut_line(segment, limited_, from, to, place)) return;
-  cut_curve(segment, limited_, place_at(segment.curve, from), place_at(segment.curve, to), place);
+  cut_curve(segment, limited_, place_at(segment.curve, limited_, from), place_at(segment.curve, limited_, to), place);
 }
 
 // From rest the speed grows with the root of s: so do the cells, and each end of the segment may be a rest. At least
@@ -153,8 +155,32 @@ double CellCutter::flat_top(const Axes& axes, const Point& slope) {
   return top;
 }
 
-CellCutter::Place CellCutter::place_at(const Curve& curve, double s) {
-  return {.s = s, .slope = curve.tangent(Mm(s)), .bend = curve.second_derivative(Mm(s))};
+// With n the part of the bend that is at right angles to the slope, the sum of n (q' a + q'' v²) over the axes is n²
+// v², whatever a is, and at most the sum of |n| times the limits.
+double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Point& bend) {
+  double slope_squared = 0;
+  double common = 0;
+  for (const AxisLimits& axis : axes) {
+    if (!(axis.acceleration > 0)) continue;
+    slope_squared += squared(slope.values[axis.axis]);
+    common += slope.values[axis.axis] * bend.values[axis.axis];
+  }
+  const double share = slope_squared > 0 ? common / slope_squared : 0;
+  double normal_squared = 0;
+  double strength = 0;
+  for (const AxisLimits& axis : axes) {
+    if (!(axis.acceleration > 0)) continue;
+    const double normal = bend.values[axis.axis] - share * slope.values[axis.axis];
+    normal_squared += squared(normal);
+    strength += std::abs(normal) * axis.acceleration;
+  }
+  return normal_squared > 0 ? strength / normal_squared : infinity;
+}
+
+CellCutter::Place CellCutter::place_at(const Curve& curve, const Axes& axes, double s) {
+  const Point slope = curve.tangent(Mm(s));
+  const Point bend = curve.second_derivative(Mm(s));
+  return {.s = s, .slope = slope, .bend = bend, .turning = top_of_turning(axes, slope, bend)};
 }
 
 // On an arc each derivative turns the one before, so that its size is that of the slope in the plane times the turn a
@@ -226,26 +252,39 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
     lower(strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
   }
   cell.top_squared = top * top;
+  // Between the ends v² is between theirs.
+  double top_squared = std::min(top * top, std::max(in.turning, out.turning));
   // Turning may hide as much again of an axis's acceleration along its slope.
-  strength = std::min({2 * strength, top * top / (2 * h), strongest});
+  strength = std::min({2 * strength, top_squared / (2 * h), strongest});
+  const auto slack_of = [&](const Bend& bend) {
+    return eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
+  };
+  for (const AxisLimits& axis : axes) {
+    const Bend bend = bend_on(curve, of_arc, axis.axis);
+    if (!(axis.acceleration > 0) || slack_of(bend) <= most_slack * axis.acceleration) continue;
+    // Too coarse for it: slower.
+    top_squared = most_slack * axis.acceleration / (eighth * (bend.fourth + 5 * bend.third / (2 * h)));
+    strength = std::min(strength, top_squared / (2 * h));
+    cell.top_squared = std::min(cell.top_squared, top_squared);
+  }
 
   for (const AxisLimits& axis : axes) {
     const std::size_t i = axis.axis;
     const Bend bend = bend_on(curve, of_arc, i);
     const double steep = steepest(i, bend);
     if (!(axis.acceleration > 0) || (steep == 0 && in.bend.values[i] == 0 && out.bend.values[i] == 0)) continue;
-    const double slack = eighth * (bend.fourth * top * top + 5 * strength * bend.third);
+    const double slack = slack_of(bend);
     const double slope_in = in.slope.values[i] / (2 * h);
     const double slope_out = out.slope.values[i] / (2 * h);
     place.demands[cell.demand_count++] = {.entry_x = in.bend.values[i] - slope_in,
                                           .entry_y = slope_in,
                                           .exit_x = -slope_out,
                                           .exit_y = out.bend.values[i] + slope_out,
-                                          .limit = std::max(axis.acceleration - slack, axis.acceleration / 2)};
-    if (axis.falling->empty() || !(squared(steep * top) > axis.falling->shoulder())) continue;
+                                          .limit = axis.acceleration - slack};
+    if (axis.falling->empty() || !(squared(steep) * top_squared > axis.falling->shoulder())) continue;
     // w = q'² v² bends by w'' = 2 (q''² + q' q''') v² + 8 q' q'' a.
     const double second = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i])) + h * bend.third;
-    const double bending = 2 * (second * second + steep * bend.third) * top * top + 8 * steep * second * strength;
+    const double bending = 2 * (second * second + steep * bend.third) * top_squared + 8 * steep * second * strength;
     place.falling[cell.falling_count++] = {.curve = axis.falling,
                                            .demand = static_cast<std::uint32_t>(cell.demand_count - 1),
                                            .entry_weight = squared(in.slope.values[i]),
@@ -253,14 +292,14 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
                                            .slack = slack,
                                            .slack_of_fall = eighth * bending};
   }
-  const double fastest_squared = std::min(top * top, squared(room_for_override) * cell.feed_squared);
+  const double fastest_squared = std::min(top_squared, squared(room_for_override) * cell.feed_squared);
   const auto is_sure = [&](const AxisLimits& axis) {
     const std::size_t i = axis.axis;
     const double turning = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i]));
     const double along = std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i]));
     return axis.acceleration > 0 && axis.acceleration + turning * fastest_squared <= strength * along;
   };
-  if (strength < top * top / (2 * h) && std::ranges::none_of(axes, is_sure)) {
+  if (strength < top_squared / (2 * h) && std::ranges::none_of(axes, is_sure)) {
     // It may hide more, where the turning of all axes that go along is undone by speeding up: not beyond this.
     const double half = 1 / (2 * h);
     place.demands[cell.demand_count++] = {

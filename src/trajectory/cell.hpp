@@ -103,6 +103,7 @@ class CellCutter {
     double s = 0;
     Point slope;
     Point bend;
+    double turning = 0;  // the square of the highest speed at which all axes together can turn so
   };
   // Bounds of |q'''| and |q''''| between two places.
   struct Bend {
@@ -112,7 +113,8 @@ class CellCutter {
   static double top_speed(const Axes& axes, const Point& slope);
   static double top_acceleration(const Axes& axes, const Point& slope);
   static double flat_top(const Axes& axes, const Point& slope);
-  static Place place_at(const Curve& curve, double s);
+  static double top_of_turning(const Axes& axes, const Point& slope, const Point& bend);
+  static Place place_at(const Curve& curve, const Axes& axes, double s);
   static Bend bend_of_arc(const Curve& curve, const Place& in, const Place& out);
   static Bend bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis);
   static bool cut_line(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place);

@@ -62,12 +62,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   tick_ = std::max(acceleration_ / jerk_ / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
   const double left = length_ - from_;
   longest_ = left;
-  double turn = 0;
-  if (curve.shape() == Curve::Shape::arc) {
-    turn = std::abs(curve.arc_data().sweep);
-  } else if (curve.shape() == Curve::Shape::cubic) {
-    turn = length_ * curve.curvature();
-  }
+  const double turn = curve.turning(steepest);
   if (turn > turn_a_cell) longest_ = length_ * turn_a_cell / turn;
   shortest_ = left / most_cells;
   if (entry_ == 0 || exit_ == 0) {

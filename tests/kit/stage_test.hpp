@@ -41,11 +41,16 @@ std::vector<T> drain(Source<T>& source) {
 class Random {
  public:
   explicit Random(std::uint64_t more = 0) : seed_(test::seed() + more), engine_(seed_) {}
+  // For one of many: without a word.
+  static Random of(std::uint64_t seed) { return Random(std::mt19937_64(seed), seed); }
+
   std::uint64_t seed() const { return seed_; }
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   bool chance(double share) { return between(0, 1) < share; }
 
  private:
+  Random(std::mt19937_64 engine, std::uint64_t seed) : seed_(seed), engine_(engine) {}
+
   std::uint64_t seed_ = 0;
   std::mt19937_64 engine_;
 };

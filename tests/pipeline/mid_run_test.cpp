@@ -9,6 +9,7 @@
 #include "kit/stage_test.hpp"
 
 #include "passo/controller/job.hpp"
+#include "passo/controller/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
 
@@ -19,19 +20,6 @@ using test::example_machine;
 using State = MotionDrive::State;
 
 using test::with_jerk_limits;
-
-ProofOptions proof_options(const MachineDescription& machine) {
-  ProofOptions options;
-  for (const AxisDescription& axis : machine.axes) {
-    options.axes.push_back({.axis = axis.axis,
-                            .step = axis.step(),
-                            .velocity = axis.velocity,
-                            .acceleration = axis.acceleration,
-                            .jerk = axis.jerk});
-  }
-  options.tick_rate = machine.board.clock;
-  return options;
-}
 
 // What a program is made of.
 std::string lines() {

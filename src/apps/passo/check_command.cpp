@@ -8,6 +8,7 @@
 #include "progress_display.hpp"
 
 #include "passo/controller/job.hpp"
+#include "passo/controller/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
 
@@ -16,25 +17,6 @@ namespace {
 
 nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
   return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
-}
-
-std::function<MmPerSecond2(MmPerSecond)> falling_limit(const AxisDescription& axis) {
-  if (!axis.motor) return {};
-  return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
-}
-
-ProofOptions proof_options(const MachineDescription& machine) {
-  ProofOptions options;
-  for (const AxisDescription& axis : machine.axes) {
-    options.axes.push_back({.axis = axis.axis,
-                            .step = axis.step(),
-                            .velocity = axis.velocity,
-                            .acceleration = axis.acceleration,
-                            .jerk = axis.jerk,
-                            .acceleration_at = falling_limit(axis)});
-  }
-  options.tick_rate = machine.board.clock;
-  return options;
 }
 
 // Plays the whole program, watched; `nominal` is for the progress line.

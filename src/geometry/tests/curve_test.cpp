@@ -245,6 +245,20 @@ TEST_F(RandomArcs, extents_hold_every_point_and_are_touched) {
   }
 }
 
+TEST(CurveTurning, is_the_angle_in_the_plane_and_stays_bounded_where_another_axis_goes_much_farther) {
+  EXPECT_EQ(Curve::line(point_of(0, 0, 0), point_of(3, 4, 0)).turning(), 0);
+  EXPECT_EQ(Curve::arc(point_of(1, 0, 0), point_of(0, 1, 0), Axis::x, Axis::y, 0, 0, -1.5 * std::numbers::pi).turning(),
+            1.5 * std::numbers::pi);
+  // A parabola: its slope changes evenly from (1, 0) to (1, 0.2).
+  EXPECT_NEAR(
+      Curve::cubic(point_of(0, 0, 0), point_of(1, 0, 0), point_of(2, 0.2, 0), point_of(1, 0.2, 0), Mm(2)).turning(),
+      0.2, 1e-12);
+  // From rest over 100 degrees to rest, in a way of a thousandth of a millimetre.
+  Point end = point_of(0.001, 0, 0);
+  end[Axis::a] = 100;
+  EXPECT_NEAR(Curve::cubic(Point(), point_of(1, 0, 0), end, point_of(1, 0, 0), Mm(0.001)).turning(), 4, 1e-9);
+}
+
 TEST_F(RandomArcs, a_length_is_the_sum_of_its_chords) {
   for (int n = 0; n < 100; ++n) {
     SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " arc " << n);

@@ -9,6 +9,7 @@
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
+#include "passo/proof/motion_proof.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -23,5 +24,6 @@ MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
 // The steps of each motor from machine zero to the nearest to that place.
 std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place);
+ProofOptions proof_options(const MachineDescription& machine);
 
 }  // namespace passo

@@ -71,6 +71,10 @@ class Curve {
   // 1/r of the projection on the arc's plane, per mm of s squared: |d²P/ds²| in the plane, at most; 0 for a
   // line, and for a cubic the largest |d²P/ds²| over all axes.
   double curvature() const;
+  // By how many radians the direction turns, all turns counted: at most, and of an axis that goes farther than the feed
+  // counts, the change of its slope as a part of the steepest. Of a cubic never more than some dozens.
+  double turning() const { return turning(steepest()); }
+  double turning(const Point& steepest) const;
   Box extents() const;
 
  private:

@@ -1,0 +1,190 @@
+// Random programs as text, and random machines: what the whole street is hunted with. Each program is without an error,
+// is short, and has what programs have: lines, arcs, helices, curves, dust, dense runs, cycles, modes, units, feeds.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "kit/stage_test.hpp"
+#include <fmt/format.h>
+
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo::test {
+
+// From two to five axes, from sluggish to nimble, with or without limits of jerk.
+inline MachineDescription random_machine(Random& random) {
+  static constexpr std::array order = {Axis::x, Axis::y, Axis::z, Axis::a, Axis::c};
+  MachineDescription machine;
+  machine.name = "random";
+  machine.path_tolerance = Mm(std::exp(random.between(-7, -2)));
+  machine.board.highest_event_rate = Hertz(random.chance(0.5) ? 100e3 : 1e6);
+  machine.tool.highest_rpm = 24'000;
+  const auto count = static_cast<std::size_t>(random.between(2, 5.999));
+  const double velocity = std::exp(random.between(3, 6));
+  const double acceleration = std::exp(random.between(4.5, 9));
+  const double rise = random.chance(0.5) ? 0 : random.chance(0.5) ? 0.02 : std::exp(random.between(-6, -2));
+  const double steps = std::exp(random.between(1, 4.5));
+  for (std::size_t i = 0; i < count; ++i) {
+    AxisDescription axis;
+    axis.axis = order[i];
+    axis.steps_per_unit = steps * (random.chance(0.5) ? 1 : std::exp(random.between(-1.5, 1.5)));
+    axis.velocity = MmPerSecond(velocity * (random.chance(0.5) ? 1 : random.between(0.2, 1)));
+    axis.velocity =
+        std::min(axis.velocity, MmPerSecond(0.9 * machine.board.highest_event_rate.value() / axis.steps_per_unit));
+    axis.acceleration = MmPerSecond2(acceleration * (random.chance(0.5) ? 1 : random.between(0.2, 1)));
+    if (rise > 0) axis.jerk = MmPerSecond3(axis.acceleration.value() / rise);
+    axis.travel_low = -1e5;
+    axis.travel_high = 1e5;
+    machine.axes.push_back(axis);
+  }
+  return machine;
+}
+
+class RandomGcode {
+ public:
+  RandomGcode(Random& random, const MachineDescription& machine) : random_(random), machine_(machine) {}
+
+  std::string draw() {
+    say("G21 G90 G17 F{:.1f}", feed());
+    path_mode();
+    size_ = std::exp(random_.between(-3, 2));
+    const int pieces = static_cast<int>(random_.between(1, 8));
+    for (int i = 0; i < pieces; ++i) piece();
+    say("M2");
+    return text_;
+  }
+
+ private:
+  template <typename... Values>
+  void say(fmt::format_string<Values...> words, Values&&... values) {
+    text_ += fmt::format(words, std::forward<Values>(values)...) + "\n";
+  }
+  double feed() { return std::exp(random_.between(5.5, 10.5)); }
+  double way() { return size_ * random_.between(-1, 1); }
+  bool has(Axis axis) const {
+    return std::ranges::any_of(machine_.axes, [&](const AxisDescription& one) { return one.axis == axis; });
+  }
+
+  void path_mode() {
+    const double kind = random_.between(0, 1);
+    const double tolerance = std::exp(random_.between(-7, -1));
+    if (kind < 0.1) return say("G61");
+    if (kind < 0.15) return say("G61.1");
+    if (kind < 0.4) return say("G64 P{:.4f}", tolerance);
+    if (kind < 0.6) return say("G64 P{:.4f} Q{:.4f}", tolerance, tolerance * random_.between(0.1, 1));
+  }
+
+  void piece() {
+    const double kind = random_.between(0, 1);
+    if (kind < 0.3) return corners();
+    if (kind < 0.45) return arc();
+    if (kind < 0.55) return curve();
+    if (kind < 0.65) return chords();
+    if (kind < 0.72) return dust();
+    if (kind < 0.78) return cycle();
+    if (kind < 0.84) return inverse_time();
+    if (kind < 0.88) return inches();
+    if (kind < 0.92) return path_mode();
+    if (kind < 0.96) return say("F{:.1f}", feed());
+    if (kind < 0.98) return say("G4 P{:.3f}", random_.between(0, 0.2));
+    say("M3 S{:.0f} M8", random_.between(100, 20'000));
+  }
+
+  void line(const char* word) {
+    std::string words = word;
+    for (const AxisDescription& axis : machine_.axes) {
+      if (!random_.chance(0.6)) continue;
+      place_[axis.axis] += way();
+      words += fmt::format(" {}{:.4f}", letter_of(axis.axis), place_[axis.axis]);
+    }
+    if (words != word) say("{}", words);
+  }
+  void corners() {
+    const int lines = static_cast<int>(random_.between(1, 6));
+    for (int i = 0; i < lines; ++i) line(random_.chance(0.2) ? "G0" : "G1");
+  }
+
+  // Full turns, helices and spirals among them.
+  void arc() {
+    const double radius = size_ * std::exp(random_.between(-2, 0.5));
+    const double from = random_.between(-std::numbers::pi, std::numbers::pi);
+    const double to = from + random_.between(0.05, 6.2) * (random_.chance(0.5) ? 1 : -1);
+    const double i = -radius * std::cos(from);
+    const double j = -radius * std::sin(from);
+    const bool full = random_.chance(0.15);
+    if (!full) {
+      place_[Axis::x] += i + radius * std::cos(to);
+      place_[Axis::y] += j + radius * std::sin(to);
+    }
+    std::string words = fmt::format("{} X{:.6f} Y{:.6f} I{:.6f} J{:.6f}", to > from ? "G3" : "G2", place_[Axis::x],
+                                    place_[Axis::y], i, j);
+    if (has(Axis::z) && random_.chance(0.4)) words += fmt::format(" Z{:.4f}", place_[Axis::z] += way());
+    if (has(Axis::a) && random_.chance(0.2)) words += fmt::format(" A{:.4f}", place_[Axis::a] += way());
+    if (random_.chance(0.1)) words += " P2";
+    say("{}", words);
+  }
+  void curve() {
+    const double i = way(), j = way(), p = way(), q = way();
+    place_[Axis::x] += way();
+    place_[Axis::y] += way();
+    say("G5 I{:.4f} J{:.4f} P{:.4f} Q{:.4f} X{:.4f} Y{:.4f}", i, j, p, q, place_[Axis::x], place_[Axis::y]);
+  }
+  // As CAM writes them.
+  void chords() {
+    const int count = static_cast<int>(random_.between(3, 60));
+    const double step = std::exp(random_.between(-5, -1));
+    const double bend = random_.between(-0.3, 0.3);
+    double direction = random_.between(0, 6.28);
+    for (int i = 0; i < count; ++i) {
+      direction += bend + random_.between(-0.05, 0.05);
+      place_[Axis::x] += step * std::cos(direction);
+      place_[Axis::y] += step * std::sin(direction);
+      say("G1 X{:.4f} Y{:.4f}", place_[Axis::x], place_[Axis::y]);
+    }
+  }
+  void dust() {
+    const double old = size_;
+    size_ = std::exp(random_.between(-8, -3));
+    for (int i = 0; i < 8; ++i) line("G1");
+    size_ = old;
+  }
+  void cycle() {
+    if (!has(Axis::z)) return;
+    const double top = place_[Axis::z];
+    const double r = top - std::abs(way());
+    const double bottom = r - 0.01 - std::abs(way());
+    place_[Axis::x] += way();
+    place_[Axis::y] += way();
+    if (random_.chance(0.5)) {
+      say("G98 G81 X{:.4f} Y{:.4f} Z{:.4f} R{:.4f}", place_[Axis::x], place_[Axis::y], bottom, r);
+    } else {
+      say("G98 G83 X{:.4f} Y{:.4f} Z{:.4f} R{:.4f} Q{:.4f}", place_[Axis::x], place_[Axis::y], bottom, r,
+          0.01 + (r - bottom) / 2);
+    }
+    say("G80");
+  }
+  void inverse_time() {
+    say("G93");
+    place_[Axis::x] += way();
+    place_[Axis::y] += way();
+    say("G1 X{:.4f} Y{:.4f} F{:.2f}", place_[Axis::x], place_[Axis::y], std::exp(random_.between(4, 7)));
+    say("G94 F{:.1f}", feed());
+  }
+  void inches() {
+    const double x = way();
+    place_[Axis::x] += x * 25.4;
+    say("G20 G91 G1 X{:.6f} F{:.2f}\nG21 G90 F{:.1f}", x, feed() / 25.4, feed());
+  }
+
+  Random& random_;
+  const MachineDescription& machine_;
+  std::string text_;
+  Point place_;
+  double size_ = 1;
+};
+
+}  // namespace passo::test
