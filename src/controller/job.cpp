@@ -36,9 +36,9 @@ PathOptions answered_by(const ProbeOutcome& outcome, PathOptions options, Job::P
   return options;
 }
 
-StepOptions step_options_at(const MachineDescription& machine, const std::optional<ResumePoint>& point) {
+StepOptions step_options_at(const MachineDescription& machine, const Point& start) {
   StepOptions options = step_options(machine);
-  if (point) options.start = point->point;
+  options.start = start;
   return options;
 }
 
@@ -63,7 +63,7 @@ void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem&
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch) {
-  const PathOptions path = path_options(machine, program.name());
+  const PathOptions path = path_options(machine, program.name(), options.start);
   const MotionLimits limits = motion_limits(machine);
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path, diagnostics);
@@ -89,7 +89,8 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 Job::Job(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& interpretation,
          Diagnostics& diagnostics, const Options& options)
-    : path_options_(answered_by(probe_outcome_, path_options(machine, program.name()), options.probing)),
+    : path_options_(
+          answered_by(probe_outcome_, path_options(machine, program.name(), interpretation.start), options.probing)),
       limits_(motion_limits(machine)),
       interpreter_(std::move(program), answered_by(probe_outcome_, interpretation, options.probing), diagnostics),
       path_builder_(interpreter_, path_options_, diagnostics),
@@ -100,16 +101,17 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
                static_cast<std::size_t>(machine.board.held_items)),
       line_(options.line ? std::optional<VirtualLine>(std::in_place, machine_, machine.board.clock, *options.line)
                          : std::nullopt),
-      drive_(smoother_, limits_, step_options_at(machine, options.resume_at), machine_, board_line(options, line_)),
-      clock_(machine.board.clock),
+      drive_(smoother_, limits_,
+             step_options_at(machine, options.resume_at ? options.resume_at->point : interpretation.start), machine_,
+             board_line(options, line_)),
       resume_at_(options.resume_at),
       wants_encoder_(options.board != nullptr && machine.spindle.counts_per_turn > 0) {
+  machine_.stand_at(resume_at_ ? resume_at_->steps : steps_at(machine, interpretation.start));
   if (resume_at_) {
-    machine_.stand_at(resume_at_->steps);
     drive_.begin_at(resume_at_->place);
   }
   const bool over_a_line = line_ || options.board != nullptr;
-  if (over_a_line && !unsuited()) drive_.use_tails({});
+  if (over_a_line && !drive_.unsuited()) drive_.use_tails({});
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
   if (options.board == nullptr) fit_spindle(machine.spindle);
   const bool has_encoder = machine.spindle.counts_per_turn > 0;
@@ -130,15 +132,9 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
 }
 
 BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& line) {
-  // A line may be slow, but a board that lives answers at once.
-  if (line) return {.port = &*line, .care = {.answer_within = Seconds(0.05), .session = 1}};
+  if (line) return BoardLine::to(*line);
   if (options.board == nullptr) return {};
-  return {.port = options.board,
-          .care = {.answer_within = Seconds(0.1),
-                   .patience = Seconds(60),
-                   .session = options.session,
-                   .greeting = options.greeting},
-          .real_time = true};
+  return BoardLine::to_board(*options.board, options.session, options.greeting);
 }
 
 void Job::fit_spindle(const SpindleDescription& spindle) {
@@ -167,17 +163,10 @@ bool Job::advance() {
 }
 
 std::optional<std::string> Job::unsuited() const {
-  const auto& board = link().board();
-  if (link().error() || !board) return {};  // the link says it
-  if (static_cast<double>(board->clock) != clock_.value()) {
-    return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", board->clock,
-                       clock_.value());
-  }
+  if (auto words = drive_.unsuited()) return words;
   const auto& status = link().status();
-  if (wants_encoder_ && status && (status->state & board_encodes) == 0) {
-    return "it has no encoder, and [spindle] of the machine file tells of one";
-  }
-  return {};
+  if (link().error() || !status || !wants_encoder_ || (status->state & board_encodes) != 0) return {};
+  return "it has no encoder, and [spindle] of the machine file tells of one";
 }
 
 }  // namespace passo

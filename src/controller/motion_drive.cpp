@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "board_outputs.hpp"
+#include <fmt/format.h>
 
 namespace passo {
 namespace {
@@ -39,6 +40,17 @@ LiveOptions with_horizon(const LiveOptions& live, SpindleLock lock) {
 
 }  // namespace
 
+BoardLine BoardLine::to(VirtualLine& line) {
+  // A line may be slow, but a board that lives answers at once.
+  return {.port = &line, .care = {.answer_within = Seconds(0.05), .session = 1}};
+}
+
+BoardLine BoardLine::to_board(BoardPort& board, std::uint16_t session, std::uint8_t greeting) {
+  return {.port = &board,
+          .care = {.answer_within = Seconds(0.1), .patience = Seconds(60), .session = session, .greeting = greeting},
+          .real_time = true};
+}
+
 MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
                          VirtualMachine& machine, const BoardLine& line)
     : tick_rate_(steps.clock.tick_rate),
@@ -59,6 +71,14 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       rested_(now()) {
   watched_path_.watch([this](const PathItem& item) { look_at(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
+}
+
+std::optional<std::string> MotionDrive::unsuited() const {
+  const auto& board = link_.board();
+  if (link_.error() || !board) return {};  // the link says it
+  if (static_cast<double>(board->clock) == tick_rate_.value()) return {};
+  return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", board->clock,
+                     tick_rate_.value());
 }
 
 // Where something follows the spindle nothing is read far ahead from there on.

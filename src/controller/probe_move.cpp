@@ -10,7 +10,7 @@ void ProbeMove::guard_other_moves() {
 }
 
 void ProbeMove::begin(const Action& action) {
-  link_.watch_probe(action.probe_toward ? ProbeUntil::touched : ProbeUntil::released);
+  link_.watch_probe(action.probe_toward ? ProbeUntil::touched : ProbeUntil::released, action.limit);
   start_ = action.place;
   outcome_ = {.refused = link_.probe_report().touched == action.probe_toward,
               .touched = false,

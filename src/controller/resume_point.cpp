@@ -1,6 +1,5 @@
 #include "passo/controller/resume_point.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "passo/controller/stage_options.hpp"
@@ -44,7 +43,7 @@ class Passed {
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
                                              const InterpreterOptions& options, const PathPlace& place) {
   Diagnostics diagnostics;
-  const PathOptions path_options_here = path_options(machine, program.name());
+  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path_options_here, diagnostics);
   PathSmoother smoother(builder, smoothness(machine));
@@ -52,6 +51,7 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   path.keep();
   ResumePoint point;
   point.place = place;
+  point.point = options.start;
   Passed passed(point);
   PathItem item;
   for (std::uint64_t number = 0; number < place.item; ++number) {
@@ -68,10 +68,7 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   }
   path.rewind(place);
   point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
-  const StepOptions steps = step_options(machine);
-  for (std::size_t m = 0; m < steps.motor_count; ++m) {
-    point.steps[m] = std::llround(point.point[steps.motors[m].axis] * steps.motors[m].steps_per_unit);
-  }
+  point.steps = steps_at(machine, point.point);
   return point;
 }
 

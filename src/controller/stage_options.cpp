@@ -1,12 +1,13 @@
 #include "passo/controller/stage_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
 namespace passo {
 
-PathOptions path_options(const MachineDescription& machine, const std::string& program) {
+PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start) {
   PathOptions options;
   for (const AxisDescription& axis : machine.axes) {
     options.axes.add(axis.axis);
@@ -15,6 +16,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
   options.tolerance = machine.path_tolerance;
   options.spindle_limit = machine.tool.highest_rpm;
   options.file = program;
+  options.start = start;
   return options;
 }
 
@@ -56,6 +58,15 @@ MotionLimits motion_limits(const MachineDescription& machine) {
     limits.falling[axis.axis] = falling_limit(axis);
   }
   return limits;
+}
+
+std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place) {
+  const StepOptions options = step_options(machine);
+  std::array<std::int64_t, max_motors> steps{};
+  for (std::size_t m = 0; m < options.motor_count; ++m) {
+    steps[m] = std::llround(place[options.motors[m].axis] * options.motors[m].steps_per_unit);
+  }
+  return steps;
 }
 
 StepOptions step_options(const MachineDescription& machine) {

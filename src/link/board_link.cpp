@@ -112,12 +112,15 @@ void BoardLink::let_pass(Seconds time) {
 }
 
 // An answer to an earlier question may come first: it counts if it tells of the same rest.
-void BoardLink::watch_probe(ProbeUntil until) {
+void BoardLink::watch_probe(ProbeUntil until, std::uint8_t limit) {
+  const bool homed = std::exchange(limit_, limit) != 0;
   probe_until_ = ProbeUntil::off;
   probe_report_ = {};
-  if (until == ProbeUntil::off) return;
+  // A limit switch that is watched no longer stops the motors again: that must be certain.
+  if (until == ProbeUntil::off && !homed) return;
   const auto rests = [this] {
-    return status_ && status_->executed == executed_ && (status_->state & (board_moves | board_kept)) == 0;
+    return status_ && status_->executed == executed_ && (status_->state & (board_moves | board_kept)) == 0 &&
+           ((status_->state & board_homes) != 0) == (limit_ != 0);
   };
   status_.reset();
   answered_ = true;  // what went before is over
@@ -125,9 +128,9 @@ void BoardLink::watch_probe(ProbeUntil until) {
   while (!rests() && listen([this] { ask(Question::watch); })) {
   }
   probe_report_ = {};
-  if (error_) return;
+  if (error_ || until == ProbeUntil::off) return;
   probe_until_ = until;
-  probe_report_.touched = (status_->inputs & input_probe) != 0;
+  probe_report_.touched = (status_->inputs & watched()) != 0;
   began_as_wanted_ = until == until_is(probe_report_.touched);
   std::copy_n(status_->positions, probed_from_.size(), probed_from_.begin());
 }
@@ -139,7 +142,7 @@ void BoardLink::recall_contact() {
   }
   if (!recalled_) return;
   const bool touched = (recalled_->input & captured_released) == 0;
-  probe_report_.happened = (recalled_->input & input_probe) != 0 && probe_until_ == until_is(touched);
+  probe_report_.happened = (recalled_->input & watched()) != 0 && probe_until_ == until_is(touched);
   if (!probe_report_.happened) return;
   for (std::size_t m = 0; m < motors_; ++m) probe_report_.steps[m] = recalled_->positions[m] - probed_from_[m];
 }
@@ -211,7 +214,8 @@ void BoardLink::ask(Question question) {
   asked_behind_ = sent_;
   last_question_ = question;
   if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
-  say(Ask{.motors = motors_, .question = question}, ++question_);
+  const std::uint8_t limit = question == Question::watch ? limit_ : std::uint8_t{0};
+  say(Ask{.motors = motors_, .question = question, .limit = limit}, ++question_);
 }
 
 void BoardLink::take(const WireFrame& frame) {
@@ -341,17 +345,17 @@ void BoardLink::take(const Captured& captured) {
     recalled_ = captured;
     return;
   }
-  const auto pressed = static_cast<std::uint16_t>(captured.input & ~(input_probe | captured_kept | captured_released));
+  const auto pressed = static_cast<std::uint16_t>(captured.input & ~(watched() | captured_kept | captured_released));
   pressed_ |= pressed;
   inputs_ |= pressed;
-  if ((captured.input & input_probe) == 0) return;
+  if ((captured.input & watched()) == 0) return;
   probe_report_.touched = (captured.input & captured_released) == 0;
   if (probe_until_ != until_is(probe_report_.touched)) return;
   probe_report_.happened = news_ = true;
 }
 
 void BoardLink::note_inputs(const BoardStatus& status) {
-  pressed_ |= static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{input_probe});
+  pressed_ |= static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{watched()});
   inputs_ = status.inputs;
 }
 
@@ -359,7 +363,7 @@ void BoardLink::note_inputs(const BoardStatus& status) {
 // its first change is away from that, and the watch begins again.
 void BoardLink::note_probe(const BoardStatus& status) {
   if (usual_question_ == Question::status) note_answer(status.taken);
-  const bool touched = (status.inputs & input_probe) != 0;
+  const bool touched = (status.inputs & watched()) != 0;
   const bool came = std::exchange(probe_report_.touched, touched) != touched;
   if (probe_until_ == ProbeUntil::off) return;
   const bool as_wanted = probe_until_ == until_is(touched);

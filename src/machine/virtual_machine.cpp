@@ -55,7 +55,7 @@ bool VirtualMachine::run_to(Ticks time) {
     hardware_.now = next_event_;
     ++events_;
     board_.on_event();
-    if (!hardware_.bodies.empty()) look_at_bodies();
+    if (!hardware_.bodies.empty() || !hardware_.limits.empty()) look_at_switches();
     if (board_.owes_report()) board_.report();
   }
   if (!hardware_.to_host.empty()) return true;
@@ -65,22 +65,37 @@ bool VirtualMachine::run_to(Ticks time) {
 
 void VirtualMachine::add_body(const TouchBody& body) {
   hardware_.bodies.push_back(body);
-  look_at_bodies();
+  look_at_switches();
 }
 
-// The probe's pin changes.
-void VirtualMachine::look_at_bodies() {
-  const bool touched = hardware_.is_in_a_body();
-  if (touched == touched_) return;
-  touched_ = touched;
-  board_.set_inputs(static_cast<std::uint16_t>(touched ? switches_ | input_probe : switches_), input_probe);
+void VirtualMachine::add_switch(const TravelSwitch& added) {
+  hardware_.limits.push_back(added);
+  limits_closed_.push_back(false);
+  look_at_switches();
 }
 
 void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
-  const auto before =
-      std::exchange(switches_, static_cast<std::uint16_t>(closed ? switches_ | which : switches_ & ~which));
-  board_.set_inputs(static_cast<std::uint16_t>(touched_ ? switches_ | input_probe : switches_),
-                    static_cast<std::uint16_t>(switches_ & ~before));
+  switches_ = static_cast<std::uint16_t>(closed ? switches_ | which : switches_ & ~which);
+  look_at_switches();
+}
+
+// As the firmware's main loop does it: what is watched is captured, what a person presses is told, what stops stops.
+void VirtualMachine::look_at_switches() {
+  unsigned now = switches_;
+  if (hardware_.is_in_a_body()) now |= input_probe;
+  for (std::size_t i = 0; i < hardware_.limits.size(); ++i) {
+    const TravelSwitch& limit = hardware_.limits[i];
+    limits_closed_[i] = limit.closed(hardware_.motors[limit.motor].position, limits_closed_[i]);
+    if (limits_closed_[i]) now |= limit.input;
+  }
+  const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
+  if (changed == 0) return;
+  constexpr unsigned by_people = input_door | input_hold | input_start;
+  const unsigned on = changed & now;
+  board_.set_inputs(told_, static_cast<std::uint16_t>((changed & board_.watched()) | (on & by_people)));
+  const unsigned stops = on & board_.stopping();
+  if ((stops & input_emergency_stop) != 0) return board_.stop_at_once(FaultReason::emergency_stop);
+  if (stops != 0 && !board_.idle()) board_.stop_at_once(FaultReason::limit);
 }
 
 void VirtualMachine::wait(Ticks time) {

@@ -17,6 +17,16 @@ std::string describe_torque(const AxisDescription& axis, const char* unit) {
   return line;
 }
 
+std::string describe_home(const AxisDescription& axis, const char* unit) {
+  if (!axis.home) return "";
+  const HomeDescription& home = *axis.home;
+  return fmt::format(
+      "                homed at limit {} by its {} end, {:g} {unit}: {:g} {unit}/s, then {:g} {unit}/s; rests at {:g} "
+      "{unit}\n",
+      home.input + 1, home.toward_high ? "high" : "low", home.switch_at, home.seek.value(), home.latch.value(),
+      home.rest(), fmt::arg("unit", unit));
+}
+
 std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
   std::string line = fmt::format(
@@ -26,7 +36,7 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
       axis.velocity.value(), axis.highest_step_rate().value(), axis.acceleration.value(), fmt::arg("unit", unit));
   if (axis.jerk > MmPerSecond3(0)) line += fmt::format(", {:g} {}/s3", axis.jerk.value(), unit);
   if (axis.inverted) line += ", inverted";
-  return line + "\n" + describe_torque(axis, unit);
+  return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit);
 }
 
 std::string describe_tool(const ToolDescription& tool) {
@@ -56,6 +66,11 @@ std::string describe(const MachineDescription& machine) {
                   board.lowest_event_rate().value(), board.highest_event_rate.value(), board.step_pulse.value() * 1e6);
   out += describe_tool(machine.tool);
   out += describe_spindle(machine.spindle);
+  if (!machine.homing.empty()) {
+    out += "homing          ";
+    for (const Axis axis : machine.homing) out += letter_of(axis);
+    out += ", one after the other\n";
+  }
   for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) out += describe_axis(machine.axes[motor], motor);
   return out;
 }

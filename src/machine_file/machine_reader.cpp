@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "homing_reader.hpp"
 #include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
 
 constexpr std::string_view torque_table = "torque";
+constexpr std::string_view home_table = "home";
 
 // The keys of an axis that carry a unit in their names.
 struct AxisKeys {
@@ -85,9 +87,11 @@ class MachineReader {
   void read_tool(const TomlEntry& entry);
   void read_probe(const TomlEntry& entry);
   void read_spindle(const TomlEntry& entry);
+  void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
+  std::optional<HomeDescription> read_home_of(TableReader& reader, const AxisDescription& axis);
   void read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const;
   static std::optional<double> way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis);
   double read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const;
@@ -103,6 +107,7 @@ class MachineReader {
   std::optional<Hertz> event_rate_;  // of the board, where that is right
   std::vector<AxisEntry> axes_;
   bool motors_are_readable_ = true;
+  bool homes_are_readable_ = true;
 };
 
 MachineDescription MachineReader::read() {
@@ -113,6 +118,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
   const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
+  const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
   finish(top);
   if (board != nullptr) read_board(*board);
@@ -120,6 +126,7 @@ MachineDescription MachineReader::read() {
   if (probe != nullptr) read_probe(*probe);
   if (spindle != nullptr) read_spindle(*spindle);
   if (axes != nullptr) read_axes(*axes);
+  read_homing(homing);
   return std::move(machine_);
 }
 
@@ -189,6 +196,16 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
   finish(reader);
 }
 
+// When all axes are known.
+void MachineReader::read_homing(const TomlEntry* entry) {
+  std::optional<TableReader> reader;
+  if (entry != nullptr) {
+    reader.emplace(std::get<TomlTable>(entry->value.content), "homing", entry->place, reporter_);
+  }
+  machine_.homing = read_homing_order(reader ? &*reader : nullptr, machine_.axes, homes_are_readable_);
+  if (reader) finish(*reader);
+}
+
 void MachineReader::read_axes(const TomlEntry& entry) {
   const auto& tables = std::get<TomlTable>(entry.value.content).entries;
   for (const TomlEntry& table : tables) {
@@ -225,6 +242,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   description.axis = axis;
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
   description.inverted = reader.flag("inverted").value_or(false);
+  description.home = read_home_of(reader, description);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
     result.motor_place = reader.place_of(motor_key.name);
@@ -232,6 +250,16 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   if (reader.has(motor_key.name) && !result.motor) motors_are_readable_ = false;
   finish(reader);
   axes_.push_back(result);
+}
+
+std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, const AxisDescription& axis) {
+  const TomlEntry* home = reader.table(home_table, "a table [axis.X.home] with its switch", Need::optional);
+  if (home == nullptr) return std::nullopt;
+  TableReader own(std::get<TomlTable>(home->value.content), reader.full_name(home_table), home->place, reporter_);
+  const auto description = read_home(own, axis);
+  finish(own);
+  if (!description) homes_are_readable_ = false;
+  return description;
 }
 
 void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {
@@ -336,7 +364,10 @@ void MachineReader::order_motors() {
   std::ranges::sort(axes_, {}, [](const AxisEntry& entry) { return index_of(entry.description.axis); });
   const bool numbered = std::ranges::any_of(axes_, [](const AxisEntry& entry) { return entry.motor.has_value(); });
   if (numbered && motors_are_readable_) number_motors();
-  for (const AxisEntry& entry : axes_) machine_.axes.push_back(entry.description);
+  for (const AxisEntry& entry : axes_) {
+    std::optional<HomeDescription>& home = machine_.axes.emplace_back(entry.description).home;
+    if (home && home->input < 0) home->input = static_cast<int>(machine_.axes.size()) - 1;
+  }
 }
 
 void MachineReader::number_motors() {

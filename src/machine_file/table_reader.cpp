@@ -157,6 +157,16 @@ std::optional<std::string> TableReader::text(std::string_view key, std::string_v
   return std::nullopt;
 }
 
+std::optional<bool> TableReader::is_second_of(std::string_view code, std::string_view key, std::string_view first,
+                                              std::string_view second, Need need) {
+  const bool given = has(key);
+  const auto word = text(key, first, need);
+  if (!word) return given || need == Need::required ? std::nullopt : std::optional(false);
+  if (*word == first || *word == second) return *word == second;
+  error(code, key, fmt::format("{} is \"{}\"", full_name(key), *word), fmt::format("\"{}\" or \"{}\"", first, second));
+  return std::nullopt;
+}
+
 const TomlEntry* TableReader::table(std::string_view key, std::string_view what, Need need) {
   const TomlEntry* entry = ask(key, std::string(what), need);
   if (entry == nullptr) return nullptr;

@@ -51,6 +51,9 @@ class TableReader {
   void know(std::string_view key) { known_.push_back(key); }
   std::optional<bool> flag(std::string_view key);
   std::optional<std::string> text(std::string_view key, std::string_view example, Need need);
+  // One of two words; where it is optional and not there, the first.
+  std::optional<bool> is_second_of(std::string_view code, std::string_view key, std::string_view first,
+                                   std::string_view second, Need need);
   // A table in this one; `what` describes it for messages.
   const TomlEntry* table(std::string_view key, std::string_view what, Need need);
 

@@ -31,18 +31,6 @@ constexpr NumberKey share_key{"share_of_pull_out", 0.05, 1, "0.7"};
 
 const char* const torque_code = "machine.torque";
 
-// "bipolar" and "unipolar", "chopper" and "resistive": one of two words, the first by default.
-std::optional<bool> is_second_of(TableReader& reader, std::string_view key, std::string_view first,
-                                 std::string_view second) {
-  const bool given = reader.has(key);
-  const auto word = reader.text(key, first, Need::optional);
-  if (!word) return given ? std::nullopt : std::optional(false);
-  if (*word == first || *word == second) return *word == second;
-  reader.error(torque_code, key, fmt::format("{} is \"{}\"", reader.full_name(key), *word),
-               fmt::format("\"{}\" or \"{}\"", first, second));
-  return std::nullopt;
-}
-
 std::optional<TorqueCurve> from(TableReader& reader, std::string_view key, Result<TorqueCurve, MotorError> curve) {
   if (curve) return std::move(*curve);
   reader.error(torque_code, key, curve.error().message, "values as on the motor's data sheet");
@@ -72,8 +60,8 @@ std::optional<TorqueCurve> read_motor(TableReader& reader, const Rotor& rotor) {
   const auto resistance = reader.number(resistance_key, Need::required);
   const auto inductance = reader.number(inductance_key, Need::required);
   const auto supply = reader.number(supply_key, Need::required);
-  const auto unipolar = is_second_of(reader, "winding", "bipolar", "unipolar");
-  const auto resistive = is_second_of(reader, "drive", "chopper", "resistive");
+  const auto unipolar = reader.is_second_of(torque_code, "winding", "bipolar", "unipolar", Need::optional);
+  const auto resistive = reader.is_second_of(torque_code, "drive", "chopper", "resistive", Need::optional);
   if (!holding || !current || !resistance || !inductance || !supply || !unipolar || !resistive) return std::nullopt;
   const Winding winding = *unipolar ? Winding::half_coil : Winding::whole_coil;
   return from(reader, holding_key.name,

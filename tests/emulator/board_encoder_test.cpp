@@ -51,7 +51,7 @@ Counted count_at(double rate, std::uint8_t motors, std::uint32_t interval) {
   };
   int items = 0;
   bench.before_item = [&](std::span<const std::uint8_t>) {
-    if (++items % 4 == 0) bench.ask(Question::spindle);
+    if (++items % 4 == 0) bench.ask({.question = Question::spindle});
   };
   const StreamKind kind{.shortest_interval = interval,
                         .longest_interval = interval + interval / 8,

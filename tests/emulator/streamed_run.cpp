@@ -134,11 +134,12 @@ void BoardBench::send_item(const BoardOutputs& outputs) {
   put_on_line({frame, encode(outputs, ++last_sent_, frame)});
 }
 
-void BoardBench::ask(Question question) {
+void BoardBench::ask(const Ask& question) {
   std::uint8_t frame[largest_frame];
+  Ask asked = question;
+  asked.motors = static_cast<std::uint8_t>(board_.motors.size());
   status_.reset();
-  const auto motors = static_cast<std::uint8_t>(board_.motors.size());
-  put_on_line({frame, encode(Ask{.motors = motors, .question = question}, 0, frame)});
+  put_on_line({frame, encode(asked, 0, frame)});
 }
 
 void BoardBench::send_replace(std::span<const Item> items) {
@@ -169,8 +170,12 @@ bool BoardBench::say_hello() {
   return greeted_;
 }
 
-void BoardBench::start(const std::vector<BoardSegment>& segments) {
+void BoardBench::start(const std::vector<BoardSegment>& segments, std::uint8_t limit) {
   if (!say_hello()) return;
+  if (limit != 0) {
+    ask({.question = Question::watch, .limit = limit});
+    run(clock_rate / 200);
+  }
   for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), capacity_); ++i) send_item(segments[i]);
 }
 

@@ -81,8 +81,8 @@ class BoardBench {
   // Says hello and sends them all, to begin when all have come: one less than the board takes at once.
   using Item = std::variant<BoardSegment, BoardOutputs>;
   void start_items(const std::vector<Item>& items);
-  // Says hello and sends as many as the board takes at once.
-  void start(const std::vector<BoardSegment>& segments);
+  // Says hello and sends as many as the board takes at once. `limit`: the bit of a limit switch that is to capture.
+  void start(const std::vector<BoardSegment>& segments, std::uint8_t limit = 0);
   // The steps that came out of the pins since the changes were forgotten, of each motor.
   std::vector<SeenSteps> seen();
   // Where the motors stand in their winding tables after what was not played by play().
@@ -90,7 +90,7 @@ class BoardBench {
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
   // Asks the board how it is, or something else; the answer comes while it runs.
-  void ask(Question question = Question::status);
+  void ask(const Ask& question = {});
   // Called when it has told where its spindle is.
   std::function<void(const Turned&)> on_turned;
   // Of the last frame that went to the board.

@@ -14,7 +14,7 @@ class ServedBoard : public CommandLine {
   ~ServedBoard() override { end_server(); }
 
   // Starts one, in the place of the one before; its address.
-  std::string serve(const std::string& clock = "16000000") {
+  std::string serve(const std::string& clock = "16000000", const std::string& machine = "") {
     end_server();
     const std::string said = path("said");
     write("said", "");
@@ -22,7 +22,7 @@ class ServedBoard : public CommandLine {
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
       execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", "--clock", clock.c_str(),
-            nullptr);
+            machine.empty() ? nullptr : "--machine", machine.c_str(), nullptr);
       _exit(1);
     }
     for (int i = 0; i < 1000; ++i) {

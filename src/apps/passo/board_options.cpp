@@ -74,6 +74,8 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   serve.add_option("--clock", arguments.serve.clock, "ticks a second")
       ->check(CLI::Range(1e5, 1e9))
       ->capture_default_str();
+  serve.add_option("-m,--machine", arguments.serve.machine,
+                   "machine file: it has the switches of that machine, which stands at machine zero");
   serve.add_flag("--once", arguments.serve.once, "serve one host, then end");
   serve.callback([&arguments] { arguments.chosen = [&arguments] { return board_serve(arguments.serve); }; });
   return board;

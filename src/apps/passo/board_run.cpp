@@ -59,6 +59,14 @@ bool BoardRun::wait_for_rest() {
   return status.has_value();
 }
 
+bool BoardRun::stands_at(const std::array<std::int64_t, max_motors>& steps) {
+  if (!wait_for_rest()) return false;
+  for (unsigned motor = 0; motor < motors_; ++motor) {
+    before_.positions[motor] -= static_cast<std::int32_t>(steps[motor]);
+  }
+  return true;
+}
+
 void BoardRun::count_from(const std::vector<int>& counts) {
   std::copy(counts.begin(), counts.end(), before_.positions);
 }

@@ -1,6 +1,7 @@
 // A board that a program is run on: opened, asked before and compared after.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,6 +25,9 @@ class BoardRun {
   const BoardStatus& before() const { return before_; }
   // Asks until it does; false where it does not answer.
   [[nodiscard]] bool wait_for_rest();
+  // The board has moved since it was asked, and rests; it stands so many steps from machine zero, from where planned
+  // steps count. False where it does not answer.
+  [[nodiscard]] bool stands_at(const std::array<std::int64_t, max_motors>& steps);
   // Where the planned steps began, if that is not where the board is now.
   void count_from(const std::vector<int>& counts);
   // At the end: whether the board has counted the steps that were planned, and those have come out of its pins where

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
 #include "commands.hpp"
 #include "program_input.hpp"
@@ -11,6 +13,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "passo/controller/home_switches.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/transport/stream_port.hpp"
 
@@ -89,12 +92,23 @@ int wait_for_host(int listening, RealTime& time) {
 }  // namespace
 
 int board_serve(const BoardServeArguments& arguments) {
+  std::vector<TravelSwitch> switches;
+  if (!arguments.machine.empty()) {
+    Diagnostics diagnostics;
+    const std::optional<MachineDescription> description = load_machine_file(arguments.machine, diagnostics);
+    show(diagnostics);
+    if (!description) return exit_bad_machine;
+    switches = home_switches(*description, Point());
+  }
   unsigned port = 0;
   const int listening = listen_on_loopback(arguments.port, port);
   if (listening < 0) return fail(exit_failed, fmt::format("127.0.0.1:{} is in use by another program", arguments.port));
   fmt::print("A virtual board of {} motors: tcp:127.0.0.1:{}\n", arguments.motors, port);
   std::fflush(stdout);
   VirtualMachine machine(static_cast<std::uint8_t>(arguments.motors), Hertz(arguments.clock));
+  for (const TravelSwitch& one : switches) {
+    if (one.motor < arguments.motors) machine.add_switch(one);
+  }
   RealTime time(machine);
   do {
     const int descriptor = wait_for_host(listening, time);

@@ -44,6 +44,7 @@ std::string state_of(const BoardStatus& status) {
   if ((status.state & board_manual) != 0) return state + ", in manual mode: a person moves it by its keypad";
   if (status.motors == 0) return state + ", no host has said hello since it started";
   if ((status.state & board_trusted) == 0) state += ", its position is not to be trusted";
+  if ((status.state & board_homes) != 0) state += ", an axis is being homed";
   if ((status.state & board_slipped) != 0) state += ", and stood still amid motion: its events came too late";
   return state;
 }
@@ -70,6 +71,7 @@ nlohmann::json to_json(const BoardStatus& status) {
   return {{"moves", (status.state & board_moves) != 0},
           {"trusted", (status.state & board_trusted) != 0},
           {"manual", (status.state & board_manual) != 0},
+          {"homes", (status.state & board_homes) != 0},
           {"slipped", (status.state & board_slipped) != 0},
           {"motors", status.motors},
           {"executed", status.executed},

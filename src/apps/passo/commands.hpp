@@ -51,6 +51,7 @@ struct RunArguments {
   std::string board = "virtual";       // as parse_board_address() has it
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was broken off
+  bool home = false;                   // the machine is homed first, and the program begins where it rests then
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };
@@ -65,6 +66,14 @@ struct JogArguments {
   bool json = false;
 };
 int jog(const JogArguments& arguments);
+
+struct HomeArguments {
+  std::string machine;
+  std::string board = "virtual";  // as parse_board_address() has it
+  bool json = false;
+  bool quiet = false;
+};
+int home(const HomeArguments& arguments);
 
 struct CheckArguments {
   ProgramArguments program;
@@ -129,7 +138,8 @@ struct BoardServeArguments {
   unsigned motors = 4;
   double clock = 16e6;
   unsigned port = 7070;
-  bool once = false;  // one host, then end
+  std::string machine;  // a machine file: its switches are there, and it stands at machine zero; empty: none
+  bool once = false;    // one host, then end
 };
 int board_serve(const BoardServeArguments& arguments);
 

@@ -23,6 +23,7 @@ constexpr const char* examples = R"(Examples:
   passo run part.ngc -m router.toml --trace part.vcd          every step of every motor, for GTKWave
   passo run part.ngc -m router.toml --json | jq .time_s       for scripts
   passo jog -m router.toml X+10 Y-3                           axes moved by hand
+  passo home -m router.toml                                   where the machine stands, by its limit switches
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
   passo canon part.ngc                                        what it means, as canonical calls
@@ -73,6 +74,12 @@ void add_machine(CLI::App& command, std::string& machine) {
   command.add_option("-m,--machine", machine, "machine file (TOML), see docs/manual/machine-file.md")->required();
 }
 
+void add_board(CLI::App& command, std::string& board) {
+  command.add_option(
+      "-b,--board", board,
+      "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; without it the virtual machine");
+}
+
 CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
   CLI::App& command = *app.add_subcommand("jog", "move axes of the virtual machine by hand, and say where they rest");
   command.add_option("MOVES", arguments.moves, "X+10 Y-3: by so much; X+: as far as the travel goes")->required();
@@ -87,6 +94,21 @@ CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
       "  passo jog -m router.toml X-3 Y+4              straight to both\n"
       "  passo jog -m router.toml Z+                   up to the end of the travel\n"
       "  passo jog -m router.toml X- --held 1.5        let go after 1.5 s: it rests a lease later");
+  return command;
+}
+
+CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("home", "find where a machine stands, by its limit switches");
+  add_machine(command, arguments.machine);
+  add_board(command, arguments.board);
+  command.add_flag("--json", arguments.json, "print it as JSON");
+  command.add_flag("-q,--quiet", arguments.quiet, "only errors");
+  command.footer(
+      "Examples:\n  passo home -m router.toml                              the virtual machine, from machine zero\n"
+      "  passo home -m uno.toml --board serial:/dev/ttyACM0     a real one\n"
+      "Errors end in a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
+      "[home.board],\n"
+      "[home.no-switch], [home.interrupted]; see docs/manual/homing.md");
   return command;
 }
 
@@ -113,9 +135,9 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
   run_command.add_option("--touch", run_arguments.touches,
                          "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
-  run_command.add_option(
-      "-b,--board", run_arguments.board,
-      "serial:DEVICE[@BAUD], tcp:HOST:PORT, sim:uno or sim:mega, see passo board; without it the virtual machine");
+  add_board(run_command, run_arguments.board);
+  run_command.add_flag("--home", run_arguments.home,
+                       "the machine is homed first, and the program begins where it then stands");
   run_command.add_flag("--resume", run_arguments.resume,
                        "over a line: goes on where this program was broken off on that board");
   run_command.add_option("--journal", run_arguments.journal,
@@ -132,6 +154,9 @@ int parse_and_run(int argc, char** argv) {
 
   JogArguments jog_arguments;
   CLI::App& jog_command = add_jog(app, jog_arguments);
+
+  HomeArguments home_arguments;
+  CLI::App& home_command = add_home(app, home_arguments);
 
   CheckArguments check_arguments;
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");
@@ -185,6 +210,7 @@ int parse_and_run(int argc, char** argv) {
   }
   if (run_command.parsed()) return run(run_arguments);
   if (jog_command.parsed()) return jog(jog_arguments);
+  if (home_command.parsed()) return home(home_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -12,11 +11,13 @@
 #include "board_run.hpp"
 #include "commands.hpp"
 #include "emulated_spindle.hpp"
+#include "homing_run.hpp"
 #include "mid_run_changes.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "resumable_run.hpp"
 #include "run_outputs.hpp"
+#include "run_signals.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,6 +25,7 @@
 #include "passo/controller/job.hpp"
 #include "passo/controller/operator_panel.hpp"
 #include "passo/controller/path_fingerprint.hpp"
+#include "passo/controller/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
@@ -34,21 +36,6 @@ namespace {
 
 // How often the clock is read for the progress line: every so many board segments.
 constexpr unsigned segments_between_looks = 1024;
-
-// The first Ctrl-C over a line.
-volatile std::sig_atomic_t interrupted_by = 0;
-
-extern "C" void end_on_signal(int signal) {
-  OutputFile::remove_unfinished();
-  std::_Exit(128 + signal);
-}
-
-extern "C" void brake_on_signal(int signal) {
-  if (interrupted_by != 0) end_on_signal(signal);
-  interrupted_by = signal;
-  constexpr std::string_view words = "\npasso: brakes on the path; a second time leaves at once\n";
-  static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
-}
 
 void add_board(RunSummary& summary, Job& job, const MachineDescription& machine) {
   const MachineCounts counts = job.machine().counts();
@@ -110,7 +97,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
   {
     ProgressDisplay progress(arguments.program.program, !arguments.quiet);
     for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
-      if (interrupted_by != 0 && !job.drive().stopped()) job.drive().stop();
+      if (interrupted_by() != 0 && !job.drive().stopped()) job.drive().stop();
       if (board != nullptr) panel.look();
       if (changes.any() && !panel.holds()) changes.act(job.drive(), job.machine(), machine);
       if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
@@ -131,7 +118,7 @@ RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& argumen
 
 // Why a run ended before its program did, and where.
 std::string stopped_words(const Job& job, const RunSummary& summary) {
-  std::string words = interrupted_by != 0              ? "interrupted; "
+  std::string words = interrupted_by() != 0            ? "interrupted; "
                       : job.drive().stopped_by_probe() ? "the probe was touched in a move that is no probe move; "
                                                        : "the program cannot go on; ";
   words += "the machine rests at";
@@ -164,6 +151,17 @@ std::function<void(const PathItem&)> known_again(PathFingerprint& path, const Ru
   return [&path](const PathItem& item) { path.add(item); };
 }
 
+// The exit code; `board` is null where the machine is virtual.
+int home_first(const MachineDescription& machine, BoardRun* board, bool shows) {
+  const HomingReport report = home_machine(machine, board, shows);
+  if (!report.code.empty()) {
+    const int failed = fail(exit_failed, words_of(report));
+    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
+  }
+  if (board == nullptr || board->stands_at(steps_at(machine, report.place))) return exit_done;
+  return fail(exit_failed, "the board: it does not answer any more");
+}
+
 // Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
 int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, std::unique_ptr<BoardRun>& board,
                 std::unique_ptr<ResumableRun>& resumable) {
@@ -173,10 +171,12 @@ int reach_board(const ResumableRun::Subject& subject, const ProgramReader& progr
   if (code != exit_done) return code;
   const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
   board = BoardRun::open(arguments.board, motors, arguments.resume, code);
-  if (!board || (resumable && !resumable->begin(*board, program, subject, code))) return code;
-  std::signal(SIGINT, brake_on_signal);
-  std::signal(SIGTERM, brake_on_signal);
-  return exit_done;
+  if (!board) return code;
+  brake_on_signals();
+  // A job that is resumed began so.
+  if (arguments.home && !arguments.resume) code = home_first(subject.machine, board.get(), !arguments.quiet);
+  if (code == exit_done && resumable) static_cast<void>(resumable->begin(*board, program, subject, code));
+  return code;
 }
 
 int print(const RunSummary& summary, const RunArguments& arguments) {
@@ -218,6 +218,10 @@ int run(const RunArguments& arguments) {
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   options->main_passes = arguments.passes;
+  if (arguments.home && machine->homing.empty()) {
+    return fail(exit_bad_machine, words_without_homing(arguments.machine));
+  }
+  if (arguments.home) options->start = home_rest(*machine);
   Diagnostics findings;
   PathFingerprint path;
   const ProgramCheck check =
@@ -226,8 +230,7 @@ int run(const RunArguments& arguments) {
   if (!check.good) return exit_bad_program;
   if (!suits_the_board(arguments)) return exit_bad_program;
 
-  std::signal(SIGINT, end_on_signal);
-  std::signal(SIGTERM, end_on_signal);
+  end_on_signals();
   const std::string tools = check.tools_change ? tool_table_file(arguments.program, *options) : std::string();
   Result<RunOutputs, OutputError> outputs =
       RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
@@ -243,6 +246,8 @@ int run(const RunArguments& arguments) {
     reaches.board = &board->port();
     fit_emulated_spindle(machine->spindle, reaches.board);
     if (resumable) resumable->add_to(reaches);
+  } else if (arguments.home) {
+    if (const int code = home_first(*machine, nullptr, !arguments.quiet); code != exit_done) return code;
   }
 
   Diagnostics late;
@@ -261,10 +266,10 @@ int run(const RunArguments& arguments) {
     if (const auto words = board->compare(job.machine().counts())) return fail(exit_failed, "the board: " + *words);
     board->tell(*job.drive().refiller());
   }
-  if (late.any_error() || job.drive().stopped_by_probe() || interrupted_by != 0) {
+  if (late.any_error() || job.drive().stopped_by_probe() || interrupted_by() != 0) {
     show(late);
     const int failed = fail(exit_failed, stopped_words(job, summary));
-    return interrupted_by != 0 ? 128 + interrupted_by : failed;
+    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
   }
   const Status<OutputError> written =
       outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);

@@ -195,13 +195,14 @@ class ChipPlayer {
   static bool wants_more() { return left_ == 0; }
   // The interrupt could come to the end of the ring if all else came first.
   static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
-  // The probe touched, at an event at which the interrupt looked. Until watch_probe() all that is told of the oldest
-  // item, and whether it is finished, is told as it was then.
-  static bool captured() { return watching_ && probe_mask == 0; }
-  static bool watches_probe() { return watching_; }
-  static void watch_probe(uint8_t mask) {
-    probe_mask = mask;
-    watching_ = mask != 0;
+  // What is watched has changed, at an event at which the interrupt looked. Until watch() all that is told of the
+  // oldest item, and whether it is finished, is told as it was then.
+  static bool captured() { return watching_ && armed == 0; }
+  static bool watches() { return watching_; }
+  // For the next change of the pins that are watched.
+  static void watch(bool on) {
+    armed = on ? 1 : 0;
+    watching_ = on;
     noted_ = false;
   }
 
@@ -237,7 +238,7 @@ class ChipPlayer {
   // Events of the oldest item, and of none before it, that are not played yet.
   static int16_t left_of_oldest() {
     uint16_t played = static_cast<uint16_t>(made_ - waiting());
-    if (captured()) note_capture();  // after that look: the probe may touch at any time
+    if (captured()) note_capture();  // after that look: it may change at any time
     if (noted_) played = captured_at_;
     return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
   }
@@ -245,7 +246,7 @@ class ChipPlayer {
   [[gnu::noinline]] static void note_capture() {
     if (noted_) return;
     const uint8_t now = fetched_entry();
-    const uint8_t since = static_cast<uint8_t>((now - entry_of(probe_entry)) & ring_mask);
+    const uint8_t since = static_cast<uint8_t>((now - entry_of(captured_entry)) & ring_mask);
     captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
     noted_ = true;
   }
@@ -406,7 +407,7 @@ class ChipPlayer {
   static inline uint16_t gap_ = 0;    // whole ticks before the event at which the interrupt stopped
   static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
-  static inline bool watching_ = false;  // the probe
+  static inline bool watching_ = false;
   static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last events that were not fast
   static inline uint16_t made_ = 0;      // events, ever

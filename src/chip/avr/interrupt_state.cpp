@@ -12,19 +12,19 @@ volatile uint8_t line_is_watched;
 volatile uint8_t turns_tail = turns_address & 0xff;
 volatile uint8_t action_at_end;
 volatile uint8_t received_head;
-volatile uint8_t probe_mask;
-volatile uint16_t probe_entry;
+volatile uint8_t armed;
+volatile uint16_t captured_entry;
 volatile uint8_t halted;
+volatile uint16_t watch_port;
+volatile uint8_t watch_pins;
+volatile uint8_t watch_quiet;
 volatile uint8_t stop_low_b;
 #ifdef __AVR_ATmega2560__
 volatile uint8_t stop_low_d;
 volatile uint8_t stop_low_e;
 volatile uint8_t stop_low_j;
-volatile uint8_t probe_flip;
 #else
 volatile uint8_t stop_low_c;
-volatile uint8_t quiet_b = 0xff;
-volatile uint8_t quiet_c = 0xff;
 #endif
 }
 

@@ -163,16 +163,22 @@ extern "C" {
       in r24, %[pinb]
       com r24
       lds r25, stop_low_b
-      and r25, r24
+      and r24, r25
       brne 8f
-      lds r25, probe_flip
+      lds r25, armed
+      and r25, r25
+      breq 6f
+      lds r30, watch_port
+      lds r31, watch_port + 1
+      ld r24, Z
+      lds r25, watch_quiet
       eor r24, r25
-      lds r25, probe_mask
+      lds r25, watch_pins
       and r24, r25
       breq 6f
-      ldi r24, 0                    ; the first touch counts
-      sts probe_mask, r24
-      sts probe_entry, r2
+      ldi r24, 0                    ; the first change counts
+      sts armed, r24
+      sts captured_entry, r2
   6:  pop r25
       pop r24
       out %[sreg], r24

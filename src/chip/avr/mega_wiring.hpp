@@ -2,7 +2,7 @@
 #pragma once
 
 #include "registers.hpp"
-#include "step_interrupt.hpp"
+#include "switch_pins.hpp"
 
 namespace passo::chip {
 
@@ -22,27 +22,26 @@ inline void prepare_spindle() {
   Tccr4b::write(1 << 3 | 1 << 1);
 }
 
+// What is to stop the motors while `watched` is captured.
+inline void stop_on(uint16_t watched) {
+  stop_low_b = stops_beside<'B'>(watched);
+  stop_low_d = stops_beside<'D'>(watched);
+  stop_low_e = stops_beside<'E'>(watched);
+  stop_low_j = stops_beside<'J'>(watched);
+}
+
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled. Pins of ports D and E
 // have flags of their own, INT2 to INT5; those of B and J one for the port.
 inline void watch_switches() {
   constexpr uint8_t b = pins.stops_on('B');
-  constexpr uint8_t d = pins.stops_on('D');
-  constexpr uint8_t e = pins.stops_on('E');
   constexpr uint8_t j = pins.stops_on('J');
-  stop_low_b = b;
-  stop_low_d = d;
-  stop_low_e = e;
-  stop_low_j = j;
+  stop_on(input_probe);
   Eicra::write(1 << 6 | 1 << 4);  // any change of INT3 and INT2
   Eicrb::write(1 << 2 | 1 << 0);  // of INT5 and INT4
   Pcmsk0::write(static_cast<uint8_t>(b | pins.probe.mask()));
   Pcmsk1::write(static_cast<uint8_t>(j << 1));
   Pcifr::write(7);
   Eifr::write(0xff);
-}
-// What it is to notice of the probe: that it closes, or opens.
-inline void notice_probe(bool closing) {
-  probe_flip = closing ? uint8_t{0} : pins.probe.mask();
 }
 static_assert(pins.spindle_pwm == Pin{'H', 5} && pins.probe.port == 'B');
 // The interrupt compares PCIFR with EIFR: equal only where both are 0. So no bit may be used in both; PCIFR has 0

@@ -26,6 +26,7 @@ struct Hardware {
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() { return line.room(); }
   void enable() { Wiring::enable_motors(true); }
+  void watch();
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
@@ -89,11 +90,23 @@ void start_watchdog() {
 }
 
 // For the next change. One that has come already, where it bounces, nobody will be told of but by looking.
-[[gnu::noinline]] void watch_probe() {
-  const bool touched = (reader.inputs() & input_probe) != 0;
-  notice_probe(!touched);
-  ChipPlayer::watch_probe(Wiring::probe);
-  if (Wiring::probe_closed() != touched && !ChipPlayer::captured()) ChipPlayer::watch_probe(0);
+[[gnu::noinline]] void watch_input() {
+  const uint16_t watched = board.watched();
+  const bool closed = (reader.inputs() & watched) != 0;
+  choose_watch(watched, closed);
+  SerialLine::breathe();
+  ChipPlayer::watch(true);
+  if (((Wiring::inputs() & watched) != 0) != closed && !ChipPlayer::captured()) ChipPlayer::watch(false);
+}
+
+// Another input, at rest.
+[[gnu::noinline]] void Hardware::watch() {
+  SerialLine::breathe();
+  ChipPlayer::watch(false);
+  stop_on(board.watched());
+  SerialLine::breathe();
+  watch_input();
+  SerialLine::breathe();
 }
 
 // Whether the timer has overflowed since this was asked last.
@@ -108,26 +121,27 @@ bool take_tick() {
   const bool tick = take_tick();
   if (halted != 0) return stop_at_once();
   uint16_t raw = Wiring::inputs();
-  const bool probed = ChipPlayer::captured();
+  const uint16_t watched = board.watched();
+  const bool changed = ChipPlayer::captured();
   const uint16_t before = reader.inputs();
-  // Amid motion it is the interrupt that tells that the probe has changed, and where.
-  if (probed || (running != 0 && ChipPlayer::watches_probe())) {
-    raw &= static_cast<uint16_t>(~input_probe);
-    raw |= (probed ? ~before : before) & input_probe;
+  // Amid motion it is the interrupt that tells that what is watched has changed, and where.
+  if (changed || (running != 0 && ChipPlayer::watches())) {
+    raw &= static_cast<uint16_t>(~watched);
+    raw |= (changed ? ~before : before) & watched;
   }
   const uint16_t on = reader.look(raw, tick);
-  constexpr uint16_t stopping = input_emergency_stop | 7 * input_limit;
   // Amid motion the interrupt has stopped already; at rest nobody else looks.
-  if ((on & stopping) != 0 && !board.idle()) return stop_at_once();
+  if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once();
   if ((on & input_emergency_stop) != 0) return stop_at_once();
   uint16_t told = on & InputReader::pressed_by_people;
-  told |= (reader.inputs() ^ before) & input_probe;
-  if (probed) board.settle();  // what was finished before the touch is let go of
+  told |= (reader.inputs() ^ before) & watched;
+  if (changed) board.settle();  // what was finished before that is let go of
   SerialLine::breathe();
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   if (tick) manual.tick();
-  if ((told & input_probe) != 0) ChipPlayer::watch_probe(0);
-  if (!ChipPlayer::watches_probe()) watch_probe();
+  if ((told & watched) != 0) ChipPlayer::watch(false);
+  SerialLine::breathe();
+  if (!ChipPlayer::watches()) watch_input();
 }
 
 // The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.
@@ -151,7 +165,7 @@ bool take_tick() {
   manual.feed();
   ChipPlayer::refill();
   line.poll();
-  // What the interrupt has seen at once, and before an item is let go of in which the probe touched; the rest in its
+  // What the interrupt has seen at once, and before an item is let go of in which it captured; the rest in its
   // time.
   if (halted != 0 || ChipPlayer::captured() || (++turns & 63) == 0) look_at_inputs();
   SerialLine::breathe();

@@ -24,7 +24,7 @@ struct Expansion {
   uint8_t flips;
   uint8_t directions;
 #else
-  PortBits flips;                    // as bits of the step ports
+  PortBits flips;  // as bits of the step ports
 #endif
   uint16_t address;  // of the entry to be written next
   uint8_t motors;    // that the host knows of
@@ -40,21 +40,22 @@ extern volatile uint8_t line_is_watched;  // by the interrupt, which comes often
 extern volatile uint8_t turns_tail;       // low byte of the address of the next turn
 extern volatile uint8_t action_at_end;    // low byte of the address of what to do at the end of the ring; 0: nothing
 extern volatile uint8_t received_head;    // low byte of the address where the next byte off the line goes
-extern volatile uint8_t probe_mask;       // armed: the probe's pin
-extern volatile uint16_t probe_entry;     // the ring's register when it touched
+extern volatile uint8_t armed;            // what is watched has not changed yet
+extern volatile uint16_t captured_entry;  // the ring's register when it did
 extern volatile uint8_t halted;           // by a pin
+// What is watched, on one port: the address of its PINx, its pins, and their levels as long as nothing has changed.
+extern volatile uint16_t watch_port;
+extern volatile uint8_t watch_pins;
+extern volatile uint8_t watch_quiet;
 // The pins of a port that stop everything when they are low.
 #ifdef __AVR_ATmega2560__
 extern volatile uint8_t stop_low_b;
 extern volatile uint8_t stop_low_d;
 extern volatile uint8_t stop_low_e;
 extern volatile uint8_t stop_low_j;
-extern volatile uint8_t probe_flip;  // the probe's pin, where it is to open
 #else
-extern volatile uint8_t stop_low_b;  // here: when they are
-extern volatile uint8_t stop_low_c;  //   not as in `quiet`
-extern volatile uint8_t quiet_b;
-extern volatile uint8_t quiet_c;
+extern volatile uint8_t stop_low_b;
+extern volatile uint8_t stop_low_c;
 #endif
 
 // Makes the next `events` events (at least one) of the segment and puts them into the ring. The first keeps both flags

@@ -119,24 +119,34 @@ extern "C" {
       ldi r24, 3
       out %[pcifr], r24
       in r24, %[pinb]
-      lds r25, quiet_b
-      eor r24, r25
+      com r24
       lds r25, stop_low_b
       and r24, r25
       brne 8f
       in r24, %[pinc]
-      lds r25, quiet_c
-      eor r24, r25
+      com r24
       lds r25, stop_low_c
-      and r25, r24
+      and r24, r25
       brne 8f
-      lds r25, probe_mask
+      lds r25, armed
+      and r25, r25
+      breq 6f
+      out %[gpior0], r30
+      out %[gpior1], r31
+      lds r30, watch_port
+      ldi r31, 0
+      ld r24, Z
+      in r30, %[gpior0]
+      in r31, %[gpior1]
+      lds r25, watch_quiet
+      eor r24, r25
+      lds r25, watch_pins
       and r24, r25
       breq 6f
-      ldi r24, 0                    ; the first touch counts
-      sts probe_mask, r24
-      sts probe_entry, r2
-      sts probe_entry + 1, r3
+      ldi r24, 0                    ; the first change counts
+      sts armed, r24
+      sts captured_entry, r2
+      sts captured_entry + 1, r3
   6:  pop r25
       pop r24
       out %[sreg], r24

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "registers.hpp"
-#include "step_interrupt.hpp"
+#include "switch_pins.hpp"
 
 namespace passo::chip {
 
@@ -20,20 +20,20 @@ inline void prepare_spindle() {
   Tccr2b::write(1 << 1);
 }
 
+// What is to stop the motors while `watched` is captured.
+inline void stop_on(uint16_t watched) {
+  stop_low_b = stops_beside<'B'>(watched);
+  stop_low_c = stops_beside<'C'>(watched);
+}
+
 // The interrupt looks at these flags before every step. No interrupt of their own is enabled.
 inline void watch_switches() {
   constexpr uint8_t b = pins.stops_on('B');
   constexpr uint8_t c = pins.stops_on('C');
-  stop_low_b = b;
-  stop_low_c = c;
+  stop_on(input_probe);
   Pcmsk0::write(b);
   Pcmsk1::write(static_cast<uint8_t>(c | pins.probe.mask()));
   Pcifr::write(7);
-}
-// What it is to notice of the probe: that it closes, or opens.
-inline void notice_probe(bool closing) {
-  const uint8_t quiet = quiet_c;
-  quiet_c = closing ? quiet | pins.probe.mask() : quiet & static_cast<uint8_t>(~pins.probe.mask());
 }
 static_assert(!pins.spindle_pwm.exists() || pins.spindle_pwm == Pin{'B', 3});
 static_assert(pins.probe.port == 'C' && pins.stops_on('D') == 0);

@@ -47,12 +47,8 @@ constexpr uint8_t vectors_before = 11;
   return low_of('B', stop_low_b) != 0;
 }
 
-[[gnu::always_inline]] inline bool probe_changed() {
-#ifdef __AVR_ATmega2560__
-  return (low_of(pins.probe.port, probe_mask) ^ (probe_flip & probe_mask)) != 0;
-#else
-  return ((register_of(pins.probe.port, 0) ^ quiet_c) & probe_mask) != 0;
-#endif
+[[gnu::always_inline]] inline bool watched_changed() {
+  return ((*reinterpret_cast<volatile uint8_t*>(watch_port) ^ watch_quiet) & watch_pins) != 0;
 }
 
 [[gnu::always_inline]] inline void stop_playing() {
@@ -72,9 +68,9 @@ constexpr uint8_t vectors_before = 11;
     act(safe_action);
     return false;
   }
-  if (probe_changed()) {
-    probe_mask = 0;  // the first change counts
-    probe_entry = entry;
+  if (armed != 0 && watched_changed()) {
+    armed = 0;  // the first change counts
+    captured_entry = entry;
   }
   return true;
 }

@@ -79,11 +79,6 @@ class Wiring {
     return on;
   }
 
-  static constexpr uint8_t probe = pins.probe.mask();
-  static bool probe_closed() {
-    return closed(pins.probe);
-  }
-
   [[gnu::always_inline]] static volatile uint8_t& port_register(char port, uint8_t which) {
     return *reinterpret_cast<volatile uint8_t*>(port_registers(port) + which);
   }

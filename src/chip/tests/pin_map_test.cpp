@@ -67,7 +67,7 @@ TEST(PinMap, finds_a_keypad_that_is_not_whole_or_shares_a_pin) {
   map = mega_ramps;
   map.keypad.speeds.start_stop = 100;
   EXPECT_FALSE(map.has_whole_keypad(16'000'000)) << "its intervals are longer than a segment has";
-  EXPECT_EQ(mega_ramps.inputs_on('L'), 1 << 2 | 1 << 4 | 1 << 6);
+  EXPECT_EQ(mega_ramps.inputs_on('L'), 1 << 0 | 1 << 2 | 1 << 4 | 1 << 6) << "the encoder's two, and two rows";
   EXPECT_EQ(mega_ramps.outputs_on('G'), 1 << 1) << "columns float";
 }
 

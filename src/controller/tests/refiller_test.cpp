@@ -51,7 +51,7 @@ class ListedBoard final : public Link {
     list_.pop_front();
     EXPECT_TRUE(!list_.empty() || speed_at_rest_) << "the list ran out amid motion";
   }
-  void watch_probe(ProbeUntil) override {}
+  void watch_probe(ProbeUntil, std::uint8_t) override {}
   const ProbeReport& probe_report() const override { return report_; }
   void recall_contact() override {}
   void ask() override {}

@@ -36,8 +36,21 @@ ProgramReader program() {
                                   "M2\n");
 }
 
-std::optional<ResumePoint> point_at(std::uint64_t item, double s = 0) {
-  return find_resume_point(program(), two_axes(), InterpreterOptions(), {.item = item, .s = Mm(s)});
+std::optional<ResumePoint> point_at(std::uint64_t item, double s = 0, const InterpreterOptions& options = {}) {
+  return find_resume_point(program(), two_axes(), options, {.item = item, .s = Mm(s)});
+}
+
+// A machine that was homed before.
+TEST(ResumePoints, count_from_machine_zero_wherever_the_job_began) {
+  InterpreterOptions options;
+  options.start[Axis::x] = -50.5;
+  const auto start = point_at(0, 0, options);
+  ASSERT_TRUE(start);
+  EXPECT_EQ(start->point[Axis::x], -50.5);
+  EXPECT_EQ(start->steps[0], -5050);
+  const auto amid = point_at(0, 10, options);
+  ASSERT_TRUE(amid);
+  EXPECT_EQ(amid->steps[0], -4050);
 }
 
 TEST(ResumePoints, know_that_they_are_in_a_thread) {

@@ -138,6 +138,39 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
   EXPECT_EQ(link.probe_report().steps[0], -6);
 }
 
+TEST(VirtualMachine, a_limit_switch_stops_it_and_captures_where_it_is_watched) {
+  VirtualMachine machine(1, clock);
+  machine.add_switch({.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 120, .opens_at = 110});
+  const auto session = [&] { return std::make_unique<BoardLink>(machine, std::uint8_t{1}); };
+  auto link = session();
+  link->watch_probe(ProbeUntil::touched, input_limit);
+  EXPECT_FALSE(link->error());
+  EXPECT_FALSE(link->probe_report().touched);
+  link->send(every_event(200, 100));
+  link->drain();
+  EXPECT_EQ(machine.counts().motors[0].position, 200) << "watched, it stops nothing";
+  link->recall_contact();
+  EXPECT_TRUE(link->probe_report().happened);
+  EXPECT_EQ(link->probe_report().steps[0], 120);
+  link->watch_probe(ProbeUntil::released, input_limit);
+  EXPECT_TRUE(link->probe_report().touched);
+  link->send(every_event(150, 100, true));
+  link->drain();
+  link->recall_contact();
+  EXPECT_EQ(link->probe_report().steps[0], -90);
+  link->watch_probe(ProbeUntil::off);
+  link->send(every_event(200, 100));
+  link->drain();
+  EXPECT_EQ(link->error(), LinkError::stopped);
+  EXPECT_EQ(machine.counts().motors[0].position, 120);
+  // Closed already, it does not stop; that it closes does.
+  link = session();
+  link->send(every_event(5, 100, true));
+  link->drain();
+  EXPECT_FALSE(link->error());
+  EXPECT_EQ(machine.counts().motors[0].position, 115);
+}
+
 TEST(VirtualMachine, time_goes_on_past_32_bits) {
   VirtualMachine machine(1, clock);
   BoardLink link(machine, 1);

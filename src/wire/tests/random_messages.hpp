@@ -116,7 +116,7 @@ class RandomMessages {
       case 5: size = encode(Session{.number = word()}, sequence, frame.data()); break;
       case 6: size = encode(replace(), sequence, frame.data()); break;
       case 7: {
-        const Ask ask{.version = byte(), .motors = byte(), .question = static_cast<Question>(byte())};
+        const Ask ask{.version = byte(), .motors = byte(), .question = static_cast<Question>(byte()), .limit = byte()};
         size = encode(ask, sequence, frame.data());
         break;
       }

@@ -115,7 +115,6 @@ class Job {
   VirtualMachine machine_;  // what is at the other end of the wire
   std::optional<VirtualLine> line_;
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
-  Hertz clock_;
   std::optional<ResumePoint> resume_at_;
   bool wants_encoder_;               // of the board that is found
   std::optional<BoardLink> shadow_;  // to the machine, where it is not the board

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "passo/base/source.hpp"
 #include "passo/controller/probe_move.hpp"
@@ -23,6 +24,7 @@
 #include "passo/controller/spindle_follower.hpp"
 #include "passo/controller/tap.hpp"
 #include "passo/link/board_link.hpp"
+#include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -41,6 +43,10 @@ struct BoardLine {
   BoardPort* port = nullptr;  // none: the machine itself
   LineCare care = {};
   bool real_time = false;  // no virtual machine is behind it: its time passes by itself
+
+  // The two kinds that there are. `session` and `greeting`: LineCare's.
+  static BoardLine to(VirtualLine& line);
+  static BoardLine to_board(BoardPort& board, std::uint16_t session = 1, std::uint8_t greeting = 0);
 };
 
 // In a probe move: the tool goes on so long into what it touched, before it brakes.
@@ -119,6 +125,8 @@ class MotionDrive {
   Tap<MotionItem>& motion() { return watched_motion_; }
   Tap<BoardItem>& board() { return watched_board_; }
   const BoardLink& link() const { return link_; }
+  // What keeps it from driving the board that it found, as a sentence without a full stop.
+  std::optional<std::string> unsuited() const;
 
  private:
   Seconds in_seconds(Ticks ticks) const { return Seconds(static_cast<double>(ticks.count) / tick_rate_.value()); }

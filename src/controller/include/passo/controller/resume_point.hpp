@@ -18,7 +18,7 @@ namespace passo {
 struct ResumePoint {
   PathPlace place;
   Point point;                                   // machine coordinates
-  std::array<std::int64_t, max_motors> steps{};  // of each motor from the beginning of the path, at rest there
+  std::array<std::int64_t, max_motors> steps{};  // of each motor from machine zero, at rest there
   OutputState outputs;                           // as they are there
   // As long as the program itself has waited after it had switched the spindle, before it went on.
   Seconds spindle_wait{0};

@@ -1,6 +1,8 @@
 // What each stage needs to know of the machine, taken from its description. The only place where the two meet.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "passo/interpreter/interpreter.hpp"
@@ -15,10 +17,13 @@ namespace passo {
 
 bool has_jerk_limit(const MachineDescription& machine);
 
-PathOptions path_options(const MachineDescription& machine, const std::string& program);
+// `start`: where the machine stands.
+PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start = {});
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
+// The steps of each motor from machine zero to the nearest to that place.
+std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place);
 ProofOptions proof_options(const MachineDescription& machine);
 
 }  // namespace passo

@@ -5,15 +5,7 @@
 // timer. A chip's player runs ahead: it makes the events of several items before their time, and an interrupt of its
 // own plays them; there only the main loop's side is used. A player is what Player is to this file.
 //
-// Hardware is a type with
-//   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
-//   void outputs(const BoardOutputs&);
-//   void send(uint8_t byte);                          to the host
-//   void enable();                                    may be left out: the motors are to move, though a stop let go of
-//                                                     them
-//   static void breathe();                            may be left out: called between two pieces of work
-//   uint8_t room();                                   may be left out: how many bytes may be sent now
-//   bool has_encoder(); SpindleCount spindle();       may be left out, both: of an encoder at the spindle
+// What Hardware is: board_hardware.hpp.
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
@@ -25,7 +17,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "passo/firmware/board_hardware.hpp"
 #include "passo/firmware/board_identity.hpp"
+#include "passo/firmware/input_watch.hpp"
 #include "passo/firmware/play_list.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
@@ -65,10 +59,13 @@ class Board {
     inputs_ = inputs;
     if (motors_ == 0) return;
     // By itself: it may go off while another goes on.
-    if ((captured & input_probe) != 0) tell_captured(input_probe);
-    captured &= static_cast<uint16_t>(~input_probe);
+    if ((captured & watched()) != 0) tell_captured(watched());
+    captured &= static_cast<uint16_t>(~watched());
     if (captured != 0) tell_captured(captured);
   }
+  // Bits of BoardInput: the one that is captured, and those that stop the motors when they go on.
+  uint16_t watched() const { return watch_.input(); }
+  uint16_t stopping() const { return watch_.stopping(); }
   // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
     const Fault fault{.reason = reason, .event = played(), .executed = executed_};
@@ -83,6 +80,7 @@ class Board {
   // so the session is over. Only at rest.
   void begin_manual() {
     motors_ = identity_.motors;
+    watch(0);
     enable();
     player_.restart(motors_);
     breathe();
@@ -109,12 +107,7 @@ class Board {
     append_by_hand();
   }
 
-  // Between two pieces of work: hardware with a small buffer looks at its line.
-  struct Breath {
-    [[gnu::always_inline]] void operator()() const {
-      if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
-    }
-  };
+  using Breath = BreathOf<Hardware>;
   static void breathe() { Breath{}(); }
 
   // The timer's side. Nothing to play: no event will come.
@@ -184,6 +177,7 @@ class Board {
                   ? hello.motors
                   : uint8_t{0};
     decoder_.set_motors(motors_);
+    watch(0);
     // Both sides count fractions of steps from the same start. Whole ones go on.
     enable();
     player_.restart(motors_);
@@ -220,12 +214,13 @@ class Board {
   [[gnu::noinline]] void answer(const WireFrame& frame) {
     Ask ask;
     decode(frame, ask);
-    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors) {
+    const bool one_limit = (ask.limit & (ask.limit - 1)) == 0;
+    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors || !one_limit) {
       return complain(WireError::bad_value);
     }
     breathe();
     const bool known = motors_ != 0 && manual_ == Manual::off;
-    if (ask.question == Question::spindle && known && has_encoder()) return tell_spindle(frame.sequence);
+    if (ask.question == Question::spindle && known && has_encoder(hardware_)) return tell_spindle(frame.sequence);
     const bool kept = ask.question == Question::kept;
     const MessageType answer = ask.question == Question::about ? MessageType::about
                                : kept                          ? MessageType::captured
@@ -235,8 +230,19 @@ class Board {
     if (!has_room(answer, motors)) return;
     if (answer == MessageType::about) return send(identity_.about);
     if (kept) return tell_kept();
-    if (ask.question == Question::watch) kept_ = 0;
+    if (ask.question == Question::watch) begin_watch(ask.limit);
     tell_status(ask.motors, frame.sequence);
+  }
+
+  // Another one only at rest: what is on its way was made for the one before.
+  void begin_watch(uint8_t limit) {
+    if (rests() && !manual()) watch(limit);
+    if (limit == watch_.limit()) watch_.forget();
+  }
+  void watch(uint8_t limit) {
+    if (limit == watch_.limit()) return;
+    watch_.watch(limit);
+    if constexpr (requires { hardware_.watch(); }) hardware_.watch();
   }
 
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
@@ -244,9 +250,10 @@ class Board {
     if (!idle()) state |= board_moves;
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
-    if (kept_ != 0) state |= board_kept;
+    if (watch_.has_kept()) state |= board_kept;
     if (manual()) state |= board_manual;
-    if (has_encoder()) state |= board_encodes;
+    if (watch_.limit() != 0) state |= board_homes;
+    if (has_encoder(hardware_)) state |= board_encodes;
     BoardStatusFor<most_motors> status{.session = session_,
                                        .executed = executed_,
                                        .taken = taken(),
@@ -265,10 +272,6 @@ class Board {
     send_for_motors(status, motors);
   }
 
-  bool has_encoder() {
-    if constexpr (requires { hardware_.has_encoder(); }) return hardware_.has_encoder();
-    return false;
-  }
   // How far the motion is at the tick of the count: hardly anything comes between the two.
   [[gnu::noinline]] void tell_spindle(uint8_t question) {
     if constexpr (requires { hardware_.spindle(); }) {
@@ -281,21 +284,20 @@ class Board {
   [[gnu::noinline]] void tell_captured(uint16_t captured) {
     if ((captured & inputs_) == 0) captured |= captured_released;
     Captured message{.input = captured, .item = static_cast<uint8_t>(executed_ + 1), .event = played()};
-    const bool keeps = (captured & input_probe) != 0 && kept_ == 0;
-    if (keeps) kept_ = static_cast<uint8_t>(captured >> 8);
+    const bool keeps = watch_.keeps(captured);
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
       message.positions[motor] = position(motor);
-      if (keeps) kept_positions_[motor] = message.positions[motor];
+      if (keeps) watch_.positions[motor] = message.positions[motor];
     }
     send_for_motors(message, motors_);
   }
 
   [[gnu::noinline]] void tell_kept() {
-    Captured message{.input = static_cast<uint16_t>(kept_ << 8 | captured_kept)};
+    Captured message{.input = watch_.kept_input()};
     for (uint8_t motor = 0; motor < motors_; ++motor) {
       breathe();
-      message.positions[motor] = kept_positions_[motor];
+      message.positions[motor] = watch_.positions[motor];
     }
     send_for_motors(message, motors_);
   }
@@ -447,11 +449,9 @@ class Board {
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }
 
-  bool has_room([[maybe_unused]] MessageType type, [[maybe_unused]] uint8_t motors = 0) {
-    if constexpr (requires { hardware_.room(); }) {
-      return hardware_.room() >= frame_overhead + payload_size(static_cast<uint8_t>(type), motors);
-    }
-    return true;
+  bool has_room(MessageType type, uint8_t motors = 0) {
+    return passo::has_room(hardware_,
+                           static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(type), motors)));
   }
 
   // By themselves, both: a frame is a lot for a chip's stack, and there must be no two.
@@ -490,10 +490,7 @@ class Board {
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
-  // The first change of the probe since the host told to watch it: the high byte of a captured's input, 0 before; and
-  // where.
-  uint8_t kept_ = 0;
-  int32_t kept_positions_[most_motors] = {};
+  InputWatch<most_motors> watch_;
 };
 
 }  // namespace passo

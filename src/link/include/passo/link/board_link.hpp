@@ -55,7 +55,7 @@ class BoardLink final : public Link {
   void wait() override;
   // Lets time pass on the board's side, and hears what it says meanwhile.
   void let_pass(Seconds time);
-  void watch_probe(ProbeUntil until) override;
+  void watch_probe(ProbeUntil until, std::uint8_t limit = 0) override;
   const ProbeReport& probe_report() const override { return probe_report_; }
   void recall_contact() override;
   void ask() override { ask(usual_question_); }
@@ -108,6 +108,7 @@ class BoardLink final : public Link {
   bool hear(Seconds most);
   bool overdue() const;
   void ask(Question question);
+  std::uint16_t watched() const { return limit_ != 0 ? std::uint16_t{limit_} : std::uint16_t{input_probe}; }
   void take(const WireFrame& frame);
   void take(const Credit& credit);
   void take(const BoardStatus& status);
@@ -152,6 +153,7 @@ class BoardLink final : public Link {
   int free_ = 0;                      // room that it had when it told so
   bool rests_ = false;
   ProbeUntil probe_until_ = ProbeUntil::off;
+  std::uint8_t limit_ = 0;  // that is watched in the probe's place
   ProbeReport probe_report_;
   bool began_as_wanted_ = false;  // the probe was as it is to become
   std::optional<Captured> recalled_;

@@ -76,8 +76,9 @@ class Link {
   // seen what its probe is watched for.
   virtual void wait() = 0;
   // At rest, with all that was not too late executed: asks how the probe is. From now on the board keeps where it
-  // changes first.
-  virtual void watch_probe(ProbeUntil until) = 0;
+  // changes first. With `limit`, the bit of a limit switch, that one takes the probe's place, and does not stop the
+  // motors until the next watch.
+  virtual void watch_probe(ProbeUntil until, std::uint8_t limit = 0) = 0;
   virtual const ProbeReport& probe_report() const = 0;
   // At rest again: asks what the board has kept. Only then the report has the steps.
   virtual void recall_contact() = 0;

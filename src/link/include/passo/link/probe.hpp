@@ -2,7 +2,7 @@
 //
 // The board tells every change of the probe with the motors' positions at that very event, and keeps those of the first
 // since the watch began. So the place of a contact is known to the step, however late the host hears of it, and
-// whatever was lost on the way.
+// whatever was lost on the way. A limit switch may take the probe's place, to home an axis by it.
 #pragma once
 
 #include <array>

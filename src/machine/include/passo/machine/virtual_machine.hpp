@@ -2,9 +2,10 @@
 // timer.
 //
 // Place on the street: the end. Time is counted in ticks and passes only while the board plays; at rest it stands
-// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it. The same bytes give
-// the same counts at any speed. Who wants to see each step adds an observer. Cost: about 6 ns an event of a three-axis
-// machine; without observers there is nothing to pay for them.
+// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it; limit switches are
+// closed by its axes, and stop it as they stop a board. The same bytes give the same counts at any speed. Who wants to
+// see each step adds an observer. Cost: about 6 ns an event of a three-axis machine; without observers there is nothing
+// to pay for them.
 #pragma once
 
 #include <array>
@@ -17,6 +18,7 @@
 #include "passo/machine/machine_counts.hpp"
 #include "passo/machine/machine_observer.hpp"
 #include "passo/machine/touch_body.hpp"
+#include "passo/machine/travel_switch.hpp"
 #include "passo/machine/virtual_spindle.hpp"
 #include "passo/units/units.hpp"
 
@@ -38,6 +40,7 @@ class VirtualMachine final : public BoardPort {
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
   void add_body(const TouchBody& body);
+  void add_switch(const TravelSwitch& added);
   // Closes a switch of the board, or opens it: bits of BoardInput, not the probe's.
   void set_switch(std::uint16_t which, bool closed);
 
@@ -90,17 +93,19 @@ class VirtualMachine final : public BoardPort {
     VirtualSpindle turning;
     std::vector<MachineObserver*> observers;
     std::vector<TouchBody> bodies;
+    std::vector<TravelSwitch> limits;
     std::vector<std::uint8_t> to_host;
   };
 
-  void look_at_bodies();
+  void look_at_switches();
 
   Hardware hardware_;
   Board<Hardware, items_held> board_;
   Hertz clock_;
   std::uint8_t motor_count_;
-  bool touched_ = false;  // as the board was told
-  std::uint16_t switches_ = 0;
+  std::uint16_t switches_ = 0;       // closed by hand
+  std::vector<bool> limits_closed_;  // of hardware_.limits
+  std::uint16_t told_ = 0;           // to the board
   std::int64_t next_event_ = 0;
   bool waits_ = false;  // for the next event, which is due then
   std::int64_t events_ = 0;

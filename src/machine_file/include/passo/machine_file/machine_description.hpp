@@ -24,6 +24,18 @@ namespace passo {
 
 inline constexpr std::size_t most_motors = 8;  // of a board; the same number as wire's max_motors
 
+// How an axis is homed: by the limit switch at one of its ends.
+struct HomeDescription {
+  bool toward_high = false;
+  double switch_at = 0;  // where it closes, machine coordinates
+  MmPerSecond seek{0};
+  MmPerSecond latch{0};  // slowly, for the place
+  double pull_off = 0;   // so far off the switch the machine rests, and there it is open
+  int input = -1;        // the board's limit switch; below 0 while it is not known that it is the motor's own
+
+  double rest() const { return toward_high ? switch_at - pull_off : switch_at + pull_off; }
+};
+
 // A rotary axis has degrees in place of millimetres throughout.
 struct AxisDescription {
   Axis axis = Axis::x;
@@ -35,6 +47,7 @@ struct AxisDescription {
   std::optional<AxisMotor> motor;  // where the file tells it: acceleration follows its torque
   MmPerSecond3 jerk{0};            // 0: no limit
   bool inverted = false;           // the motor turns the other way
+  std::optional<HomeDescription> home = {};
 
   MmPerSecond2 acceleration_at(MmPerSecond speed) const {
     return motor ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;
@@ -83,6 +96,7 @@ struct MachineDescription {
   ProbeDescription probe;
   SpindleDescription spindle;
   std::vector<AxisDescription> axes;  // in the order of the board's motors
+  std::vector<Axis> homing = {};      // those that are homed, in that order
 };
 
 // Reads and checks a machine file. Everything that is wrong is in `diagnostics` (line, key, nearest key, what is

@@ -76,6 +76,7 @@ struct Action {
   OutputState outputs{};  // for every kind: the state after it
   std::int32_t tool = 0;
   bool probe_toward = true;  // a probe move: until touched, else until free
+  std::uint8_t limit = 0;    // of a move that homes: the bit of the limit switch that takes the probe's place
   Point place{};             // of a probe move: its beginning, or its end; machine coordinates
   Heeds heeds{};
   OperationSource source{};

@@ -43,7 +43,8 @@ struct Replace {
 enum class Question : uint8_t {
   status = 0,
   about = 1,
-  watch = 2,    // and keep from now on where the probe changes first; the answer is the status
+  watch = 2,    // and keep from now on where the probe, or the limit switch that is named, changes first; the answer is
+                // the status
   kept = 3,     // what was kept: the answer is a captured
   spindle = 8,  // where is it: the answer is a turned, of a board without an encoder the status
 };
@@ -51,6 +52,7 @@ struct Ask {
   uint8_t version = protocol_version;
   uint8_t motors = 0;  // for how many positions are wanted
   Question question = Question::status;
+  uint8_t limit = 0;  // of a watch: the bit of a limit switch that is to capture in place of stopping; 0: the probe is
 };
 
 // Board to host: so far have I come. Each tells all that the ones before it told, so that none is missed when lost.
@@ -85,6 +87,7 @@ enum BoardState : uint8_t {
   board_slipped = 8,    // since the hello it stood still amid motion: it could not make events in time. No step is lost
   board_kept = 16,      // since it was told to watch, the probe has changed
   board_manual = 32,    // a person moves the machine by the board's keypad
+  board_homes = 64,     // a limit switch captures in place of stopping
   board_encodes = 128,  // it has an encoder at its spindle
 };
 // What the board's input pins say: a bit is set where the switch is on.
@@ -223,6 +226,7 @@ uint8_t encode(const Ask& ask, uint8_t sequence, uint8_t* frame) {
   encoder.put8(ask.version);
   encoder.put8(ask.motors);
   encoder.put8(static_cast<uint8_t>(ask.question));
+  encoder.put8(ask.limit);
   return encoder.finish();
 }
 
@@ -383,7 +387,10 @@ inline void decode(const WireFrame& frame, Replace& replace) {
 }
 
 inline void decode(const WireFrame& frame, Ask& ask) {
-  ask = {.version = frame.payload[0], .motors = frame.payload[1], .question = static_cast<Question>(frame.payload[2])};
+  ask = {.version = frame.payload[0],
+         .motors = frame.payload[1],
+         .question = static_cast<Question>(frame.payload[2]),
+         .limit = frame.payload[3]};
 }
 
 inline void load_positions(const uint8_t* bytes, uint8_t motors, int32_t* positions) {

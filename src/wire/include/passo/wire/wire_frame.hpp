@@ -59,8 +59,8 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::hello:
     case MessageType::session:
     case MessageType::error: return 2;
-    case MessageType::outputs:
-    case MessageType::ask: return 3;
+    case MessageType::outputs: return 3;
+    case MessageType::ask:
     case MessageType::credit: return 4;
     case MessageType::fault: return 5;
     case MessageType::replace:

@@ -1,0 +1,73 @@
+// passo home: finds where a machine stands, by its limit switches.
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "board_run.hpp"
+#include "commands.hpp"
+#include "homing_run.hpp"
+#include "program_input.hpp"
+#include "run_signals.hpp"
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace passo {
+namespace {
+
+nlohmann::ordered_json to_json(const HomingReport& report) {
+  nlohmann::ordered_json axes = nlohmann::ordered_json::array();
+  nlohmann::ordered_json place = nlohmann::ordered_json::object();
+  for (const HomedAxis& axis : report.axes) {
+    const std::string letter{letter_of(axis.axis)};
+    axes.push_back({{"axis", letter}, {"way_mm", axis.way}});
+    place[letter] = axis.place;
+  }
+  nlohmann::ordered_json all = {{"homed", report.code.empty()}, {"time_s", report.time.value()}};
+  all["axes"] = axes;
+  all["position_mm"] = place;
+  if (report.code.empty()) return all;
+  all["error"] = {{"code", report.code}, {"message", report.message}};
+  if (report.axis) all["error"]["axis"] = std::string{letter_of(*report.axis)};
+  return all;
+}
+
+void print(const HomingReport& report) {
+  for (const HomedAxis& axis : report.axes) {
+    fmt::print("{}: its switch closed {:.3f} from where it stood; rests at {:.3f}\n", letter_of(axis.axis), axis.way,
+               axis.place);
+  }
+  if (!report.code.empty()) return;
+  fmt::print("homed in {:.1f} s: at rest in", report.time.value());
+  for (const HomedAxis& axis : report.axes) fmt::print(" {}{:.3f}", letter_of(axis.axis), axis.place);
+  fmt::print(" (machine)\n");
+}
+
+}  // namespace
+
+int home(const HomeArguments& arguments) {
+  Diagnostics diagnostics;
+  const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
+  show(diagnostics);
+  if (!machine) return exit_bad_machine;
+  if (machine->homing.empty()) return fail(exit_bad_machine, words_without_homing(arguments.machine));
+  end_on_signals();
+  std::unique_ptr<BoardRun> board;
+  if (arguments.board != "virtual") {
+    int code = exit_done;
+    board = BoardRun::open(arguments.board, static_cast<std::uint8_t>(machine->axes.size()), false, code);
+    if (!board) return code;
+  }
+  brake_on_signals();
+  const HomingReport report = home_machine(*machine, board.get(), !arguments.quiet);
+  if (arguments.json) {
+    fmt::print("{}\n", to_json(report).dump(2));
+  } else if (!arguments.quiet) {
+    print(report);
+  }
+  if (std::fflush(stdout) != 0) return fail(exit_failed, "cannot write to standard output");
+  if (report.code.empty()) return exit_done;
+  const int failed = fail(exit_failed, words_of(report));
+  return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
+}
+
+}  // namespace passo

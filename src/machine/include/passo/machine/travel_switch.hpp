@@ -1,0 +1,25 @@
+// TravelSwitch: a limit switch on a virtual machine, closed by one of its axes near an end of the travel.
+#pragma once
+
+#include <cstdint>
+
+namespace passo {
+
+// In steps of its motor. A switch opens a little later than it closes: `opens_at` is further from that end.
+struct TravelSwitch {
+  std::uint16_t input = 0;  // bit of BoardInput; several switches may have one
+  std::uint8_t motor = 0;
+  bool at_high_end = false;
+  std::int64_t closes_at = 0;
+  std::int64_t opens_at = 0;
+
+  // With its axis there, and the switch as it was before.
+  bool closed(std::int64_t position, bool before) const {
+    const std::int64_t at = before ? opens_at : closes_at;
+    // Where it opens it is open.
+    if (at_high_end) return before && opens_at != closes_at ? position > at : position >= at;
+    return before && opens_at != closes_at ? position < at : position <= at;
+  }
+};
+
+}  // namespace passo

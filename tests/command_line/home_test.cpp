@@ -1,0 +1,121 @@
+// passo home: homed as a user types it.
+#include <cmath>
+
+#include "kit/served_board.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using testing::HasSubstr;
+
+class HomeCommand : public passo::test::ServedBoard {
+ protected:
+  // A machine of the Uno's whose switches are near; that of X as it is given.
+  std::string near_machine(const std::string& x = "direction = 'low'\nswitch_at_mm = -5.2\n") const {
+    const std::string axis =
+        "steps_per_mm = 640\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 800\ntravel_mm = [-5, 5]\n";
+    const std::string speeds = "seek_mm_s = 20\nlatch_mm_s = 2\npull_off_mm = 0.5\n";
+    std::string text = "name = 'near'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 100e3\n";
+    const auto add = [&](const std::string& letter, const std::string& home) {
+      text += "[axis." + letter + "]\n" + axis + "[axis." + letter + ".home]\n" + speeds + home;
+    };
+    add("X", x);
+    add("Y", "direction = 'low'\nswitch_at_mm = -5.2\n");
+    add("Z", "direction = 'high'\nswitch_at_mm = 5.1\n");
+    return " -m " + write("near.toml", text);
+  }
+};
+
+TEST_F(HomeCommand, finds_the_place_and_says_where_it_rests) {
+  const Outcome outcome = passo("home" + near_machine());
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Z: its switch closed 5.100 from where it stood; rests at 4.600\nX: "));
+  EXPECT_THAT(outcome.out, HasSubstr(" s: at rest in Z4.600 X-4.700 Y-4.700 (machine)\n"));
+  const Outcome json = passo("home --json" + near_machine());
+  EXPECT_EQ(json.code, 0);
+  const nlohmann::json all = nlohmann::json::parse(json.out, nullptr, false);
+  EXPECT_EQ(all["homed"], true);
+  EXPECT_NEAR(all["position_mm"]["X"], -4.7, 1.0 / 640);
+  EXPECT_EQ(all["axes"][0]["axis"], "Z");
+  EXPECT_NEAR(all["axes"][0]["way_mm"], 5.1, 1e-9);
+}
+
+TEST_F(HomeCommand, homes_an_emulated_board) {
+  const Outcome outcome = passo("home --board sim:uno --json" + near_machine());
+  if (outcome.err.find("was built without") != std::string::npos ||
+      outcome.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << outcome.err;
+  }
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
+  EXPECT_EQ(all["homed"], true);
+  EXPECT_NEAR(all["position_mm"]["Z"], 4.6, 1.0 / 640);
+}
+
+TEST_F(HomeCommand, tells_what_is_wrong_by_a_stable_code) {
+  // X stands far behind the place where its switch closes.
+  const Outcome closed = passo("home --json" + near_machine("direction = 'low'\nswitch_at_mm = 3\n"));
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_THAT(closed.err, HasSubstr("homing X: its switch is still closed behind the pull-off [home.still-closed]"));
+  const nlohmann::json all = nlohmann::json::parse(closed.out, nullptr, false);
+  EXPECT_EQ(all["homed"], false);
+  EXPECT_EQ(all["error"]["code"], "home.still-closed");
+  EXPECT_EQ(all["error"]["axis"], "X");
+  EXPECT_EQ(all["axes"].size(), 1) << "Z is homed";
+  const Outcome none = passo("home -m " + std::string(PASSO_SOURCE_DIR) + "/examples/machines/pantograph.toml");
+  EXPECT_EQ(none.code, 3);
+  EXPECT_THAT(none.err, HasSubstr("[home.no-switch]"));
+  EXPECT_EQ(passo("home").code, 2);
+}
+
+// The program begins where the machine rests when it has been homed.
+TEST_F(HomeCommand, goes_before_a_run) {
+  const std::string machine = near_machine();
+  const std::string command = "run " + write("p.ngc", "G21 G90 G1 F600 X2\nM2\n") + " --home --json" + machine;
+  const nlohmann::json all = nlohmann::json::parse(passo(command).out, nullptr, false);
+  EXPECT_EQ(all["steps"]["X"]["total"], 6.7 * 640);
+  EXPECT_EQ(all["steps"]["X"]["net"], 2 * 640);
+  EXPECT_EQ(all["position_mm"]["X"], 2);
+  EXPECT_NEAR(all["position_mm"]["Z"], 4.6, 1.0 / 640);
+  const Outcome emulated = passo(command + " --board sim:uno");
+  if (emulated.err.find("was built without") == std::string::npos &&
+      emulated.err.find("is not there") == std::string::npos) {
+    EXPECT_EQ(emulated.code, 0) << emulated.err;
+    EXPECT_EQ(nlohmann::json::parse(emulated.out, nullptr, false)["steps"], all["steps"]);
+  }
+  const Outcome closed =
+      passo("run " + path("p.ngc") + " --home" + near_machine("direction = 'low'\nswitch_at_mm = 3\n"));
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_THAT(closed.err, HasSubstr("[home.still-closed]"));
+  const std::string bare = std::string(PASSO_SOURCE_DIR) + "/examples/machines/pantograph.toml";
+  EXPECT_EQ(passo("run " + path("p.ngc") + " --home -m " + bare).code, 3);
+}
+
+// Over a line, and broken off: the job goes on from where it began, which was found by homing.
+TEST_F(HomeCommand, goes_before_a_run_that_is_resumed) {
+  const std::string machine = near_machine();
+  const std::string board = serve("16000000", path("near.toml"));
+  const std::string command = "run " + write("p.ngc", "G21 G90 G1 F600 X2\nX-2\nX1\nM2\n") + " --home --json" +
+                              machine + " --board " + board + " --journal " + path("j");
+  const Outcome held = passo(command + " --hold-at 0.5");
+  EXPECT_EQ(held.code, 0) << held.err;
+  EXPECT_THAT(held.err, HasSubstr("--resume goes on"));
+  const Outcome resumed = passo(command + " --resume");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  const nlohmann::json all = nlohmann::json::parse(resumed.out, nullptr, false);
+  EXPECT_EQ(all["position_mm"]["X"], 1);
+  // The board has counted from machine zero, where it stood.
+  const auto info = nlohmann::json::parse(passo("board info --json " + board).out, nullptr, false);
+  EXPECT_EQ(info["status"]["positions"][0], 640);
+  EXPECT_EQ(info["status"]["positions"][2], std::lround(4.6 * 640));
+}
+
+TEST_F(HomeCommand, help_shows_examples) {
+  const Outcome outcome = passo("home --help");
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("passo home -m uno.toml --board serial:/dev/ttyACM0"));
+}
+
+}  // namespace
