@@ -99,7 +99,7 @@ void PathDeviation::step(const Stride& stride) {
     reached_ = std::max(reached_, i + 1);
     before = piece.now;  // it may go on before the stride ends
     stay(piece, *place_, stride.time);
-    ahead = piece.now.multiple > most_ ? ahead + 1 : 0;
+    ahead = std::min(before.multiple, piece.now.multiple) > most_ ? ahead + 1 : 0;
   }
   give_up();
 }

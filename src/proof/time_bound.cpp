@@ -9,9 +9,11 @@ namespace {
 
 constexpr double turn_of_a_cell = 0.02;  // radians
 constexpr double fewest_cells = 64;      // of a curve that turns
-constexpr double cells_of_a_ramp = 200;  // from rest to full speed, on a line under falling limits
-constexpr std::size_t window = 65536;    // cells
-constexpr double fastest = 1e12;         // x where nothing limits it
+// On a line under falling limits: from rest to full speed; and of a short one, which is far from that.
+constexpr double cells_of_a_ramp = 200;
+constexpr double fewest_cells_of_line = 100;
+constexpr std::size_t window = 65536;  // cells
+constexpr double fastest = 1e12;       // x where nothing limits it
 constexpr double strongest = 1e12;
 // A jump of the velocity by this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
@@ -91,7 +93,8 @@ int TimeBound::cells_of_line(const ExactCurve& curve, double feed) const {
     if (axes_[i].velocity.value() > 0) top = std::min(top, square(axes_[i].velocity.value() / steep));
     if (limits_[i].constant() > 0) strength = std::min(strength, limits_[i].constant() / steep);
   }
-  return static_cast<int>(std::clamp(cells_of_a_ramp * std::sqrt(2 * strength * curve.length() / top), 2.0, 4000.0));
+  return static_cast<int>(
+      std::clamp(cells_of_a_ramp * std::sqrt(2 * strength * curve.length() / top), fewest_cells_of_line, 4000.0));
 }
 
 void TimeBound::add_cell(const ExactCurve& curve, double from, double to, double feed) {

@@ -18,6 +18,7 @@ constexpr double turn_a_cell_of_fast_arc = 0.01;
 constexpr double turn_a_cell_of_cubic = 0.025;
 // Of the limit of an axis: what is taken off for what it may do between the ends of a cell.
 constexpr double most_slack = 0.5;
+constexpr double cheap_slack = 0.02;  // for accelerations along the path that few cells need
 
 // The switch from speeding up to braking is at the end of some cell. At its ends, where an arc is slow, a cell is no
 // longer than this part of the way that braking from full speed takes; from there they grow, to this or to a part of
@@ -46,6 +47,18 @@ void lower(double& top, double limit, double part) {
   if (limit > 0 && !(top * part < limit)) top = std::min(top, limit / part);
 }
 
+// Member by member: a cell that is put together elsewhere and copied in one go waits for its bytes to be written.
+void fill(const Segment& segment, double from, double to, Cell& cell) {
+  cell.start = from;
+  cell.end = to;
+  cell.length = to - from;
+  cell.feed_squared = squared(segment.speed.value());
+  cell.heeds = segment.heeds;
+  cell.lock = segment.lock;
+  cell.demand_count = cell.falling_count = 0;
+  cell.straight = false;
+}
+
 }  // namespace
 
 CellCutter::CellCutter(const MotionLimits& limits) {
@@ -67,7 +80,7 @@ std::size_t CellCutter::most_falling() const {
       std::ranges::count_if(limited_, [](const AxisLimits& axis) { return !axis.falling->empty(); }));
 }
 
-void CellCutter::begin(const Segment& segment) {
+void CellCutter::begin(const Segment& segment, double entry_squared) {
   segment_ = &segment;
   const Curve& curve = segment.curve;
   const double length = curve.length().value();
@@ -80,11 +93,17 @@ void CellCutter::begin(const Segment& segment) {
   }
   at_ = place_at(curve, moving_, 0);
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
-  const double braking = top * top / (2 * top_acceleration(moving_, steepest));
-  if (flat_top(moving_, steepest) < room_for_override * top) {
+  const double strongest_here = top_acceleration(moving_, steepest);
+  const double braking = top * top / (2 * strongest_here);
+  // On a short line all limits may be constant at every speed that it can be passed at.
+  const double reached = std::sqrt(entry_squared + 2 * strongest_here * length);
+  const bool line = curve.shape() == Curve::Shape::line;
+  straight_ = line;
+  if (flat_top(moving_, steepest) < std::min(room_for_override * top, line ? reached : infinity)) {
     grade_ = std::max(speed_share * std::sqrt(braking), std::sqrt(2 * length) / most_graded);
+    straight_ = false;
   }
-  if (curve.shape() == Curve::Shape::line) return;
+  if (line) return;
   if (curve.shape() == Curve::Shape::arc) {
     const double turn = top < segment.speed.value() ? turn_a_cell_of_fast_arc : turn_a_cell_of_arc;
     const double by_turn = length * turn / curve.turning(steepest);
@@ -115,7 +134,8 @@ void CellCutter::next(const CellPlace& to) {
   if (grade_ > 0) size = graded(size, left);
   double end = at_.s + size;
   if (length - end < size * 1e-6) end = length;
-  if (cut_line(*segment_, moving_, at_.s, end, to)) {
+  if (straight_) {
+    cut_straight(*segment_, moving_, at_.s, end, to);
     at_.s = end;
   } else {
     const Place there = place_at(segment_->curve, moving_, end);
@@ -124,8 +144,8 @@ void CellCutter::next(const CellPlace& to) {
   }
 }
 
-void CellCutter::cut(const Segment& segment, double from, double to, const CellPlace& place) const {
-  if (cut_line(segment, limited_, from, to, place)) return;
+void CellCutter::cut(const Segment& segment, double from, double to, bool straight, const CellPlace& place) const {
+  if (straight) return cut_straight(segment, limited_, from, to, place);
   cut_curve(segment, limited_, place_at(segment.curve, limited_, from), place_at(segment.curve, limited_, to), place);
 }
 
@@ -213,27 +233,46 @@ CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, std
   return {};
 }
 
-// Whether a line is one cell, with no demands but its acceleration.
-bool CellCutter::cut_line(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place) {
-  // Member by member: a cell that is put together elsewhere and copied in one go waits for its bytes to be written.
+// A line, or what is left of one.
+void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double from, double to,
+                              const CellPlace& place) {
   Cell& cell = place.cell;
-  cell.start = from;
-  cell.end = to;
-  cell.length = to - from;
-  cell.feed_squared = squared(segment.speed.value());
-  cell.heeds = segment.heeds;
-  cell.lock = segment.lock;
-  cell.demand_count = cell.falling_count = 0;
-  cell.straight = false;
-  if (segment.curve.shape() != Curve::Shape::line) return false;
+  fill(segment, from, to, cell);
   const Point slope = segment.curve.tangent(Mm(from));
-  const double flat = flat_top(axes, slope);
-  const double top = top_speed(axes, slope);
-  if (flat < room_for_override * std::min(top, segment.speed.value())) return false;
-  cell.top_squared = squared(std::min(top, flat));
+  cell.top_squared = squared(std::min(top_speed(axes, slope), flat_top(axes, slope)));
   cell.acceleration = top_acceleration(axes, slope);
   cell.straight = true;
-  return true;
+}
+
+// Turning may hide an axis's acceleration along its slope: as much again is reckoned with, and more where that takes
+// little off the limits, up to what some axis alone keeps below.
+CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, const Place& out,
+                                             const CellBounds& bounds, double slope_strength) {
+  const double h = out.s - in.s;
+  const double most = std::min(bounds.top_squared / (2 * h), strongest);
+  double strength = std::min(2 * slope_strength, most);
+  const auto demand_on = [&](const AxisLimits& axis) {
+    return axis.acceleration +
+           bounds.fastest_squared * std::max(std::abs(in.bend.values[axis.axis]), std::abs(out.bend.values[axis.axis]));
+  };
+  const auto along = [&](const AxisLimits& axis) {
+    return std::min(std::abs(in.slope.values[axis.axis]), std::abs(out.slope.values[axis.axis]));
+  };
+  const auto keeps = [&](const AxisLimits& axis) {
+    return axis.acceleration > 0 && demand_on(axis) <= strength * along(axis);
+  };
+  const auto is_kept = [&] { return !(strength < most) || std::ranges::any_of(axes, keeps); };
+  if (is_kept()) return {.most = strength, .is_kept = true};
+  double more = most;
+  for (const AxisLimits& axis : axes) {
+    if (!(axis.acceleration > 0)) continue;
+    const Bend bend = bend_on(bounds.curve, bounds.of_arc, axis.axis);
+    const double left = cheap_slack * axis.acceleration * 8 / (h * h) - bend.fourth * bounds.top_squared;
+    if (bend.third > 0) more = std::min(more, left / (5 * bend.third));
+    if (along(axis) > 0) more = std::min(more, demand_on(axis) / along(axis));
+  }
+  strength = std::max(strength, more);
+  return {.most = strength, .is_kept = is_kept()};
 }
 
 // Between the ends the demand f(s) = q' a + q'' v² has f'' = q'''' v² + 5 a q''', since (v²)' = 2a. It leaves the
@@ -241,6 +280,7 @@ bool CellCutter::cut_line(const Segment& segment, const Axes& axes, double from,
 void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                            const CellPlace& place) {
   Cell& cell = place.cell;
+  fill(segment, in.s, out.s, cell);
   const double h = out.s - in.s;
   const double eighth = h * h / 8;
   const Curve& curve = segment.curve;
@@ -249,17 +289,20 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
     return std::max(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])) + eighth * bend.third;
   };
   double top = fastest;
-  double strength = strongest;
+  double slope_strength = strongest;
   for (const AxisLimits& axis : axes) {
     const std::size_t i = axis.axis;
     lower(top, axis.velocity, steepest(i, bend_on(curve, of_arc, i)));
-    lower(strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
+    lower(slope_strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
   }
   cell.top_squared = top * top;
   // Between the ends v² is between theirs.
   double top_squared = std::min(top * top, std::max(in.turning, out.turning));
-  // Turning may hide as much again of an axis's acceleration along its slope.
-  strength = std::min({2 * strength, top_squared / (2 * h), strongest});
+  const double fastest_squared = std::min(top_squared, squared(room_for_override) * cell.feed_squared);
+  const Strength own_strength = strength_on(
+      axes, in, out, {.curve = curve, .of_arc = of_arc, .top_squared = top_squared, .fastest_squared = fastest_squared},
+      slope_strength);
+  double strength = own_strength.most;
   const auto slack_of = [&](const Bend& bend) {
     return eighth * (bend.fourth * top_squared + 5 * strength * bend.third);
   };
@@ -271,6 +314,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
     strength = std::min(strength, top_squared / (2 * h));
     cell.top_squared = std::min(cell.top_squared, top_squared);
   }
+  cell.acceleration = strength;
 
   for (const AxisLimits& axis : axes) {
     const std::size_t i = axis.axis;
@@ -296,14 +340,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
                                            .slack = slack,
                                            .slack_of_fall = eighth * bending};
   }
-  const double fastest_squared = std::min(top_squared, squared(room_for_override) * cell.feed_squared);
-  const auto is_sure = [&](const AxisLimits& axis) {
-    const std::size_t i = axis.axis;
-    const double turning = std::max(std::abs(in.bend.values[i]), std::abs(out.bend.values[i]));
-    const double along = std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i]));
-    return axis.acceleration > 0 && axis.acceleration + turning * fastest_squared <= strength * along;
-  };
-  if (strength < top_squared / (2 * h) && std::ranges::none_of(axes, is_sure)) {
+  if (!own_strength.is_kept) {
     // It may hide more, where the turning of all axes that go along is undone by speeding up: not beyond this.
     const double half = 1 / (2 * h);
     place.demands[cell.demand_count++] = {

@@ -57,7 +57,8 @@ struct Cell {
   double length = 0;        // end - start, above 0
   double top_squared = 0;   // by the axes' velocities, anywhere in the cell
   double feed_squared = 0;  // as programmed; infinite for a rapid
-  double acceleration = 0;  // of a straight cell: along the path, either way; its speed may also rise and fall within
+  double acceleration = 0;  // along the path, either way, at most; of a straight cell: so much, and the speed may both
+                            // rise and fall within
   bool straight = false;
   std::uint8_t demand_count = 0;
   std::uint8_t falling_count = 0;
@@ -73,7 +74,7 @@ struct CellPlace {
 };
 
 // Cuts segments into cells. The straight ones are whole segments and make no demands but their acceleration; lines on
-// which a limit falls with the speed are cut like curves. About 100 ns a cell of a cubic with three axes.
+// which speeds are possible at which a limit falls are cut like curves. About 100 ns a cell of a cubic with three axes.
 class CellCutter {
  public:
   // The limits must live as long.
@@ -82,12 +83,13 @@ class CellCutter {
   std::size_t most_demands() const;
   std::size_t most_falling() const;
 
-  // Begins with a segment, which must stay where it is; next() then gives its cells in order, up to its end.
-  void begin(const Segment& segment);
+  // Begins with a segment, which must stay where it is, and into which the path comes with this square of the speed at
+  // most; next() then gives its cells in order, up to its end.
+  void begin(const Segment& segment, double entry_squared);
   bool at_end() const { return !(at_.s < segment_->curve.length().value()); }
   void next(const CellPlace& to);
-  // A cell of a segment that is not the one at hand: what is left of one that was given in part.
-  void cut(const Segment& segment, double from, double to, const CellPlace& place) const;
+  // A cell of a segment that is not the one at hand: what is left of one that was given in part, straight or not.
+  void cut(const Segment& segment, double from, double to, bool straight, const CellPlace& place) const;
 
  private:
   // What an axis can do; of 0 or less: anything.
@@ -110,6 +112,18 @@ class CellCutter {
     double third = 0;
     double fourth = 0;
   };
+  struct CellBounds {
+    const Curve& curve;
+    const Bend& of_arc;
+    double top_squared = 0;      // by what the axes can do
+    double fastest_squared = 0;  // by that and the feed
+  };
+  struct Strength {  // along the path
+    double most = 0;
+    bool is_kept = false;  // whatever the speeds, while the axes keep their limits
+  };
+  static Strength strength_on(const Axes& axes, const Place& in, const Place& out, const CellBounds& bounds,
+                              double slope_strength);
   static double top_speed(const Axes& axes, const Point& slope);
   static double top_acceleration(const Axes& axes, const Point& slope);
   static double flat_top(const Axes& axes, const Point& slope);
@@ -117,7 +131,7 @@ class CellCutter {
   static Place place_at(const Curve& curve, const Axes& axes, double s);
   static Bend bend_of_arc(const Curve& curve, const Place& in, const Place& out);
   static Bend bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis);
-  static bool cut_line(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place);
+  static void cut_straight(const Segment& segment, const Axes& axes, double from, double to, const CellPlace& place);
   static void cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                         const CellPlace& place);
   double graded(double size, double left) const;
@@ -128,7 +142,8 @@ class CellCutter {
   Place at_;             // up to where it is cut
   double longest_ = 0;   // cells in the middle
   double shortest_ = 0;  // and at the ends, from where they grow
-  double grade_ = 0;     // where limits fall with the speed: what each cell adds to the root of s, from a rest on
+  bool straight_ = false;
+  double grade_ = 0;  // where limits fall with the speed: what each cell adds to the root of s, from a rest on
 };
 
 }  // namespace passo

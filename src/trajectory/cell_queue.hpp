@@ -33,7 +33,7 @@ class CellQueue {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  // One place is left for push_front().
+  // To push(); there is always room for push_front().
   bool full() const { return size_ >= capacity_; }
   Entry& operator[](std::size_t i) { return entries_[slot(i)]; }
   const Entry& operator[](std::size_t i) const { return entries_[slot(i)]; }
@@ -54,11 +54,11 @@ class CellQueue {
   // Where one more cell, or one before all others, is to be cut to, and the first one anew. Until the next call.
   CellPlace push() {
     assert(!full());
-    if (size_ + 1 == entries_.size()) grow();
+    if (size_ + 1 >= entries_.size()) grow();
     return new_place(slot(size_++));
   }
-  // Once between two calls of pop().
   CellPlace push_front() {
+    if (size_ == entries_.size()) grow();
     head_ = (head_ == 0 ? entries_.size() : head_) - 1;
     ++size_;
     return new_place(head_);
@@ -89,7 +89,7 @@ class CellQueue {
     turn(demands_, axes_);
     turn(falling_, falling_axes_);
     head_ = 0;
-    resize(std::min(2 * size_, capacity_) + 1);
+    resize(std::max(std::min(2 * size_, capacity_), size_) + 1);
   }
   void resize(std::size_t places) {
     entries_.resize(places);

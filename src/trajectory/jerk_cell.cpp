@@ -27,12 +27,24 @@ std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits) {
     const LimitedAxis axis{.index = i,
                            .velocity = limit_or_infinity(limits.velocity.values[i].value()),
                            .acceleration = limit_or_infinity(limits.acceleration.values[i].value()),
-                           .jerk = limit_or_infinity(limits.jerk.values[i].value())};
+                           .jerk = limit_or_infinity(limits.jerk.values[i].value()),
+                           .falling = limits.falling.values[i].empty() ? nullptr : &limits.falling.values[i]};
     if (std::isfinite(axis.velocity) || std::isfinite(axis.acceleration) || std::isfinite(axis.jerk)) {
       axes.push_back(axis);
     }
   }
   return axes;
+}
+
+// Where the limit falls it is the highest of the lines, and each of them gives a speed up to which it is enough.
+double LimitedAxis::turning_cap(double slope, double bend, double share) const {
+  const double constant = bend > 0 ? share * acceleration / bend : infinity;
+  if (!falls_at(slope * slope * constant)) return constant;
+  double most = 0;
+  for (const AccelerationCurve::Line& line : falling->lines()) {
+    most = std::max(most, share * line.at_rest / (bend + share * line.fall * slope * slope));
+  }
+  return std::min(most, constant);
 }
 
 JerkCutter::Derivatives JerkCutter::derivatives(const Curve& curve, double s) {
@@ -56,6 +68,11 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
     top_ = std::min(top_, axis.velocity / part);
     acceleration_ = std::min(acceleration_, axis.acceleration / part);
     jerk_ = std::min(jerk_, axis.jerk / part);
+  }
+  straight_ = curve.shape() == Curve::Shape::line;
+  for (const LimitedAxis& axis : axes_) {
+    const double fastest_of_axis = top_ * steepest.values[axis.index];
+    straight_ = straight_ && !axis.falls_at(fastest_of_axis * fastest_of_axis);
   }
   entry_ = std::min(cut.entry_squared, top_ * top_);
   exit_ = std::min(cut.exit_squared, top_ * top_);
@@ -95,13 +112,12 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
   }
   const double to = left - size < 1e-6 * size ? length_ : at_ + size;
   const Derivatives there = derivatives(segment_->curve, to);
-  const bool straight = segment_->curve.shape() == Curve::Shape::line;
   cell = {.start = at_,
           .length = to - at_,
           .top_squared = 0,
           .acceleration = acceleration_,
           .jerk = jerk_,
-          .straight = straight,
+          .straight = straight_,
           .ends_segment = to == length_};
   double top = speed_;
   for (std::size_t k = 0; k < axes_.size(); ++k) {

@@ -8,6 +8,7 @@
 // Cells are so short that about ten of them are passed while the acceleration rises from nothing to its limit.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "passo/path/segment.hpp"
@@ -21,7 +22,19 @@ struct LimitedAxis {
   double velocity = 0;
   double acceleration = 0;
   double jerk = 0;
+  const AccelerationCurve* falling = nullptr;  // below `acceleration` from its shoulder on; most axes have none
+
+  // At this square of its speed.
+  double acceleration_at(double w) const {
+    return falls_at(w) ? std::min(acceleration, line_at(w).at(w)) : acceleration;
+  }
+  bool falls_at(double w) const { return falling != nullptr && w > falling->shoulder(); }
+  // It keeps to the curve at any speed. Only of an axis that falls.
+  const AccelerationCurve::Line& line_at(double w) const { return falling->lines()[falling->line_at(w)]; }
+  // The largest square of a speed along the path at which bending alone asks for no more than this share of it.
+  double turning_cap(double slope, double bend, double share) const;
 };
+// They refer to the limits.
 std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits);
 
 // The derivatives of an axis's place by s where a cell begins and where it ends.
@@ -44,7 +57,7 @@ struct JerkCell {
   double top_squared = 0;   // by the feed and the axes' velocities
   double acceleration = 0;  // of a straight cell: what the axes allow along the path
   double jerk = 0;
-  bool straight = false;
+  bool straight = false;  // on a line, and no axis's acceleration falls
   bool ends_segment = false;
 };
 
@@ -91,6 +104,7 @@ class JerkCutter {
   double shortest_ = 0;
   double longest_ = 0;
   double tick_ = 0;  // about the time a cell takes
+  bool straight_ = false;
   Derivatives here_;
 };
 

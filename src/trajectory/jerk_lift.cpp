@@ -64,6 +64,16 @@ void JerkLift::add_straight_rows(const JerkCell& cell, double share, bool is_fir
   }
 }
 
+// Where the limit may fall, with the line of it that is the highest at the speed there is: |force| + fall w <= at rest.
+void JerkLift::add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place) {
+  rows_.push_back(row);
+  if (!axis.falls_at(place.weight * place.cap)) return;
+  const AccelerationCurve::Line& line = axis.line_at(place.weight * place.x);
+  const double fall = place.share * place.weight * line.fall;
+  rows_.push_back({.along = sum(row.along, 1, x, fall), .limit = place.share * line.at_rest});
+  rows_.push_back({.along = sum(row.along, 1, x, -fall), .limit = place.share * line.at_rest});
+}
+
 void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first) {
   const JerkCell& own = stretch.cells[cell];
   const double share = stretch.share[cell];
@@ -88,9 +98,12 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
     const double bend = (shape->bend_in + shape->bend_out) / 2;
     if (slope == 0 && bend == 0 && third == 0) continue;
     if (axes_[k].acceleration < infinity) {
-      const double limit = axes_[k].acceleration * share;
-      if (!is_first) rows_.push_back({.along = sum(a_in, shape->slope_in, x_in, shape->bend_in), .limit = limit});
-      rows_.push_back({.along = sum(forms.middle_a, slope, forms.middle_x, bend), .limit = limit});
+      const auto add_place = [&](const Four& a, const Four& x, double q1, double q2) {
+        add_force_rows({.along = sum(a, q1, x, q2), .limit = axes_[k].acceleration * share}, axes_[k], x,
+                       {.weight = q1 * q1, .share = share, .x = times(x, at), .cap = stretch.cap[cell]});
+      };
+      if (!is_first) add_place(a_in, x_in, shape->slope_in, shape->bend_in);
+      add_place(forms.middle_a, forms.middle_x, slope, bend);
     }
     if (axes_[k].jerk == infinity) continue;
     const double limit = axes_[k].jerk * share;

@@ -78,6 +78,13 @@ class JerkLift {
 
   void set_up(const Stretch& stretch, std::size_t first, std::size_t last, const std::vector<NodeState>& states);
   void add_rows(const Stretch& stretch, std::size_t cell, bool is_first);
+  struct Place {
+    double weight = 0;  // of x in the square of the axis's speed
+    double share = 0;   // of the limits
+    double x = 0;
+    double cap = 0;  // of x
+  };
+  void add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place);
   void add_straight_rows(const JerkCell& cell, double share, bool is_first);
   void measure(bool first_time);
   void assemble(double target);

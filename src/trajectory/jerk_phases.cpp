@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "jerk_profile.hpp"
+#include "parabola.hpp"
 
 namespace passo {
 namespace {
@@ -24,14 +25,9 @@ constexpr double no_speed = 1e-9;  // of that beside it: rounding
 constexpr int most_slowings = 40;
 constexpr double beyond = 0.9999;  // slowed by so much more, against rounding
 
-// The most that the parabola through three values, at even distances, is away from 0 between them.
-double highest_through(const std::array<double, 3>& values) {
-  const auto [first, second, third] = values;
-  const double most = std::max({std::abs(first), std::abs(second), std::abs(third)});
-  const double rise = third - first;
-  const double bend = first - 2 * second + third;
-  if (!(std::abs(rise) < 2 * std::abs(bend))) return most;
-  return std::max(most, std::abs(second - rise * rise / (8 * bend)));
+// To value / limit, which is mostly less: a product tells it sooner.
+void raise_to(double& worst, double value, double limit) {
+  if (value > worst * limit) worst = value / limit;
 }
 
 }  // namespace
@@ -135,6 +131,7 @@ void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, d
       const AxisShape& own = shape[k];
       std::array<double, 3> force{};
       std::array<double, 3> jolt{};
+      std::array<double, 3> pace{};
       for (std::size_t at = 0; at < places.size(); ++at) {
         const double share = (way + places[at].way) / length;
         const double third = own.third_in + share * (own.third_out - own.third_in);
@@ -143,11 +140,17 @@ void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, d
             own.slope_in + share * (own.slope_out - own.slope_in) - length * length * share * (1 - share) / 2 * third;
         const double v = places[at].state.speed;
         const double a = places[at].state.acceleration;
+        pace[at] = slope * v;
         force[at] = slope * a + bend * v * v;
         jolt[at] = slope * jerk + 3 * bend * v * a + third * v * v * v;
       }
-      worst.force = std::max(worst.force, highest_through(force) / (axes_[k].acceleration * looked_at));
-      worst.jolt = std::max(worst.jolt, highest_through(jolt) / (axes_[k].jerk * looked_at));
+      if (any_falls_ && axes_[k].falling != nullptr) {
+        for (std::size_t at = 0; at < places.size(); ++at) {
+          force[at] *= axes_[k].acceleration / axes_[k].acceleration_at(pace[at] * pace[at]);
+        }
+      }
+      raise_to(worst.force, highest_through(force), axes_[k].acceleration * looked_at);
+      raise_to(worst.jolt, highest_through(jolt), axes_[k].jerk * looked_at);
     }
   }
 }

@@ -41,6 +41,10 @@ void JerkProfile::push(const JerkCell& cell, const AxisShape* shapes, bool at_re
       if (bend * cap > planned_acceleration * axes_[k].acceleration) {
         cap = planned_acceleration * axes_[k].acceleration / bend;
       }
+      if (any_falls_ && axes_[k].falling != nullptr) {
+        const double slope = std::max(std::abs(shapes[k].slope_in), joined ? std::abs(before[k].slope_out) : 0);
+        cap = std::min(cap, axes_[k].turning_cap(slope, bend, planned_acceleration));
+      }
       if (third > 0 && third * cap * std::sqrt(cap) > constant_speed_jerk * axes_[k].jerk) {
         cap = std::pow(constant_speed_jerk * axes_[k].jerk / third, 2.0 / 3);
       }
@@ -119,13 +123,43 @@ double JerkProfile::most_acceleration(std::size_t i, bool backwards, double near
   return most;
 }
 
+// The same under limits that fall with the speed, with the line of each that is the highest at `near`.
+double JerkProfile::most_under_falling(std::size_t i, bool backwards, double near) const {
+  double most = infinity;
+  const AxisShape* shape = shapes(i);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    if (axes_[k].falling == nullptr) continue;
+    const double near_slope = backwards ? -shape->slope_out : shape->slope_in;
+    const double near_bend = backwards ? shape->bend_out : shape->bend_in;
+    const double far_slope = backwards ? -shape->slope_in : shape->slope_out;
+    const double far_bend = backwards ? shape->bend_in : shape->bend_out;
+    // Where x is `near` + `way` times the slope sought.
+    const auto meet = [&](double slope, double bend, double way) {
+      const double weight = slope * slope;
+      if (!axes_[k].falls_at(weight * near)) return;
+      const AccelerationCurve::Line& line = axes_[k].line_at(weight * near);
+      const double fall = planned_acceleration * line.fall * weight;
+      const double left = planned_acceleration * line.at_rest - fall * near;
+      const double factor = slope + way * bend;
+      const double up = way * fall + factor;
+      const double down = way * fall - factor;
+      if (up > 0) most = std::min(most, (left - bend * near) / up);
+      if (down > 0) most = std::min(most, (left + bend * near) / down);
+    };
+    meet(near_slope, near_bend, 0);
+    meet(far_slope, far_bend, 2 * cells_[i].length);
+  }
+  return most;
+}
+
 // Across cell i, the acceleration rising as it may. Whether the profile is as high as its cap there, and no slope of
 // it counts behind.
 bool JerkProfile::step(std::size_t i, bool backwards, March& march) const {
   const std::size_t near = backwards ? i + 1 : i;
   const std::size_t far = backwards ? i : i + 1;
   const double h = cells_[i].length;
-  const double most = most_acceleration(i, backwards, march.x);
+  double most = most_acceleration(i, backwards, march.x);
+  if (any_falls_ && !cells_[i].straight) most = std::min(most, most_under_falling(i, backwards, march.x));
   double slope = 0;
   double time = 0;
   if (march.x == 0) {
@@ -309,9 +343,7 @@ void JerkProfile::split(std::size_t i) {
     first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
     first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
     first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
-    if (std::abs(last.bend_in) * cap > planned_acceleration * axes_[k].acceleration) {
-      cap = planned_acceleration * axes_[k].acceleration / std::abs(last.bend_in);
-    }
+    cap = std::min(cap, axes_[k].turning_cap(last.slope_in, std::abs(last.bend_in), planned_acceleration));
     const double third = std::abs(last.third_in);
     if (third > 0) cap = std::min(cap, std::pow(constant_speed_jerk * axes_[k].jerk / third, 2.0 / 3));
   }

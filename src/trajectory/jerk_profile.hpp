@@ -22,6 +22,7 @@
 // profile goes on unchanged whatever comes, decides all before it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -36,7 +37,10 @@ class JerkProfile {
  public:
   // `most_repairs`: of a plan, before it is slowed as a whole.
   explicit JerkProfile(const std::vector<LimitedAxis>& axes, int most_repairs = 80)
-      : axes_(axes), most_repairs_(most_repairs), lift_(axes) {}
+      : axes_(axes),
+        any_falls_(std::ranges::any_of(axes, [](const LimitedAxis& axis) { return axis.falling != nullptr; })),
+        most_repairs_(most_repairs),
+        lift_(axes) {}
 
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
@@ -83,6 +87,7 @@ class JerkProfile {
   void widen(Range& range, std::size_t cell, bool at_end, double v, double a) const;
   Range jerk_range(std::size_t node, double v, double a) const;
   double most_acceleration(std::size_t i, bool backwards, double near) const;
+  double most_under_falling(std::size_t i, bool backwards, double near) const;
   struct March {
     double x = 0;
     double slope = 0;  // of the cell before
@@ -136,6 +141,7 @@ class JerkProfile {
   void put_back(std::size_t first, std::size_t last);
 
   std::vector<LimitedAxis> axes_;
+  bool any_falls_;
   int most_repairs_;
   std::vector<JerkCell> cells_;
   std::vector<AxisShape> shapes_;

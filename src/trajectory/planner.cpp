@@ -176,7 +176,8 @@ class Planner::Implementation {
   void begin(const Segment& segment) {
     at_rest_ = segments_.empty() || rests_between(segments_.back(), segment);
     segments_.append() = segment;
-    cutter_.begin(segments_.back());
+    if (at_rest_) reached_squared_ = 0;
+    cutter_.begin(segments_.back(), reached_squared_);
     cutting_ = true;
   }
 
@@ -185,6 +186,8 @@ class Planner::Implementation {
     cutter_.next(cells_.push());
     cutting_ = !cutter_.at_end();
     cells_.back().begins_at_rest = at_rest;
+    const Cell& cell = cells_.back().cell;
+    reached_squared_ = std::min(cell.top_squared, reached_squared_ + 2 * cell.acceleration * cell.length);
     set_caps(cells_.size() - 1);
   }
 
@@ -354,7 +357,7 @@ class Planner::Implementation {
   // The first cell from the place where the path is now, to be left as it was.
   void cut_front_again(const Segment& segment, double from, double to, double exit) {
     const CellPlace front = cells_.front_again();
-    cutter_.cut(segment, from, to, front);
+    cutter_.cut(segment, from, to, front.cell.straight, front);
     allow(speed_squared_, exit, front);
   }
 
@@ -366,10 +369,10 @@ class Planner::Implementation {
     const double exit = planned_exit(0, speed_squared_);
     const double halfway = (speed_squared_ + exit) / 2;
     const CellPlace second = cells_.front_again();
-    cutter_.cut(segments_.front(), middle, end, second);
+    cutter_.cut(segments_.front(), middle, end, false, second);
     allow(halfway, exit, second);
     const CellPlace first = cells_.push_front();
-    cutter_.cut(segments_.front(), start, middle, first);
+    cutter_.cut(segments_.front(), start, middle, false, first);
     allow(speed_squared_, halfway, first);
     cells_[1].begins_at_rest = false;
     cells_[1].entry_if_rest = halfway;
@@ -422,14 +425,13 @@ class Planner::Implementation {
   Window<Segment> segments_;  // whose cells are in the queue, or are being cut
   CellQueue cells_;
   bool cutting_ = false;
-  bool at_rest_ = true;       // the next cell begins at rest
-  std::size_t decided_ = 0;   // cells at the head whose exit speed nothing to come can change
-  double speed_squared_ = 0;  // at the head's start
-  bool closed_ = false;       // an action or the program's end follows the queue: it ends at rest
+  bool at_rest_ = true;         // the next cell begins at rest
+  double reached_squared_ = 0;  // the square of the speed at which it may begin at most
+  std::size_t decided_ = 0;     // cells at the head whose exit speed nothing to come can change
+  double speed_squared_ = 0;    // at the head's start
+  bool closed_ = false;         // an action or the program's end follows the queue: it ends at rest
   std::optional<Action> action_;
   PathItem pulled_;
-
-  // What may change in mid-run.
   MidRunWishes wishes_;
   bool braking_ = false;
   Seconds longest_move_{std::numeric_limits<double>::infinity()};

@@ -1,19 +1,22 @@
 #include "speed_change.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "parabola.hpp"
 #include "rest.hpp"
 
 namespace passo {
 namespace {
 
 constexpr int most_trials = 30;
-constexpr double weakest = 0.02;      // of what the limits allow where it begins: less is not worth it
-constexpr double looked_at = 0.99;    // of the limits, on curves: places between those looked at have the rest
-constexpr double rounding = 1e-6;     // of a limit
-constexpr double turn_a_look = 0.02;  // radians
-constexpr int fewest_looks = 8;       // a piece
+constexpr double weakest = 0.02;       // of what the limits allow where it begins: less is not worth it
+constexpr double looked_at = 0.99;     // of the limits, on curves: places between those looked at have the rest
+constexpr double rounding = 1e-6;      // of a limit
+constexpr double turn_a_look = 0.02;   // radians
+constexpr int fewest_looks = 12;       // a piece
+constexpr int fewest_of_falling = 24;  // where limits fall with the speed
 constexpr int most_looks = 200;
 constexpr double smallest_way = 1e-11;  // mm, that is a phase
 constexpr double smallest_rest = 0.02;  // mm, of a segment behind the end of a change,
@@ -52,14 +55,14 @@ Phase rest_of(const Phase& phase, double time, double start) {
 std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
   const Segment* first = path.at(state.segment);
   if (first == nullptr) return std::nullopt;
-  const Strength most = strength_at(*first, state.s, request.axes);
+  const Strength most = strength_at(*first, state, request.axes);
   Strength strength = most;
   SpeedChange change;
   for (int trial = 0; trial < most_trials; ++trial) {
     if (!change.shape(state, request.exit, strength)) return std::nullopt;
     const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
-    Excess worst{.force = 1.03, .jolt = 1.03};  // another strength ends elsewhere
+    Demand worst{.force = 1.03, .jolt = 1.03};  // another strength ends elsewhere
     if (laid == Laid::whole) {
       worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
@@ -75,13 +78,15 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
   return std::nullopt;
 }
 
-SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, double s, const std::vector<LimitedAxis>& axes) {
-  const Point slope = segment.curve.tangent(Mm(s));
+SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const PathState& state,
+                                               const std::vector<LimitedAxis>& axes) {
+  const Point slope = segment.curve.tangent(Mm(state.s));
   Strength strength{.acceleration = strongest, .jerk = sharpest};
   for (const LimitedAxis& axis : axes) {
     const double part = std::abs(slope.values[axis.index]);
     if (!(part > 0)) continue;
-    strength.acceleration = std::min(strength.acceleration, axis.acceleration / part);
+    const double speed = part * state.speed;
+    strength.acceleration = std::min(strength.acceleration, axis.acceleration_at(speed * speed) / part);
     strength.jerk = std::min(strength.jerk, axis.jerk / part);
   }
   return strength;
@@ -162,39 +167,71 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
   return end - way_ > least ? Laid::whole : Laid::near_an_end;
 }
 
-SpeedChange::Excess SpeedChange::excess(PathAhead& path, const Request& request) const {
+SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request) const {
   Excess worst;
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
+  for (const Piece& piece : pieces_) {
     const Segment& segment = *path.at(piece.segment);
-    const Phase& phase = piece.phase;
-    const double time = phase.duration.value();
-    const double way = phase.position_at(phase.duration).value() - phase.start.value();
-    const double looks = std::ceil(way * segment.curve.curvature() / turn_a_look);
-    const bool straight = segment.curve.shape() == Curve::Shape::line;  // all of it is at most where it ends or turns
-    const int count = straight ? 1 : static_cast<int>(std::clamp<double>(looks, fewest_looks, most_looks));
-    for (int k = 0; k <= count; ++k) look_at(piece, segment, request.axes, time * k / count, worst);
-    // Fastest where it stops speeding up.
-    const double turn = phase.jerk.value() < 0 ? phase.acceleration.value() / -phase.jerk.value() : -1;
-    if (turn > 0 && turn < time) look_at(piece, segment, request.axes, turn, worst);
-    const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
-                                          turn > 0 && turn < time ? phase.velocity_at(Seconds(turn)).value() : 0});
-    worst.speed = std::max(worst.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
+    look_over(piece, segment, request, worst);
     if (!piece.ends_segment) continue;
     // What the profile passes slowly, since the path's bend jumps there, is passed slowly here too.
     const Segment& after = *path.at(piece.segment + 1);
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
-    const double speed = phase.velocity_at(phase.duration).value();
+    const double speed = piece.phase.velocity_at(piece.phase.duration).value();
     for (const LimitedAxis& axis : request.axes) {
       const double seen = std::abs(jump.values[axis.index]) * speed * speed;
-      worst.force = std::max(worst.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
+      worst.most.force = std::max(worst.most.force, seen / (most_unseen_jump * unseen_jump * axis.acceleration));
     }
   }
-  return worst;
+  return worst.most;
 }
 
-void SpeedChange::look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time,
-                          Excess& worst) {
+void SpeedChange::look_over(const Piece& piece, const Segment& segment, const Request& request, Excess& worst) {
+  const Phase& phase = piece.phase;
+  const double time = phase.duration.value();
+  const double way = phase.position_at(phase.duration).value() - phase.start.value();
+  const bool falls = std::ranges::any_of(request.axes, [](const LimitedAxis& axis) { return axis.falling != nullptr; });
+  int count = 1;  // on a line all of it is at most where it ends or turns
+  if (falls || segment.curve.shape() != Curve::Shape::line) {
+    const double by_turn = std::ceil(way * segment.curve.curvature() / turn_a_look);
+    count = static_cast<int>(std::clamp<double>(by_turn, falls ? fewest_of_falling : fewest_looks, most_looks));
+  }
+  std::array<Look, 3> looks;
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(count); ++k) {
+    looks[k % looks.size()] = look_at(piece, segment, request.axes, time * static_cast<double>(k) / count);
+    worst.raise(looks[k % looks.size()]);
+    if (k >= 2) worst.raise_between(looks, k % looks.size());
+  }
+  // Fastest where it stops speeding up.
+  const double turn = phase.jerk.value() < 0 ? phase.acceleration.value() / -phase.jerk.value() : -1;
+  const bool turns = turn > 0 && turn < time;
+  if (turns) worst.raise(look_at(piece, segment, request.axes, turn));
+  const double fastest_here = std::max({phase.velocity.value(), phase.velocity_at(phase.duration).value(),
+                                        turns ? phase.velocity_at(Seconds(turn)).value() : 0});
+  worst.most.speed = std::max(worst.most.speed, fastest_here / request.feeds.speed_on(segment) * (1 - rounding));
+}
+
+void SpeedChange::Excess::raise(const Look& look) {
+  for (std::size_t k = 0; k < look.count; ++k) {
+    most.speed = std::max(most.speed, std::abs(look.axes[k].speed));
+    most.force = std::max(most.force, std::abs(look.axes[k].force));
+    most.jolt = std::max(most.jolt, std::abs(look.axes[k].jolt));
+  }
+}
+
+// By parabolas through the last three looks, of which `newest` is the newest.
+void SpeedChange::Excess::raise_between(const std::array<Look, 3>& looks, std::size_t newest) {
+  for (std::size_t k = 0; k < looks[newest].count; ++k) {
+    const Demand& first = looks[(newest + 1) % looks.size()].axes[k];
+    const Demand& second = looks[(newest + 2) % looks.size()].axes[k];
+    const Demand& third = looks[newest].axes[k];
+    most.speed = std::max(most.speed, highest_through({first.speed, second.speed, third.speed}));
+    most.force = std::max(most.force, highest_through({first.force, second.force, third.force}));
+    most.jolt = std::max(most.jolt, highest_through({first.jolt, second.jolt, third.jolt}));
+  }
+}
+
+SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes,
+                                       double time) {
   const Phase& phase = piece.phase;
   const Seconds t(time);
   const Mm s = std::clamp(phase.position_at(t), Mm(0), segment.curve.length());
@@ -205,14 +242,18 @@ void SpeedChange::look_at(const Piece& piece, const Segment& segment, const std:
   const Point second = segment.curve.second_derivative(s);
   const Point third = segment.curve.third_derivative(s);
   const double share = segment.curve.shape() == Curve::Shape::line ? 1 + rounding : looked_at;
-  for (const LimitedAxis& axis : axes) {
+  Look look;
+  look.count = axes.size();
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const LimitedAxis& axis = axes[k];
     const double q1 = first.values[axis.index];
     const double q2 = second.values[axis.index];
     const double q3 = third.values[axis.index];
-    worst.speed = std::max(worst.speed, std::abs(q1 * v) / axis.velocity * (1 - rounding));
-    worst.force = std::max(worst.force, std::abs(q1 * a + q2 * v * v) / (axis.acceleration * share));
-    worst.jolt = std::max(worst.jolt, std::abs(q1 * j + 3 * q2 * v * a + q3 * v * v * v) / (axis.jerk * share));
+    look.axes[k] = {.speed = q1 * v / axis.velocity * (1 - rounding),
+                    .force = (q1 * a + q2 * v * v) / (axis.acceleration_at(q1 * q1 * v * v) * share),
+                    .jolt = (q1 * j + 3 * q2 * v * a + q3 * v * v * v) / (axis.jerk * share)};
   }
+  return look;
 }
 
 }  // namespace passo

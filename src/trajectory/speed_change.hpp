@@ -60,12 +60,21 @@ class SpeedChange {
     double acceleration = 0;
     double jerk = 0;
   };
-  struct Excess {  // multiples of the limits
+  struct Demand {  // multiples of the limits
     double speed = 0;
     double force = 0;
     double jolt = 0;
   };
-  static Strength strength_at(const Segment& segment, double s, const std::vector<LimitedAxis>& axes);
+  struct Look {  // at an instant
+    std::array<Demand, axis_count> axes{};
+    std::size_t count = 0;
+  };
+  struct Excess {
+    Demand most;
+    void raise(const Look& look);
+    void raise_between(const std::array<Look, 3>& looks, std::size_t newest);
+  };
+  static Strength strength_at(const Segment& segment, const PathState& state, const std::vector<LimitedAxis>& axes);
   [[nodiscard]] bool shape(const PathState& state, double exit, const Strength& strength);
   void add(double duration, double jerk);
   enum class Laid : std::uint8_t {
@@ -74,9 +83,9 @@ class SpeedChange {
     near_an_end,  // of a segment, so near that what is left of that is nothing to go on in
   };
   Laid lay(PathAhead& path, const PathState& state);
-  Excess excess(PathAhead& path, const Request& request) const;
-  static void look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time,
-                      Excess& worst);
+  Demand excess(PathAhead& path, const Request& request) const;
+  static void look_over(const Piece& piece, const Segment& segment, const Request& request, Excess& worst);
+  static Look look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time);
 
   std::vector<Phase> phases_;  // starts counted from the beginning of the change
   std::vector<Piece> pieces_;  // the same, cut where segments end

@@ -10,7 +10,7 @@
 namespace passo {
 namespace {
 
-// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+// Of squares of speeds and of limits, relative: less is what arithmetic makes of equal ones.
 constexpr double rounding = 1e-9;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -123,12 +123,14 @@ inline Interval entries(std::span<const AxisDemand> demands, double y, double mo
   }
   return left;
 }
-// Of y up to `most` for this x: what does not depend on y is as it is.
+// Of y up to `most` for this x: what does not depend on y is as it is. The x that the backward pass found meets the
+// demands but for rounding, which one that hardly depends on y would make a wide gap of.
 inline Interval exits(std::span<const AxisDemand> demands, double x, double most) {
   Interval left{.high = most};
   for (const AxisDemand& demand : demands) {
-    if (demand.entry_y != 0) left.meet(demand.entry_y, demand.entry_x, demand.limit, x);
-    if (demand.exit_y != 0) left.meet(demand.exit_y, demand.exit_x, demand.limit, x);
+    const double limit = demand.limit * (1 + rounding);
+    if (demand.entry_y != 0) left.meet(demand.entry_y, demand.entry_x, limit, x);
+    if (demand.exit_y != 0) left.meet(demand.exit_y, demand.exit_x, limit, x);
   }
   return left;
 }
@@ -190,7 +192,8 @@ double largest_entry_with(std::span<const AxisDemand> demands, std::span<const F
 // What the lines leave of the exit for a given entry.
 Interval exits_with(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const Lines& lines,
                     double entry, Interval exits) {
-  for_each_demand(demands, falling, lines, [&](double p, double q, double limit) { exits.keep(q, p, limit, entry); });
+  for_each_demand(demands, falling, lines,
+                  [&](double p, double q, double limit) { exits.keep(q, p, limit * (1 + rounding), entry); });
   return exits;
 }
 
@@ -271,10 +274,12 @@ double largest_exit(std::span<const AxisDemand> demands, std::span<const Falling
   if (best >= 0 && best <= exit_most) return best;
   if (best >= 0 && possible.low <= exit_most + rounding * entry) return exit_most;
 
-  // Braking as hard as can be, or harder than can be.
-  const Interval fresh = exits_with(demands, falling, lines_at(falling, entry, exit_most), entry, all);
-  const Interval kept = exits_with(demands, falling, kept_lines(falling), entry, all);
-  const Interval& better = kept.low <= kept.high && kept.low < fresh.low ? kept : fresh;
+  // Braking as hard as can be, or harder than can be. Where the top was lowered it may not be reached at once.
+  const Interval any = exits(demands, entry, infinity);
+  const Interval fresh = exits_with(demands, falling, lines_at(falling, entry, exit_most), entry, any);
+  const Interval kept = exits_with(demands, falling, kept_lines(falling), entry, any);
+  const bool is_fresh_better = fresh.low <= fresh.high && !(kept.low <= kept.high && kept.low < fresh.low);
+  const Interval& better = is_fresh_better ? fresh : kept;
   const bool too_fast = better.low > exit_most + rounding * entry && better.low <= better.high;
   return too_fast ? better.low : std::max(0.0, std::min(exit_most, better.high));
 }

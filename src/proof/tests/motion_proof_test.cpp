@@ -357,6 +357,15 @@ TEST(MotionProof, the_same_way_back_is_no_deviation) {
   EXPECT_LT(proof_of(planned).deviation.value, 1e-9);
 }
 
+// One move along it passes dozens of them at a stride.
+TEST(MotionProof, a_line_of_many_short_ones_is_followed) {
+  std::vector<Segment> chords;
+  for (int i = 0; i < 1000; ++i) chords.push_back(line(xyz(0.01 * i, 0), xyz(0.01 * (i + 1), 0)));
+  EXPECT_LT(proof_of(chords, {steady(line(xyz(0, 0), xyz(10, 0)), 1)}).deviation.value, 1e-9);
+  EXPECT_NEAR(proof_of(chords, {steady(line(xyz(0, 0), xyz(10, 0.02)), 1)}).deviation.value, 0.02, 1e-3);
+  EXPECT_NEAR(proof_of(chords, {steady(line(xyz(0, 0), xyz(9, 0)), 1)}).deviation.value, 1, 1e-9);
+}
+
 // The way back is nearer to the way there than to the programmed way back.
 TEST(MotionProof, a_path_that_turns_short_of_a_tip_is_followed_on_its_way_back) {
   std::vector<Segment> path = {line(xyz(0, 0), xyz(5.05, 0)), line(xyz(5.05, 0), xyz(0, 0.02))};

@@ -24,12 +24,30 @@ inline MotionLimits jerk_limits(double velocity, double acceleration, double jer
   return limits;
 }
 
+// Flat up to a shoulder, then as a motor loses its torque.
+inline AccelerationCurve draw_falling(Random& random, MmPerSecond velocity, MmPerSecond2 at_rest) {
+  const double shoulder = velocity.value() * random.between(0.05, 0.7);
+  const double power = random.between(0.3, 2);
+  std::vector<AccelerationCurve::Sample> samples;
+  for (int i = 0; i <= 1000; ++i) {
+    const double speed = velocity.value() * i / 1000;
+    samples.push_back({.speed = MmPerSecond(speed),
+                       .acceleration = at_rest * (speed < shoulder ? 1 : std::pow(shoulder / speed, power))});
+  }
+  return AccelerationCurve::below(samples, at_rest);
+}
+
+// Of some, the acceleration falls with the speed.
 inline MotionLimits draw_jerk_limits(Random& random) {
   MotionLimits limits = jerk_limits(1, 1, 1);
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     limits.velocity[axis] = MmPerSecond(std::exp(random.between(3, 6)));
     limits.acceleration[axis] = MmPerSecond2(std::exp(random.between(5, 8)));
     limits.jerk[axis] = MmPerSecond3(std::exp(random.between(8, 12)));
+  }
+  if (!random.chance(0.4)) return limits;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.falling[axis] = draw_falling(random, limits.velocity[axis], limits.acceleration[axis]);
   }
   return limits;
 }
@@ -143,7 +161,10 @@ class JerkOracle {
           ASSERT_LE(std::abs(here.velocity), v * tolerated);
         }
         if (a > 0) {
-          ASSERT_LE(std::abs(here.acceleration), a * tolerated);
+          const AccelerationCurve& falling = limits_.falling[axis];
+          const double most =
+              falling.empty() ? a : std::min(a, falling.at(MmPerSecond(std::min(std::abs(here.velocity), v))).value());
+          ASSERT_LE(std::abs(here.acceleration), most * tolerated) << letter_of(axis) << " at " << here.velocity;
         }
         if (j > 0) {
           ASSERT_LE(std::abs(here.jerk), j * tolerated);

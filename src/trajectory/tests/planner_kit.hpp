@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -188,7 +189,7 @@ inline std::vector<double> exits_offline(const std::vector<PathItem>& path, cons
   const Segment* before = nullptr;
   for (const PathItem& item : path) {
     const auto* segment = std::get_if<Segment>(&item);
-    if (segment != nullptr) cutter.begin(*segment);
+    if (segment != nullptr) cutter.begin(*segment, std::numeric_limits<double>::infinity());
     bool rest = before == nullptr || segment == nullptr || before->mode == PathMode::exact_stop;
     if (!rest) {
       const Point turn = segment->curve.tangent(Mm(0)) - before->curve.tangent(before->curve.length());

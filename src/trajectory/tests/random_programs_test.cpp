@@ -64,7 +64,7 @@ TEST_P(RandomPrograms, are_planned_as_if_seen_whole) {
   for (const MotionItem& item : motion_) {
     const auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) continue;
-    if (move->from() == Mm(0)) cutter.begin(move->segment);
+    if (move->from() == Mm(0)) cutter.begin(move->segment, std::numeric_limits<double>::infinity());
     LoneCell piece;
     double end = 0;
     do {

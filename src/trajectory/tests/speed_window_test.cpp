@@ -1,0 +1,77 @@
+// The two linear programs of a cell: what the backward pass lets in, the forward pass brings through.
+#include "../speed_window.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "kit/stage_test.hpp"
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+// Of its limit, the most that a demand asks for.
+double largest_share(std::span<const AxisDemand> demands, double entry, double exit) {
+  double most = 0;
+  for (const AxisDemand& demand : demands) {
+    most = std::max({most, std::abs(demand.entry_x * entry + demand.entry_y * exit) / demand.limit,
+                     std::abs(demand.exit_x * entry + demand.exit_y * exit) / demand.limit});
+  }
+  return most;
+}
+
+// From a program: the bend and the slope of an axis cancel, and its demand at the exit depends on the exit by what
+// rounding has left. So x, right to the last place but one, left no y but a wrong one, 2 % too strong for the other.
+TEST(SpeedWindow, a_demand_that_hardly_depends_on_the_exit_leaves_one) {
+  const std::array<AxisDemand, 2> demands{{{.entry_x = 383.58162811294687,
+                                            .entry_y = -384.69328519805271,
+                                            .exit_x = 385.28051071937625,
+                                            .exit_y = -386.5177557195646,
+                                            .limit = 1175.933139777263},
+                                           {.entry_x = -42.460898389798942,
+                                            .entry_y = 26.917793126717637,
+                                            .exit_x = -18.425613448757154,
+                                            .exit_y = -3.4745539778668899e-12,
+                                            .limit = 1473.7190078116223}}};
+  constexpr double top = 299.168912;
+  const double entry = largest_entry(demands, top, 82.590051);
+  EXPECT_NEAR(entry, 79.982086, 1e-6);
+  const double exit = largest_exit(demands, entry, 82.590051);
+  EXPECT_LE(largest_share(demands, entry, exit), 1 + 1e-8);
+}
+
+// Cells of any curve, with every place on it among them where bend and slope cancel.
+TEST(SpeedWindow, what_is_let_in_comes_through) {
+  test::Random random;
+  for (int run = 0; run < 20'000; ++run) {
+    const double length = std::exp(random.between(-7, 1));
+    const double per_way = 1 / (2 * length);
+    std::vector<AxisDemand> demands;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slope_in = random.between(-1, 1);
+      const double slope_out = slope_in + random.between(-0.03, 0.03);
+      const bool cancels = random.chance(0.2);
+      const double rounding = random.between(-1, 1) * std::exp(random.between(-35, -5));
+      const double bend_in = (slope_out - slope_in) / length;
+      const double bend_out = cancels ? -slope_out * per_way * (1 + rounding) : bend_in;
+      demands.push_back({.entry_x = bend_in - slope_in * per_way,
+                         .entry_y = slope_in * per_way,
+                         .exit_x = -slope_out * per_way,
+                         .exit_y = bend_out + slope_out * per_way,
+                         .limit = random.between(100, 1000)});
+    }
+    const double top = std::exp(random.between(0, 12));
+    const double exit_most = random.chance(0.2) ? 0 : random.between(0, top);
+    const double entry = largest_entry(demands, top, exit_most);
+    for (const double share : {1.0, 0.999, 0.5}) {
+      const double exit = largest_exit(demands, share * entry, exit_most);
+      ASSERT_LE(exit, exit_most);
+      ASSERT_LE(largest_share(demands, share * entry, exit), 1 + 1e-8) << "run " << run << ", share " << share;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace passo
