@@ -68,3 +68,14 @@ function(passo_test name)
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
+
+# passo_slow_test(NAME SECONDS COMMAND program [argument…] [ENVIRONMENT name=value…])
+#
+# Tests of a program that a developer would not wait for, about so long: CI runs them, the longest first, so that no
+# processor stands idle at the end.
+function(passo_slow_test name seconds)
+  cmake_parse_arguments(ARG "" "" "COMMAND;ENVIRONMENT" ${ARGN})
+  add_test(NAME ${name} COMMAND ${ARG_COMMAND})
+  set_tests_properties(${name} PROPERTIES
+    LABELS slow COST ${seconds} TIMEOUT 1800 ENVIRONMENT "${ARG_ENVIRONMENT}")
+endfunction()

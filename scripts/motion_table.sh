@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# scripts/motion_table.sh [DIR…]: measures the motion of programs on examples/machines/bench.toml, and prints a table.
-# The line is measured on the same machine with a board of 100,000 events a second.
+# scripts/motion_table.sh [DIR…]: measures the motion of programs on examples/machines/bench.toml, and prints two tables:
+# as the machine is, and with limits of jerk by which full acceleration takes 20 ms. The line is measured on the same
+# machine with a board of 100,000 events a second.
 #
-# Without a DIR: the programs of examples/, whose table goes into docs/motion.md too, between its marks, and, where they
+# Without a DIR: the programs of examples/, whose tables go into docs/motion.md too, between their marks, and, where they
 # are at hand, those of ../shared/peers/motion-mm, which are printed only. Needs build/release/passo, and jq.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1-} == -* ]]; then
-  sed -n '2,6s/^# \{0,1\}//p' scripts/motion_table.sh
+  sed -n '2,7s/^# \{0,1\}//p' scripts/motion_table.sh
   exit 2
 fi
 passo=build/release/passo
@@ -15,24 +16,27 @@ for needed in "$passo" jq; do
   command -v "$needed" >/dev/null || { echo "motion_table.sh: there is no $needed" >&2; exit 1; }
 done
 
-slow_board=$(mktemp --suffix=.toml)
-trap 'rm -f "$slow_board"' EXIT
-sed 's/^max_event_rate_hz = .*/max_event_rate_hz = 100_000/' examples/machines/bench.toml >"$slow_board"
+new=$(mktemp -d)
+trap 'rm -rf "$new"' EXIT
+machine=examples/machines/bench.toml
+sed 's/^max_acceleration_mm_s2 = .*/&\nmax_jerk_mm_s3 = 25_000/' "$machine" >"$new/smooth.toml"
 
-# $1 a folder. A motion beyond its limits (exit code 1) is a row like any other.
+# $1 a folder, $2 a machine file. A motion beyond its limits (exit code 1) is a row like any other.
 table() {
-  echo "| program | time, s | time / bound | velocity × | acceleration × | in the steps × | velocity jump, mm/s | deviation × | line, kB/s | at most | good |"
-  echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
+  echo "| program | time, s | time / bound | velocity × | acceleration × | jerk × | in the steps × | velocity jump, mm/s | deviation × | line, kB/s | at most | good |"
+  echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
   local program json line
+  sed 's/^max_event_rate_hz = .*/max_event_rate_hz = 100_000/' "$2" >"$new/slow_board.toml"
   for program in "$1"/*.ngc "$1"/*.nc; do
     [[ -e $program ]] || continue
-    json=$("$passo" check "$program" -m examples/machines/bench.toml --motion --json 2>/dev/null) || (($? == 1))
-    line=$("$passo" run "$program" -m "$slow_board" --json --quiet 2>/dev/null | jq -c .board) || line=null
+    json=$("$passo" check "$program" -m "$2" --motion --json 2>/dev/null) || (($? == 1))
+    line=$("$passo" run "$program" -m "$new/slow_board.toml" --json --quiet 2>/dev/null | jq -c .board) || line=null
     jq -r --argjson line "${line:-null}" --arg name "$(basename "$program")" '
       def shown($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
       def worst(f): [.axes[] | f // 0] | max;
       [$name, (.time_s | shown(3)), (.time_over_bound | shown(4)),
        (worst(.velocity.multiple) | shown(4)), (worst(.acceleration.multiple) | shown(4)),
+       (if any(.axes[].jerk.limit; . != null and . > 0) then worst(.jerk.multiple) | shown(4) else "none" end),
        (worst(.step_acceleration.multiple) | shown(2)), (worst(.velocity_jump.value) | shown(6)),
        (.deviation.multiple | if . == null then "none" else shown(4) end),
        ($line | if . == null then "none" else (.bytes / .end_s / 1000 | shown(1)) end),
@@ -42,24 +46,29 @@ table() {
 }
 
 if (($# > 0)); then
-  for directory in "$@"; do table "$directory"; done
+  for directory in "$@"; do
+    table "$directory" "$machine"
+    echo
+    table "$directory" "$new/smooth.toml"
+  done
   exit
 fi
 
 document=docs/motion.md
-new=$(mktemp -d)
-trap 'rm -rf "$new" "$slow_board"' EXIT
-table examples >"$new/examples"
+table examples "$machine" >"$new/examples"
+table examples "$new/smooth.toml" >"$new/smooth"
 awk -v directory="$new" '
   /^<!-- end of .* -->$/ { skipping = 0 }
   !skipping { print }
-  /^<!-- examples -->$/ {
+  /^<!-- (examples|smooth) -->$/ {
     skipping = 1
     while ((getline line < (directory "/" $2)) > 0) print line
   }' "$document" >"$new/document"
 cat "$new/document" >"$document"
-cat "$new/examples"
+cat "$new/examples" - "$new/smooth" <<<""
 if [[ -d ../shared/peers/motion-mm ]]; then
   echo
-  table ../shared/peers/motion-mm
+  table ../shared/peers/motion-mm "$machine"
+  echo
+  table ../shared/peers/motion-mm "$new/smooth.toml"
 fi

@@ -1,5 +1,13 @@
 // passo check --motion, as a user starts it.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
 #include "kit/command_line.hpp"
+#include "kit/in_full.hpp"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +55,43 @@ TEST_F(CheckMotion, a_wrong_program_shows_its_findings_and_is_not_planned) {
 
 TEST_F(CheckMotion, help_has_an_example) {
   EXPECT_THAT(passo("check --help").out, testing::HasSubstr("passo check part.ngc -m router.toml --motion"));
+}
+
+// A row of the table in motion-mm/README.md: the time of a schedule that keeps every limit within the tolerance.
+struct Peer {
+  std::string file;
+  double reference = 0;
+};
+
+std::vector<Peer> peers() {
+  const std::filesystem::path folder = std::filesystem::path(PASSO_SOURCE_DIR) / "../shared/peers/motion-mm";
+  std::ifstream readme(folder / "README.md");
+  std::vector<Peer> all;
+  for (std::string row; std::getline(readme, row);) {
+    std::smatch found;
+    if (!std::regex_match(row, found, std::regex(R"(\| (p\d\d) [^|]*\| ([0-9.]+) \|.*)"))) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().filename().string().starts_with(found[1].str() + "_")) {
+        all.push_back({.file = entry.path().string(), .reference = std::stod(found[2])});
+      }
+    }
+  }
+  return all;
+}
+
+TEST_F(CheckMotion, keeps_the_limits_on_programs_of_other_projects_and_is_about_as_fast_as_any_way_that_does) {
+  if (passo::test::in_full() == 0) GTEST_SKIP() << "takes half a minute: PASSO_IN_FULL=1";
+  const std::vector<Peer> all = peers();
+  if (all.empty()) GTEST_SKIP() << "no ../shared/peers/motion-mm beside this checkout";
+  for (const Peer& peer : all) {
+    const Outcome outcome = passo("check " + peer.file + " -m " + bench + " --motion --json");
+    EXPECT_EQ(outcome.code, 0) << peer.file << outcome.out << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json["good"], true) << peer.file;
+    const double times = json["time_s"].get<double>() / peer.reference;
+    EXPECT_LT(times, 1.01) << peer.file;
+    std::printf("%.4f of the reference: %s\n", times, std::filesystem::path(peer.file).filename().c_str());
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/bad_line.hpp"
+#include "kit/in_full.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/homing_kit.hpp"
 
@@ -169,9 +170,9 @@ TEST(EmulatedHoming, is_exact_where_the_line_was_cut) {
   cut_before_frames(mega, 797);
 }
 TEST(EmulatedHomingInFull, is_exact_where_the_line_was_cut) {
-  if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  cut_before_frames(uno, 3);
-  cut_before_frames(mega, 7);
+  if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  cut_before_frames(uno, 3 * test::in_full());
+  cut_before_frames(mega, 7 * test::in_full());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "emulator/bad_line.hpp"
 #include "kit/example_machine.hpp"
+#include "kit/in_full.hpp"
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
@@ -113,9 +114,9 @@ TEST(EmulatedProbing, finds_it_where_the_line_was_cut) {
   cut_before_frames(mega, 211);
 }
 TEST(EmulatedProbingInFull, cut_before_every_frame) {
-  if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  cut_before_frames(uno, 1);
-  cut_before_frames(mega, 7);
+  if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  cut_before_frames(uno, test::in_full());
+  cut_before_frames(mega, 7 * test::in_full());
 }
 
 }  // namespace

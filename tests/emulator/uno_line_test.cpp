@@ -8,6 +8,7 @@
 
 #include "emulator/bad_line.hpp"
 #include "kit/example_machine.hpp"
+#include "kit/in_full.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
@@ -106,7 +107,7 @@ void random_faults(int trials) {
 class UnoOnABadLineInFull : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   }
 };
 
@@ -119,11 +120,11 @@ TEST(UnoOnABadLine, makes_no_wrong_step_of_random_faults) {
 }
 
 TEST_F(UnoOnABadLineInFull, cut_before_every_frame) {
-  cut_at_every(1);
+  cut_at_every(test::in_full());
 }
 
 TEST_F(UnoOnABadLineInFull, random_faults) {
-  random_faults(400);
+  random_faults(static_cast<int>(400 / test::in_full()));
 }
 
 }  // namespace

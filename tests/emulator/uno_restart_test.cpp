@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/in_full.hpp"
 #include "kit/journaled_host.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
@@ -89,13 +90,10 @@ TEST(UnoOutlivesItsHosts, the_second_one_too) {
   die_at_every(131, true);
 }
 
-// PASSO_STRIDE: every so many moments only.
 TEST(UnoOutlivesItsHosts, in_full) {
-  if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  const char* const given = std::getenv("PASSO_STRIDE");
-  const std::uint64_t stride = given != nullptr ? std::strtoull(given, nullptr, 10) : 1;
-  die_at_every(stride, false);
-  die_at_every(stride, true);
+  if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  die_at_every(test::in_full(), false);
+  die_at_every(test::in_full(), true);
 }
 
 }  // namespace

@@ -5,17 +5,37 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <string>
 
 #include "kit/stage_test.hpp"
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo::test {
 
-// From two to five axes, from sluggish to nimble, with or without limits of jerk.
+// Whose torque falls from some speed on: at rest no less than the acceleration of the axis, at full speed some of it.
+inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
+  const Rotor rotor{.inertia = {1e-5}};
+  const double at_rest = axis.acceleration.value() * random.between(1, 1.5);
+  const double at_speed = axis.acceleration.value() * random.between(0.1, 0.7);
+  const auto point = [&](double speed, double acceleration) {
+    return TorquePoint{.rate = Hertz(speed * rotor.steps_per_revolution / (2 * std::numbers::pi)),
+                       .torque = {acceleration * rotor.inertia.value}};
+  };
+  const double top = axis.velocity.value();
+  const Result<TorqueCurve, MotorError> curve =
+      TorqueCurve::from_points(rotor, {point(top * random.between(0.05, 0.6), at_rest),
+                                       point(top * random.between(0.7, 1), at_speed), point(1.2 * top, at_speed / 2)});
+  return {.curve = *curve, .share = 1, .radians_per_unit = 1};
+}
+
+// From two to five axes, from sluggish to nimble, with or without limits of jerk, some with a motor's torque.
 inline MachineDescription random_machine(Random& random) {
   static constexpr std::array order = {Axis::x, Axis::y, Axis::z, Axis::a, Axis::c};
   MachineDescription machine;
@@ -40,6 +60,9 @@ inline MachineDescription random_machine(Random& random) {
     axis.travel_low = -1e5;
     axis.travel_high = 1e5;
     machine.axes.push_back(axis);
+  }
+  if (random.chance(0.25)) {
+    for (AxisDescription& axis : machine.axes) axis.motor = random_motor(random, axis);
   }
   return machine;
 }
@@ -186,5 +209,33 @@ class RandomGcode {
   Point place_;
   double size_ = 1;
 };
+
+struct RandomJob {
+  explicit RandomJob(Random& random) : machine(random_machine(random)), program(RandomGcode(random, machine).draw()) {}
+  MachineDescription machine;
+  std::string program;
+};
+
+inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
+  const char* const text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+// Calls with each number from PASSO_SEED on, PASSO_RUNS of them, its job and its generator, up to the first failure.
+// Each job depends on its number alone.
+template <class Try>
+void for_each_job(std::uint64_t runs_otherwise, const Try& try_one) {
+  const std::uint64_t first = number_of("PASSO_SEED", 1);
+  const std::uint64_t runs = number_of("PASSO_RUNS", runs_otherwise);
+  for (std::uint64_t number = first; number < first + runs && !testing::Test::HasFailure(); ++number) {
+    Random random = Random::of(number);
+    const RandomJob job(random);
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number) + "\n" + describe(job.machine) + job.program);
+    if (runs == 1) std::printf("%s%s", describe(job.machine).c_str(), job.program.c_str());
+    try_one(number, job, random);
+  }
+  std::printf("%llu programs from %llu on\n", static_cast<unsigned long long>(runs),
+              static_cast<unsigned long long>(first));
+}
 
 }  // namespace passo::test

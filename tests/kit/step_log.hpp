@@ -30,7 +30,7 @@ class StepLog final : public MachineObserver {
     steps[motor].push_back({.tick = tick, .down = down, .place = place});
   }
 
-  static constexpr unsigned motors = 3;
+  static constexpr unsigned motors = 5;
   struct Step {
     std::int64_t tick = 0;
     bool down = false;
@@ -41,18 +41,36 @@ class StepLog final : public MachineObserver {
   Steps steps;
 };
 
-// The same steps in the same order as without trouble, each with the other motors where they were then.
-inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& reference) {
+// The same steps in the same order as without trouble, each with the other motors where they were then. A motor that
+// turns just where a step is due makes it forth and back, within an event or two, or not: so many of these at most may
+// one of the two runs have and the other not.
+inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& reference, int most_touches = 0) {
   constexpr std::int64_t beside = 3;  // steps of another motor: both come to rest at times
+  int touches = 0;
+  const auto is_touch = [](const std::vector<StepLog::Step>& steps, std::size_t i) {
+    return i + 1 < steps.size() && steps[i].down != steps[i + 1].down;
+  };
   for (unsigned m = 0; m < StepLog::motors; ++m) {
-    ASSERT_EQ(run[m].size(), reference[m].size()) << "motor " << m;
-    for (std::size_t i = 0; i < run[m].size(); ++i) {
-      ASSERT_EQ(run[m][i].down, reference[m][i].down) << "motor " << m << " step " << i;
-      for (unsigned other = 0; other < StepLog::motors; ++other) {
-        ASSERT_NEAR(static_cast<double>(run[m][i].place[other]), static_cast<double>(reference[m][i].place[other]),
-                    beside)
-            << "motor " << other << " at step " << i << " of motor " << m;
+    std::size_t i = 0;
+    std::size_t k = 0;
+    while (i < run[m].size() || k < reference[m].size()) {
+      const bool both = i < run[m].size() && k < reference[m].size();
+      if (!both || run[m][i].down != reference[m][k].down) {
+        ASSERT_LT(touches++, most_touches) << "motor " << m << " step " << i << " of " << run[m].size() << ", step "
+                                           << k << " of " << reference[m].size();
+        const bool in_reference = is_touch(reference[m], k);
+        ASSERT_TRUE(in_reference || is_touch(run[m], i)) << "motor " << m << " step " << i;
+        (in_reference ? k : i) += 2;
+        continue;
       }
+      for (unsigned other = 0; other < StepLog::motors; ++other) {
+        const std::int64_t away = run[m][i].place[other] - reference[m][k].place[other];
+        if (away < -beside || away > beside) {
+          FAIL() << "motor " << other << " is " << away << " steps off at step " << i << " of motor " << m;
+        }
+      }
+      ++i;
+      ++k;
     }
   }
 }
@@ -97,7 +115,7 @@ inline void expect_within_limits(const MachineDescription& machine, const StepLo
   // whole the less.
   constexpr double apart_of_four = 0.009;
   const double clock = machine.board.clock.value();
-  for (unsigned m = 0; m < StepLog::motors; ++m) {
+  for (unsigned m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const double steps = std::fabs(axis.steps_per_unit);
     const double bend = axis.acceleration.value() * steps * apart * apart;

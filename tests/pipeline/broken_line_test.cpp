@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/in_full.hpp"
+#include "kit/line_run.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
@@ -21,10 +23,12 @@
 namespace passo {
 namespace {
 
+using test::Bytes;
 using test::expect_same_way;
 using test::expect_within_limits;
+using test::Outcome;
 using test::RandomTrouble;
-using test::StepLog;
+using test::run;
 
 // With places in plenty, and with few; "smooth_" before it: with limits of jerk.
 const MachineDescription& machine_named(const std::string& name) {
@@ -48,46 +52,12 @@ const std::vector<std::string>& programs() {
   return all;
 }
 
-struct Outcome {
-  StepLog::Steps steps;
-  std::vector<int> outputs;
-  std::uint64_t frames = 0;  // both ways
-  int recoveries = 0;
-};
-
-using Bytes = VirtualLine::Bytes;
-// Sees each frame with its number, and gives back what passes.
-using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
-
-Outcome run(const std::string& machine, const std::string& program, bool with_line, const Trouble& trouble = nullptr) {
-  Diagnostics diagnostics;
-  const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
-  // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
-  Job job(ProgramReader::from_text("t", program), machine_named(machine), InterpreterOptions(), diagnostics,
-          {.line = line});
-  StepLog log;
-  job.machine().add_observer(log);
-  Outcome outcome;
-  if (with_line) {
-    job.line().set_trouble([&](bool to_board, Bytes bytes) {
-      const std::uint64_t number = outcome.frames++;
-      return trouble ? trouble(job, number, to_board, std::move(bytes)) : bytes;
-    });
-  }
-  while (job.advance()) {
-  }
-  EXPECT_FALSE(diagnostics.any_error());
-  EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
-  outcome.steps = log.steps;
-  if (job.drive().refiller() != nullptr) outcome.recoveries = job.drive().refiller()->recoveries();
-  return outcome;
-}
-
 const Outcome& reference_of(const std::string& machine, std::size_t program) {
   static std::map<std::pair<std::string, std::size_t>, Outcome> known;
   const auto found = known.find({machine, program});
   if (found != known.end()) return found->second;
-  return known.emplace(std::pair(machine, program), run(machine, programs()[program], false)).first->second;
+  return known.emplace(std::pair(machine, program), run(machine_named(machine), programs()[program], false))
+      .first->second;
 }
 
 void expect_as_if_nothing_had_been(const std::string& machine, std::size_t program, const Outcome& outcome) {
@@ -98,18 +68,18 @@ void expect_as_if_nothing_had_been(const std::string& machine, std::size_t progr
 // Cuts at every `stride`-th frame from either side. Returns how many trials that were.
 int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std::uint64_t stride,
                             const std::vector<double>& lasting, int& recoveries) {
-  const Outcome whole = run(machine, programs()[program], true);
+  const Outcome whole = run(machine_named(machine), programs()[program], true);
   expect_as_if_nothing_had_been(machine, program, whole);
   int trials = 0;
   for (const double seconds : lasting) {
     for (std::uint64_t at = 0; at < whole.frames; at += stride) {
       SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) +
                    " for " + std::to_string(seconds) + " s");
-      const Outcome cut =
-          run(machine, programs()[program], true, [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
-            if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
-            return bytes;
-          });
+      const Outcome cut = run(machine_named(machine), programs()[program], true,
+                              [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
+                                if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
+                                return bytes;
+                              });
       expect_as_if_nothing_had_been(machine, program, cut);
       recoveries += cut.recoveries;
       ++trials;
@@ -131,7 +101,7 @@ void random_faults(const std::string& machine, int trials) {
     const std::size_t program = static_cast<std::size_t>(i) % programs().size();
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
     const Outcome outcome =
-        run(machine, programs()[program], true,
+        run(machine_named(machine), programs()[program], true,
             [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); });
     expect_as_if_nothing_had_been(machine, program, outcome);
     faults += trouble.faults;
@@ -146,14 +116,14 @@ void random_faults(const std::string& machine, int trials) {
 
 // As if the CRC had been deceived: one of the frames to the board is another, and has a right one.
 void forge_frames(const std::string& machine, std::size_t program, std::uint64_t stride) {
-  const Outcome whole = run(machine, programs()[program], true);
+  const Outcome whole = run(machine_named(machine), programs()[program], true);
   int trials = 0;
   int recoveries = 0;
   for (std::uint64_t at = 0; at < whole.frames; at += stride) {
     SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", frame " + std::to_string(at) + " forged");
     bool forged = false;
-    const Outcome outcome =
-        run(machine, programs()[program], true, [&](Job&, std::uint64_t number, bool to_board, Bytes bytes) {
+    const Outcome outcome = run(
+        machine_named(machine), programs()[program], true, [&](Job&, std::uint64_t number, bool to_board, Bytes bytes) {
           if (forged || number < at || !to_board) return bytes;
           const std::optional<Bytes> other = test::forged(bytes, static_cast<std::uint8_t>(number));
           forged = other.has_value();
@@ -171,7 +141,7 @@ class BrokenLine : public testing::TestWithParam<std::string> {};
 class BrokenLineInFull : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   }
 };
 
@@ -194,11 +164,11 @@ TEST_P(BrokenLineInFull, every_frame_boundary) {
   int trials = 0;
   int recoveries = 0;
   for (std::size_t program = 0; program < programs().size(); ++program) {
-    trials += cut_at_frame_boundaries(GetParam(), program, 1, {0.05, 0.5}, recoveries);
+    trials += cut_at_frame_boundaries(GetParam(), program, test::in_full(), {0.05, 0.5}, recoveries);
     if (HasFatalFailure()) return;
   }
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
-  EXPECT_GE(trials, 5000);
+  EXPECT_GE(trials * static_cast<int>(test::in_full()), 5000);
 }
 
 // PASSO_RUNS: how many runs.

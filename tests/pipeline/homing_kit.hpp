@@ -59,7 +59,7 @@ struct Homed {
   std::optional<LinkError> error;
   Point place;
   std::vector<HomedAxis> axes;
-  std::array<std::int64_t, 3> counts{};  // of the motors' pulses
+  std::array<std::int64_t, StepLog::motors> counts{};  // of the motors' pulses
   StepLog::Steps steps;
   std::uint64_t frames = 0;
   int recoveries = 0;

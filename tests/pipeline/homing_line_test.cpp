@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "kit/in_full.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/homing_kit.hpp"
@@ -111,7 +112,7 @@ class HomingOnABadLine : public testing::TestWithParam<const char*> {};
 class HomingOnABadLineInFull : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   }
 };
 
@@ -122,10 +123,10 @@ TEST_P(HomingOnABadLine, random_faults_in_part) {
   random_faults(GetParam(), 20);
 }
 TEST_P(HomingOnABadLineInFull, cut_before_every_frame) {
-  cut_before_frames(GetParam(), 1);
+  cut_before_frames(GetParam(), test::in_full());
 }
 TEST_P(HomingOnABadLineInFull, random_faults) {
-  random_faults(GetParam(), 1000);
+  random_faults(GetParam(), static_cast<int>(1000 / test::in_full()));
 }
 INSTANTIATE_TEST_SUITE_P(Board, HomingOnABadLine, testing::ValuesIn(boards));
 INSTANTIATE_TEST_SUITE_P(Board, HomingOnABadLineInFull, testing::ValuesIn(boards));

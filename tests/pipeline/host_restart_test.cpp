@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/in_full.hpp"
 #include "kit/journaled_host.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/seed.hpp"
@@ -245,7 +246,7 @@ class HostRestart : public testing::TestWithParam<std::string> {};
 class HostRestartInFull : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
-    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   }
 };
 
@@ -280,8 +281,8 @@ TEST_P(HostRestart, on_a_bad_line) {
 TEST_P(HostRestartInFull, at_every_moment_of_all_programs) {
   Counted counted;
   for (std::size_t program = 0; program < programs().size(); ++program) {
-    die_at_every(1, GetParam(), program, counted);
-    die_at_every(1, GetParam(), program, counted, 2);
+    die_at_every(test::in_full(), GetParam(), program, counted);
+    die_at_every(test::in_full(), GetParam(), program, counted, 2);
   }
   print(counted);
 }
@@ -289,20 +290,20 @@ TEST_P(HostRestartInFull, at_every_moment_of_all_programs) {
 TEST_P(HostRestartInFull, at_every_moment_of_many_beginnings) {
   Counted counted;
   for (std::size_t program = 0; program < programs().size(); ++program) {
-    die_again_at_every(101, 60, GetParam(), program, counted);
+    die_again_at_every(101 * test::in_full(), 60, GetParam(), program, counted);
   }
   print(counted);
 }
 
 TEST_P(HostRestartInFull, again_and_again) {
   Counted counted;
-  die_at_random(1500, GetParam(), counted);
+  die_at_random(static_cast<int>(1500 / test::in_full()), GetParam(), counted);
   print(counted);
 }
 
 TEST_P(HostRestartInFull, on_a_bad_line) {
   Counted counted;
-  die_on_a_bad_line(1000, GetParam(), counted);
+  die_on_a_bad_line(static_cast<int>(1000 / test::in_full()), GetParam(), counted);
   print(counted);
 }
 

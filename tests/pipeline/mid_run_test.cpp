@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/meddled_run.hpp"
 #include "kit/stage_test.hpp"
 
 #include "passo/controller/job.hpp"
@@ -16,7 +17,10 @@
 namespace passo {
 namespace {
 
+using test::Ending;
 using test::example_machine;
+using test::Meddling;
+using test::run;
 using State = MotionDrive::State;
 
 using test::with_jerk_limits;
@@ -47,105 +51,21 @@ std::string cycles() {
          "G0 X0 Y0 Z5\nG4 P.1\nG1 Y10 F2000\nM2\n";
 }
 
-struct Ending {
-  std::vector<MotorCounts> motors;
-  MotionProof proof;
-  int holds = 0;
-  int rests = 0;
-  int overrides = 0;
-};
-
-// Watches a job, filters what the proof does not know, and looks at each hold.
-class Watch {
- public:
-  Watch(Job& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
-    job.path().watch([this](const PathItem& item) { prover_.watch(item); });
-    job.board().watch([this](const BoardItem& item) { prover_.watch(item); });
-    job.motion().watch([this](const MotionItem& item) {
-      const auto* action = std::get_if<Action>(&item);
-      if (action != nullptr && action->kind == Action::Kind::feed_hold) {
-        EXPECT_LT(speed_, 1e-6) << "held in motion";
-        return;
-      }
-      prover_.watch(item);
-      speed_ = action != nullptr ? 0 : end_speed(std::get<PlannedMove>(item));
-    });
-  }
-  MotionProof finish() { return prover_.finish(); }
-
- private:
-  static double end_speed(const PlannedMove& move) {
-    const Phase& last = move.phases[move.phase_count - 1];
-    return last.velocity_at(last.duration).value();
-  }
-  MotionProver prover_;
-  double speed_ = 0;
-};
-
-// One random act in mid-run, or none.
-void meddle(MotionDrive& drive, test::Random& random, Ending& ending) {
-  switch (drive.state()) {
-    case State::running:
-      if (random.chance(0.03)) {
-        drive.hold();
-        ++ending.holds;
-      }
-      break;
-    case State::holding:
-      if (random.chance(0.02)) drive.resume();
-      break;
-    case State::held:
-      ++ending.rests;
-      EXPECT_NEAR(drive.committed().value(), 0, 0.02);
-      if (random.chance(0.5)) drive.wait(Seconds(random.between(0, 1)));
-      drive.resume();
-      break;
-    case State::ended: break;
-  }
-  if (random.chance(0.03)) {
-    drive.set_feed_override(random.chance(0.3) ? 1 : random.between(0.05, 1));
-    ++ending.overrides;
-  }
-}
-
-Ending run(const std::string& program, const MachineDescription& machine, test::Random* random,
-           const LiveOptions& live = {}) {
-  Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
-  Watch watch(job, machine);
-  job.drive().go_live(live);
-  Ending ending;
-  while (job.advance()) {
-    if (random != nullptr) meddle(job.drive(), *random, ending);
-  }
-  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
-  EXPECT_FALSE(job.link().error());
-  const MachineCounts counts = job.machine().counts();
-  ending.motors.assign(counts.motors.begin(), counts.motors.begin() + counts.motor_count);
-  ending.proof = watch.finish();
-  return ending;
-}
-
 void expect_nothing_lost(const std::string& program, const MachineDescription& machine, int runs) {
   SCOPED_TRACE(machine.name);
   test::Random random;
-  const Ending undisturbed = run(program, machine, nullptr);
+  Meddling meddling{.random = random};
+  const Ending undisturbed = run(program, machine);
   EXPECT_TRUE(undisturbed.proof.good()) << to_text(undisturbed.proof);
-  int holds = 0;
-  int rests = 0;
-  int overrides = 0;
   for (int i = 0; i < runs && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("run " + std::to_string(i));
-    const Ending ending = run(program, machine, &random);
+    const Ending ending = run(program, machine, {.meddling = &meddling});
     EXPECT_TRUE(ending.proof.good()) << to_text(ending.proof);
     for (std::size_t m = 0; m < machine.axes.size(); ++m) {
       EXPECT_EQ(ending.motors[m].position, undisturbed.motors[m].position) << "motor " << m;
     }
-    holds += ending.holds;
-    rests += ending.rests;
-    overrides += ending.overrides;
   }
-  std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides);
+  std::printf("%d holds, %d rests, %d overrides\n", meddling.holds, meddling.rests, meddling.overrides);
 }
 
 constexpr std::array<const char*, 4> machines = {"bench", "router", "pantograph", "forty-eight"};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kit/example_machine.hpp"
+#include "kit/in_full.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/stage_test.hpp"
 #include "kit/step_log.hpp"
@@ -200,7 +201,7 @@ class ProbingOnABadLine : public testing::TestWithParam<const char*> {};
 class ProbingOnABadLineInFull : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (std::getenv("PASSO_IN_FULL") == nullptr) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   }
 };
 
@@ -211,10 +212,10 @@ TEST_P(ProbingOnABadLine, random_faults_in_part) {
   random_faults(GetParam(), 30);
 }
 TEST_P(ProbingOnABadLineInFull, cut_before_every_frame) {
-  cut_before_frames(GetParam(), 1);
+  cut_before_frames(GetParam(), test::in_full());
 }
 TEST_P(ProbingOnABadLineInFull, random_faults) {
-  random_faults(GetParam(), 1000);
+  random_faults(GetParam(), static_cast<int>(1000 / test::in_full()));
 }
 INSTANTIATE_TEST_SUITE_P(Board, ProbingOnABadLine, testing::ValuesIn(boards));
 INSTANTIATE_TEST_SUITE_P(Board, ProbingOnABadLineInFull, testing::ValuesIn(boards));

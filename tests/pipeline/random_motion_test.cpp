@@ -4,54 +4,19 @@
 // PASSO_SEED=S PASSO_RUNS=N random_motion_tests takes the programs S to S + N - 1. Each depends on its number alone.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "kit/meddled_run.hpp"
 #include "kit/random_gcode.hpp"
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/stage_options.hpp"
-#include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
 
 namespace passo {
 namespace {
 
-std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
-  const char* const text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
-struct Played {
-  MotionProof proof;
-  Point end;
-  MachineCounts counts;
-};
-
-Played play(const std::string& program, const MachineDescription& machine) {
-  Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
-  MotionProver prover(proof_options(machine));
-  Played played;
-  job.path().watch([&](const PathItem& item) {
-    prover.watch(item);
-    if (const auto* segment = std::get_if<Segment>(&item)) played.end = segment->curve.end();
-  });
-  job.motion().watch([&](const MotionItem& item) { prover.watch(item); });
-  job.board().watch([&](const BoardItem& item) { prover.watch(item); });
-  while (job.advance()) {
-  }
-  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
-  EXPECT_FALSE(job.link().error());
-  played.proof = prover.finish();
-  played.counts = job.machine().counts();
-  return played;
-}
-
 // How much longer than the bound they took, of those of more than a second.
 struct Slowness {
-  std::size_t is_jerk = 0;
   std::vector<double> of_all;
   double worst = 1;
   std::uint64_t worst_seed = 0;
@@ -75,38 +40,73 @@ struct Slowness {
   }
 };
 
-void expect_end(const Played& played, const MachineDescription& machine) {
+void expect_end(const test::Ending& ending, const MachineDescription& machine) {
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    const double place = played.end[machine.axes[m].axis] * machine.axes[m].steps_per_unit;
-    EXPECT_NEAR(static_cast<double>(played.counts.motors[m].position), place, 0.5 + 1e-6) << "motor " << m;
+    const double place = ending.place[machine.axes[m].axis] * machine.axes[m].steps_per_unit;
+    EXPECT_NEAR(static_cast<double>(ending.motors[m].position), place, 0.5 + 1e-6) << "motor " << m;
   }
 }
 
 TEST(RandomMotion, keeps_limits_and_path_and_is_nearly_the_fastest) {
-  const std::uint64_t first = number_of("PASSO_SEED", 1);
-  const std::uint64_t runs = number_of("PASSO_RUNS", 300);
   Slowness with_jerk;
-  with_jerk.is_jerk = 1;
   Slowness without_jerk;
   std::uint64_t moves = 0;
   double seconds = 0;
-  for (std::uint64_t seed = first; seed < first + runs && !HasFailure(); ++seed) {
-    test::Random random = test::Random::of(seed);
-    const MachineDescription machine = test::random_machine(random);
-    const std::string program = test::RandomGcode(random, machine).draw();
-    SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + "\n" + describe(machine) + program);
-    const Played played = play(program, machine);
-    for (const std::string& fault : played.proof.faults()) ADD_FAILURE() << fault;
-    expect_end(played, machine);
-    if (runs == 1) std::printf("%s%s%s", describe(machine).c_str(), program.c_str(), to_text(played.proof).c_str());
-    (has_jerk_limit(machine) ? with_jerk : without_jerk).add(played.proof, seed);
-    moves += played.proof.moves;
-    seconds += played.proof.time.value();
-  }
-  std::printf("%llu programs from %llu on, %llu moves, %.0f s of motion\n", static_cast<unsigned long long>(runs),
-              static_cast<unsigned long long>(first), static_cast<unsigned long long>(moves), seconds);
+  test::for_each_job(100, [&](std::uint64_t number, const test::RandomJob& job, test::Random&) {
+    const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+    for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+    expect_end(ending, job.machine);
+    if (test::number_of("PASSO_RUNS", 0) == 1) std::printf("%s", to_text(ending.proof).c_str());
+    (has_jerk_limit(job.machine) ? with_jerk : without_jerk).add(ending.proof, number);
+    moves += ending.proof.moves;
+    seconds += ending.proof.time.value();
+  });
+  std::printf("%llu moves, %.0f s of motion\n", static_cast<unsigned long long>(moves), seconds);
   without_jerk.print("acceleration limited");
   with_jerk.print("jerk limited");
+}
+
+// Where a rotary axis turns fast for each millimetre in one move, and is all that moves in the next, its slope changes
+// so much in the corner that the acceleration along the path is ten times its own.
+TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
+  MachineDescription machine;
+  for (const Axis axis : {Axis::y, Axis::a}) {
+    AxisDescription& own = machine.axes.emplace_back();
+    own.axis = axis;
+    own.steps_per_unit = 100;
+    own.travel_low = -1e4;
+    own.travel_high = 1e4;
+    own.velocity = MmPerSecond(266);
+    own.acceleration = MmPerSecond2(313);
+  }
+  machine.board.highest_event_rate = Hertz(1e6);
+  std::string program = "G21 G91 F857\n";
+  for (int i = 0; i < 30; ++i) program += "G1 Y.0863 A.74\nG1 A1.14\n";
+  for (const double tolerance : {0.001, 0.005, 0.02, 0.1}) {
+    machine.path_tolerance = Mm(tolerance);
+    const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
+    for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+    EXPECT_LT(ending.proof.times_bound(), 1.012) << "within " << tolerance << " mm";
+  }
+}
+
+// An override may make it faster than the program says, and nothing else.
+TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_and_overrides) {
+  int holds = 0;
+  int rests = 0;
+  int overrides = 0;
+  test::for_each_job(100, [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
+    test::Meddling meddling{.random = random, .highest_override = 2};
+    const test::Ending ending = test::run(job.program, job.machine, {.meddling = &meddling});
+    for (const std::string& fault : ending.proof.faults()) {
+      if (!fault.starts_with("feed")) ADD_FAILURE() << fault;
+    }
+    expect_end(ending, job.machine);
+    holds += meddling.holds;
+    rests += meddling.rests;
+    overrides += meddling.overrides;
+  });
+  std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides);
 }
 
 }  // namespace

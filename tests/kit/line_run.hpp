@@ -1,0 +1,52 @@
+// A program run with its board at the other end of a line, and someone who spoils what goes over it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kit/line_trouble.hpp"
+#include "kit/step_log.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+
+namespace passo::test {
+
+struct Outcome {
+  StepLog::Steps steps;
+  std::vector<int> outputs;
+  std::uint64_t frames = 0;  // both ways
+  int recoveries = 0;
+};
+
+// Sees each frame with its number, and gives back what passes.
+using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
+
+inline Outcome run(const MachineDescription& machine, const std::string& program, bool with_line,
+                   const Trouble& trouble = nullptr) {
+  Diagnostics diagnostics;
+  const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
+  // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
+  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
+  StepLog log;
+  job.machine().add_observer(log);
+  Outcome outcome;
+  if (with_line) {
+    job.line().set_trouble([&](bool to_board, Bytes bytes) {
+      const std::uint64_t number = outcome.frames++;
+      return trouble ? trouble(job, number, to_board, std::move(bytes)) : bytes;
+    });
+  }
+  while (job.advance()) {
+  }
+  EXPECT_FALSE(diagnostics.any_error());
+  EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
+  outcome.steps = log.steps;
+  if (job.drive().refiller() != nullptr) outcome.recoveries = job.drive().refiller()->recoveries();
+  return outcome;
+}
+
+}  // namespace passo::test

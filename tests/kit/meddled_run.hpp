@@ -1,0 +1,112 @@
+// A program run as a job under the eyes of the referee, by itself or with a hand at the controls: holds, resumes and
+// overrides at random instants.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kit/stage_test.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/controller/job.hpp"
+#include "passo/controller/stage_options.hpp"
+#include "passo/proof/motion_proof.hpp"
+
+namespace passo::test {
+
+// Watches a job, filters what the proof does not know, and looks at each hold.
+class Watch {
+ public:
+  Watch(Job& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
+    job.path().watch([this](const PathItem& item) {
+      prover_.watch(item);
+      if (const auto* segment = std::get_if<Segment>(&item)) place_ = segment->curve.end();
+    });
+    job.board().watch([this](const BoardItem& item) { prover_.watch(item); });
+    job.motion().watch([this](const MotionItem& item) {
+      const auto* action = std::get_if<Action>(&item);
+      if (action != nullptr && action->kind == Action::Kind::feed_hold) {
+        EXPECT_LT(speed_, 1e-6) << "held in motion";
+        return;
+      }
+      prover_.watch(item);
+      speed_ = action != nullptr ? 0 : end_speed(std::get<PlannedMove>(item));
+    });
+  }
+  MotionProof finish() { return prover_.finish(); }
+  const Point& place() const { return place_; }
+
+ private:
+  static double end_speed(const PlannedMove& move) {
+    const Phase& last = move.phases[move.phase_count - 1];
+    return last.velocity_at(last.duration).value();
+  }
+  MotionProver prover_;
+  Point place_;
+  double speed_ = 0;
+};
+
+struct Meddling {
+  Random& random;
+  double highest_override = 1;
+  int holds = 0;
+  int rests = 0;
+  int overrides = 0;
+
+  // One act in mid-run, or none.
+  void act(MotionDrive& drive) {
+    switch (drive.state()) {
+      case MotionDrive::State::running:
+        if (random.chance(0.03)) {
+          drive.hold();
+          ++holds;
+        }
+        break;
+      case MotionDrive::State::holding:
+        if (random.chance(0.02)) drive.resume();
+        break;
+      case MotionDrive::State::held:
+        ++rests;
+        EXPECT_NEAR(drive.committed().value(), 0, 0.02);
+        if (random.chance(0.5)) drive.wait(Seconds(random.between(0, 1)));
+        drive.resume();
+        break;
+      case MotionDrive::State::ended: break;
+    }
+    if (random.chance(0.03)) {
+      drive.set_feed_override(random.chance(0.3) ? 1 : random.between(0.05, highest_override));
+      ++overrides;
+    }
+  }
+};
+
+struct RunOptions {
+  std::optional<LiveOptions> live = LiveOptions();
+  Meddling* meddling = nullptr;
+};
+
+struct Ending {
+  std::vector<MotorCounts> motors;
+  MotionProof proof;
+  Point place;  // where the program ends
+};
+
+inline Ending run(const std::string& program, const MachineDescription& machine, const RunOptions& options = {}) {
+  Diagnostics diagnostics;
+  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+  Watch watch(job, machine);
+  if (options.live) job.drive().go_live(*options.live);
+  while (job.advance()) {
+    if (options.meddling != nullptr) options.meddling->act(job.drive());
+  }
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  EXPECT_FALSE(job.link().error());
+  const MachineCounts counts = job.machine().counts();
+  return {.motors = {counts.motors.begin(), counts.motors.begin() + counts.motor_count},
+          .proof = watch.finish(),
+          .place = watch.place()};
+}
+
+}  // namespace passo::test

@@ -1,0 +1,43 @@
+// Random programs on random machines whose board is at the other end of a bad line: every step as without the line.
+//
+// PASSO_SEED=S PASSO_RUNS=N random_line_tests takes the programs S to S + N - 1.
+#include <cstdio>
+
+#include "kit/line_run.hpp"
+#include "kit/random_gcode.hpp"
+
+namespace passo {
+namespace {
+
+constexpr int most_touches = 2;
+
+TEST(RandomLine, faults_and_cuts_change_no_step) {
+  std::uint64_t frames = 0;
+  int faults = 0;
+  int recoveries = 0;
+  test::for_each_job(30, [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
+    MachineDescription machine = job.machine;
+    machine.board.held_items = random.chance(0.5) ? 240 : 31;
+    const test::Outcome reference = test::run(machine, job.program, false);
+    const test::Outcome whole = test::run(machine, job.program, true);
+    test::expect_same_way(whole.steps, reference.steps, most_touches);
+    test::RandomTrouble trouble(number);
+    const auto cut_at = static_cast<std::uint64_t>(random.between(0, static_cast<double>(whole.frames)));
+    const double cut_for = random.between(0.02, 0.6);
+    const test::Outcome troubled = test::run(
+        machine, job.program, true, [&](Job& running, std::uint64_t frame, bool to_board, const test::Bytes& bytes) {
+          if (frame == cut_at) running.line().cut(running.machine().elapsed(), Seconds(cut_for));
+          return trouble(to_board, bytes);
+        });
+    test::expect_same_way(troubled.steps, reference.steps, most_touches);
+    test::expect_within_limits(machine, troubled.steps);
+    frames += troubled.frames;
+    faults += trouble.faults;
+    recoveries += troubled.recoveries;
+  });
+  std::printf("%llu frames, %d faults, %d recoveries from a tail\n", static_cast<unsigned long long>(frames), faults,
+              recoveries);
+}
+
+}  // namespace
+}  // namespace passo
