@@ -1,12 +1,6 @@
 #include "phase_clock.hpp"
 
 namespace passo {
-namespace {
-
-// Slower than this at the end of a move is rest; a step at this speed would take half a minute on the finest machine.
-constexpr double rest_speed = 1e-6;  // mm/s
-
-}  // namespace
 
 void PhaseClock::start(const PlannedMove& move) {
   move_ = &move;
@@ -35,12 +29,6 @@ double PhaseClock::duration() const {
   double sum = phase_start_;
   for (std::size_t i = phase_; i < move_->phase_count; ++i) sum += move_->phases[i].duration.value();
   return sum;
-}
-
-bool PhaseClock::ends_at_rest() const {
-  if (move_->phase_count == 0) return true;
-  const Phase& last = move_->phases[move_->phase_count - 1];
-  return last.velocity_at(last.duration).value() < rest_speed;
 }
 
 }  // namespace passo

@@ -34,7 +34,7 @@ class PhaseClock {
   double phase_end() const { return end_; }
   // Of the whole move.
   double duration() const;
-  bool ends_at_rest() const;
+  bool ends_at_rest() const { return move_->ends_at_rest(); }
 
  private:
   double time_with_jerk(double way) const;

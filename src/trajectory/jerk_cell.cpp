@@ -10,6 +10,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double cells_a_ramp = 10;      // while the acceleration goes from 0 to its limit
+constexpr double usual_rise = 0.02;      // seconds
 constexpr double cells_a_braking = 128;  // at least this fine against the time that braking takes
 constexpr double turn_a_cell = 0.1;      // radians
 constexpr double most_cells = 20'000;    // of a segment
@@ -76,7 +77,10 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   }
   entry_ = std::min(cut.entry_squared, top_ * top_);
   exit_ = std::min(cut.exit_squared, top_ * top_);
-  tick_ = std::max(acceleration_ / jerk_ / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
+  const double rise = acceleration_ / jerk_;
+  // A slow feed is reached before the acceleration is at its limit; finer than what is usual it need not be.
+  const double rise_to_top = std::max(std::min(rise, std::sqrt(top_ / jerk_)), std::min(rise, usual_rise));
+  tick_ = std::max(rise_to_top / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
   const double left = length_ - from_;
   longest_ = left;
   const double turn = curve.turning(steepest);

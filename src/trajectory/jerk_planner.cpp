@@ -7,9 +7,6 @@
 namespace passo {
 namespace {
 
-// mm/s: what is left of a speed at rest by rounding.
-constexpr double at_rest = 1e-6;
-
 // Seconds, between two places from which braking is tried.
 constexpr double between_trials = 0.003;
 
@@ -141,7 +138,7 @@ void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
   Outlook outlook{.pieces = given_pieces_};
   PathState state = now_;
   double since_trial = between_trials;
-  while (state.speed >= at_rest) {
+  while (state.speed > 0) {
     std::optional<SpeedChange> stop;
     if (since_trial >= between_trials) {
       stop = SpeedChange::plan(path_, state, {.axes = axes_, .feeds = fastest_, .exit = 0});
@@ -158,6 +155,7 @@ void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
     }
     if (!look_ahead(outlook, move)) return;
     append(move, plan);
+    if (move.ends_at_rest()) return;
     since_trial += move.duration().value();
     state = behind(move);
     state.segment = outlook.segment;
@@ -214,7 +212,7 @@ PathState JerkPlanner::behind(const PlannedMove& move) {
 
 void JerkPlanner::take_note(const PlannedMove& move) {
   now_ = behind(move);
-  if (!rest_ && now_.speed < at_rest) now_.speed = now_.acceleration = 0;
+  if (!rest_ && move.ends_at_rest()) now_.speed = now_.acceleration = 0;
   if (move.to < move.segment.curve.length()) return;
   path_.pop();
   window_->segment_passed();

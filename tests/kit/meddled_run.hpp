@@ -51,15 +51,17 @@ class Watch {
 struct Meddling {
   Random& random;
   double highest_override = 1;
+  int chances = 10'000;  // then it is left alone: a slow program rests at every millimetre else
   int holds = 0;
   int rests = 0;
   int overrides = 0;
 
   // One act in mid-run, or none.
   void act(MotionDrive& drive) {
+    if (chances > 0 && --chances == 0) drive.set_feed_override(1);
     switch (drive.state()) {
       case MotionDrive::State::running:
-        if (random.chance(0.03)) {
+        if (chances > 0 && random.chance(0.03)) {
           drive.hold();
           ++holds;
         }
@@ -75,7 +77,7 @@ struct Meddling {
         break;
       case MotionDrive::State::ended: break;
     }
-    if (random.chance(0.03)) {
+    if (chances > 0 && random.chance(0.03)) {
       drive.set_feed_override(random.chance(0.3) ? 1 : random.between(0.05, highest_override));
       ++overrides;
     }

@@ -72,6 +72,19 @@ TEST(JerkLimitedPlanner, short_lines_take_hardly_longer_than_the_best_s_curve) {
   }
 }
 
+// A sluggish machine, and a feed that it has after a few milliseconds.
+TEST(JerkLimitedPlanner, a_slow_feed_is_reached_at_once) {
+  const double a = 500;
+  const double j = a / 0.13;
+  for (const double v : {0.01, 0.26, 2.0, 20.0}) {
+    SCOPED_TRACE(v);
+    const double ramp = 2 * std::sqrt(v / j);
+    const double time = total_time(plan({line(xyz(0, 0), xyz(10 * v, 0), v)}, jerk_limits(100, a, j)));
+    EXPECT_GE(time, 10 + ramp);
+    EXPECT_LE(time, 10 + 1.5 * ramp + 0.02);  // a cell takes two milliseconds
+  }
+}
+
 // A leg from rest to rest takes 303.5 ms. With corners of 0.01 mm it takes 268.7 at the least, by a numerical optimum
 // over all paths within the tolerance; with corners that bend least it takes 299.
 TEST(JerkLimitedPlanner, right_angles_are_passed_much_faster_than_stops) {

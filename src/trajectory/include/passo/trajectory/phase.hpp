@@ -6,8 +6,10 @@
 // where the one before ended, the first at s = 0, and the last ends at the curve's length.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <variant>
 
@@ -53,6 +55,18 @@ struct PlannedMove {
     Seconds sum{0};
     for (const Phase& phase : *this) sum += phase.duration;
     return sum;
+  }
+
+  // Whether no axis goes faster at its end than rounding leaves of a rest. Of axes, not along the path: within dust an
+  // axis may turn by a hundred thousand degrees for each millimetre of it.
+  bool ends_at_rest() const {
+    constexpr double rest_speed = 1e-6;  // mm/s or degrees/s: a step would take half a minute on the finest machine
+    if (phase_count == 0) return true;
+    const Phase& last = phases[phase_count - 1];
+    const double speed = last.velocity_at(last.duration).value();
+    if (speed >= rest_speed) return false;
+    const Point slope = segment.curve.tangent(to);
+    return std::ranges::all_of(slope.values, [&](double part) { return std::abs(part) * speed < rest_speed; });
   }
 };
 
