@@ -45,20 +45,24 @@ function(passo_test_headers)
   target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
-# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…])
+# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [PRECOMPILE header…])
 #
-# A GoogleTest program. Tests without a label are fast: a developer runs them at every change.
+# A GoogleTest program; PRECOMPILE: what all its files include and takes long. Tests without a label are fast: a developer runs them at every change.
 function(passo_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;DEFINITIONS;PRECOMPILE" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
-    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINITIONS})
+    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> ${ARG_DEFINITIONS})
   if(NOT TARGET passo_test_headers)
     passo_test_headers()
   endif()
-  target_precompile_headers(${name} REUSE_FROM passo_test_headers)
+  if(ARG_PRECOMPILE)
+    target_precompile_headers(${name} PRIVATE <gmock/gmock.h> <gtest/gtest.h> ${ARG_PRECOMPILE})
+  else()
+    target_precompile_headers(${name} REUSE_FROM passo_test_headers)
+  endif()
   set(properties TIMEOUT 600)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
@@ -77,5 +81,5 @@ function(passo_slow_test name seconds)
   cmake_parse_arguments(ARG "" "" "COMMAND;ENVIRONMENT" ${ARGN})
   add_test(NAME ${name} COMMAND ${ARG_COMMAND})
   set_tests_properties(${name} PROPERTIES
-    LABELS slow COST ${seconds} TIMEOUT 1800 ENVIRONMENT "${ARG_ENVIRONMENT}")
+    LABELS slow COST ${seconds} TIMEOUT 600 ENVIRONMENT "${ARG_ENVIRONMENT}")
 endfunction()

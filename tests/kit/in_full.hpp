@@ -1,6 +1,9 @@
+// How many of their trials tests make.
+//
 // PASSO_IN_FULL=N: tests that take minutes are run, with one in N of their trials; 1: with all of them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 
@@ -10,6 +13,16 @@ namespace passo::test {
 inline std::uint64_t in_full() {
   const char* const text = std::getenv("PASSO_IN_FULL");
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
+}
+
+// Under sanitizers a trial takes ten times as long: one in so many is made.
+#ifdef PASSO_SANITIZED
+inline constexpr int one_in = 8;
+#else
+inline constexpr int one_in = 1;
+#endif
+constexpr int fewer(int trials) {
+  return std::max(trials / one_in, 1);
 }
 
 }  // namespace passo::test

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 
+#include "kit/in_full.hpp"
 #include "kit/stage_test.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -221,12 +222,12 @@ inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Calls with each number from PASSO_SEED on, PASSO_RUNS of them, its job and its generator, up to the first failure.
-// Each job depends on its number alone.
+// Calls with each number from PASSO_SEED on, PASSO_RUNS of them (fewer under sanitizers), its job and its generator, up
+// to the first failure. Each job depends on its number alone.
 template <class Try>
-void for_each_job(std::uint64_t runs_otherwise, const Try& try_one) {
+void for_each_job(int runs_otherwise, const Try& try_one) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);
-  const std::uint64_t runs = number_of("PASSO_RUNS", runs_otherwise);
+  const std::uint64_t runs = number_of("PASSO_RUNS", static_cast<std::uint64_t>(fewer(runs_otherwise)));
   for (std::uint64_t number = first; number < first + runs && !testing::Test::HasFailure(); ++number) {
     Random random = Random::of(number);
     const RandomJob job(random);

@@ -147,17 +147,17 @@ class BrokenLineInFull : public testing::TestWithParam<std::string> {
 
 TEST_P(BrokenLine, every_frame_boundary_in_part) {
   int recoveries = 0;
-  const int trials = cut_at_frame_boundaries(GetParam(), 1, 29, {0.5}, recoveries);
+  const int trials = cut_at_frame_boundaries(GetParam(), 1, 29 * test::one_in, {0.5}, recoveries);
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
   EXPECT_GT(recoveries, trials / 2);
 }
 
 TEST_P(BrokenLine, random_faults_in_part) {
-  random_faults(GetParam(), 40);
+  random_faults(GetParam(), test::fewer(40));
 }
 
 TEST_P(BrokenLine, what_was_never_sent_moves_nothing) {
-  forge_frames(GetParam(), 1, 23);
+  forge_frames(GetParam(), 1, 23 * test::one_in);
 }
 
 TEST_P(BrokenLineInFull, every_frame_boundary) {

@@ -117,10 +117,10 @@ class HomingOnABadLineInFull : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(HomingOnABadLine, cut_in_part) {
-  cut_before_frames(GetParam(), 29);
+  cut_before_frames(GetParam(), 29 * test::one_in);
 }
 TEST_P(HomingOnABadLine, random_faults_in_part) {
-  random_faults(GetParam(), 20);
+  random_faults(GetParam(), test::fewer(20));
 }
 TEST_P(HomingOnABadLineInFull, cut_before_every_frame) {
   cut_before_frames(GetParam(), test::in_full());

@@ -1,6 +1,7 @@
 // How the path would come to rest from each place: within all limits, and asking changes nothing. And a limit of the
 // speed, which is as good as a lower feed, for rapids too.
 #include "jerk_kit.hpp"
+#include "kit/in_full.hpp"
 
 namespace passo::test {
 namespace {
@@ -118,7 +119,7 @@ TEST_P(BrakingPlan, knows_a_limit_of_the_speed_for_feeds_and_rapids) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Three, BrakingPlan, testing::Range(0, 3));
+INSTANTIATE_TEST_SUITE_P(Seeds, BrakingPlan, testing::Range(0, fewer(3)));
 
 }  // namespace
 }  // namespace passo::test

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "jerk_kit.hpp"
+#include "kit/in_full.hpp"
 
 namespace passo::test {
 namespace {
@@ -42,7 +43,7 @@ TEST_P(JerkLimited, smoothed_programs_keep_every_axis_within_its_limits) {
   expect_within_limits(plan(smoothed(program, Smoothness::slow_bending), limits), limits);
 }
 
-INSTANTIATE_TEST_SUITE_P(Five, JerkLimited, testing::Range(0, 5));
+INSTANTIATE_TEST_SUITE_P(Seeds, JerkLimited, testing::Range(0, fewer(5)));
 
 TEST(JerkLimitedPlanner, a_line_is_driven_from_rest_to_rest_in_s_curves) {
   expect_golden("src/trajectory/tests/golden/s_curve.txt",
