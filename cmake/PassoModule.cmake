@@ -45,11 +45,11 @@ function(passo_test_headers)
   target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
-# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [PRECOMPILE header…])
+# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…])
 #
-# A GoogleTest program; PRECOMPILE: what all its files include and takes long. Tests without a label are fast: a developer runs them at every change.
+# A GoogleTest program. Tests without a label are fast: a developer runs them at every change.
 function(passo_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;DEFINITIONS;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
@@ -58,11 +58,7 @@ function(passo_test name)
   if(NOT TARGET passo_test_headers)
     passo_test_headers()
   endif()
-  if(ARG_PRECOMPILE)
-    target_precompile_headers(${name} PRIVATE <gmock/gmock.h> <gtest/gtest.h> ${ARG_PRECOMPILE})
-  else()
-    target_precompile_headers(${name} REUSE_FROM passo_test_headers)
-  endif()
+  target_precompile_headers(${name} REUSE_FROM passo_test_headers)
   set(properties TIMEOUT 600)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")
