@@ -279,9 +279,15 @@ double largest_exit(std::span<const AxisDemand> demands, std::span<const Falling
   const Interval fresh = exits_with(demands, falling, lines_at(falling, entry, exit_most), entry, any);
   const Interval kept = exits_with(demands, falling, kept_lines(falling), entry, any);
   const bool is_fresh_better = fresh.low <= fresh.high && !(kept.low <= kept.high && kept.low < fresh.low);
-  const Interval& better = is_fresh_better ? fresh : kept;
-  const bool too_fast = better.low > exit_most + rounding * entry && better.low <= better.high;
-  return too_fast ? better.low : std::max(0.0, std::min(exit_most, better.high));
+  Interval better = is_fresh_better ? fresh : kept;
+  const bool has_way = better.low <= better.high;
+  const bool above_top = entry > top;
+  // Above a top that was lowered, on the edge of what is possible: the lines of this speed are right, and rounding may
+  // leave nothing at all; then what is slower is right.
+  if (!has_way && above_top) better = exits_with(demands, falling, lines_at(falling, entry, entry), entry, any);
+  const double least = std::min(better.low, better.high);
+  const bool too_fast = least > exit_most + rounding * entry && (has_way || above_top);
+  return too_fast ? least : std::max(0.0, std::min(exit_most, better.high));
 }
 
 double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry) {
