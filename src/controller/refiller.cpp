@@ -80,8 +80,7 @@ void Refiller::watch(const MotionItem& motion) {
   const auto* move = std::get_if<PlannedMove>(&motion);
   given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
   if (move == nullptr || move->phase_count == 0) return;
-  const Phase& last = move->phases[move->phase_count - 1];
-  speed_ = last.velocity_at(last.duration).value();
+  speed_ = move->exit_velocity().value();
   fastest_ = std::max(fastest_, speed_);
 }
 

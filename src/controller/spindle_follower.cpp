@@ -59,8 +59,7 @@ void SpindleFollower::watch(const PlannedMove& move) {
   programmed_ = move.segment.speed.value() / pitch;
   if (lag_ < 0) lag_ = lag_of(move);
   followed_ += direction_ * (move.to - move.from()).value() / pitch;
-  const Phase& last = *(move.end() - 1);
-  reached_ = last.velocity_at(last.duration).value() / pitch;
+  reached_ = move.exit_velocity().value() / pitch;
   in_place_ = in_place_ || reached_ >= up_to_speed * speed();
 }
 

@@ -206,7 +206,7 @@ std::optional<PlannedMove> JerkPlanner::shorten(PlannedMove& move, Seconds longe
 PathState JerkPlanner::behind(const PlannedMove& move) {
   const Phase& last = move.phases[move.phase_count - 1];
   return {.s = move.to < move.segment.curve.length() ? move.to.value() : 0,
-          .speed = last.velocity_at(last.duration).value(),
+          .speed = move.exit_velocity().value(),
           .acceleration = (last.acceleration + last.jerk * last.duration).value()};
 }
 

@@ -104,12 +104,7 @@ void random_faults(int trials) {
   EXPECT_GT(faults, trials);
 }
 
-class UnoOnABadLineInFull : public testing::Test {
- protected:
-  void SetUp() override {
-    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  }
-};
+class UnoOnABadLineInFull : public test::InFull<testing::Test> {};
 
 TEST(UnoOnABadLine, goes_on_from_where_it_rests_when_the_line_was_cut) {
   cut_at_every(37);

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include <gtest/gtest.h>
+
 namespace passo::test {
 
 // 0: they are not run.
@@ -14,6 +16,14 @@ inline std::uint64_t in_full() {
   const char* const text = std::getenv("PASSO_IN_FULL");
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
 }
+
+template <class Test>
+class InFull : public Test {
+ protected:
+  void SetUp() override {
+    if (in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
+  }
+};
 
 // Under sanitizers a trial takes ten times as long: one in so many is made.
 #ifdef PASSO_SANITIZED

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,33 +29,36 @@ class Watch {
     job.motion().watch([this](const MotionItem& item) {
       const auto* action = std::get_if<Action>(&item);
       if (action != nullptr && action->kind == Action::Kind::feed_hold) {
-        EXPECT_LT(speed_, 1e-6) << "held in motion";
+        EXPECT_TRUE(rests_) << "held in motion";
         return;
       }
       prover_.watch(item);
-      speed_ = action != nullptr ? 0 : end_speed(std::get<PlannedMove>(item));
+      rests_ = action != nullptr || std::get<PlannedMove>(item).ends_at_rest();
     });
   }
   MotionProof finish() { return prover_.finish(); }
   const Point& place() const { return place_; }
 
  private:
-  static double end_speed(const PlannedMove& move) {
-    const Phase& last = move.phases[move.phase_count - 1];
-    return last.velocity_at(last.duration).value();
-  }
   MotionProver prover_;
   Point place_;
-  double speed_ = 0;
+  bool rests_ = true;
 };
 
-struct Meddling {
-  Random& random;
-  double highest_override = 1;
-  int chances = 10'000;  // then it is left alone: a slow program rests at every millimetre else
+// Of all runs together.
+struct Acts {
   int holds = 0;
   int rests = 0;
   int overrides = 0;
+  void print() const { std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides); }
+};
+
+// Of one run.
+struct Meddling {
+  Random& random;
+  Acts& acts;
+  double highest_override = 1;
+  int chances = 10'000;  // then it is left alone: a slow program rests at every millimetre else
 
   // One act in mid-run, or none.
   void act(MotionDrive& drive) {
@@ -63,14 +67,14 @@ struct Meddling {
       case MotionDrive::State::running:
         if (chances > 0 && random.chance(0.03)) {
           drive.hold();
-          ++holds;
+          ++acts.holds;
         }
         break;
       case MotionDrive::State::holding:
         if (random.chance(0.02)) drive.resume();
         break;
       case MotionDrive::State::held:
-        ++rests;
+        ++acts.rests;
         EXPECT_NEAR(drive.committed().value(), 0, 0.02);
         if (random.chance(0.5)) drive.wait(Seconds(random.between(0, 1)));
         drive.resume();
@@ -79,7 +83,7 @@ struct Meddling {
     }
     if (chances > 0 && random.chance(0.03)) {
       drive.set_feed_override(random.chance(0.3) ? 1 : random.between(0.05, highest_override));
-      ++overrides;
+      ++acts.overrides;
     }
   }
 };

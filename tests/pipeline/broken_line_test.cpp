@@ -138,12 +138,7 @@ void forge_frames(const std::string& machine, std::size_t program, std::uint64_t
 }
 
 class BrokenLine : public testing::TestWithParam<std::string> {};
-class BrokenLineInFull : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  }
-};
+class BrokenLineInFull : public test::InFull<testing::TestWithParam<std::string>> {};
 
 TEST_P(BrokenLine, every_frame_boundary_in_part) {
   int recoveries = 0;

@@ -109,12 +109,7 @@ void random_faults(const char* name, int trials) {
 }
 
 class HomingOnABadLine : public testing::TestWithParam<const char*> {};
-class HomingOnABadLineInFull : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  }
-};
+class HomingOnABadLineInFull : public test::InFull<testing::TestWithParam<const char*>> {};
 
 TEST_P(HomingOnABadLine, cut_in_part) {
   cut_before_frames(GetParam(), 29 * test::one_in);

@@ -243,12 +243,7 @@ void print(const Counted& counted) {
 }
 
 class HostRestart : public testing::TestWithParam<std::string> {};
-class HostRestartInFull : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  }
-};
+class HostRestartInFull : public test::InFull<testing::TestWithParam<std::string>> {};
 
 TEST_P(HostRestart, at_moments_of_all_programs) {
   Counted counted;

@@ -54,18 +54,19 @@ std::string cycles() {
 void expect_nothing_lost(const std::string& program, const MachineDescription& machine, int runs) {
   SCOPED_TRACE(machine.name);
   test::Random random;
-  Meddling meddling{.random = random};
+  test::Acts acts;
   const Ending undisturbed = run(program, machine);
   EXPECT_TRUE(undisturbed.proof.good()) << to_text(undisturbed.proof);
   for (int i = 0; i < runs && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("run " + std::to_string(i));
+    Meddling meddling{.random = random, .acts = acts};
     const Ending ending = run(program, machine, {.meddling = &meddling});
     EXPECT_TRUE(ending.proof.good()) << to_text(ending.proof);
     for (std::size_t m = 0; m < machine.axes.size(); ++m) {
       EXPECT_EQ(ending.motors[m].position, undisturbed.motors[m].position) << "motor " << m;
     }
   }
-  std::printf("%d holds, %d rests, %d overrides\n", meddling.holds, meddling.rests, meddling.overrides);
+  acts.print();
 }
 
 constexpr std::array<const char*, 4> machines = {"bench", "router", "pantograph", "forty-eight"};
@@ -177,7 +178,7 @@ TEST(MidRun, a_stop_ends_at_rest_on_the_path_with_the_outputs_off_and_the_place_
         const auto* move = std::get_if<PlannedMove>(&item);
         if (move == nullptr) return;
         place = move->segment.curve.at(move->to);
-        speed = move->phases[move->phase_count - 1].velocity_at(move->phases[move->phase_count - 1].duration).value();
+        speed = move->exit_velocity().value();
       });
       const double at = random.between(0.05, 2);
       while (job.advance()) {

@@ -198,12 +198,7 @@ void random_faults(const char* name, int trials) {
 }
 
 class ProbingOnABadLine : public testing::TestWithParam<const char*> {};
-class ProbingOnABadLineInFull : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
-  }
-};
+class ProbingOnABadLineInFull : public test::InFull<testing::TestWithParam<const char*>> {};
 
 TEST_P(ProbingOnABadLine, cut_in_part) {
   cut_before_frames(GetParam(), 23);

@@ -90,31 +90,22 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
   }
 }
 
-struct Acts {
-  int holds = 0;
-  int rests = 0;
-  int overrides = 0;
-};
-
 // An override may make it faster than the program says, and nothing else.
-void expect_right_in_spite_of_acts(const test::RandomJob& job, test::Random& random, Acts& acts) {
-  test::Meddling meddling{.random = random, .highest_override = 2};
+void expect_right_in_spite_of_acts(const test::RandomJob& job, test::Random& random, test::Acts& acts) {
+  test::Meddling meddling{.random = random, .acts = acts, .highest_override = 2};
   const test::Ending ending = test::run(job.program, job.machine, {.meddling = &meddling});
   for (const std::string& fault : ending.proof.faults()) {
     if (!fault.starts_with("feed")) ADD_FAILURE() << fault;
   }
   expect_end(ending, job.machine);
-  acts.holds += meddling.holds;
-  acts.rests += meddling.rests;
-  acts.overrides += meddling.overrides;
 }
 
 TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_and_overrides) {
-  Acts acts;
+  test::Acts acts;
   test::for_each_job(100, [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
     expect_right_in_spite_of_acts(job, random, acts);
   });
-  std::printf("%d holds, %d rests, %d overrides\n", acts.holds, acts.rests, acts.overrides);
+  acts.print();
 }
 
 // A very slow feed with limits of jerk; dust of a rotary axis; an override lowered where the torque leaves no choice.
@@ -123,7 +114,7 @@ TEST(RandomMotion, keeps_them_in_programs_that_once_failed) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
     test::Random random = test::Random::of(number);
     const test::RandomJob job(random);
-    Acts acts;
+    test::Acts acts;
     expect_right_in_spite_of_acts(job, random, acts);
   }
 }

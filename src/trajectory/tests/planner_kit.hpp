@@ -72,8 +72,7 @@ inline double entry_speed(const PlannedMove& move) {
   return move.begin()->velocity.value();
 }
 inline double exit_speed(const PlannedMove& move) {
-  const Phase& last = *(move.end() - 1);
-  return last.velocity_at(last.duration).value();
+  return move.exit_velocity().value();
 }
 
 inline std::string to_text(const std::vector<MotionItem>& motion) {

@@ -56,14 +56,17 @@ struct PlannedMove {
     for (const Phase& phase : *this) sum += phase.duration;
     return sum;
   }
-
-  // Whether no axis goes faster at its end than rounding leaves of a rest. Of axes, not along the path: within dust an
+  // At its end, of a move with phases.
+  MmPerSecond exit_velocity() const {
+    const Phase& last = phases[phase_count - 1];
+    return last.velocity_at(last.duration);
+  }
+  // Whether no axis goes faster there than rounding leaves of a rest. Of axes, not along the path: within dust an
   // axis may turn by a hundred thousand degrees for each millimetre of it.
   bool ends_at_rest() const {
     constexpr double rest_speed = 1e-6;  // mm/s or degrees/s: a step would take half a minute on the finest machine
     if (phase_count == 0) return true;
-    const Phase& last = phases[phase_count - 1];
-    const double speed = last.velocity_at(last.duration).value();
+    const double speed = exit_velocity().value();
     if (speed >= rest_speed) return false;
     const Point slope = segment.curve.tangent(to);
     return std::ranges::all_of(slope.values, [&](double part) { return std::abs(part) * speed < rest_speed; });
