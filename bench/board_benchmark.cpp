@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "passo/firmware/player.hpp"
-#include "passo/link/board_link.hpp"
+#include "passo/link/board_session.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/report/trace_csv.hpp"
 #include "passo/report/trace_vcd.hpp"

@@ -15,8 +15,8 @@
 #include "cost.hpp"
 #include <unistd.h>
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/stage_options.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "passo/stepgen/step_generator.hpp"
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
@@ -21,6 +22,12 @@ class BoardModel {
   void set_steps(unsigned motor, std::int64_t steps) {
     position_[motor] = steps * whole_step + (position_[motor] & (whole_step - 1));
   }
+
+  void set_place(const BoardPlace& place) {
+    time_ = place.tick;
+    position_ = place.motors;
+  }
+  BoardPlace place() const { return {.motors = position_, .tick = static_cast<std::uint16_t>(time_)}; }
 
   void play(const BoardSegment& segment) {
     const std::int64_t events = segment.events;

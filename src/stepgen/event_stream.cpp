@@ -45,6 +45,11 @@ void EventStream::advance(double seconds) {
   fraction_ = ticks - whole;
 }
 
+void EventStream::go_back_to(std::int64_t time) {
+  ticks_ = (time - whole_tick / 2) >> 16;
+  fraction_ = static_cast<double>((time - whole_tick / 2) & (whole_tick - 1)) / whole_tick;
+}
+
 void EventStream::start_move(const PlannedMove& move) {
   const Curve& curve = move.segment.curve;
   path_.start(curve, move.to.value(), options_);

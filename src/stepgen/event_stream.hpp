@@ -46,6 +46,8 @@ class EventStream {
   // Below this rate of events, or the board's if that is lower, the grid is made finer. 0: never.
   void divide_below(Hertz rate) { slow_rate_ = std::min(rate.value(), slowest_share_); }
   void wait(Seconds time) { advance(time.value()); }
+  // Between moves, as now() has it.
+  void go_back_to(std::int64_t time);
 
   const Stretch& stretch() const { return stretch_; }
   // The exact time now (end of the last move), in 1/65536 tick with half a tick added.

@@ -24,6 +24,7 @@ class StepGenerator::Implementation {
     for (unsigned m = 0; m < motors_; ++m) {
       board_.set_steps(m, std::llround(options.start[options.motors[m].axis] * options.motors[m].steps_per_unit));
     }
+    if (options.place) board_.set_place(*options.place);
   }
 
   void limit_waiting_to(Seconds time) {
@@ -49,6 +50,14 @@ class StepGenerator::Implementation {
   bool at_rest() const { return rests_ && !play_ && !rest_ && !action_ && !stream_.in_move(); }
 
   bool waits_at_rest() const { return rest_ && !play_; }
+
+  Seconds cut_dwell() {
+    if (!waits_at_rest()) return Seconds(0);
+    const std::int64_t left = std::max<std::int64_t>(stream_.now() - board_.time(), 0);
+    stream_.go_back_to(stream_.now() - left);
+    return Seconds(static_cast<double>(left) / whole_tick / tick_rate_.value());
+  }
+  BoardPlace place() const { return board_.place(); }
 
   bool next(BoardItem& item) {
     for (;;) {
@@ -89,9 +98,11 @@ class StepGenerator::Implementation {
   // Events without steps, to bridge a time that no interval can hold. Leaves a remainder that one interval can.
   bool wait_until(std::int64_t time, BoardItem& item) {
     constexpr std::int64_t idle = 32768 * whole_tick;
+    constexpr int longest_idle = 255;
     const std::int64_t gap = time - board_.time();
     // Where what is given is to be little, so are waits.
-    const std::int64_t most = exactness_.one_in > 0 ? most_events : fitter_.longest();
+    // A dwell that is cut short ends with the segment that is played.
+    const std::int64_t most = std::min<std::int64_t>(exactness_.one_in > 0 ? most_events : fitter_.longest(), longest_idle);
     const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, most);
     return send(without_steps(static_cast<std::uint16_t>(events), std::min(idle, gap)), item);
   }
@@ -216,6 +227,12 @@ bool StepGenerator::ends_at_rest() const {
 }
 bool StepGenerator::waits_at_rest() const {
   return implementation_->waits_at_rest();
+}
+Seconds StepGenerator::cut_dwell() {
+  return implementation_->cut_dwell();
+}
+BoardPlace StepGenerator::place() const {
+  return implementation_->place();
 }
 bool StepGenerator::at_rest() const {
   return implementation_->at_rest();

@@ -1,5 +1,5 @@
 // The emulated Uno's buttons, by their pins: how soon the machine gets slower, and that nothing is lost.
-#include "passo/controller/operator_panel.hpp"
+#include "passo/session/operator_panel.hpp"
 
 #include <cstdio>
 #include <vector>
@@ -9,7 +9,7 @@
 #include "pipeline/panel_kit.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/emulator/emulated_board.hpp"
 
 namespace passo {

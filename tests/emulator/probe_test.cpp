@@ -10,7 +10,7 @@
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 
 namespace passo {
 namespace {

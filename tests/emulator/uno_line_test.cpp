@@ -13,7 +13,7 @@
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/emulator/emulated_board.hpp"
 
 namespace passo {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 
 namespace passo::test {
 

@@ -11,8 +11,8 @@
 #include "kit/memory_store.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/resumption.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/journal/resumption.hpp"
 #include "passo/transport/inquiry.hpp"
 
 namespace passo::test {

@@ -11,8 +11,8 @@
 #include "kit/stage_test.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/stage_options.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 
 namespace passo::test {

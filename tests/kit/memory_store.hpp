@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "passo/controller/journal.hpp"
+#include "passo/journal/journal.hpp"
 
 namespace passo::test {
 

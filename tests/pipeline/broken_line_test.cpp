@@ -18,7 +18,7 @@
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 
 namespace passo {
 namespace {

@@ -11,7 +11,7 @@
 #include "kit/example_machine.hpp"
 #include "kit/step_log.hpp"
 
-#include "passo/controller/homing.hpp"
+#include "passo/activity/homing_path.hpp"
 #include "passo/machine/travel_switch.hpp"
 
 namespace passo::test {

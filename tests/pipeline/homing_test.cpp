@@ -2,8 +2,8 @@
 #include "kit/stage_test.hpp"
 #include "pipeline/homing_kit.hpp"
 
-#include "passo/controller/home_switches.hpp"
-#include "passo/controller/job.hpp"
+#include "passo/activity/home_switches.hpp"
+#include "passo/activity/program.hpp"
 
 namespace passo {
 namespace {

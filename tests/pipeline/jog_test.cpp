@@ -1,5 +1,5 @@
 // Jogging: as long as the lease, within the travel, and with every step counted.
-#include "passo/controller/jog.hpp"
+#include "passo/activity/jog_line.hpp"
 
 #include <cmath>
 #include <string>

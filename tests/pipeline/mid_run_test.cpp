@@ -9,8 +9,8 @@
 #include "kit/meddled_run.hpp"
 #include "kit/stage_test.hpp"
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/stage_options.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
 

@@ -1,5 +1,5 @@
 // The buttons and the door of a board over a line: hold, go on, and nothing is lost.
-#include "passo/controller/operator_panel.hpp"
+#include "passo/session/operator_panel.hpp"
 
 #include <cstdio>
 #include <string>
@@ -10,7 +10,7 @@
 #include "pipeline/panel_kit.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 
 namespace passo {
 namespace {

@@ -8,8 +8,8 @@
 #include "kit/stage_test.hpp"
 #include "kit/step_oracle.hpp"
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/stage_options.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/interpreter/canon.hpp"
 
 namespace passo {

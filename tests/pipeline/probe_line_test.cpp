@@ -15,7 +15,7 @@
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {

@@ -8,7 +8,7 @@
 #include "kit/stage_test.hpp"
 #include "pipeline/probe_kit.hpp"
 
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {

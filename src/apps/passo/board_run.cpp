@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "passo/emulator/emulated_board.hpp"
-#include "passo/link/board_link.hpp"
+#include "passo/link/board_session.hpp"
 
 namespace passo {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "passo/controller/refiller.hpp"
+#include "passo/drive/refiller.hpp"
 #include "passo/link/board_port.hpp"
 #include "passo/machine/machine_counts.hpp"
 #include "passo/transport/inquiry.hpp"

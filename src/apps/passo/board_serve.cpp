@@ -13,7 +13,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "passo/controller/home_switches.hpp"
+#include "passo/activity/home_switches.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/transport/stream_port.hpp"
 

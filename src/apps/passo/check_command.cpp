@@ -7,8 +7,8 @@
 #include "program_input.hpp"
 #include "progress_display.hpp"
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/stage_options.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
 

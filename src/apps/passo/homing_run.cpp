@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "passo/controller/home_switches.hpp"
+#include "passo/activity/home_switches.hpp"
 #include "passo/emulator/emulated_board.hpp"
 #include "passo/transport/inquiry.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "board_run.hpp"
 
-#include "passo/controller/homing.hpp"
+#include "passo/activity/homing_path.hpp"
 #include "passo/machine_file/machine_description.hpp"
 
 namespace passo {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "passo/controller/jog.hpp"
+#include "passo/activity/jog_line.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "passo/controller/journal.hpp"
+#include "passo/journal/journal.hpp"
 
 namespace passo {
 

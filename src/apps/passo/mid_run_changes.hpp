@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "passo/controller/motion_drive.hpp"
+#include "passo/drive/motion_drive.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/summary.hpp"
 

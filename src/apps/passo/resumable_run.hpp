@@ -10,8 +10,8 @@
 #include "commands.hpp"
 #include "journal_file.hpp"
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/resumption.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/journal/resumption.hpp"
 
 namespace passo {
 

@@ -22,10 +22,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "passo/controller/job.hpp"
-#include "passo/controller/operator_panel.hpp"
-#include "passo/controller/path_fingerprint.hpp"
-#include "passo/controller/stage_options.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/session/operator_panel.hpp"
+#include "passo/journal/path_fingerprint.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"

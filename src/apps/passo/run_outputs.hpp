@@ -9,7 +9,7 @@
 #include "commands.hpp"
 
 #include "passo/base/result.hpp"
-#include "passo/controller/job.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/machine/machine_observer.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/output_file.hpp"

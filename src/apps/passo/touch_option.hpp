@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "passo/controller/touch_box.hpp"
+#include "passo/activity/touch_box.hpp"
 #include "passo/link/board_port.hpp"
 #include "passo/machine/virtual_machine.hpp"
 

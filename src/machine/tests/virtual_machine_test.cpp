@@ -10,7 +10,7 @@
 
 #include "kit/seed.hpp"
 
-#include "passo/link/board_link.hpp"
+#include "passo/link/board_session.hpp"
 
 namespace passo {
 namespace {

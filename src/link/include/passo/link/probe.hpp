@@ -1,7 +1,7 @@
-// ProbeWatch and ProbeReport: what a host watches its board's probe for, and what it has heard.
+// ProbeWatch and ProbeReport: what a host watches its board's probe for, and what the host has heard.
 //
 // The board tells every change of the probe with the motors' positions at that very event, and keeps those of the first
-// since the watch began. So the place of a contact is known to the step, however late the host hears of it, and
+// change since the watch began. So the place of a contact is known to the step, however late the host hears of it, and
 // whatever was lost on the way. A limit switch may take the probe's place, to home an axis by it.
 #pragma once
 
@@ -9,20 +9,53 @@
 #include <cstdint>
 
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
 enum class ProbeUntil : std::uint8_t {
   off,       // nobody cares
-  touched,   // until it gets from free to touched
-  released,  // until it gets from touched to free
+  touched,   // until the probe gets from free to touched
+  released,  // until the probe gets from touched to free
 };
 
 struct ProbeReport {
   bool touched = false;   // the probe, as far as the host has heard
   bool happened = false;  // what is watched for
-  std::array<std::int32_t, max_motors>
-      steps{};  // of each motor from the beginning of the watch to that event, recalled
+  // Of each motor from the beginning of the watch to that event. Known after the contact was recalled.
+  std::array<std::int32_t, max_motors> steps{};
+};
+
+class ProbeWatch {
+ public:
+  // What a message means for the watch.
+  enum class News : std::uint8_t { none, happened, begin_again };
+
+  // `limit`: the bit of a limit switch that takes the probe's place, or 0. Whether the board must confirm it: a limit
+  // switch that was watched before must be known to stop the motors again.
+  [[nodiscard]] bool wish(ProbeUntil until, std::uint8_t limit);
+  // The board rests, with `executed` done, and watches what was wished for.
+  bool is_confirmed_by(const BoardStatus& status, std::uint16_t executed) const;
+  void confirm(const BoardStatus& status);
+
+  std::uint8_t limit() const { return limit_; }
+  // Of BoardInput.
+  std::uint16_t input() const { return limit_ != 0 ? std::uint16_t{limit_} : std::uint16_t{input_probe}; }
+  const ProbeReport& report() const { return report_; }
+
+  // What a status shows, and what the board tells by itself.
+  News note(const BoardStatus& status);
+  News note(const Captured& captured);
+  // The board's answer: what it has kept.
+  void recall(const Captured& kept, std::uint8_t motors);
+
+ private:
+  ProbeUntil wished_ = ProbeUntil::off;  // not yet confirmed
+  ProbeUntil until_ = ProbeUntil::off;
+  std::uint8_t limit_ = 0;
+  ProbeReport report_;
+  bool began_as_wanted_ = false;                // the probe was as it is to become
+  std::array<std::int32_t, max_motors> from_{};  // positions when the watch began
 };
 
 }  // namespace passo

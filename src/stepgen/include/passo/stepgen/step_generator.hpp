@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "passo/base/source.hpp"
@@ -23,11 +24,25 @@ struct BoardClock {
   Hertz highest_event_rate{100e3};
 };
 
+// Where the board stands, to the last bit, so that the next path begins with what the last one has left: each motor in
+// 1/65536 step with half a step added, and the fraction of a tick.
+struct BoardPlace {
+  std::array<std::int64_t, max_motors> motors{};
+  std::uint16_t tick = whole_tick / 2;
+  std::int64_t steps(std::size_t motor) const { return motors[motor] >> 16; }
+  // The motor is said to stand at another whole step.
+  void set_steps(std::size_t motor, std::int64_t steps) {
+    motors[motor] = steps * whole_step + (motors[motor] & (whole_step - 1));
+  }
+  friend bool operator==(const BoardPlace&, const BoardPlace&) = default;
+};
+
 struct StepOptions {
   std::array<Motor, max_motors> motors;
   std::uint8_t motor_count = 0;
   BoardClock clock;
   Point start;  // machine position at the start; the motors' step counts begin at its whole steps
+  std::optional<BoardPlace> place = {};  // where the board stands; nothing: it has just heard a hello, at `start`
 };
 
 // What goes down the wire, in order. An Action follows the segments that end at rest before it; a dwell has become
@@ -68,6 +83,10 @@ class StepGenerator final : public Source<BoardItem> {
   bool at_rest() const;
   // What was given last is waiting at rest, of which there may be more: a dwell.
   bool waits_at_rest() const;
+  // The rest of that waiting is left out. How long it was.
+  Seconds cut_dwell();
+  // At rest, after all that was given.
+  BoardPlace place() const;
 
  private:
   class Implementation;

@@ -1,0 +1,99 @@
+// HomingPath: finds out where a machine stands, by the limit switches of its axes, one axis after the other.
+//
+// An axis seeks its switch, backs off until it is open, comes back slowly (where it closes then is the axis's place, to
+// the step), and pulls off. Each of these is a probe move with that switch in the probe's place: it brakes on the path
+// within the limits, over any line, and nothing depends on a single message. All other limit switches stop the machine
+// at once. A switch that is closed at the beginning is backed off first.
+//
+// Until an axis is homed nobody knows its place: the path counts from where the machine stood.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "passo/activity/activity.hpp"
+#include "passo/interpreter/machine_answers.hpp"
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+
+enum class HomingStage : std::uint8_t { seek, back_off, latch, pull_off };
+
+enum class HomingFault : std::uint8_t {
+  not_met,       // the switch did not close within 1.1 of the travel; slowly, within three times the pull-off
+  still_closed,  // it did not open within the pull-off
+  unsteady,      // it opened and closed again and again
+};
+// Stable, and a sentence without a full stop.
+std::string_view code_of(HomingFault fault);
+std::string_view message_of(HomingFault fault);
+
+// Where a machine rests when it has been homed; axes that are not stand where `start` has
+// them. Machine coordinates.
+Point home_rest(const MachineDescription& machine, const Point& start = {});
+
+struct HomedAxis {
+  Axis axis = Axis::x;
+  double way = 0;    // from where it stood to where the switch closed
+  double place = 0;  // where it rests, machine coordinates
+};
+
+class HomingPath final : public Activity {
+ public:
+  // Both outlive it. `answers` tell what the probe move at hand has found. `start`: where the machine stands; axes that
+  // are not homed keep their places.
+  HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start = {});
+  ActivityKind kind() const override { return ActivityKind::homing; }
+  [[nodiscard]] bool next(PathItem& item) override;
+  std::optional<double> progress() const override;
+  std::optional<ActivityFault> fault() const override;
+
+  // The axis at hand; nothing behind the last one.
+  const AxisDescription* axis() const { return axis_; }
+  HomingStage stage() const { return stage_; }
+  const std::vector<HomedAxis>& homed() const { return homed_; }
+  std::optional<HomingFault> homing_fault() const { return fault_; }
+  // All axes are homed.
+  bool done() const { return axis_ == nullptr; }
+  // Where the machine stands then, in machine coordinates.
+  Point place() const;
+
+ private:
+  enum class Step : std::uint8_t { begin, move, end, judge };
+
+  const HomeDescription& home() const { return *axis_->home; }
+  const ProbeOutcome& outcome() const { return *answers_.probe(); }
+  double direction() const { return home().toward_high ? 1 : -1; }
+  // Of the axis at hand.
+  double stands() const { return position_[axis_->axis]; }
+  // The place where the switch is to be open, off another one.
+  double off(double place) const;
+  Action action(Action::Kind kind, const Point& place) const;
+  void begin_axis();
+  void begin(HomingStage stage, double target);
+  void judge();
+  void judge_approach();
+  void judge_retreat();
+  void retreat(HomingStage stage, double target);
+  void turn_watch();
+  void end_axis();
+
+  const MachineDescription& machine_;
+  const MachineAnswers& answers_;
+  Point start_;
+  const AxisDescription* axis_ = nullptr;
+  HomingStage stage_ = HomingStage::seek;
+  Step step_ = Step::begin;
+  bool until_closed_ = true;  // what the move waits for
+  double target_ = 0;
+  bool knows_switch_ = false;  // about where it closes
+  double found_ = 0;
+  int turns_ = 0;
+  Point position_;  // at rest
+  std::vector<HomedAxis> homed_;
+  std::optional<HomingFault> fault_;
+};
+
+}  // namespace passo

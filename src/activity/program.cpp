@@ -1,0 +1,123 @@
+#include "passo/activity/program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "passo/activity/stage_options.hpp"
+
+namespace passo {
+namespace {
+
+// How long an item takes at its programmed speed, within the axes' top speeds but without ramps.
+Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
+  if (const auto* action = std::get_if<Action>(&item)) return action->dwell;
+  const auto& segment = std::get<Segment>(item);
+  const Point steepest = segment.curve.steepest();
+  double speed = segment.speed.value();
+  for (const Axis axis : all_axes) {
+    if (steepest[axis] > 0) speed = std::min(speed, limits.velocity[axis].value() / steepest[axis]);
+  }
+  return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
+}
+
+// So many moves after a probe move are checked.
+constexpr std::uint64_t most_moves_after_a_probe = 10'000'000;
+
+bool is_probe(const PathItem& item) {
+  const auto* action = std::get_if<Action>(&item);
+  return action != nullptr && action->kind == Action::Kind::probe_end;
+}
+
+// The check is not the whole program's.
+void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
+  const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
+  diagnostics.add({.severity = Severity::warning,
+                   .code = "path.unchecked",
+                   .file = file,
+                   .place = {.line = line, .column = 0, .length = 1},
+                   .message = "the check ends here, ten million moves after a probe move",
+                   .expected = "a loop that also ends where the probe is touched at the end of its move",
+                   .text = {}});
+}
+
+InterpreterOptions answered_by(const MachineAnswers& answers, InterpreterOptions options) {
+  options.probe = answers.probe();
+  return options;
+}
+
+PathOptions answered_by(const MachineAnswers& answers, PathOptions options, const MachineDescription& machine) {
+  options.probe = answers.probe();
+  options.tap_rest = answers.tap_rest();
+  options.spindle_run_up = machine.spindle.run_up;
+  return options;
+}
+
+}  // namespace
+
+ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& machine,
+                               const InterpreterOptions& options, Diagnostics& diagnostics)
+    : diagnostics_(diagnostics),
+      path_options_(path_options(machine, program.name(), options.start)),
+      limits_(motion_limits(machine)),
+      tools_(options.tools),
+      interpreter_(std::move(program), options, diagnostics),
+      builder_(interpreter_, path_options_, diagnostics) {}
+
+bool ProgramChecker::go_on(std::uint64_t items) {
+  for (; items > 0 && !done_; --items) {
+    if (take_item()) continue;
+    finish();
+  }
+  return done_;
+}
+
+bool ProgramChecker::take_item() {
+  if (diagnostics_.full() || after_a_probe_ >= most_moves_after_a_probe || !builder_.next(item_)) return false;
+  check_.nominal_time += nominal_time_of(item_, limits_);
+  if (std::holds_alternative<Segment>(item_)) ++check_.moves;
+  if (watcher_) watcher_(item_);
+  if (check_.probes) ++after_a_probe_;
+  if (!check_.probes && is_probe(item_)) {
+    check_.probes = true;
+    diagnostics_.doubt_errors("if the probe is touched at the end of its move");
+  }
+  return true;
+}
+
+void ProgramChecker::finish() {
+  done_ = true;
+  if (after_a_probe_ == most_moves_after_a_probe) tell_end(diagnostics_, path_options_.file, item_);
+  diagnostics_.doubt_errors({});
+  check_.tools_change = interpreter_.tools() != tools_;
+  check_.good = !diagnostics_.any_error();
+}
+
+ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
+                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch) {
+  ProgramChecker checker(std::move(program), machine, options, diagnostics);
+  checker.watch(watch);
+  while (!checker.go_on(UINT64_MAX)) {
+  }
+  return checker.result();
+}
+
+Program::Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
+                 const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole)
+    : path_options_(answered_by(answers, path_options(machine, program.name(), options.start), machine)),
+      limits_(motion_limits(machine)),
+      interpreter_(std::move(program), answered_by(answers, options), diagnostics),
+      path_builder_(interpreter_, path_options_, diagnostics),
+      good_path_(path_builder_, diagnostics),
+      watched_path_(good_path_),
+      smoother_(watched_path_, smoothness(machine)),
+      whole_(whole) {
+  watched_path_.watch([this](const PathItem& item) { nominal_time_ += nominal_time_of(item, limits_); });
+}
+
+std::optional<double> Program::progress() const {
+  if (!(whole_ > Seconds(0))) return {};
+  return std::min(nominal_time_ / whole_, 1.0);
+}
+
+}  // namespace passo

@@ -1,0 +1,96 @@
+#include "passo/activity/stage_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace passo {
+
+PathOptions path_options(const MachineDescription& machine, const std::string& program, const Point& start) {
+  PathOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.add(axis.axis);
+    options.travel[axis.axis] = {.low = axis.travel_low, .high = axis.travel_high};
+  }
+  options.tolerance = machine.path_tolerance;
+  options.spindle_limit = machine.tool.highest_rpm;
+  options.file = program;
+  options.start = start;
+  return options;
+}
+
+namespace {
+
+AccelerationCurve falling_limit(const AxisDescription& axis) {
+  constexpr int samples = 4096;
+  if (!axis.motor) return {};
+  std::vector<AccelerationCurve::Sample> all;
+  for (int i = 0; i <= samples; ++i) {
+    const MmPerSecond speed = axis.velocity * (static_cast<double>(i) / samples);
+    all.push_back({.speed = speed, .acceleration = axis.motor->acceleration_at(speed)});
+  }
+  return AccelerationCurve::below(all, axis.acceleration);
+}
+
+// The exact curve: the referee does not take the planner's samples for it.
+std::function<MmPerSecond2(MmPerSecond)> proven_limit(const AxisDescription& axis) {
+  if (!axis.motor) return {};
+  return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
+}
+
+}  // namespace
+
+bool has_jerk_limit(const MachineDescription& machine) {
+  return std::ranges::any_of(machine.axes, [](const AxisDescription& axis) { return axis.jerk > MmPerSecond3(0); });
+}
+
+Smoothness smoothness(const MachineDescription& machine) {
+  return has_jerk_limit(machine) ? Smoothness::slow_bending : Smoothness::least_bending;
+}
+
+MotionLimits motion_limits(const MachineDescription& machine) {
+  MotionLimits limits;
+  for (const AxisDescription& axis : machine.axes) {
+    limits.velocity[axis.axis] = axis.velocity;
+    limits.acceleration[axis.axis] = axis.acceleration;
+    limits.jerk[axis.axis] = axis.jerk;
+    limits.falling[axis.axis] = falling_limit(axis);
+  }
+  return limits;
+}
+
+std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place) {
+  const StepOptions options = step_options(machine);
+  std::array<std::int64_t, max_motors> steps{};
+  for (std::size_t m = 0; m < options.motor_count; ++m) {
+    steps[m] = std::llround(place[options.motors[m].axis] * options.motors[m].steps_per_unit);
+  }
+  return steps;
+}
+
+StepOptions step_options(const MachineDescription& machine) {
+  StepOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.motors[options.motor_count++] = {
+        .axis = axis.axis, .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit};
+  }
+  options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
+  return options;
+}
+
+ProofOptions proof_options(const MachineDescription& machine) {
+  ProofOptions options;
+  for (const AxisDescription& axis : machine.axes) {
+    options.axes.push_back({.axis = axis.axis,
+                            .step = axis.step(),
+                            .velocity = axis.velocity,
+                            .acceleration = axis.acceleration,
+                            .jerk = axis.jerk,
+                            .acceleration_at = proven_limit(axis)});
+  }
+  options.tick_rate = machine.board.clock;
+  return options;
+}
+
+}  // namespace passo

@@ -1,0 +1,135 @@
+#include "passo/drive/direct_feed.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "host_actions.hpp"
+
+namespace passo {
+namespace {
+
+// Where nothing hurries.
+constexpr Seconds longest_wait{1000};
+
+// In a probe move: the tool goes on so long into what it touched, before it brakes.
+constexpr Commitment probing{.horizon = Seconds(0.004), .longest_move = Seconds(0.001)};
+
+// Following a spindle: how far ahead is committed.
+constexpr double moves_a_horizon = 5;
+Seconds horizon_of(SpindleLock lock) {
+  switch (lock) {
+    case SpindleLock::place: return Seconds(0.01);
+    case SpindleLock::speed: return Seconds(0.05);
+    case SpindleLock::none: break;
+  }
+  return Seconds(std::numeric_limits<double>::infinity());
+}
+
+Commitment with_horizon(const Commitment& live, SpindleLock lock) {
+  const Seconds horizon = horizon_of(lock);
+  return {.horizon = std::min(live.horizon, horizon),
+          .longest_move = std::min(live.longest_move, horizon / moves_a_horizon)};
+}
+
+Seconds time_of(const MotionItem& item) {
+  const auto* action = std::get_if<Action>(&item);
+  return action != nullptr ? action->dwell : std::get<PlannedMove>(item).duration();
+}
+
+}  // namespace
+
+DirectFeed::DirectFeed(const Stages& stages, const Options& options)
+    : stages_(stages),
+      options_(options),
+      live_(options.live),
+      ahead_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
+             .longest_move = Seconds(std::numeric_limits<double>::infinity())},
+      rested_(stages.link.now()) {
+  apply(live_);
+}
+
+void DirectFeed::commit(const Commitment& live) {
+  live_ = live;
+  apply(commitment());
+}
+
+// Without a spindle to follow.
+Commitment DirectFeed::commitment() const {
+  return attention_ == Attention::probes ? probing : live_;
+}
+
+void DirectFeed::apply(const Commitment& wanted) {
+  if (wanted == ahead_) return;
+  ahead_ = wanted;
+  stages_.planner.limit_moves_to(wanted.longest_move);
+  stages_.generator.limit_waiting_to(std::min(wanted.longest_move, longest_wait));
+}
+
+// What follows the spindle is told by watch().
+void DirectFeed::attend(Attention attention) {
+  attention_ = attention;
+  if (attention == Attention::follows) return;
+  apply(commitment());
+}
+
+void DirectFeed::expect_thread() {
+  live_ = with_horizon(live_, SpindleLock::speed);
+  if (ahead_.horizon > live_.horizon) apply(live_);
+}
+
+void DirectFeed::watch(const MotionItem& motion) {
+  planned_ += time_of(motion);
+  if (!options_.follows_spindle) return;
+  // What is committed is blind to what the spindle does.
+  if (const auto* move = std::get_if<PlannedMove>(&motion)) {
+    apply(with_horizon(commitment(), move->segment.lock));
+  } else if (std::get<Action>(motion).kind == Action::Kind::await_index) {
+    apply(with_horizon(commitment(), SpindleLock::place));
+  }
+}
+
+Feed::Turn DirectFeed::advance() {
+  if (stages_.link.error()) return Turn::ended;
+  if (!waiting_.empty() || action_ || ended_) {
+    if (!send_waiting()) return Turn::waits;
+    if (!action_ && !ended_) return Turn::goes_on;
+    if (stages_.link.busy()) return Turn::waits;
+    if (!action_) return Turn::ended;
+    if (action_->kind != Action::Kind::feed_hold) return Turn::at_action;
+    action_.reset();
+    return Turn::rests_in_hold;
+  }
+  if (ahead() >= ahead_.horizon && stages_.link.busy()) return Turn::waits;
+  if (!stages_.items.next(item_)) {
+    ended_ = true;
+  } else if (const auto* segment = std::get_if<BoardSegment>(&item_)) {
+    waiting_.emplace_back(*segment);
+  } else {
+    action_ = std::get<Action>(item_);
+    if (is_for_outputs(*action_, options_.waits_for_operator)) {
+      stages_.outputs.take_over(*std::exchange(action_, std::nullopt));
+      pass_on_outputs();
+    }
+  }
+  send_waiting();
+  return Turn::goes_on;
+}
+
+// False: what is to be sent waits for room.
+bool DirectFeed::send_waiting() {
+  for (; !waiting_.empty() && stages_.link.room() > 0; waiting_.pop_front()) {
+    std::visit([this](const auto& one) { stages_.link.send(one); }, waiting_.front());
+  }
+  return waiting_.empty();
+}
+
+bool DirectFeed::settled() {
+  return stages_.link.error() || (send_waiting() && !stages_.link.busy());
+}
+
+void DirectFeed::cut_dwell() {
+  planned_ -= stages_.generator.cut_dwell();
+}
+
+}  // namespace passo

@@ -1,0 +1,26 @@
+// Which actions of a path are the drive's to do, at rest, before the path goes on. Private to drive/.
+#pragma once
+
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+constexpr bool is_program_stop(const Action& action) {
+  using Kind = Action::Kind;
+  return action.kind == Kind::program_stop || action.kind == Kind::optional_stop || action.kind == Kind::tool_change;
+}
+
+// What the action says is in its outputs, which the board switches in passing.
+constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {
+  using Kind = Action::Kind;
+  switch (action.kind) {
+    case Kind::probe_begin:
+    case Kind::probe_end:
+    case Kind::await_index:
+    case Kind::tap_turns:
+    case Kind::feed_hold: return false;
+    default: return !(waits_for_operator && is_program_stop(action));
+  }
+}
+
+}  // namespace passo

@@ -1,0 +1,74 @@
+// DirectFeed: board items go to a board in this process, in order, as far ahead as is committed. Nothing is lost on the
+// way, so nothing is kept.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "passo/drive/feed.hpp"
+#include "passo/drive/outputs_order.hpp"
+#include "passo/stepgen/step_generator.hpp"
+#include "passo/trajectory/planner.hpp"
+
+namespace passo {
+
+class DirectFeed final : public Feed {
+ public:
+  struct Stages {
+    Planner& planner;
+    StepGenerator& generator;
+    Source<BoardItem>& items;  // the generator's, seen by those who watch
+    Link& link;
+    OutputsOrder& outputs;
+  };
+  struct Options {
+    Commitment live;
+    bool follows_spindle = false;     // where the path says so
+    bool waits_for_operator = false;  // the program's stops are the drive's to do
+  };
+  // All stages outlive the feed.
+  DirectFeed(const Stages& stages, const Options& options);
+
+  // Without something to attend to: so far ahead is committed.
+  void commit(const Commitment& live);
+
+  Turn advance() override;
+  Action take_action() override { return *std::exchange(action_, std::nullopt); }
+  void watch(const MotionItem& motion) override;
+  void attend(Attention attention) override;
+  void pass_on_outputs() override { waiting_.emplace_back(stages_.outputs.tell()); }
+  void switch_outputs(const BoardOutputs& outputs) override { waiting_.emplace_back(outputs); }
+  bool settled() override;
+  Seconds ahead() const override { return planned_ - (stages_.link.now() - rested_); }
+  Seconds ahead_of(const Turned& /*turned*/, Seconds /*time*/) override { return ahead(); }
+  std::optional<Seconds> began() const override { return {}; }
+  bool is_remote() const override { return false; }
+  void note_rest(Seconds time) override { rested_ += time; }
+  void brake() override {}
+  bool plays_tail() const override { return false; }
+  std::optional<Point> drop() override { return {}; }
+  void cut_dwell() override;
+
+  // The path comes to where something follows the spindle: nothing is read far ahead from here on.
+  void expect_thread();
+
+ private:
+  bool send_waiting();
+  Commitment commitment() const;
+  void apply(const Commitment& wanted);
+
+  Stages stages_;
+  Options options_;
+  Commitment live_;
+  Commitment ahead_;  // as the stages were told
+  Attention attention_ = Attention::none;
+  BoardItem item_;
+  std::deque<LinkItem> waiting_;  // for room: an item, and outputs that were changed while it was made
+  std::optional<Action> action_;
+  bool ended_ = false;
+  Seconds planned_{0};  // time of all motion given by the planner
+  Seconds rested_;      // time of the board that was no motion of this drive
+};
+
+}  // namespace passo

@@ -1,0 +1,52 @@
+// HoldReasons: why the machine is to rest on the path, as a set. A hold ends when the set is empty.
+//
+// The only place where a hold is kept. The planner is told what the set demands, and gives an action of kind feed_hold
+// when the motion has come to rest; the reasons are read from the set, not guessed from the action.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace passo {
+
+enum class HoldReason : std::uint8_t {
+  operator_hold,  // somebody pressed hold
+  door,           // the door is open, or was and nobody has pressed start since
+  program_stop,   // the program waits for the operator: M0, M1
+  tool_change,    // the program waits for another tool: M6
+  zero_feed,      // the overrides leave less than a hundredth of the feed
+  probe_contact,  // the probe has found what it was to find; the rest of the move is dropped
+  tap,            // the spindle turns round at the end of a tap
+  line_lost,      // the board brakes by itself, since no refill reached it in time
+  stop,           // the activity is to end here
+};
+inline constexpr int hold_reason_count = 9;
+
+class HoldReasons {
+ public:
+  constexpr HoldReasons() = default;
+  constexpr HoldReasons(std::initializer_list<HoldReason> reasons) {
+    for (const HoldReason reason : reasons) add(reason);
+  }
+
+  constexpr bool has(HoldReason reason) const { return (bits_ & bit(reason)) != 0; }
+  constexpr bool any() const { return bits_ != 0; }
+  constexpr bool any_of(HoldReasons others) const { return (bits_ & others.bits_) != 0; }
+  constexpr void add(HoldReason reason) { bits_ = static_cast<std::uint16_t>(bits_ | bit(reason)); }
+  constexpr void remove(HoldReason reason) { bits_ = static_cast<std::uint16_t>(bits_ & ~bit(reason)); }
+  constexpr void set(HoldReason reason, bool holds) { holds ? add(reason) : remove(reason); }
+  friend constexpr bool operator==(const HoldReasons&, const HoldReasons&) = default;
+
+ private:
+  static constexpr unsigned bit(HoldReason reason) { return 1U << static_cast<unsigned>(reason); }
+  std::uint16_t bits_ = 0;
+};
+
+// The planner brakes for these where the program heeds holds (M53), and for those wherever it is.
+inline constexpr HoldReasons heeded_holds{HoldReason::operator_hold, HoldReason::door};
+inline constexpr HoldReasons sure_holds{HoldReason::probe_contact, HoldReason::tap, HoldReason::stop};
+// With these the machine stays at rest once it rests; the others end there.
+inline constexpr HoldReasons lasting_holds{HoldReason::operator_hold, HoldReason::door,        HoldReason::program_stop,
+                                           HoldReason::tool_change,   HoldReason::zero_feed, HoldReason::stop};
+
+}  // namespace passo

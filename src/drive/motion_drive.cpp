@@ -1,0 +1,401 @@
+#include "passo/drive/motion_drive.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/drive/direct_feed.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double no_feed = 0.01;
+constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
+
+// A feed of nothing ends by itself when there is more.
+constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::program_stop,
+                                  HoldReason::tool_change, HoldReason::stop};
+
+}  // namespace
+
+MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
+                         BoardSession& board, AnswerBook& answers, const DriveOptions& options)
+    : board_(board),
+      answers_(answers),
+      watched_path_(path),
+      path_(watched_path_),
+      planner_(path_, limits),
+      watched_motion_(planner_),
+      step_generator_(watched_motion_, steps),
+      watched_items_(step_generator_),
+      feed_(make_feed(options, steps)),
+      probe_(board_, answers, steps),
+      spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
+               steps.clock.tick_rate) {
+  watched_path_.watch([this](const PathItem& item) { watch(item); });
+  watched_motion_.watch([this](const MotionItem& item) { watch(item); });
+  if (!options.guards_by_probe) return;
+  probe_.guard_other_moves();
+  script_.then([this] { probe_.ask_to_watch_others(); });
+  script_.until([this] { return board_.settled(); });
+  script_.then([this] { feed_->attend(attention()); });
+}
+
+MotionDrive::~MotionDrive() = default;
+
+std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const StepOptions& steps) {
+  if (options.begin_at) {
+    path_.keep();
+    path_.begin_at(*options.begin_at);
+  }
+  if (!options.tails) {
+    auto direct = std::make_unique<DirectFeed>(
+        DirectFeed::Stages{
+            .planner = planner_, .generator = step_generator_, .items = watched_items_, .link = board_, .outputs = outputs_},
+        DirectFeed::Options{.live = options.live,
+                            .follows_spindle = options.counts_per_turn > 0,
+                            .waits_for_operator = options.waits_for_operator});
+    direct_ = direct.get();
+    return direct;
+  }
+  auto refiller = std::make_unique<Refiller>(Refiller::Stages{.path = path_,
+                                                              .planner = planner_,
+                                                              .generator = step_generator_,
+                                                              .items = watched_items_,
+                                                              .link = board_,
+                                                              .outputs = outputs_},
+                                             steps, *options.tails, options.waits_for_operator);
+  if (options.counts_per_turn > 0) refiller->guard_threads();
+  refiller_ = refiller.get();
+  return refiller;
+}
+
+void MotionDrive::go_live(const Commitment& live) {
+  if (direct_ != nullptr) direct_->commit(live);
+}
+
+// Where something follows the spindle nothing is read far ahead from there on.
+void MotionDrive::watch(const PathItem& item) {
+  const auto* segment = std::get_if<Segment>(&item);
+  if (segment == nullptr || segment->lock == SpindleLock::none || !spindle_.exists()) return;
+  if (direct_ != nullptr) direct_->expect_thread();
+}
+
+void MotionDrive::watch(const MotionItem& item) {
+  const auto* move = std::get_if<PlannedMove>(&item);
+  if (move != nullptr && spindle_.exists()) spindle_.watch(*move);
+  feed_->watch(item);
+  if (move == nullptr) return;
+  // Over a line not all that is given is done.
+  if (probe_.is_running() && !feed_->is_remote()) end_of_probe_ = move->segment.curve.at(move->to);
+  if (spindle_.exists() && move->segment.reverse_at > Mm(0)) watch_tap(*move);
+  if (move->segment.heeds.spindle_override == outputs_.heeds_override()) return;
+  outputs_.heed_override(move->segment.heeds.spindle_override);
+  pass_on_outputs();
+}
+
+void MotionDrive::pass_on_outputs() {
+  if (outputs_.is_news()) feed_->pass_on_outputs();
+}
+
+// On its way down: at the end of the thread the spindle is reversed, and the tool goes on with it.
+void MotionDrive::watch_tap(const PlannedMove& move) {
+  end_of_tap_ = move.segment.curve.at(move.to);
+  if (spindle_.expects_turn() || holds_.has(HoldReason::tap) || move.to < move.segment.reverse_at) return;
+  spindle_.expect_turn();
+  OutputState outputs = outputs_.ordered();
+  outputs.spindle = reversed(outputs.spindle);
+  outputs_.order(outputs);
+  pass_on_outputs();
+}
+
+MotionDrive::Turn MotionDrive::advance() {
+  if (state_ == State::ended) return Turn::ended;
+  if (!script_.go_on()) return Turn::waits;
+  if (state_ == State::ended) return Turn::ended;
+  if (state_ == State::held) return board_.error() ? end() : Turn::waits;
+  look_at_probe();
+  if (!follow()) return Turn::waits;
+  return take(feed_->advance());
+}
+
+bool MotionDrive::turn(Seconds most) {
+  const Turn turn = advance();
+  if (turn != Turn::waits) return turn != Turn::ended;
+  const bool rests = state_ == State::held || !script_.empty();
+  if (state_ == State::held && script_.empty() && std::isinf(most.value())) return true;
+  const Seconds from = now();
+  board_.poll(std::max(std::min(most, due() - from), Seconds(0)));
+  if (rests) feed_->note_rest(now() - from);
+  return true;
+}
+
+Seconds MotionDrive::due() const {
+  const Seconds next = std::max(awaits_index_ ? spindle_.looks_at() : Seconds(0), pause_end_);
+  return next - now() > hardly_any ? next : Seconds(std::numeric_limits<double>::infinity());
+}
+
+// False: an answer has to be waited for.
+bool MotionDrive::follow() {
+  if (spindle_.lock() == SpindleLock::none) {
+    if (spindle_.let_go()) feed_->attend(attention());
+    return true;
+  }
+  if (!spindle_.follow()) return false;
+  if (spindle_.trouble()) stop();
+  if (spindle_.turned_back()) change_holds(HoldReason::tap, true);
+  return true;
+}
+
+MotionDrive::Turn MotionDrive::take(Feed::Turn turn) {
+  holds_.set(HoldReason::line_lost, feed_->plays_tail());
+  switch (turn) {
+    case Feed::Turn::goes_on: break;
+    case Feed::Turn::waits: return Turn::waits;
+    case Feed::Turn::rests_in_hold: come_to_rest(); break;
+    case Feed::Turn::at_action: act(feed_->take_action()); break;
+    case Feed::Turn::lost_thread: lose_thread(); break;
+    case Feed::Turn::ended: return end();
+  }
+  return Turn::goes_on;
+}
+
+// All that came before the action is done, and the machine rests.
+void MotionDrive::act(const Action& action) {
+  switch (action.kind) {
+    case Action::Kind::probe_begin: return begin_probe(action);
+    case Action::Kind::probe_end: return end_probe(action);
+    case Action::Kind::await_index: return await_index(action);
+    case Action::Kind::tap_turns: return turn_tap(action);
+    default: return wait_for_operator(action);
+  }
+}
+
+void MotionDrive::begin_probe(const Action& action) {
+  script_.then([this, action] { probe_.ask_to_watch(action); });
+  script_.until([this] { return board_.settled(); });
+  script_.then([this, action] {
+    probe_.begin(action);
+    contact_seen_ = false;
+    end_of_probe_.reset();
+    feed_->attend(attention());
+  });
+}
+
+void MotionDrive::end_probe(const Action& action) {
+  script_.then([this] { probe_.recall(); });
+  script_.until([this] { return board_.settled(); });
+  script_.then([this, place = action.place] {
+    probe_.find(end_of_probe_.value_or(place));
+    probe_.ask_to_watch_others();
+  });
+  script_.until([this] { return board_.settled(); });
+  script_.then([this] {
+    probe_.end();
+    feed_->attend(attention());
+    contact_seen_ = false;
+    // The contact may have come when the path was at its end already.
+    change_holds(HoldReason::probe_contact, false);
+  });
+}
+
+void MotionDrive::await_index(const Action& action) {
+  if (!spindle_.exists()) return;
+  awaits_index_ = true;
+  spindle_.begin_await(action.outputs.revolutions_per_minute);
+  script_.until([this] { return spindle_.await_index(); });
+  script_.then([this] {
+    awaits_index_ = false;
+    if (!spindle_.trouble()) return;
+    holds_.add(HoldReason::stop);
+    rest_in_hold();
+  });
+}
+
+// At rest, as the spindle does for a moment.
+void MotionDrive::turn_tap(const Action& action) {
+  outputs_.order(action.outputs);
+  pass_on_outputs();
+  script_.until([this] { return feed_->settled(); });
+  script_.then([this] {
+    answers_.note_tap_rest(end_of_tap_);
+    spindle_.turn_round();
+  });
+}
+
+void MotionDrive::wait_for_operator(const Action& action) {
+  outputs_.take_over(action);
+  script_.then([this] { feed_->switch_outputs(outputs_.tell()); });
+  script_.until([this] { return feed_->settled(); });
+  script_.then([this, action] {
+    waits_for_ = action;
+    holds_.add(action.kind == Action::Kind::tool_change ? HoldReason::tool_change : HoldReason::program_stop);
+    rest_in_hold();
+  });
+}
+
+void MotionDrive::done() {
+  if (!waits_for_) return;
+  const bool was_tool = waits_for_->kind == Action::Kind::tool_change;
+  waits_for_.reset();
+  resume(was_tool ? HoldReason::tool_change : HoldReason::program_stop);
+}
+
+void MotionDrive::look_at_probe() {
+  if (contact_seen_ || !probe_.contact()) return;
+  contact_seen_ = true;
+  feed_->brake();
+  if (probe_.is_running()) return change_holds(HoldReason::probe_contact, true);  // whatever M53 says
+  stopped_by_probe_ = true;
+  stop();
+}
+
+// What the board is watched for now.
+Attention MotionDrive::attention() const {
+  if (probe_.is_running()) return Attention::probes;
+  if (spindle_.follows()) return Attention::follows;
+  return probe_.guards() ? Attention::guards_probe : Attention::none;
+}
+
+void MotionDrive::change_holds(HoldReason reason, bool holds) {
+  if (holds_.has(reason) == holds) return;
+  holds_.set(reason, holds);
+  tell_planner();
+}
+
+// Of the planner's two holds it takes back both at once.
+void MotionDrive::tell_planner() {
+  const bool holds = holds_.any_of(heeded_holds);
+  const bool stops = holds_.any_of(sure_holds);
+  if ((planner_holds_ && !holds) || (planner_stops_ && !stops)) {
+    planner_.resume();
+    planner_holds_ = planner_stops_ = false;
+  }
+  if (holds && !std::exchange(planner_holds_, holds)) planner_.hold();
+  if (stops && !std::exchange(planner_stops_, stops)) planner_.stop();
+}
+
+// A hold that was taken back before the motion came to rest is none.
+void MotionDrive::come_to_rest() {
+  if (holds_.any_of({HoldReason::probe_contact, HoldReason::tap})) {
+    planner_.drop_to_action();
+    if (const auto rest = feed_->drop()) end_of_probe_ = rest;
+    holds_.remove(HoldReason::probe_contact);
+    holds_.remove(HoldReason::tap);
+    tell_planner();
+  }
+  if (holds_.any_of(lasting_holds)) rest_in_hold();
+}
+
+void MotionDrive::rest_in_hold() {
+  if (!stopped()) {
+    state_ = State::held;
+    return;
+  }
+  script_.then([this] { feed_->switch_outputs({}); });
+  script_.until([this] { return feed_->settled(); });
+  script_.then([this] {
+    end();
+    if (spindle_.trouble()) board_.fail(*spindle_.trouble());
+  });
+  if (state_ == State::held) state_ = State::holding;
+}
+
+// At rest in a thread, whose next turn would not be where the ones before are.
+void MotionDrive::lose_thread() {
+  script_.then([this] { feed_->switch_outputs({}); });
+  script_.until([this] { return feed_->settled(); });
+  script_.then([this] {
+    board_.fail(LinkError::thread_lost);
+    end();
+  });
+}
+
+MotionDrive::Turn MotionDrive::end() {
+  state_ = State::ended;
+  return Turn::ended;
+}
+
+void MotionDrive::hold(HoldReason reason) {
+  if (state_ == State::ended || stopped() || holds_.has(reason)) return;
+  change_holds(reason, true);
+  if (state_ == State::running) state_ = State::holding;
+}
+
+void MotionDrive::resume(HoldReason reason) {
+  if (state_ == State::ended || stopped() || !holds_.has(reason)) return;
+  change_holds(reason, false);
+  if (!holds_.any_of(asked_holds)) state_ = State::running;
+}
+
+void MotionDrive::set_feed_override(double factor) {
+  feed_override_ = factor;
+  planner_.set_feed_override(factor);
+  mind_feed();
+}
+
+void MotionDrive::set_adaptive_feed(double factor) {
+  adaptive_feed_ = factor;
+  planner_.set_adaptive_feed(factor);
+  mind_feed();
+}
+
+void MotionDrive::mind_feed() {
+  const double feed = std::min({feed_override_, adaptive_feed_, feed_override_ * adaptive_feed_});
+  holds_.set(HoldReason::zero_feed, feed < no_feed);
+  if (state_ == State::held && !holds_.any_of(asked_holds)) state_ = State::running;
+}
+
+void MotionDrive::set_spindle_override(double factor) {
+  outputs_.set_override(factor);
+  if (state_ == State::ended || !outputs_.is_news()) return;
+  if (state_ == State::held) return feed_->switch_outputs(outputs_.tell());
+  feed_->pass_on_outputs();
+}
+
+void MotionDrive::stop() {
+  if (state_ == State::ended || stopped()) return;
+  change_holds(HoldReason::stop, true);
+  feed_->cut_dwell();
+  if (std::exchange(awaits_index_, false)) script_.clear();
+  else if (state_ != State::held) {
+    state_ = State::holding;
+    return;
+  }
+  rest_in_hold();
+}
+
+void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
+  OutputState spindle = outputs;
+  spindle.mist = spindle.flood = false;
+  const auto order = [this](const OutputState& wanted) {
+    script_.then([this, wanted] {
+      outputs_.order(wanted);
+      feed_->switch_outputs(outputs_.tell());
+    });
+    script_.until([this] { return feed_->settled(); });
+  };
+  order(spindle);
+  if (spindle.spindle != SpindleDirection::off) {
+    script_.then([this, spindle_wait] { pause_end_ = now() + spindle_wait; });
+    script_.until([this] { return pause_end_ - now() <= hardly_any; });
+  }
+  if (spindle != outputs) order(outputs);
+}
+
+std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder) {
+  const auto& hello = board.board();
+  if (board.error() || !hello) return {};  // the session says it
+  const double clock = steps.clock.tick_rate.value();
+  if (static_cast<double>(hello->clock) != clock) {
+    return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", hello->clock, clock);
+  }
+  const auto& status = board.status();
+  if (!status || !wants_encoder || (status->state & board_encodes) != 0) return {};
+  return "it has no encoder, and [spindle] of the machine file tells of one";
+}
+
+}  // namespace passo

@@ -1,0 +1,50 @@
+#include "passo/drive/probe_move.hpp"
+
+#include <cmath>
+
+namespace passo {
+
+void ProbeMove::ask_to_watch(const Action& action) {
+  link_.watch_probe(action.probe_toward ? ProbeUntil::touched : ProbeUntil::released, action.limit);
+}
+
+void ProbeMove::begin(const Action& action) {
+  start_ = action.place;
+  outcome_ = {.refused = link_.probe_report().touched == action.probe_toward,
+              .touched = false,
+              .contact = start_,
+              .rest = start_};
+  running_ = true;
+  answers_.note(outcome_);
+}
+
+void ProbeMove::recall() {
+  running_ = false;
+  if (!outcome_.refused) link_.recall_contact();
+}
+
+void ProbeMove::find(const Point& rest) {
+  if (outcome_.refused) return;
+  outcome_.rest = rest;
+  outcome_.touched = contact();
+  outcome_.contact = outcome_.touched ? contact_place(link_.probe_report()) : rest;
+}
+
+void ProbeMove::end() {
+  answers_.note(outcome_);
+  for (const auto& watcher : watchers_) watcher(outcome_);
+}
+
+// An axis that made no step stands where it stood, between two steps or not.
+Point ProbeMove::contact_place(const ProbeReport& report) const {
+  Point place = start_;
+  for (std::size_t m = 0; m < steps_.motor_count; ++m) {
+    if (report.steps[m] == 0) continue;
+    const Motor& motor = steps_.motors[m];
+    const double steps = std::round(start_[motor.axis] * motor.steps_per_unit) + report.steps[m];
+    place[motor.axis] = steps / motor.steps_per_unit;
+  }
+  return place;
+}
+
+}  // namespace passo

@@ -1,0 +1,75 @@
+#include "passo/journal/resume_point.hpp"
+
+#include <utility>
+
+#include "passo/activity/stage_options.hpp"
+#include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
+
+namespace passo {
+namespace {
+
+// What was passed.
+class Passed {
+ public:
+  explicit Passed(ResumePoint& point) : point_(point) {}
+
+  void pass(const PathItem& item) {
+    if (const auto* segment = std::get_if<Segment>(&item)) {
+      point_.point = segment->curve.end();
+      waits_ = false;
+      return;
+    }
+    const auto& action = std::get<Action>(item);
+    const OutputState& before = point_.outputs;
+    const bool same = action.outputs.spindle == before.spindle &&
+                      action.outputs.revolutions_per_minute == before.revolutions_per_minute;
+    if (!same) {
+      waits_ = true;
+      point_.spindle_wait = Seconds(0);
+    } else if (waits_) {
+      point_.spindle_wait += action.dwell;
+    }
+    point_.outputs = action.outputs;
+  }
+
+ private:
+  ResumePoint& point_;
+  bool waits_ = false;  // the spindle was switched, and nothing has moved since
+};
+
+}  // namespace
+
+std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
+                                             const InterpreterOptions& options, const PathPlace& place) {
+  Diagnostics diagnostics;
+  const PathOptions path_options_here = path_options(machine, program.name(), options.start);
+  Interpreter interpreter(std::move(program), options, diagnostics);
+  PathBuilder builder(interpreter, path_options_here, diagnostics);
+  PathSmoother smoother(builder, smoothness(machine));
+  RewindablePath path(smoother);
+  path.keep();
+  ResumePoint point;
+  point.place = place;
+  point.point = options.start;
+  Passed passed(point);
+  PathItem item;
+  for (std::uint64_t number = 0; number < place.item; ++number) {
+    if (!path.next(item)) return {};
+    passed.pass(item);
+    path.forget_before(number + 1);
+  }
+  const bool more = path.next(item);
+  if (more) point.line = std::visit([](const auto& what) { return what.source.line; }, item);
+  if (place.s > Mm(0)) {
+    const auto* segment = more ? std::get_if<Segment>(&item) : nullptr;
+    if (segment == nullptr || place.s >= segment->curve.length()) return {};
+    point.point = segment->curve.at(place.s);
+  }
+  path.rewind(place);
+  point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
+  point.steps = steps_at(machine, point.point);
+  return point;
+}
+
+}  // namespace passo

@@ -1,0 +1,493 @@
+#include "passo/link/board_session.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+#include <utility>
+
+#include "passo/wire/announcement.hpp"
+
+namespace passo {
+namespace {
+
+// Frames that are sent again before the board is asked what it has of them.
+constexpr std::size_t repeated_at_once = 16;
+
+// The board may hear what was never sent, and so may we: both are believed when they come again.
+constexpr int most_refusals = 8;  // of one frame
+constexpr int sure_of_status = 2;
+
+constexpr std::size_t most_gibberish = 256;
+
+}  // namespace
+
+BoardSession::BoardSession(BoardPort& port, const LineCare& care)
+    : port_(port), care_(care), heard_(port.elapsed()), quiet_since_(heard_) {
+  decoder_.set_motors(max_motors);
+}
+
+void BoardSession::inquire(Question question) {
+  assert(phase_ == Phase::before_hello && (question == Question::about || question == Question::status));
+  about_.reset();
+  status_.reset();
+  await(question);
+}
+
+void BoardSession::greet(const Greeting& greeting) {
+  assert(greeting.motors > 0);
+  forget_what_was();
+  motors_ = greeting.motors;
+  session_ = greeting.session;
+  greeting_ = greeting.number;
+  sent_ = taken_ = executed_ = asked_behind_ = greeting_;
+  decoder_.set_motors(motors_);
+  heard_ = port_.elapsed();
+  phase_ = Phase::greeting;
+  say_hello();
+}
+
+// A hello begins anew, also after an error.
+void BoardSession::forget_what_was() {
+  board_.reset();
+  error_.reset();
+  awaited_.reset();
+  turned_.reset();
+  rehearsed_.reset();
+  kept_.clear();
+  probe_ = {};
+  usual_question_ = last_question_ = Question::status;
+  answered_ = true;
+  rests_ = repeating_ = false;
+  refusals_ = doubts_ = free_ = 0;
+  pressed_ = 0;
+}
+
+void BoardSession::say_hello() {
+  greeted_ = quiet_since_ = port_.elapsed();
+  say(Hello{.motors = motors_}, greeting_);
+}
+
+void BoardSession::name_session(std::uint16_t number) {
+  assert(number != 0 && !busy());
+  session_ = number;
+  phase_ = Phase::naming;
+  say_session();
+}
+
+void BoardSession::say_session() {
+  greeted_ = quiet_since_ = port_.elapsed();
+  say(Session{.number = session_}, std::uint8_t{0});
+  ask(Question::status);
+}
+
+// What has come may be what the greeting waits for.
+void BoardSession::look_at_greeting() {
+  if (phase_ == Phase::greeting && board_) {
+    free_ = board_->capacity;
+    if (board_->version != protocol_version) {
+      error_ = LinkError::wrong_version;
+    } else if (board_->motors < motors_) {
+      error_ = LinkError::too_few_motors;
+    } else if (session_ != 0) {
+      phase_ = Phase::naming;
+      status_.reset();
+      say_session();
+    } else {
+      phase_ = Phase::ready;
+    }
+  }
+  if (phase_ == Phase::naming && status_ && status_->session == session_) phase_ = Phase::ready;
+  news_ = news_ || phase_ == Phase::ready;
+}
+
+BoardSession::Progress BoardSession::poll(Seconds most) {
+  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
+  const bool endless = std::isinf(most.value());
+  const Seconds end = port_.elapsed() + most;
+  Progress progress;
+  news_ = false;
+  do {
+    const Seconds patience = std::max(quiet_since_ + care_.answer_within - port_.elapsed(), Seconds(0));
+    const Seconds left = std::max(end - port_.elapsed(), Seconds(0));
+    const bool heard = hear(std::min(endless ? care_.answer_within : patience, left));
+    progress.heard = progress.heard || heard;
+    mind_silence(heard, endless);
+  } while (!error_ && !news_ && end - port_.elapsed() > hardly_any);
+  progress.news = news_;
+  return progress;
+}
+
+// Something is to come from the board.
+bool BoardSession::expects() const {
+  return awaited_ || phase_ == Phase::greeting || phase_ == Phase::naming || busy() ||
+         (may_lose() && (!kept_.empty() || !answered_));
+}
+
+// Silence counts from here on.
+void BoardSession::begin_to_expect() {
+  if (!expects()) heard_ = quiet_since_ = port_.elapsed();
+}
+
+// Whoever waits without end expects something in any case.
+void BoardSession::mind_silence(bool heard, bool endless) {
+  const Seconds now = port_.elapsed();
+  if (error_) return;
+  if (heard) quiet_since_ = now;
+  if (!endless && !expects()) {
+    heard_ = quiet_since_ = now;
+  } else if (!may_lose()) {
+    if (!heard && endless) error_ = LinkError::no_answer;
+  } else if (now - heard_ > care_.patience) {
+    error_ = LinkError::no_answer;
+  } else if ((!heard && (endless || now - quiet_since_ >= care_.answer_within)) || overdue()) {
+    quiet_since_ = now;
+    ask_again();
+  }
+}
+
+// It takes too long until the board has what was sent, or the hello is answered.
+bool BoardSession::overdue() const {
+  const Seconds now = port_.elapsed();
+  if (phase_ == Phase::greeting || phase_ == Phase::naming) return now - greeted_ > care_.answer_within;
+  return !kept_.empty() && now - moved_on_ > care_.answer_within;
+}
+
+void BoardSession::ask_again() {
+  if (phase_ == Phase::greeting) return say_hello();
+  if (phase_ == Phase::naming) return say_session();
+  ask(awaited_.value_or(Question::status));
+}
+
+void BoardSession::send(const BoardSegment& segment) {
+  assert(segment.events > 0 && std::abs(segment.change) <= largest_change);
+  assert(error_ || room() > 0);
+  send_counted(segment, motors_);
+}
+
+void BoardSession::send(const BoardOutputs& outputs) {
+  assert(error_ || room() > 0);
+  send_counted(outputs);
+}
+
+ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> items) {
+  assert(!items.empty() && room() >= static_cast<int>(items.size()));
+  const auto number = static_cast<ItemNumber>(sent_ + 1);
+  Announcement announcement(number, after, motors_);
+  frames_.clear();
+  for (const LinkItem& item : items) {
+    Frame& frame = frames_.emplace_back();
+    frame.number = static_cast<ItemNumber>(number + frames_.size());
+    const auto sequence = static_cast<std::uint8_t>(frame.number);
+    if (const auto* segment = std::get_if<BoardSegment>(&item)) {
+      frame.size = encode(*segment, motors_, sequence, frame.bytes);
+    } else {
+      frame.size = encode(std::get<BoardOutputs>(item), sequence, frame.bytes);
+    }
+    announcement.add(frame.bytes, frame.size);
+  }
+  send_counted(announcement.replace());
+  for (const Frame& frame : frames_) send_frame(frame);
+  return static_cast<ItemNumber>(number + 1);
+}
+
+void BoardSession::await(Question question) {
+  begin_to_expect();
+  awaited_ = question;
+  ask(question);
+}
+
+// An answer to an earlier question may come first: it counts if it tells of the same rest.
+void BoardSession::watch_probe(ProbeUntil until, std::uint8_t limit) {
+  if (!probe_.wish(until, limit)) return;
+  status_.reset();
+  answered_ = true;  // what went before is over
+  await(Question::watch);
+}
+
+void BoardSession::recall_contact() {
+  await(Question::kept);
+}
+
+void BoardSession::read_spindle() {
+  turned_.reset();
+  answered_ = true;  // what went before is over
+  await(Question::spindle);
+}
+
+void BoardSession::rehearse(std::size_t bytes) {
+  rehearsed_ = port_.elapsed();
+  for (const std::uint64_t end = bytes_sent_ + bytes; bytes_sent_ < end && !error_;) {
+    say(Session{.number = session_}, std::uint8_t{0});
+  }
+  read_spindle();
+}
+
+// What was waited for has come.
+void BoardSession::settle(Question answered) {
+  if (awaited_ != answered) return;
+  awaited_.reset();
+  news_ = true;
+  if (answered == Question::spindle && rehearsed_) answer_time_ = port_.elapsed() - *std::exchange(rehearsed_, {});
+}
+
+bool BoardSession::hear(Seconds most) {
+  std::span<const std::uint8_t> bytes = port_.replies();
+  if (bytes.empty() && port_.run(most)) bytes = port_.replies();
+  for (const std::uint8_t byte : bytes) read(byte);
+  look_at_greeting();
+  return !bytes.empty();
+}
+
+void BoardSession::read(std::uint8_t byte) {
+  if (phase_ == Phase::before_hello && byte >= ' ' && byte < 127 && gibberish_.size() < most_gibberish) {
+    gibberish_ += static_cast<char>(byte);
+  }
+  if (decoder_.feed(byte) != Decoded::frame) return;
+  heard_ = port_.elapsed();
+  take(decoder_.frame());
+}
+
+void BoardSession::ask(Question question) {
+  begin_to_expect();
+  moved_on_ = port_.elapsed();
+  asked_behind_ = sent_;
+  last_question_ = question;
+  if (std::exchange(answered_, false)) unanswered_since_ = moved_on_;
+  const std::uint8_t limit = question == Question::watch ? probe_.limit() : std::uint8_t{0};
+  const std::uint8_t motors = phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_;
+  say(Ask{.motors = motors, .question = question, .limit = limit}, ++question_);
+}
+
+void BoardSession::take(const WireFrame& frame) {
+  switch (frame.type) {
+    case MessageType::hello_reply:
+      if (phase_ == Phase::greeting) decode(frame, board_.emplace());
+      return;
+    case MessageType::credit: {
+      Credit credit;
+      decode(frame, credit);
+      if (phase_ == Phase::before_hello || !board_) return;
+      take(credit);
+      // The board has dropped what was sent. Is that so?
+      if (may_lose() && holds_nothing_of(credit) && executed_ != sent_) ask(Question::status);
+      return;
+    }
+    case MessageType::status: {
+      BoardStatus status;
+      decode(frame, phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_, status);
+      return take(status);
+    }
+    case MessageType::error: {
+      ErrorReport error;
+      decode(frame, error);
+      return take(error);
+    }
+    case MessageType::fault:
+      if (phase_ != Phase::before_hello) error_ = LinkError::stopped;
+      return;
+    case MessageType::captured: {
+      Captured captured;
+      decode(frame, phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_, captured);
+      return take(captured);
+    }
+    case MessageType::turned: {
+      Turned turned;
+      decode(frame, turned);
+      return take(turned);
+    }
+    case MessageType::about: decode(frame, about_.emplace()); return settle(Question::about);
+    default:
+      if (!may_lose()) error_ = LinkError::refused;
+      return;
+  }
+}
+
+// One that was overtaken by a later one tells nothing, and neither does one that cannot be.
+void BoardSession::take(const Credit& credit) {
+  const int more = later_by(credit.executed, executed_);
+  const auto more_taken = static_cast<std::uint8_t>(credit.taken - static_cast<std::uint8_t>(taken_));
+  const auto taken = static_cast<ItemNumber>(taken_ + more_taken);
+  if (more < 0 || later_by(taken, sent_) > 0 || later_by(credit.executed, taken) > 0) return;
+  if (credit.free > board_->capacity) return;
+  const ItemNumber before = taken_;
+  note_taken(credit.taken);
+  if (more == 0 && taken_ == before && credit.free <= free_) return;
+  executed_ = credit.executed;
+  free_ = credit.free;
+  news_ = true;
+}
+
+bool BoardSession::holds_nothing_of(const Credit& credit) const {
+  return taken_ == sent_ && credit.taken == static_cast<std::uint8_t>(sent_) && credit.free == board_->capacity;
+}
+
+void BoardSession::take(const BoardStatus& status) {
+  status_ = status;
+  status_time_ = port_.elapsed();
+  if (phase_ == Phase::before_hello) {
+    inputs_ = status.inputs;
+    return settle(Question::status);
+  }
+  if ((status.state & board_manual) != 0) {
+    error_ = LinkError::manual;
+    return;
+  }
+  const bool is_asked_for_more = last_question_ == Question::spindle && status.answers == question_;
+  if (is_asked_for_more && (status.state & board_encodes) == 0) return doubt(LinkError::no_encoder, Question::spindle);
+  note_inputs(status);
+  if (usual_question_ == Question::status) note_answer(status.taken);
+  note_probe(probe_.note(status));
+  if (awaited_ == Question::watch && probe_.is_confirmed_by(status, executed_)) {
+    probe_.confirm(status);
+    settle(Question::watch);
+  }
+  if (session_ == 0 || status.session != session_) {
+    // Before the board has heard of the session it is no wonder.
+    if (session_ != 0 && phase_ == Phase::ready) doubt(LinkError::was_reset);
+    return;
+  }
+  if ((status.state & board_trusted) == 0) return doubt(LinkError::stopped);
+  doubts_ = 0;
+  const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
+  note_progress(credit, status.answers);
+  rests_ = holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0;
+  news_ = news_ || rests_;
+}
+
+void BoardSession::note_progress(const Credit& credit, std::uint8_t answers) {
+  take(credit);
+  if (answers != question_ && !(repeating_ && answers == repeated_before_)) return;
+  // What was sent before the question, and has not arrived before it, is lost.
+  if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) return repeat();
+  // An answer that told where the spindle is was lost, or the question.
+  if (!answered_ && usual_question_ == Question::spindle) ask();
+}
+
+void BoardSession::take(const Turned& turned) {
+  if (phase_ == Phase::before_hello) return;
+  turned_ = turned;
+  note_answer(turned.progress.taken);
+  note_progress(turned.progress, turned.answers);
+  settle(Question::spindle);
+}
+
+void BoardSession::doubt(LinkError error, Question again) {
+  if (++doubts_ == sure_of_status) {
+    error_ = error;
+  } else {
+    ask(again);
+  }
+}
+
+void BoardSession::take(const Captured& captured) {
+  if ((captured.input & captured_kept) != 0) {
+    if (awaited_ == Question::kept) probe_.recall(captured, motors_);
+    return settle(Question::kept);
+  }
+  const auto pressed =
+      static_cast<std::uint16_t>(captured.input & ~(probe_.input() | captured_kept | captured_released));
+  pressed_ |= pressed;
+  inputs_ |= pressed;
+  news_ = news_ || pressed != 0;
+  note_probe(probe_.note(captured));
+}
+
+void BoardSession::note_inputs(const BoardStatus& status) {
+  const auto pressed = static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{probe_.input()});
+  pressed_ |= pressed;
+  news_ = news_ || pressed != 0;
+  inputs_ = status.inputs;
+}
+
+void BoardSession::note_probe(ProbeWatch::News news) {
+  if (news == ProbeWatch::News::happened) news_ = true;
+  if (news == ProbeWatch::News::begin_again) ask(Question::watch);
+}
+
+void BoardSession::note_answer(std::uint8_t taken) {
+  if (answered_ || static_cast<std::uint8_t>(sent_) != taken) return;
+  answered_ = news_ = true;
+  answer_time_ = port_.elapsed() - unanswered_since_;
+}
+
+void BoardSession::take(const ErrorReport& error) {
+  if (phase_ == Phase::before_hello) return;
+  switch (error.reason) {
+    case WireError::bad_frame:
+    case WireError::out_of_sequence:
+    case WireError::queue_full: break;
+    case WireError::too_late:
+    case WireError::wrong_sums: return;  // what is executed will tell
+    case WireError::manual: error_ = LinkError::manual; return;
+    default:
+      // Of what we sent, or of what it heard in its place?
+      refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;
+      refused_ = error.expected;
+      if (refusals_ == most_refusals) error_ = LinkError::refused;
+      break;
+  }
+  if (!may_lose()) error_ = LinkError::refused;
+  note_taken(static_cast<std::uint8_t>(error.expected - 1));
+  // What it complains of while something is being repeated is older, or else the answer to the question behind tells.
+  if (!repeating_) repeat();
+}
+
+// `sequence`: the low byte of a number between the last one known to be taken and the last one sent; else it is old.
+void BoardSession::note_taken(std::uint8_t sequence) {
+  const auto more = static_cast<std::uint8_t>(sequence - static_cast<std::uint8_t>(taken_));
+  if (more == 0 || more > later_by(sent_, taken_)) return;
+  taken_ = static_cast<ItemNumber>(taken_ + more);
+  moved_on_ = port_.elapsed();
+  news_ = true;
+  while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
+}
+
+// Some of what the board does not have, in order, and a question behind, whose answer tells what is to be repeated
+// next. Nothing else is sent meanwhile. All of it each time that the board complains: on a bad line each of many frames
+// would bring many more.
+void BoardSession::repeat() {
+  if (error_ || kept_.empty()) return;
+  const std::size_t count = std::min(kept_.size(), repeated_at_once);
+  for (std::size_t i = 0; i < count; ++i) put_on_wire(kept_[i].bytes, kept_[i].size);
+  frames_repeated_ += count;
+  ask();
+  repeating_ = session_ != 0;  // else nobody tells
+  repeated_before_ = question_;
+}
+
+template <class Message, class... More>
+void BoardSession::say(const Message& message, More... more) {
+  std::uint8_t frame[largest_frame];
+  put_on_wire(frame, encode(message, more..., frame));
+}
+
+template <class Message, class... More>
+void BoardSession::send_counted(const Message& message, More... more) {
+  if (error_) return;
+  Frame frame{.number = static_cast<ItemNumber>(sent_ + 1)};
+  frame.size = encode(message, more..., static_cast<std::uint8_t>(frame.number), frame.bytes);
+  send_frame(frame);
+}
+
+// The next one that is counted.
+void BoardSession::send_frame(const Frame& frame) {
+  if (error_) return;
+  begin_to_expect();
+  sent_ = frame.number;
+  rests_ = false;
+  if (may_lose()) kept_.push_back(frame);
+  answered_ = false;
+  unanswered_since_ = port_.elapsed();
+  moved_on_ = port_.elapsed();
+  if (!repeating_) put_on_wire(frame.bytes, frame.size);
+}
+
+void BoardSession::put_on_wire(const std::uint8_t* frame, std::uint8_t size) {
+  ++frames_sent_;
+  bytes_sent_ += size;
+  port_.receive({frame, size});
+}
+
+}  // namespace passo

@@ -1,0 +1,213 @@
+// BoardSession: all that a host has with a board behind a port, in this process or at the end of a line: one hello, and
+// the only reader of what the board says. The bytes are the same in both.
+//
+// No function waits but poll(), and poll() no longer than it is told. So one thread serves any number of boards, and
+// virtual time passes only where its owner lets it pass.
+//
+// Before the hello a board may be asked what it is and how it is, amid motion too: nothing about the board changes by
+// that. greet() then says hello, until ready().
+//
+// Where nothing is lost on the way an error that the board reports is a bug on one of the two sides, and final. Where
+// something may be lost, what was sent is kept until the board has taken it, and repeated from where the board says
+// that something is missing: a few frames, and a question how far the board is now, and so on until it has all. After a
+// silence the session asks the board how it is, again and again while patience lasts: a line that comes back is found by
+// that, and what the line had swallowed is sent again.
+//
+// Damage that looks like a message is rare, but not never: what would end the job is believed when it comes again.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "passo/link/board_port.hpp"
+#include "passo/link/link.hpp"
+#include "passo/wire/decoder.hpp"
+#include "passo/wire/message.hpp"
+
+namespace passo {
+
+// Of a line on which bytes may get lost. The default is one that loses nothing.
+struct LineCare {
+  Seconds answer_within{std::numeric_limits<double>::infinity()};  // after so long without an answer, ask again
+  Seconds patience{3600};                                          // and after so long, give up
+};
+
+// How a host begins with a board.
+struct Greeting {
+  std::uint8_t motors = 0;
+  std::uint16_t session = 0;  // by which the board is known again; 0: the line loses nothing, and needs no number
+  std::uint8_t number = 0;    // of the hello: where the counting of items begins
+};
+
+class BoardSession final : public Link {
+ public:
+  // What a poll brought.
+  struct Progress {
+    bool news = false;  // an item was done or taken, an answer came, an input changed
+    bool heard = false;
+  };
+
+  // Says nothing yet. The port outlives the session.
+  explicit BoardSession(BoardPort& port, const LineCare& care = {});
+
+  // Hears what the board says and asks again what was not answered, until there is news, but no longer than `most`. An
+  // endless poll is a wait for news: a board that stays silent is an error then.
+  Progress poll(Seconds most);
+
+  // Before the hello: `about` or `status`. settled() tells that the answer is there.
+  void inquire(Question question);
+  // What the board said when it was asked; nothing: it has not answered.
+  const std::optional<About>& about() const { return about_; }
+  // What came instead of an answer, as far as it can be read: the greeting of other firmware.
+  const std::string& gibberish() const { return gibberish_; }
+
+  // Says hello: from here on both sides count the motors' fractions from the start.
+  void greet(const Greeting& greeting);
+  // After the hello, at rest: the board is known by another number from now on, as of a new job.
+  void name_session(std::uint16_t number);
+  // The hello was answered, the board suits, and the board knows the session's number.
+  bool ready() const { return phase_ == Phase::ready && !error_; }
+
+  void send(const BoardSegment& segment) override;
+  void send(const BoardOutputs& outputs) override;
+  ItemNumber replace(ItemNumber after, std::span<const LinkItem> items) override;
+  ItemNumber sent() const override { return sent_; }
+  ItemNumber executed() const override { return executed_; }
+  int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
+  int places() const override { return free_ - later_by(sent_, taken_); }
+  bool rests() const override { return rests_; }
+  bool busy() const override { return sent_ != executed_; }
+
+  void watch_probe(ProbeUntil until, std::uint8_t limit = 0) override;
+  void recall_contact() override;
+  void read_spindle() override;
+  void rehearse(std::size_t bytes) override;
+  bool settled() const override { return !awaited_ || error_; }
+
+  const ProbeReport& probe_report() const override { return probe_.report(); }
+  void ask() override { ask(usual_question_); }
+  void ask_for_spindle(bool wanted) override { usual_question_ = wanted ? Question::spindle : Question::status; }
+  std::optional<Turned> take_turned() override { return std::exchange(turned_, std::nullopt); }
+  bool answered() const override { return answered_; }
+  Seconds answer_time() const override { return answer_time_; }
+  // What has been switched on, as the board told or its status shows, since the last call. Bits of BoardInput.
+  std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
+  // What is switched on now, as far as the board has told.
+  std::uint16_t inputs() const { return inputs_; }
+  Seconds now() const override { return port_.elapsed(); }
+  std::optional<LinkError> error() const override { return error_; }
+  void fail(LinkError error) override { error_ = error_.value_or(error); }
+
+  std::uint64_t frames_sent() const override { return frames_sent_; }
+  std::uint64_t bytes_sent() const override { return bytes_sent_; }
+  std::uint64_t frames_repeated() const { return frames_repeated_; }
+  // How many motors were greeted; 0 before the hello.
+  std::uint8_t motors() const { return motors_; }
+  // What the board said to the hello; nothing where it did not answer.
+  const std::optional<HelloReply>& board() const { return board_; }
+  // What the board said when it was last asked, and when that was heard.
+  const std::optional<BoardStatus>& status() const { return status_; }
+  Seconds status_time() const { return status_time_; }
+
+ private:
+  enum class Phase : std::uint8_t { before_hello, greeting, naming, ready };
+  struct Frame {
+    ItemNumber number = 0;
+    std::uint8_t size = 0;
+    std::uint8_t bytes[largest_frame] = {};
+  };
+
+  // A sequence number is a byte, and half of them are for frames that come again.
+  static constexpr int most_untaken = 127;
+
+  bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
+  void forget_what_was();
+  void say_hello();
+  void say_session();
+  void look_at_greeting();
+  bool hear(Seconds most);
+  bool expects() const;
+  void begin_to_expect();
+  void mind_silence(bool heard, bool endless);
+  bool overdue() const;
+  void ask_again();
+  void ask(Question question);
+  void await(Question question);
+  void read(std::uint8_t byte);
+  void take(const WireFrame& frame);
+  void take(const Credit& credit);
+  void take(const BoardStatus& status);
+  void take(const ErrorReport& error);
+  void take(const Captured& captured);
+  void take(const Turned& turned);
+  void settle(Question answered);
+  void note_answer(std::uint8_t taken);
+  void note_progress(const Credit& credit, std::uint8_t answers);
+  bool holds_nothing_of(const Credit& credit) const;
+  void doubt(LinkError error, Question again = Question::status);
+  void note_inputs(const BoardStatus& status);
+  void note_probe(ProbeWatch::News news);
+  void note_taken(std::uint8_t sequence);
+  void repeat();
+  template <class Message, class... More>
+  void say(const Message& message, More... more);
+  template <class Message, class... More>
+  void send_counted(const Message& message, More... more);
+  void send_frame(const Frame& frame);
+  void put_on_wire(const std::uint8_t* frame, std::uint8_t size);
+
+  BoardPort& port_;
+  LineCare care_;
+  Decoder decoder_;
+  Phase phase_ = Phase::before_hello;
+  std::uint8_t motors_ = 0;
+  std::uint8_t greeting_ = 0;   // the hello's own number
+  std::uint16_t session_ = 0;
+  Seconds greeted_{0};          // when the hello or the session's number was said last
+  std::optional<HelloReply> board_;
+  std::optional<About> about_;
+  std::string gibberish_;
+  std::optional<BoardStatus> status_;
+  Seconds status_time_{0};
+  std::optional<LinkError> error_;
+  ItemNumber sent_ = 0;                // number of the last frame sent
+  ItemNumber taken_ = 0;               // of the last one that the board told to have
+  ItemNumber executed_ = 0;            // of the last item that it told to be done
+  ItemNumber asked_behind_ = 0;        // the last one sent when the board was last asked
+  std::optional<Question> awaited_;    // the host goes on when this is answered
+  std::uint8_t question_ = 0;          // the number of the last question
+  Question last_question_ = Question::status;
+  Question usual_question_ = Question::status;
+  std::optional<Turned> turned_;
+  std::optional<Seconds> rehearsed_;   // since when
+  std::uint8_t repeated_before_ = 0;   // the question behind what was repeated last
+  bool repeating_ = false;             // and not heard the answer since
+  std::uint8_t refused_ = 0;           // sequence number of the frame that the board refused last
+  int refusals_ = 0;                   // so many times in a row
+  int doubts_ = 0;                     // statuses in a row that would end the job
+  int free_ = 0;                       // room that the board had when it told so
+  bool rests_ = false;
+  ProbeWatch probe_;
+  bool answered_ = true;                                // since the last frame was sent
+  Seconds unanswered_since_{0};
+  std::uint16_t inputs_ = 0;
+  std::uint16_t pressed_ = 0;
+  Seconds answer_time_{0};
+  bool news_ = false;          // since poll() began
+  std::vector<Frame> frames_;  // of a replacement that is put together
+  std::deque<Frame> kept_;     // those that were sent and, as far as the host knows, not taken
+  Seconds heard_{0};           // when the board last said anything
+  Seconds quiet_since_{0};     // when it did, or was asked again
+  Seconds moved_on_{0};        // when the board last took something, or the host asked or sent
+  std::uint64_t frames_sent_ = 0;
+  std::uint64_t bytes_sent_ = 0;
+  std::uint64_t frames_repeated_ = 0;
+};
+
+}  // namespace passo
