@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/controller/machine_plant.hpp"
 #include "passo/controller/stage_options.hpp"
 
 namespace passo {
@@ -107,13 +108,13 @@ Job::Job(ProgramReader program, const MachineDescription& machine, const Interpr
       resume_at_(options.resume_at),
       wants_encoder_(options.board != nullptr && machine.spindle.counts_per_turn > 0) {
   machine_.stand_at(resume_at_ ? resume_at_->steps : steps_at(machine, interpretation.start));
+  if (options.board == nullptr) connect_plant(machine, options.plant);
   if (resume_at_) {
     drive_.begin_at(resume_at_->place);
   }
   const bool over_a_line = line_ || options.board != nullptr;
   if (over_a_line && !drive_.unsuited()) drive_.use_tails({});
   if (options.board != nullptr) follow_by_machine(static_cast<std::uint8_t>(machine.axes.size()));
-  if (options.board == nullptr) fit_spindle(machine.spindle);
   const bool has_encoder = machine.spindle.counts_per_turn > 0;
   if (has_encoder) drive_.use_encoder(machine.spindle.counts_per_turn);
   // Over a line no tap turns round with the spindle: it rests meanwhile, and its holder floats. With a limit of jerk a
@@ -137,12 +138,12 @@ BoardLine Job::board_line(const Options& options, std::optional<VirtualLine>& li
   return BoardLine::to_board(*options.board, options.session, options.greeting);
 }
 
-void Job::fit_spindle(const SpindleDescription& spindle) {
-  machine_.fit_spindle({.counts_per_turn = spindle.counts_per_turn,
-                        .run_up = spindle.run_up.value(),
-                        .droop = spindle.droop,
-                        .ripple = spindle.ripple,
-                        .ripple_rate = spindle.ripple_rate.value()});
+void Job::connect_plant(const MachineDescription& machine, Plant* plant) {
+  if (plant == nullptr) {
+    own_plant_ = plant_of(machine, resume_at_ ? resume_at_->point : path_options_.start);
+    plant = &own_plant_;
+  }
+  machine_.connect(*plant);
 }
 
 void Job::follow_by_machine(std::uint8_t motors) {

@@ -51,6 +51,9 @@ class Job {
     Probing probing = Probing::by_board;
     // With a line the board is at its other end, and what it holds always ends at rest.
     std::optional<LineOptions> line = {};
+    // What hangs on the virtual machine; none: the plant that the machine's description tells of, standing where the
+    // job starts. Outlives the job.
+    Plant* plant = nullptr;
     // A real one, in the place of the virtual machine, which then only does what the board tells to have done: for
     // counts, traces and pictures. What the board holds always ends at rest. Outlives the job.
     BoardPort* board = nullptr;
@@ -98,7 +101,7 @@ class Job {
 
  private:
   static BoardLine board_line(const Options& options, std::optional<VirtualLine>& line);
-  void fit_spindle(const SpindleDescription& spindle);
+  void connect_plant(const MachineDescription& machine, Plant* plant);
   void follow_by_machine(std::uint8_t motors);
 
   PathOptions path_options_;
@@ -111,7 +114,8 @@ class Job {
   PathBuilder path_builder_;  // operations -> segments
   GoodPath good_path_;        // as long as nothing is wrong
   Tap<PathItem> watched_path_;
-  PathSmoother smoother_;   // corners -> curves within the tolerance
+  PathSmoother smoother_;  // corners -> curves within the tolerance
+  IdealPlant own_plant_;
   VirtualMachine machine_;  // what is at the other end of the wire
   std::optional<VirtualLine> line_;
   MotionDrive drive_;  // segments -> phases -> board segments -> wire
