@@ -18,6 +18,7 @@
 #include "passo/emulator/emulated_ports.hpp"
 #include "passo/emulator/emulated_timer.hpp"
 #include "passo/emulator/emulated_uart.hpp"
+#include "passo/plant/ideal_plant.hpp"
 
 namespace passo {
 namespace {
@@ -100,6 +101,7 @@ class AvrBoard final : public EmulatedBoard {
   bool run(Seconds most) override {
     const double seconds = std::min(most.value(), longest_silence);
     const std::uint64_t end = chip_.cycles() + static_cast<std::uint64_t>(std::max(seconds, 0.0) * clock_rate);
+    look_at_plant(elapsed());
     while (said_.empty() && chip_.cycles() < end) {
       chip_.run_for(std::min<std::uint64_t>(end - chip_.cycles(), look_cycles));
     }
@@ -111,18 +113,22 @@ class AvrBoard final : public EmulatedBoard {
     return taken_;
   }
 
-  Seconds elapsed() const override { return Seconds(static_cast<double>(chip_.cycles()) / clock_rate); }
+  Seconds elapsed() const override { return time_of(chip_.cycles()); }
   std::vector<std::int64_t> positions() const override { return positions_; }
-  void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) override {
-    touches_ = std::move(touches);
-    look_at_touch();
+  void connect(Plant& plant) override {
+    plant_ = &plant;
+    if (has_encoder_ && plant.spindle().has_encoder()) fit_encoder();
+    look_at_plant(elapsed());
   }
-  bool fit_spindle(EmulatedSpindle spindle) override {
-    if (!has_encoder_) return false;
-    spindle_ = std::move(spindle);
-    encoder_.emplace(chip_, spindle_.pulses_per_turn, [this](std::uint64_t cycle) {
-      return std::abs(spindle_.turns(Seconds(static_cast<double>(cycle) / clock_rate)));
-    });
+
+ private:
+  static constexpr std::uint64_t look_cycles = 1'000'000;
+
+  static Seconds time_of(std::uint64_t cycle) { return Seconds(static_cast<double>(cycle) / clock_rate); }
+
+  void fit_encoder() {
+    encoder_.emplace(chip_, plant_->spindle().counts_per_turn(),
+                     [this](std::uint64_t cycle) { return std::abs(plant_->spindle().turns_at(time_of(cycle))); });
     chip_.on_write(ocr4cl, [this](std::uint8_t value) {
       duty_ = value;
       command_spindle();
@@ -131,28 +137,18 @@ class AvrBoard final : public EmulatedBoard {
       turns_ = (value & connected) != 0;
       command_spindle();
     });
-    return true;
   }
-  bool set_switch(BoardInput which, bool closed) override {
-    const auto found = switches_.find(which);
-    if (found == switches_.end() || !found->second.exists()) return false;
-    ports_.set_input(found->second.port, found->second.bit, !closed);
-    return true;
-  }
-
- private:
-  static constexpr std::uint64_t look_cycles = 1'000'000;
-
   void command_spindle() {
     const bool back = (levels_of(spindle_direction_) & spindle_direction_.mask()) != 0;
     const double rpm = turns_ ? duty_ / full_duty * full_rpm : 0;
-    spindle_.command(elapsed(), back ? -rpm : rpm);
+    plant_->command_spindle(elapsed(), back ? -rpm : rpm);
   }
   void count_steps(const PortChange& change) {
     const unsigned rose = change.now & ~unsigned{change.before};
     const unsigned turned_over = change.now ^ unsigned { change.before };
     levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
-    stepped_ = false;
+    pulses_ = {};
+    bool stepped = false;
     for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
       const MotorPins& pins = motors_[motor];
       if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
@@ -160,12 +156,22 @@ class AvrBoard final : public EmulatedBoard {
       }
       if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
     }
-    if (stepped_ && touches_) look_at_touch();
+    for (const std::int64_t pulses : pulses_) stepped = stepped || pulses != 0;
+    if (!stepped) return;
+    plant_->pulse(time_of(change.cycle), pulses_);
+    look_at_plant(time_of(change.cycle));
   }
-  void look_at_touch() { static_cast<void>(set_switch(input_probe, touches_(positions_))); }
+  void look_at_plant(Seconds time) {
+    const std::uint16_t inputs = plant_->inputs_at(time);
+    if (inputs == inputs_) return;
+    inputs_ = inputs;
+    for (const auto& [which, pin] : switches_) {
+      if (pin.exists()) ports_.set_input(pin.port, pin.bit, (inputs & which) == 0);
+    }
+  }
   void count(std::uint64_t cycle, std::size_t motor, bool down) {
     positions_[motor] += down ? -1 : 1;
-    stepped_ = true;
+    pulses_[motor] += down ? -1 : 1;
     if (on_step) on_step(cycle, motor, down);
   }
   // Where a motor's windings lie on two ports there is a moment between the two, whose pattern is in no table.
@@ -186,12 +192,13 @@ class AvrBoard final : public EmulatedBoard {
   std::map<BoardInput, Pin> switches_;
   Pin spindle_direction_;
   bool has_encoder_;
-  EmulatedSpindle spindle_;
+  IdealPlant own_plant_;
+  Plant* plant_ = &own_plant_;
+  std::uint16_t inputs_ = 0;  // as the plant said last
   double duty_ = 0;
   bool turns_ = false;
   std::vector<std::int64_t> positions_;
-  bool stepped_ = false;  // at the change that is looked at
-  std::function<bool(const std::vector<std::int64_t>&)> touches_;
+  MotorSteps pulses_{};                       // of the change that is looked at
   std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
   EmulatedChip chip_;
   EmulatedTimer timer_;

@@ -25,10 +25,18 @@ BoardIdentity identity_of(std::uint8_t motors, Hertz clock, Hertz highest_event_
 VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate, std::size_t places)
     : board_(hardware_, identity_of(motors, clock, highest_event_rate, places)), clock_(clock), motor_count_(motors) {
   hardware_.seconds_a_tick = 1 / clock.value();
+  hardware_.plant = &own_plant_;
 }
 
-void VirtualMachine::stand_at(const std::array<std::int64_t, max_motors>& positions) {
+void VirtualMachine::connect(Plant& plant) {
+  hardware_.plant = &plant;
+  look_at_plant();
+}
+
+void VirtualMachine::stand_at(const MotorSteps& positions) {
+  hardware_.pulse_plant();
   for (std::size_t m = 0; m < positions.size(); ++m) hardware_.motors[m].position = positions[m];
+  hardware_.pulsed = positions;
 }
 
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
@@ -44,6 +52,7 @@ bool VirtualMachine::run(Seconds most) {
 
 bool VirtualMachine::run_to(Ticks time) {
   const std::int64_t end = time.count;
+  look_at_plant();
   while (hardware_.to_host.empty() && !board_.idle()) {
     if (!waits_) {
       const std::int64_t interval = board_.ticks_to_next_event();
@@ -55,41 +64,30 @@ bool VirtualMachine::run_to(Ticks time) {
     hardware_.now = next_event_;
     ++events_;
     board_.on_event();
-    if (!hardware_.bodies.empty() || !hardware_.limits.empty()) look_at_switches();
+    if (--look_in_ <= 0) look_at_plant();
     if (board_.owes_report()) board_.report();
   }
+  hardware_.pulse_plant();
   if (!hardware_.to_host.empty()) return true;
   if (end != INT64_MAX) hardware_.now = std::max(hardware_.now, end);
   return false;
 }
 
-void VirtualMachine::add_body(const TouchBody& body) {
-  hardware_.bodies.push_back(body);
-  look_at_switches();
-}
-
-void VirtualMachine::add_switch(const TravelSwitch& added) {
-  hardware_.limits.push_back(added);
-  limits_closed_.push_back(false);
-  look_at_switches();
-}
-
 void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
-  switches_ = static_cast<std::uint16_t>(closed ? switches_ | which : switches_ & ~which);
-  look_at_switches();
+  hardware_.plant->set_switch(which, closed);
+  look_at_plant();
+}
+
+void VirtualMachine::look_at_plant() {
+  hardware_.pulse_plant();
+  look_in_ = hardware_.plant->events_to_next_change();
+  const unsigned inputs = hardware_.plant->inputs_at(hardware_.time());
+  if (inputs != told_) heed(inputs);
 }
 
 // As the firmware's main loop does it: what is watched is captured, what a person presses is told, what stops stops.
-void VirtualMachine::look_at_switches() {
-  unsigned now = switches_;
-  if (hardware_.is_in_a_body()) now |= input_probe;
-  for (std::size_t i = 0; i < hardware_.limits.size(); ++i) {
-    const TravelSwitch& limit = hardware_.limits[i];
-    limits_closed_[i] = limit.closed(hardware_.motors[limit.motor].position, limits_closed_[i]);
-    if (limits_closed_[i]) now |= limit.input;
-  }
+void VirtualMachine::heed(unsigned now) {
   const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
-  if (changed == 0) return;
   constexpr unsigned by_people = input_door | input_hold | input_start;
   const unsigned on = changed & now;
   board_.set_inputs(told_, static_cast<std::uint16_t>((changed & board_.watched()) | (on & by_people)));
@@ -134,21 +132,28 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   const bool reverse = (wanted.switches & OutputSwitch::spindle_reverse) != 0;
   const bool on = (wanted.switches & OutputSwitch::spindle_on) != 0;
   const double rpm = on ? wanted.spindle_rpm : 0;
-  turning.command(Seconds(static_cast<double>(now) * seconds_a_tick), reverse ? -rpm : rpm);
+  pulse_plant();
+  plant->command_spindle(time(), reverse ? -rpm : rpm);
   ++output_changes;
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
 }
 
 SpindleCount VirtualMachine::Hardware::spindle() const {
-  SpindleCount count = turning.count_at(Seconds(static_cast<double>(now) * seconds_a_tick));
+  SpindleCount count = plant->spindle().count_at(time());
   count.tick = static_cast<std::uint32_t>(now);
   return count;
 }
 
-bool VirtualMachine::Hardware::is_in_a_body() const {
-  std::array<std::int64_t, max_motors> positions{};
-  for (std::size_t m = 0; m < motors.size(); ++m) positions[m] = motors[m].position;
-  return std::ranges::any_of(bodies, [&](const TouchBody& body) { return body.contains(positions); });
+void VirtualMachine::Hardware::pulse_plant() {
+  MotorSteps steps{};
+  bool any = false;
+  for (std::size_t m = 0; m < motors.size(); ++m) {
+    steps[m] = motors[m].position - pulsed[m];
+    any = any || steps[m] != 0;
+  }
+  if (!any) return;
+  for (std::size_t m = 0; m < motors.size(); ++m) pulsed[m] = motors[m].position;
+  plant->pulse(time(), steps);
 }
 
 MachineCounts VirtualMachine::counts() const {

@@ -18,6 +18,7 @@ using test::expect_homed;
 using test::Homed;
 using test::homing_machine;
 using test::StepLog;
+using test::switches_of;
 
 struct Kind {
   const char* name;
@@ -26,47 +27,17 @@ struct Kind {
 constexpr Kind uno{"uno", PASSO_MOTION_UNO};
 constexpr Kind mega{"mega", PASSO_MOTION_MEGA};
 
-// The switches as the board's pins have them; several may be on one.
-class Switches {
- public:
-  Switches(EmulatedBoard& board, const std::vector<TravelSwitch>& switches)
-      : board_(board), switches_(switches), closed_(switches.size(), false) {
-    for (std::size_t motor = 0; motor < 3; ++motor) look(motor, 0);
-  }
-  void look(std::size_t motor, std::int64_t position) {
-    for (std::size_t i = 0; i < switches_.size(); ++i) {
-      if (switches_[i].motor == motor) closed_[i] = switches_[i].closed(position, closed_[i]);
-    }
-    for (std::uint16_t input = 1; input <= 4; input = static_cast<std::uint16_t>(input << 1U)) {
-      bool closed = false;
-      for (std::size_t i = 0; i < switches_.size(); ++i) closed = closed || (switches_[i].input == input && closed_[i]);
-      EXPECT_TRUE(board_.set_switch(static_cast<BoardInput>(input), closed));
-    }
-  }
-
- private:
-  EmulatedBoard& board_;
-  std::vector<TravelSwitch> switches_;
-  std::vector<bool> closed_;
-};
-
-std::vector<TravelSwitch> switches_of(const MachineDescription& machine, const Distances& distances) {
-  std::vector<TravelSwitch> switches;
-  for (std::size_t m = 0; m < 3; ++m) switches.push_back(test::switch_of(machine, m, distances));
-  return switches;
-}
-
 template <class Spoil>
 Homed home(const Kind& kind, const MachineDescription& machine, const std::vector<TravelSwitch>& switches,
            const Spoil& spoil) {
   Homed result;
   auto board = EmulatedBoard::start(kind.name, kind.program);
   EXPECT_TRUE(board);
-  Switches pins(**board, switches);
+  IdealPlant plant = test::plant_with(switches);
+  (*board)->connect(plant);
   StepLog log;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
     log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
-    pins.look(motor, log.place[motor]);
   };
   BadLine line(**board);
   VirtualMachine nothing(3, machine.board.clock);

@@ -11,6 +11,7 @@
 
 #include "passo/activity/program.hpp"
 #include "passo/emulator/emulated_board.hpp"
+#include "passo/plant/ideal_plant.hpp"
 
 namespace passo {
 namespace {
@@ -27,6 +28,8 @@ struct Outcome {
 Outcome run(double pressed) {
   auto board = EmulatedBoard::start("uno", PASSO_MOTION_UNO);
   EXPECT_TRUE(board);
+  IdealPlant plant;
+  (*board)->connect(plant);
   StepLog log;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
     log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
@@ -50,7 +53,7 @@ Outcome run(double pressed) {
   auto before = MotionDrive::State::running;
   while (job.advance()) {
     for (; next < std::size(presses) && job.drive().now() >= Seconds(presses[next].at); ++next) {
-      EXPECT_TRUE((*board)->set_switch(presses[next].which, presses[next].closed));
+      plant.set_switch(presses[next].which, presses[next].closed);
     }
     panel.look();
     const auto state = job.drive().state();

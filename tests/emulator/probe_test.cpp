@@ -11,6 +11,8 @@
 #include "pipeline/probe_line_kit.hpp"
 
 #include "passo/activity/program.hpp"
+#include "passo/activity/machine_plant.hpp"
+#include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
 namespace {
@@ -44,9 +46,8 @@ LineProbing run(const Kind& kind, const MachineDescription& machine, const Spoil
   auto board = EmulatedBoard::start(kind.name, kind.program);
   EXPECT_TRUE(board);
   const TouchBox box = below(Axis::z, plate);
-  (*board)->set_touch([body = touch_body(box, machine)](const std::vector<std::int64_t>& positions) {
-    return body.contains(std::span(positions).first(3));
-  });
+  IdealPlant plant = plant_of(machine, Point(), {box});
+  (*board)->connect(plant);
   ContactOracle oracle(machine, box);
   StepLog log;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {

@@ -49,22 +49,15 @@ TurnedPart turn(const std::string& program, const MachineDescription& machine, c
   TurnedPart result;
   auto board = EmulatedBoard::start("mega", PASSO_MOTION_MEGA);
   EXPECT_TRUE(board);
-  const SpindleDescription& described = machine.spindle;
-  VirtualSpindle spindle({.counts_per_turn = described.counts_per_turn,
-                          .run_up = described.run_up.value(),
-                          .droop = described.droop,
-                          .ripple = described.ripple,
-                          .ripple_rate = described.ripple_rate.value()});
-  EXPECT_TRUE((*board)->fit_spindle({.pulses_per_turn = described.counts_per_turn,
-                                     .command = [&](Seconds time, double rpm) { spindle.command(time, rpm); },
-                                     .turns = [&](Seconds time) { return spindle.turns_at(time); }}));
+  IdealPlant plant = plant_of(machine);
+  (*board)->connect(plant);
   const AxisDescription& z = machine.axes[2];
   double place = 0;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
     if (motor != 2) return;
     const bool deeper = down != z.inverted;
     place += deeper ? -1 : 1;
-    const double turns = spindle.turns_at(Seconds(static_cast<double>(cycle) / clock_rate));
+    const double turns = plant.spindle().turns_at(Seconds(static_cast<double>(cycle) / clock_rate));
     if (deeper) result.cuts.push_back({place / z.steps_per_unit, turns});
   };
   BadLine line(**board);

@@ -12,7 +12,7 @@
 #include "kit/step_log.hpp"
 
 #include "passo/activity/homing_path.hpp"
-#include "passo/machine/travel_switch.hpp"
+#include "passo/plant/ideal_plant.hpp"
 
 namespace passo::test {
 
@@ -51,6 +51,18 @@ inline TravelSwitch switch_of(const MachineDescription& machine, std::size_t mot
           .at_high_end = high,
           .closes_at = closes,
           .opens_at = high ? closes - distances.hysteresis : closes + distances.hysteresis};
+}
+
+inline std::vector<TravelSwitch> switches_of(const MachineDescription& machine, const Distances& distances) {
+  std::vector<TravelSwitch> switches;
+  for (std::size_t m = 0; m < 3; ++m) switches.push_back(switch_of(machine, m, distances));
+  return switches;
+}
+
+inline IdealPlant plant_with(const std::vector<TravelSwitch>& switches) {
+  IdealPlant plant;
+  for (const TravelSwitch& one : switches) plant.add(one);
+  return plant;
 }
 
 struct Homed {

@@ -28,7 +28,8 @@ Homed home(const MachineDescription& machine, const Distances& distances, const 
                        static_cast<std::size_t>(machine.board.held_items));
   StepLog log;
   board.add_observer(log);
-  for (std::size_t m = 0; m < 3; ++m) board.add_switch(test::switch_of(machine, m, distances));
+  IdealPlant plant = test::plant_with(test::switches_of(machine, distances));
+  board.connect(plant);
   VirtualLine line(board, machine.board.clock, options);
   Homed result;
   Homing homing(machine, board, BoardLine::to(line));

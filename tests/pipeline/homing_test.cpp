@@ -2,8 +2,7 @@
 #include "kit/stage_test.hpp"
 #include "pipeline/homing_kit.hpp"
 
-#include "passo/activity/home_switches.hpp"
-#include "passo/activity/program.hpp"
+#include "passo/activity/machine_plant.hpp"
 
 namespace passo {
 namespace {
@@ -12,7 +11,9 @@ using test::Distances;
 using test::expect_homed;
 using test::Homed;
 using test::homing_machine;
+using test::plant_with;
 using test::StepLog;
+using test::switches_of;
 
 struct Setting {
   bool over_a_line = false;
@@ -24,7 +25,8 @@ Homed home(const MachineDescription& machine, const Setting& setting) {
                        static_cast<std::size_t>(machine.board.held_items));
   StepLog log;
   board.add_observer(log);
-  for (const TravelSwitch& one : setting.switches) board.add_switch(one);
+  IdealPlant plant = plant_with(setting.switches);
+  board.connect(plant);
   VirtualLine line(board, machine.board.clock, {});
   Homing homing(machine, board, setting.over_a_line ? BoardLine::to(line) : BoardLine());
   while (homing.advance()) {
@@ -37,12 +39,6 @@ Homed home(const MachineDescription& machine, const Setting& setting) {
   // A stop at once leaves the limits of the acceleration.
   if (result.error != LinkError::stopped) test::expect_within_limits(machine, log.steps);
   return result;
-}
-
-std::vector<TravelSwitch> switches_of(const MachineDescription& machine, const Distances& distances) {
-  std::vector<TravelSwitch> switches;
-  for (std::size_t m = 0; m < 3; ++m) switches.push_back(test::switch_of(machine, m, distances));
-  return switches;
 }
 
 Distances anywhere(test::Random& random) {
@@ -177,8 +173,8 @@ Homed home_by(const MachineDescription& machine, const Closed& closed) {
   Switch of_z(board, closed);
   board.add_observer(of_z);
   const std::vector<TravelSwitch> switches = switches_of(machine, Distances());
-  board.add_switch(switches[0]);
-  board.add_switch(switches[1]);
+  IdealPlant plant = plant_with({switches[0], switches[1]});
+  board.connect(plant);
   Homing homing(machine, board);
   while (homing.advance()) {
   }
@@ -208,7 +204,8 @@ TEST(HomingTest, tells_a_switch_that_never_comes_to_rest) {
 TEST(HomingTest, an_operators_stop_ends_it_at_rest) {
   const MachineDescription machine = homing_machine();
   VirtualMachine board(3, machine.board.clock, machine.board.highest_event_rate, 31);
-  for (const TravelSwitch& one : switches_of(machine, Distances())) board.add_switch(one);
+  IdealPlant plant = plant_with(switches_of(machine, Distances()));
+  board.connect(plant);
   Homing homing(machine, board);
   for (int i = 0; i < 30; ++i) ASSERT_TRUE(homing.advance());
   homing.drive().stop();
@@ -221,17 +218,14 @@ TEST(HomingTest, an_operators_stop_ends_it_at_rest) {
 
 TEST(HomeSwitches, close_where_the_machine_file_says) {
   const MachineDescription machine = homing_machine();
-  Point start;
-  start[Axis::x] = -399;
-  start[Axis::z] = 58;
-  const std::vector<TravelSwitch> switches = home_switches(machine, start);
+  const std::vector<TravelSwitch> switches = home_switches(machine);
   ASSERT_EQ(switches.size(), 3U);
-  EXPECT_EQ(switches[0].closes_at, -896);
-  EXPECT_EQ(switches[0].opens_at, -896 + 32);
+  EXPECT_EQ(switches[0].closes_at, -256'256);
+  EXPECT_EQ(switches[0].opens_at, -256'256 + 32);
   EXPECT_FALSE(switches[0].at_high_end);
   EXPECT_TRUE(switches[1].at_high_end) << "its motor turns the other way";
-  EXPECT_EQ(switches[2].closes_at, 1536);
-  EXPECT_EQ(switches[2].opens_at, 1536 - 32);
+  EXPECT_EQ(switches[2].closes_at, 38'656);
+  EXPECT_EQ(switches[2].opens_at, 38'656 - 32);
 }
 
 }  // namespace

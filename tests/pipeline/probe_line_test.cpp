@@ -16,6 +16,7 @@
 #include "pipeline/probe_line_kit.hpp"
 
 #include "passo/activity/program.hpp"
+#include "passo/activity/machine_plant.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {
@@ -66,8 +67,9 @@ void meddle(MotionDrive& drive, test::Random& random, int& holds) {
 Probed run(const std::string& program, const MachineDescription& machine, const TouchBox& box,
            const Setting& setting = {}) {
   Probed result;
-  Job job(ProgramReader::from_text("t", program), machine, {}, result.diagnostics, {.line = setting.line});
-  job.machine().add_body(touch_body(box, machine));
+  IdealPlant plant = plant_of(machine, Point(), {box});
+  Job job(ProgramReader::from_text("t", program), machine, {}, result.diagnostics,
+          {.line = setting.line, .plant = &plant});
   ContactOracle oracle(machine, box);
   StepLog log;
   job.machine().add_observer(oracle);

@@ -9,6 +9,7 @@
 #include "pipeline/probe_kit.hpp"
 
 #include "passo/activity/program.hpp"
+#include "passo/activity/machine_plant.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {
@@ -33,8 +34,8 @@ struct Probed {
 Probed run(const std::string& program, const MachineDescription& machine, const TouchBox& box,
            test::Random* random = nullptr, const InterpreterOptions& options = {}) {
   Probed result;
-  Job job(ProgramReader::from_text("t", program), machine, options, result.diagnostics);
-  job.machine().add_body(touch_body(box, machine));
+  IdealPlant plant = plant_of(machine, options.start, {box});
+  Job job(ProgramReader::from_text("t", program), machine, options, result.diagnostics, {.plant = &plant});
   ContactOracle oracle(machine, box);
   job.machine().add_observer(oracle);
   MotionDrive& drive = job.drive();

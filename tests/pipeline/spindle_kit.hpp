@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/activity/program.hpp"
+#include "passo/activity/machine_plant.hpp"
 
 namespace passo::test {
 
@@ -34,8 +35,7 @@ struct Cut {
 };
 class Thread final : public MachineObserver {
  public:
-  Thread(const MachineDescription& description, const VirtualMachine& machine)
-      : description_(description), machine_(machine) {}
+  Thread(const MachineDescription& description, const Plant& plant) : description_(description), plant_(plant) {}
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
     const AxisDescription& z = description_.axes[2];
     if ((stepped & 4U) == 0) return;
@@ -43,7 +43,7 @@ class Thread final : public MachineObserver {
     place_ += down ? -1 : 1;
     if (down || both_ways) {
       const double seconds = static_cast<double>(time.count) / description_.board.clock.value();
-      cuts.push_back({place_ / z.steps_per_unit, machine_.spindle().turns_at(Seconds(seconds))});
+      cuts.push_back({place_ / z.steps_per_unit, plant_.spindle().turns_at(Seconds(seconds))});
     }
   }
   std::vector<Cut> cuts;
@@ -51,7 +51,7 @@ class Thread final : public MachineObserver {
 
  private:
   const MachineDescription& description_;
-  const VirtualMachine& machine_;
+  const Plant& plant_;
   double place_ = 0;
 };
 
@@ -62,11 +62,13 @@ struct Played {
   int rests = 0;  // for want of what came too late
   BoardOutputs outputs = {};
 };
-inline Played play(const std::string& program, const MachineDescription& machine, const Job::Options& options,
+inline Played play(const std::string& program, const MachineDescription& machine, Job::Options options,
                    bool both_ways = false) {
   Diagnostics diagnostics;
+  IdealPlant plant = plant_of(machine);
+  options.plant = &plant;
   Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, options);
-  Thread thread(machine, job.machine());
+  Thread thread(machine, plant);
   thread.both_ways = both_ways;
   job.machine().add_observer(thread);
   while (job.advance()) {

@@ -124,9 +124,11 @@ Troubled run_with(const Trouble& trouble, const SpindleModel* fitted = nullptr, 
   Troubled result;
   Diagnostics diagnostics;
   const MachineDescription machine = lathe(rippling);
-  Job job(ProgramReader::from_text("t", passes), machine, InterpreterOptions(), diagnostics, {.line = LineOptions{}});
+  IdealPlant plant = plant_of(machine);
+  Job job(ProgramReader::from_text("t", passes), machine, InterpreterOptions(), diagnostics,
+          {.line = LineOptions{}, .plant = &plant});
   StepLog log;
-  Thread thread(machine, job.machine());
+  Thread thread(machine, plant);
   job.machine().add_observer(log);
   job.machine().add_observer(thread);
   job.line().set_trouble([&](bool to_board, Bytes bytes) {
@@ -136,7 +138,7 @@ Troubled run_with(const Trouble& trouble, const SpindleModel* fitted = nullptr, 
   do {
     const bool now =
         fitted != nullptr && (fitted_at == 0 || (!thread.cuts.empty() && thread.cuts.back().z < fitted_at));
-    if (now) job.machine().fit_spindle(*std::exchange(fitted, nullptr));
+    if (now) plant.fit_spindle(*std::exchange(fitted, nullptr));
   } while (job.advance());
   EXPECT_FALSE(diagnostics.any_error());
   result.steps = log.steps;

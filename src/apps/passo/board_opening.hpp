@@ -8,6 +8,7 @@
 
 #include "passo/base/result.hpp"
 #include "passo/link/board_port.hpp"
+#include "passo/plant/plant.hpp"
 #include "passo/transport/board_address.hpp"
 
 namespace passo {
@@ -16,7 +17,8 @@ namespace passo {
 std::filesystem::path built_image(std::string_view board, std::string_view extension);
 std::string message_of_missing(const std::filesystem::path& image);
 
-// Over a line, or in an emulator; not the virtual machine. The error is a sentence with the reason.
-Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address);
+// Over a line, or in an emulator; not the virtual machine. `plant`: what is behind an emulated one, and outlives it;
+// null: nothing but its motors. The error is a sentence with the reason.
+Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant = nullptr);
 
 }  // namespace passo

@@ -1,6 +1,7 @@
 #include "board_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "board_opening.hpp"
@@ -9,7 +10,6 @@
 #include "program_input.hpp"
 #include <fmt/format.h>
 
-#include "passo/emulator/emulated_board.hpp"
 #include "passo/link/board_session.hpp"
 
 namespace passo {
@@ -21,20 +21,23 @@ constexpr Seconds answer{2};
 
 }  // namespace
 
-BoardRun::BoardRun(std::unique_ptr<BoardPort> port, std::uint8_t motors) : port_(std::move(port)), motors_(motors) {}
+BoardRun::BoardRun(std::unique_ptr<BoardPort> port, std::uint8_t motors, Plant* plant)
+    : port_(std::move(port)), motors_(motors), plant_(plant) {}
 
-std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_t motors, bool may_move, int& code) {
+std::unique_ptr<BoardRun> BoardRun::open(const std::string& address, std::uint8_t motors, bool may_move, Plant& plant,
+                                         int& code) {
   const auto parsed = parse_board_address(address);
   if (!parsed) {
     code = fail(exit_bad_program, parsed.error());
     return nullptr;
   }
-  auto port = open_addressed(*parsed);
+  auto port = open_addressed(*parsed, &plant);
   if (!port) {
     code = fail(exit_failed, port.error());
     return nullptr;
   }
-  std::unique_ptr<BoardRun> run(new BoardRun(std::move(*port), motors));
+  const bool is_emulated = parsed->kind == BoardAddress::Kind::emulated;
+  std::unique_ptr<BoardRun> run(new BoardRun(std::move(*port), motors, is_emulated ? &plant : nullptr));
   Inquiry inquiry(run->port());
   if (const auto status = inquiry.status(first_answer)) {
     run->before_ = *status;
@@ -80,12 +83,12 @@ std::optional<std::string> BoardRun::compare(const MachineCounts& planned) {
     return fmt::format("motor {} stands {} steps from its start, and {} were planned", motor + 1, counted,
                        planned.motors[motor].position);
   }
-  const auto* emulated = dynamic_cast<const EmulatedBoard*>(port_.get());
-  if (emulated == nullptr) return {};
-  const std::vector<std::int64_t> seen = emulated->positions();
+  if (plant_ == nullptr) return {};
+  const Truth truth = plant_->truth_at(port_->elapsed());
   for (unsigned motor = 0; motor < motors_; ++motor) {
-    if (seen.at(motor) == planned.motors[motor].position) continue;
-    return fmt::format("{} steps have come out of the pins of motor {}, and {} were planned", seen[motor], motor + 1,
+    const auto steps = std::llround(truth.positions[motor]);
+    if (steps == planned.motors[motor].position) continue;
+    return fmt::format("motor {} is truly {} steps from machine zero, and {} were planned", motor + 1, steps,
                        planned.motors[motor].position);
   }
   return {};

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
-#include <vector>
 
 #include "commands.hpp"
 #include "program_input.hpp"
@@ -13,7 +12,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "passo/activity/home_switches.hpp"
+#include "passo/activity/machine_plant.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/transport/stream_port.hpp"
 
@@ -92,13 +91,13 @@ int wait_for_host(int listening, RealTime& time) {
 }  // namespace
 
 int board_serve(const BoardServeArguments& arguments) {
-  std::vector<TravelSwitch> switches;
+  IdealPlant plant;
   if (!arguments.machine.empty()) {
     Diagnostics diagnostics;
     const std::optional<MachineDescription> description = load_machine_file(arguments.machine, diagnostics);
     show(diagnostics);
     if (!description) return exit_bad_machine;
-    switches = home_switches(*description, Point());
+    plant = plant_of(*description);
   }
   unsigned port = 0;
   const int listening = listen_on_loopback(arguments.port, port);
@@ -106,9 +105,7 @@ int board_serve(const BoardServeArguments& arguments) {
   fmt::print("A virtual board of {} motors: tcp:127.0.0.1:{}\n", arguments.motors, port);
   std::fflush(stdout);
   VirtualMachine machine(static_cast<std::uint8_t>(arguments.motors), Hertz(arguments.clock));
-  for (const TravelSwitch& one : switches) {
-    if (one.motor < arguments.motors) machine.add_switch(one);
-  }
+  machine.connect(plant);
   RealTime time(machine);
   do {
     const int descriptor = wait_for_host(listening, time);

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "passo/activity/machine_plant.hpp"
+
 namespace passo {
 namespace {
 
@@ -51,14 +53,15 @@ int home(const HomeArguments& arguments) {
   if (!machine) return exit_bad_machine;
   if (machine->homing.empty()) return fail(exit_bad_machine, words_without_homing(arguments.machine));
   end_on_signals();
+  IdealPlant plant = plant_of(*machine);
   std::unique_ptr<BoardRun> board;
   if (arguments.board != "virtual") {
     int code = exit_done;
-    board = BoardRun::open(arguments.board, static_cast<std::uint8_t>(machine->axes.size()), false, code);
+    board = BoardRun::open(arguments.board, static_cast<std::uint8_t>(machine->axes.size()), false, plant, code);
     if (!board) return code;
   }
   brake_on_signals();
-  const HomingReport report = home_machine(*machine, board.get(), !arguments.quiet);
+  const HomingReport report = home_machine(*machine, board.get(), plant, !arguments.quiet);
   if (arguments.json) {
     fmt::print("{}\n", to_json(report).dump(2));
   } else if (!arguments.quiet) {

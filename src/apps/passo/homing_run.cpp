@@ -1,9 +1,6 @@
 #include "homing_run.hpp"
 
-#include <array>
 #include <cstdio>
-#include <memory>
-#include <utility>
 
 #include "board_words.hpp"
 #include "program_input.hpp"
@@ -11,42 +8,12 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "passo/activity/home_switches.hpp"
-#include "passo/emulator/emulated_board.hpp"
 #include "passo/transport/inquiry.hpp"
 
 namespace passo {
 namespace {
 
 constexpr Seconds answer{2};
-
-// The switches of an emulated board, which its steps close and open. They stay as long as the board.
-void put_switches(const MachineDescription& machine, EmulatedBoard& board) {
-  struct Switches {
-    std::vector<TravelSwitch> all;
-    std::vector<bool> closed;
-    std::vector<std::int64_t> counts;
-  };
-  auto switches = std::make_shared<Switches>();
-  switches->all = home_switches(machine, Point());
-  switches->closed.assign(switches->all.size(), false);
-  switches->counts = board.positions();
-  const auto look = [switches, &board](std::size_t motor) {
-    for (std::size_t i = 0; i < switches->all.size(); ++i) {
-      const TravelSwitch& one = switches->all[i];
-      if (one.motor != motor) continue;
-      const bool closed = one.closed(switches->counts[motor], switches->closed[i]);
-      if (closed == switches->closed[i]) continue;
-      switches->closed[i] = closed;
-      static_cast<void>(board.set_switch(static_cast<BoardInput>(one.input), closed));
-    }
-  };
-  for (std::size_t motor = 0; motor < switches->counts.size(); ++motor) look(motor);
-  board.on_step = [switches, look](std::uint64_t, std::size_t motor, bool down) {
-    switches->counts[motor] += down ? -1 : 1;
-    look(motor);
-  };
-}
 
 const char* name_of(HomingStage stage) {
   switch (stage) {
@@ -119,14 +86,11 @@ std::string words_without_homing(const std::string& machine_file) {
   return machine_file + ": no axis has a switch to be homed by, a table [axis.X.home] [home.no-switch]";
 }
 
-HomingReport home_machine(const MachineDescription& machine, BoardRun* board, bool shows) {
+HomingReport home_machine(const MachineDescription& machine, BoardRun* board, Plant& plant, bool shows) {
   VirtualMachine own(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
                      machine.board.highest_event_rate);
   BoardPort* const port = board != nullptr ? &board->port() : nullptr;
-  if (auto* const emulated = dynamic_cast<EmulatedBoard*>(port)) put_switches(machine, *emulated);
-  if (port == nullptr) {
-    for (const TravelSwitch& one : home_switches(machine, Point())) own.add_switch(one);
-  }
+  if (port == nullptr) own.connect(plant);
   HomingReport report;
   Homing homing(machine, own, port != nullptr ? BoardLine::to_board(*port) : BoardLine());
   if (const auto words = homing.drive().unsuited()) {

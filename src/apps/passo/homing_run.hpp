@@ -9,6 +9,7 @@
 
 #include "passo/activity/homing_path.hpp"
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/plant/plant.hpp"
 
 namespace passo {
 
@@ -22,9 +23,9 @@ struct HomingReport {
   std::optional<Axis> axis;  // that was being homed then
 };
 
-// Null: virtual, standing at machine zero. An emulated board gets the switches, too. Ctrl-C brakes. `shows`: what it
-// does, on standard error, where that is a terminal.
-HomingReport home_machine(const MachineDescription& machine, BoardRun* board, bool shows);
+// Null: virtual, and `plant` is behind it. Ctrl-C brakes. `shows`: what it does, on standard error, where that is a
+// terminal.
+HomingReport home_machine(const MachineDescription& machine, BoardRun* board, Plant& plant, bool shows);
 // Why it is not homed; and why a machine file is none to home by.
 std::string words_of(const HomingReport& report);
 std::string words_without_homing(const std::string& machine_file);

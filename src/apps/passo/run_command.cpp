@@ -10,7 +10,6 @@
 
 #include "board_run.hpp"
 #include "commands.hpp"
-#include "emulated_spindle.hpp"
 #include "homing_run.hpp"
 #include "mid_run_changes.hpp"
 #include "program_input.hpp"
@@ -23,6 +22,7 @@
 #include <unistd.h>
 
 #include "passo/activity/program.hpp"
+#include "passo/activity/machine_plant.hpp"
 #include "passo/session/operator_panel.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/activity/stage_options.hpp"
@@ -152,8 +152,8 @@ std::function<void(const PathItem&)> known_again(PathFingerprint& path, const Ru
 }
 
 // The exit code; `board` is null where the machine is virtual.
-int home_first(const MachineDescription& machine, BoardRun* board, bool shows) {
-  const HomingReport report = home_machine(machine, board, shows);
+int home_first(const MachineDescription& machine, BoardRun* board, Plant& plant, bool shows) {
+  const HomingReport report = home_machine(machine, board, plant, shows);
   if (!report.code.empty()) {
     const int failed = fail(exit_failed, words_of(report));
     return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
@@ -163,18 +163,18 @@ int home_first(const MachineDescription& machine, BoardRun* board, bool shows) {
 }
 
 // Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
-int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, std::unique_ptr<BoardRun>& board,
-                std::unique_ptr<ResumableRun>& resumable) {
+int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, Plant& plant,
+                std::unique_ptr<BoardRun>& board, std::unique_ptr<ResumableRun>& resumable) {
   const RunArguments& arguments = subject.arguments;
   int code = exit_done;
   if (keeps_journal(arguments)) resumable = ResumableRun::open(subject, code);
   if (code != exit_done) return code;
   const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
-  board = BoardRun::open(arguments.board, motors, arguments.resume, code);
+  board = BoardRun::open(arguments.board, motors, arguments.resume, plant, code);
   if (!board) return code;
   brake_on_signals();
   // A job that is resumed began so.
-  if (arguments.home && !arguments.resume) code = home_first(subject.machine, board.get(), !arguments.quiet);
+  if (arguments.home && !arguments.resume) code = home_first(subject.machine, board.get(), plant, !arguments.quiet);
   if (code == exit_done && resumable) static_cast<void>(resumable->begin(*board, program, subject, code));
   return code;
 }
@@ -194,6 +194,8 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--resume and --journal are for a board that outlives the run: serial: or tcp:";
   } else if (!arguments.cable_cut.empty() && arguments.board != "virtual") {
     words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
+  } else if (!arguments.touches.empty() && keeps_journal(arguments)) {
+    words = "--touch is for the virtual machine and emulated boards";
   }
   if (words != nullptr) fail(exit_bad_program, words);
   return words == nullptr;
@@ -236,24 +238,24 @@ int run(const RunArguments& arguments) {
       RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
   if (!outputs) return fail(exit_failed, outputs.error().message);
 
+  IdealPlant plant = plant_of(*machine, Point(), *boxes);
   std::unique_ptr<BoardRun> board;
   std::unique_ptr<ResumableRun> resumable;
   Job::Options reaches;
+  reaches.plant = &plant;
   if (cut) reaches.line.emplace();
   if (arguments.board != "virtual") {
-    const int code = reach_board({arguments, *machine, *options, check, path.value()}, *program, board, resumable);
+    const int code =
+        reach_board({arguments, *machine, *options, check, path.value()}, *program, plant, board, resumable);
     if (code != exit_done) return code;
     reaches.board = &board->port();
-    fit_emulated_spindle(machine->spindle, reaches.board);
     if (resumable) resumable->add_to(reaches);
   } else if (arguments.home) {
-    if (const int code = home_first(*machine, nullptr, !arguments.quiet); code != exit_done) return code;
+    if (const int code = home_first(*machine, nullptr, plant, !arguments.quiet); code != exit_done) return code;
   }
 
   Diagnostics late;
   Job job(std::move(*program), *machine, *options, late, reaches);
-  const bool touchable = put_touch_boxes(*boxes, *machine, job.machine(), reaches.board);
-  if (!touchable) return fail(exit_bad_program, "--touch is for the virtual machine and emulated boards");
   if ((cut || board) && !job.link().error()) {
     if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
   }

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <span>
 #include <string_view>
 
 #include "program_input.hpp"
 #include <fmt/format.h>
-
-#include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
 namespace {
@@ -55,24 +52,6 @@ std::optional<std::vector<TouchBox>> read_touch_options(const std::vector<std::s
     return std::nullopt;
   }
   return boxes;
-}
-
-bool put_touch_boxes(const std::vector<TouchBox>& boxes, const MachineDescription& description, VirtualMachine& machine,
-                     BoardPort* board) {
-  if (boxes.empty()) return true;
-  auto* const emulated = dynamic_cast<EmulatedBoard*>(board);
-  if (board != nullptr && emulated == nullptr) return false;
-  std::vector<TouchBody> bodies;
-  for (const TouchBox& box : boxes) bodies.push_back(touch_body(box, description));
-  if (board == nullptr) {
-    for (const TouchBody& body : bodies) machine.add_body(body);
-    return true;
-  }
-  emulated->set_touch([bodies, axes = description.axes.size()](const std::vector<std::int64_t>& positions) {
-    const auto place = std::span(positions).first(std::min(axes, positions.size()));
-    return std::ranges::any_of(bodies, [&](const TouchBody& body) { return body.contains(place); });
-  });
-  return true;
 }
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// --touch: what stands on the virtual machine for its probe to touch.
+// --touch: what stands on a virtual or emulated machine for its probe to touch.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "passo/activity/touch_box.hpp"
-#include "passo/link/board_port.hpp"
-#include "passo/machine/virtual_machine.hpp"
+#include "passo/machine_file/machine_description.hpp"
 
 namespace passo {
 
@@ -16,10 +15,5 @@ namespace passo {
 // that the machine has not; that is told on standard error.
 std::optional<std::vector<TouchBox>> read_touch_options(const std::vector<std::string>& texts,
                                                         const MachineDescription& machine);
-
-// For the probe of the virtual machine; where `board` is not null, for that of the emulated board that it is. False
-// where it is a real one.
-bool put_touch_boxes(const std::vector<TouchBox>& boxes, const MachineDescription& description, VirtualMachine& machine,
-                     BoardPort* board);
 
 }  // namespace passo

@@ -105,8 +105,10 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
   far.motors[0] = {.low = 500, .high = 600};
   TouchBody body;
   body.motors[0] = {.low = 120, .high = 130};
-  machine.add_body(far);
-  machine.add_body(body);
+  IdealPlant plant;
+  plant.add(far);
+  plant.add(body);
+  machine.connect(plant);
   BoardLink link(machine, 1);
   link.send(every_event(20, 100));
   link.drain();
@@ -140,7 +142,9 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
 
 TEST(VirtualMachine, a_limit_switch_stops_it_and_captures_where_it_is_watched) {
   VirtualMachine machine(1, clock);
-  machine.add_switch({.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 120, .opens_at = 110});
+  IdealPlant plant;
+  plant.add(TravelSwitch{.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 120, .opens_at = 110});
+  machine.connect(plant);
   const auto session = [&] { return std::make_unique<BoardLink>(machine, std::uint8_t{1}); };
   auto link = session();
   link->watch_probe(ProbeUntil::touched, input_limit);
@@ -169,6 +173,74 @@ TEST(VirtualMachine, a_limit_switch_stops_it_and_captures_where_it_is_watched) {
   link->drain();
   EXPECT_FALSE(link->error());
   EXPECT_EQ(machine.counts().motors[0].position, 115);
+}
+
+// A plant whose motor does not make every fifth step.
+class SlippingPlant final : public Plant {
+ public:
+  void pulse(Seconds time, const MotorSteps& steps) override {
+    EXPECT_LE(std::abs(steps[0]), 1) << "it asked to see each pulse";
+    EXPECT_GE(time, last_);
+    last_ = time;
+    if (++pulses_ % 5 != 0) ideal_.pulse(time, steps);
+  }
+  std::int64_t events_to_next_change() const override { return 1; }
+  void command_spindle(Seconds, double) override {}
+  void set_switch(std::uint16_t which, bool closed) override { ideal_.set_switch(which, closed); }
+  std::uint16_t inputs_at(Seconds time) override { return ideal_.inputs_at(time); }
+  const VirtualSpindle& spindle() const override { return ideal_.spindle(); }
+  Truth truth_at(Seconds time) override { return ideal_.truth_at(time); }
+  void add(const TravelSwitch& added) { ideal_.add(added); }
+
+ private:
+  IdealPlant ideal_;
+  std::int64_t pulses_ = 0;
+  Seconds last_{0};
+};
+
+TEST(VirtualMachine, counts_what_it_commands_and_its_plant_knows_what_is_true) {
+  VirtualMachine machine(1, clock);
+  SlippingPlant plant;
+  plant.add(TravelSwitch{.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 100, .opens_at = 100});
+  machine.connect(plant);
+  BoardLink link(machine, 1);
+  link.send(every_event(50, 100));
+  link.drain();
+  EXPECT_EQ(machine.counts().motors[0].position, 50);
+  EXPECT_EQ(plant.truth_at(machine.elapsed()).positions[0], 40);
+  link.send(every_event(200, 100));
+  link.drain();
+  EXPECT_EQ(link.error(), LinkError::stopped) << "by the switch, which closes where the motor truly is";
+  EXPECT_EQ(machine.counts().motors[0].position, 124);
+  EXPECT_EQ(plant.truth_at(machine.elapsed()).positions[0], 100);
+}
+
+TEST(VirtualMachine, its_plant_is_up_to_date_behind_each_run) {
+  VirtualMachine machine(1, clock);
+  IdealPlant plant;
+  plant.stand_at({1000});
+  machine.stand_at({7});
+  machine.connect(plant);
+  BoardLink link(machine, 1);
+  link.send(every_event(30, 100));
+  link.send(every_event(20, 100, true));
+  link.drain();
+  EXPECT_EQ(machine.counts().motors[0].position, 17);
+  EXPECT_EQ(plant.truth_at(machine.elapsed()).positions[0], 1010);
+}
+
+TEST(VirtualMachine, heeds_a_switch_that_somebody_closes) {
+  VirtualMachine machine(1, clock);
+  IdealPlant plant;
+  machine.connect(plant);
+  BoardLink link(machine, 1);
+  machine.set_switch(input_hold, true);
+  EXPECT_EQ(machine.board().inputs(), input_hold);
+  EXPECT_EQ(plant.inputs_at(machine.elapsed()), input_hold);
+  plant.set_switch(input_hold, false);
+  plant.set_switch(input_door, true);
+  static_cast<void>(machine.run(Seconds(0)));
+  EXPECT_EQ(machine.board().inputs(), input_door);
 }
 
 TEST(VirtualMachine, time_goes_on_past_32_bits) {

@@ -1,11 +1,11 @@
-// TouchBox: something that a virtual machine's probe can touch, as its user describes it: a box in machine coordinates.
+// TouchBox: something that the probe of a plant can touch, as its user describes it: a box in machine coordinates.
 #pragma once
 
 #include <limits>
 
 #include "passo/geometry/axes.hpp"
-#include "passo/machine/touch_body.hpp"
 #include "passo/machine_file/machine_description.hpp"
+#include "passo/plant/touch_body.hpp"
 
 namespace passo {
 

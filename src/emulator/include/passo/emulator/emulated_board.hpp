@@ -1,8 +1,8 @@
 // EmulatedBoard: a real board's firmware on the emulated chip, at the other end of its serial line. A link cannot tell
 // it from a board on the desk.
 //
-// Its time is the chip's, and passes only in run(): the same program gives the same figures everywhere. Besides it
-// looks at the pins themselves, as a driver does, and counts the steps that come out of them.
+// Its time is the chip's, and passes only in run(): the same program gives the same figures everywhere. It looks at the
+// pins themselves, as a driver does, counts the steps that come out of them, and drives a plant by them.
 #pragma once
 
 #include <array>
@@ -15,17 +15,9 @@
 
 #include "passo/base/result.hpp"
 #include "passo/link/board_port.hpp"
-#include "passo/wire/message.hpp"
+#include "passo/plant/plant.hpp"
 
 namespace passo {
-
-// What hangs on the board's spindle output, and on its encoder's pins.
-struct EmulatedSpindle {
-  int pulses_per_turn = 0;
-  // Revolutions a minute from that time on, below 0 the other way, as the board's pins command it.
-  std::function<void(Seconds time, double revolutions_per_minute)> command;
-  std::function<double(Seconds time)> turns;  // since the start
-};
 
 class EmulatedBoard : public BoardPort {
  public:
@@ -38,12 +30,10 @@ class EmulatedBoard : public BoardPort {
   // Called with each of these steps, in the order of its pins, and the cycle of its edge.
   std::function<void(std::uint64_t cycle, std::size_t motor, bool down)> on_step;
 
-  // Whether the probe is touched while the motors stand there; asked now, and behind each step.
-  virtual void set_touch(std::function<bool(const std::vector<std::int64_t>& positions)> touches) = 0;
-  // At the start. False where the board has no pins for an encoder.
-  virtual bool fit_spindle(EmulatedSpindle spindle) = 0;
-  // Closes a switch, or opens it. False where the board has no such.
-  virtual bool set_switch(BoardInput which, bool closed) = 0;
+  // At the start. The plant outlives the board's last run(). Until then the board has an ideal one of its own, with
+  // nothing but motors and a spindle. Each step goes to the plant; the pins of the switches and of the encoder, where
+  // the board has such, are as the plant says. What somebody else does to the plant the board sees in its next run().
+  virtual void connect(Plant& plant) = 0;
 };
 
 // Those that there are: with drivers for step and direction, and with the windings on the board's own pins.

@@ -2,10 +2,10 @@
 // timer.
 //
 // Place on the street: the end. Time is counted in ticks and passes only while the board plays; at rest it stands
-// still. Its probe is touched while the motors' counts are in one of the bodies that stand on it; limit switches are
-// closed by its axes, and stop it as they stop a board. The same bytes give the same counts at any speed. Who wants to
-// see each step adds an observer. Cost: about 6 ns an event of a three-axis machine; without observers there is nothing
-// to pay for them.
+// still. It counts what it commands, and drives a plant: pulses and the spindle's command go there, and its input pins
+// are what the plant says. A limit switch stops it as it stops a board. The same bytes give the same counts at any
+// speed. Who wants to see each step adds an observer. Cost: about 6 ns an event of a three-axis machine; observers and
+// an ideal plant whose inputs do not change cost an event nothing.
 #pragma once
 
 #include <array>
@@ -17,9 +17,8 @@
 #include "passo/link/board_port.hpp"
 #include "passo/machine/machine_counts.hpp"
 #include "passo/machine/machine_observer.hpp"
-#include "passo/machine/touch_body.hpp"
-#include "passo/machine/travel_switch.hpp"
-#include "passo/machine/virtual_spindle.hpp"
+#include "passo/plant/ideal_plant.hpp"
+#include "passo/plant/plant.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -39,9 +38,11 @@ class VirtualMachine final : public BoardPort {
   // The observer outlives the machine's last run().
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
-  void add_body(const TouchBody& body);
-  void add_switch(const TravelSwitch& added);
-  // Closes a switch of the board, or opens it: bits of BoardInput, not the probe's.
+  // At the start. The plant outlives the machine's last run(). Until then the machine has an ideal one of its own, with
+  // nothing but motors and a spindle.
+  void connect(Plant& plant);
+  // Closes switches of the plant, or opens them, and heeds that at once: bits of BoardInput, not the probe's. What
+  // somebody else does to the plant the machine sees in its next run().
   void set_switch(std::uint16_t which, bool closed);
 
   void receive(std::span<const std::uint8_t> bytes) override;
@@ -56,18 +57,15 @@ class VirtualMachine final : public BoardPort {
   // The board's program; what its pins say, and what happens to it.
   auto& board() { return board_; }
 
-  // At the start. Without it the spindle does as commanded, and has no encoder.
-  void fit_spindle(const SpindleModel& model) { hardware_.turning = VirtualSpindle(model); }
-  // At the start: its counters go on from these positions. The board's own begin at 0, as after a reset.
-  void stand_at(const std::array<std::int64_t, max_motors>& positions);
-  // As it turns; what its encoder has counted of that the board tells.
-  const VirtualSpindle& spindle() const { return hardware_.turning; }
+  // At the start: its counters go on from these positions, which moves nothing. The board's own begin at 0, as after a
+  // reset.
+  void stand_at(const MotorSteps& positions);
 
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
 
  private:
-  // What hangs on the board: counters, observers, and the line to the host.
+  // What hangs on the board: counters, observers, the plant, and the line to the host.
   struct Hardware {
     struct Motor {
       std::int64_t total = 0;
@@ -80,9 +78,11 @@ class VirtualMachine final : public BoardPort {
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
     void send(std::uint8_t byte) { to_host.push_back(byte); }
-    bool has_encoder() const { return turning.has_encoder(); }
+    bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
-    bool is_in_a_body() const;
+    // What it has not been told yet.
+    void pulse_plant();
+    Seconds time() const { return Seconds(static_cast<double>(now) * seconds_a_tick); }
 
     std::int64_t now = 0;
     std::array<Motor, max_motors> motors;
@@ -90,22 +90,22 @@ class VirtualMachine final : public BoardPort {
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
     double seconds_a_tick = 0;
-    VirtualSpindle turning;
     std::vector<MachineObserver*> observers;
-    std::vector<TouchBody> bodies;
-    std::vector<TravelSwitch> limits;
+    Plant* plant = nullptr;
+    MotorSteps pulsed{};  // the positions up to which the plant has been told
     std::vector<std::uint8_t> to_host;
   };
 
-  void look_at_switches();
+  void look_at_plant();
+  void heed(unsigned inputs);
 
+  IdealPlant own_plant_;
   Hardware hardware_;
   Board<Hardware, items_held> board_;
   Hertz clock_;
   std::uint8_t motor_count_;
-  std::uint16_t switches_ = 0;       // closed by hand
-  std::vector<bool> limits_closed_;  // of hardware_.limits
-  std::uint16_t told_ = 0;           // to the board
+  std::int64_t look_in_ = Plant::never;  // events
+  std::uint16_t told_ = 0;               // to the board
   std::int64_t next_event_ = 0;
   bool waits_ = false;  // for the next event, which is due then
   std::int64_t events_ = 0;

@@ -30,6 +30,7 @@ class VirtualSpindle {
   // Turns since the start, without the encoder's steps.
   double turns_at(Seconds time) const;
   bool has_encoder() const { return model_.counts_per_turn > 0; }
+  std::int32_t counts_per_turn() const { return model_.counts_per_turn; }
   // What it has counted, and at the last index: where the turns were a whole number, the way that it was commanded.
   // Without the tick.
   SpindleCount count_at(Seconds time) const;

@@ -1,4 +1,4 @@
-// TravelSwitch: a limit switch on a virtual machine, closed by one of its axes near an end of the travel.
+// TravelSwitch: a limit switch in a plant, closed by one of its axes near an end of the travel.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct TravelSwitch {
   std::int64_t opens_at = 0;
 
   // With its axis there, and the switch as it was before.
-  bool closed(std::int64_t position, bool before) const {
-    const std::int64_t at = before ? opens_at : closes_at;
+  bool closed(double position, bool before) const {
+    const auto at = static_cast<double>(before ? opens_at : closes_at);
     // Where it opens it is open.
     if (at_high_end) return before && opens_at != closes_at ? position > at : position >= at;
     return before && opens_at != closes_at ? position < at : position <= at;

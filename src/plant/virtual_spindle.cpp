@@ -1,4 +1,4 @@
-#include "passo/machine/virtual_spindle.hpp"
+#include "passo/plant/virtual_spindle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,25 @@
+// The plant that a machine file describes: the world behind a virtual or an emulated board.
+#pragma once
+
+#include <vector>
+
+#include "passo/activity/touch_box.hpp"
+#include "passo/geometry/axes.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/plant/ideal_plant.hpp"
+#include "passo/plant/travel_switch.hpp"
+
+namespace passo {
+
+// The limit switches by which a machine is homed, where the machine file says that they close. In steps from machine
+// zero. They open `hysteresis` further off.
+std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
+
+SpindleModel spindle_model(const SpindleDescription& spindle);
+
+// With the machine's spindle and its limit switches; `stands_at`: where it truly stands, machine coordinates; `boxes`:
+// what its probe can touch.
+IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at = {},
+                    const std::vector<TouchBox>& boxes = {});
+
+}  // namespace passo

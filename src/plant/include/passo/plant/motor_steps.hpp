@@ -1,0 +1,14 @@
+// How far the motors of a plant were told to go, and where they are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "passo/wire/board_segment.hpp"
+
+namespace passo {
+
+using MotorSteps = std::array<std::int64_t, max_motors>;  // pulses up less pulses down
+using MotorPositions = std::array<double, max_motors>;    // in steps; a real motor also stands between two
+
+}  // namespace passo
