@@ -1,0 +1,195 @@
+// A program, a homing or a jog on a drive of its own, without a machine session: for tests of the street from text to
+// the board. What a session adds is tested in session/ and by the soak.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "passo/activity/homing_path.hpp"
+#include "passo/activity/jog_line.hpp"
+#include "passo/activity/machine_plant.hpp"
+#include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "passo/drive/motion_drive.hpp"
+#include "passo/journal/resume_point.hpp"
+#include "passo/link/await.hpp"
+#include "passo/machine/virtual_line.hpp"
+#include "passo/machine/virtual_machine.hpp"
+
+namespace passo::test {
+
+// A virtual line may be slow, but a board that lives answers at once; a real one may be in its boot loader.
+inline constexpr LineCare virtual_line_care{.answer_within = Seconds(0.05)};
+inline constexpr LineCare real_line_care{.answer_within = Seconds(0.1), .patience = Seconds(60)};
+
+inline StepOptions steps_from(const MachineDescription& machine, const Point& start) {
+  StepOptions options = step_options(machine);
+  options.start = start;
+  return options;
+}
+
+// Lets time pass in a hold, or until something is switched on.
+inline void let_pass(MotionDrive& drive, Seconds time) {
+  for (const Seconds end = drive.now() + time; end - drive.now() > Seconds(1e-6) && drive.turn(end - drive.now());) {
+  }
+}
+
+struct DriveOn {
+  std::optional<LineOptions> line = {};  // the virtual machine at its other end
+  BoardPort* board = nullptr;            // in the place of the virtual machine, which then follows what the board did
+  std::uint16_t session = 1;
+  std::uint8_t greeting = 0;
+  std::optional<ResumePoint> resume_at = {};
+  Plant* plant = nullptr;  // behind the virtual machine; null: the one that the machine file describes
+  bool answers_probes = true;
+  bool waits_for_operator = false;
+  Commitment live = endless_commitment;
+};
+
+// The board that a drive drives, greeted.
+class DrivenBoard {
+ public:
+  DrivenBoard(const MachineDescription& machine, const Point& start, const DriveOn& on)
+      : machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
+                 static_cast<std::size_t>(machine.board.held_items)),
+        plant_(plant_of(machine, start)) {
+    if (on.line) line_.emplace(machine_, machine.board.clock, *on.line);
+    machine_.connect(on.plant != nullptr ? *on.plant : plant_);
+    machine_.stand_at(steps_at(machine, start));
+    remote_ = line_ || on.board != nullptr;
+    if (on.board != nullptr) {
+      session_ = std::make_unique<BoardSession>(*on.board, real_line_care);
+    } else if (line_) {
+      session_ = std::make_unique<BoardSession>(*line_, virtual_line_care);
+    } else {
+      session_ = std::make_unique<BoardSession>(machine_);
+    }
+    greet(*session_, {.motors = static_cast<std::uint8_t>(machine.axes.size()),
+                      .session = remote_ ? on.session : std::uint16_t{0},
+                      .number = on.greeting});
+    if (on.board == nullptr) return;
+    shadow_ = std::make_unique<BoardSession>(machine_);
+    greet(*shadow_, {.motors = static_cast<std::uint8_t>(machine.axes.size())});
+  }
+
+  VirtualMachine& machine() { return machine_; }
+  VirtualLine& line() { return *line_; }
+  BoardSession& session() { return *session_; }
+  const BoardSession& session() const { return *session_; }
+  bool is_remote() const { return remote_; }
+  // The virtual machine does what a real board has done.
+  void follow(MotionDrive& drive) {
+    if (!shadow_ || drive.refiller() == nullptr) return;
+    drive.refiller()->watch_executed([this](const LinkItem& item) { send(*shadow_, item); });
+  }
+  void catch_up() {
+    if (shadow_) drain(*shadow_);
+  }
+
+ private:
+  VirtualMachine machine_;
+  IdealPlant plant_;
+  std::optional<VirtualLine> line_;
+  bool remote_ = false;
+  std::unique_ptr<BoardSession> session_;
+  std::unique_ptr<BoardSession> shadow_;
+};
+
+class DrivenProgram {
+ public:
+  DrivenProgram(ProgramReader reader, const MachineDescription& machine, const InterpreterOptions& options,
+                Diagnostics& diagnostics, const DriveOn& on = {})
+      : on_(on),
+        start_(on.resume_at ? on.resume_at->point : options.start),
+        board_(machine, start_, on),
+        // Over a line no tap turns round with the spindle; nor with limits of jerk.
+        answers_({.probes = on.answers_probes,
+                  .taps = !board_.is_remote() && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)}),
+        program_(std::move(reader), machine, options, answers_, diagnostics),
+        steps_(steps_from(machine, start_)),
+        unsuited_(passo::unsuited(board_.session(), steps_, on.board != nullptr && machine.spindle.counts_per_turn > 0)),
+        drive_(program_, motion_limits(machine), steps_, board_.session(), answers_, drive_options(machine)) {
+    board_.follow(drive_);
+  }
+
+  // Goes on a little. False at the end.
+  [[nodiscard]] bool advance() {
+    const bool goes_on = drive_.turn();
+    if (!goes_on || drive_.state() == MotionDrive::State::held) board_.catch_up();
+    return goes_on;
+  }
+  // Switches on what is on where a job is resumed.
+  void resume() {
+    if (on_.resume_at && drive_.refiller() != nullptr) {
+      drive_.switch_on(on_.resume_at->outputs, on_.resume_at->spindle_wait);
+    }
+  }
+  const std::optional<std::string>& unsuited() const { return unsuited_; }
+
+  MotionDrive& drive() { return drive_; }
+  Program& program() { return program_; }
+  Tap<PathItem>& path() { return program_.path(); }
+  Tap<MotionItem>& motion() { return drive_.motion(); }
+  Tap<BoardItem>& items() { return drive_.items(); }
+  VirtualMachine& machine() { return board_.machine(); }
+  VirtualLine& line() { return board_.line(); }
+  BoardSession& session() { return board_.session(); }
+  const BoardSession& link() const { return board_.session(); }
+
+ private:
+  DriveOptions drive_options(const MachineDescription& machine) const {
+    DriveOptions options{.live = on_.live,
+                         .counts_per_turn = machine.spindle.counts_per_turn,
+                         .guards_by_probe = machine.probe.guards && on_.answers_probes,
+                         .waits_for_operator = on_.waits_for_operator};
+    if (options.guards_by_probe) options.live = live_commitment;
+    if (board_.is_remote() && !board_.session().error() && !unsuited_) options.tails.emplace();
+    if (on_.resume_at) options.begin_at = on_.resume_at->place;
+    return options;
+  }
+
+  DriveOn on_;
+  Point start_;
+  DrivenBoard board_;
+  AnswerBook answers_;
+  Program program_;
+  StepOptions steps_;
+  std::optional<std::string> unsuited_;
+  MotionDrive drive_;
+};
+
+class DrivenHoming {
+ public:
+  DrivenHoming(const MachineDescription& machine, const DriveOn& on = {})
+      : board_(machine, Point(), on),
+        path_(machine, answers_),
+        steps_(step_options(machine)),
+        drive_(path_, motion_limits(machine), steps_, board_.session(), answers_, drive_options()) {}
+
+  [[nodiscard]] bool advance() { return drive_.turn(); }
+  const HomingPath& path() const { return path_; }
+  bool done() const { return path_.done() && !drive_.link().error(); }
+  Point place() const { return path_.place(); }
+  MotionDrive& drive() { return drive_; }
+  const MotionDrive& drive() const { return drive_; }
+  VirtualMachine& machine() { return board_.machine(); }
+  VirtualLine& line() { return board_.line(); }
+  BoardSession& session() { return board_.session(); }
+
+ private:
+  DriveOptions drive_options() const {
+    DriveOptions options;
+    if (board_.is_remote() && !board_.session().error()) options.tails.emplace();
+    return options;
+  }
+
+  AnswerBook answers_;
+  DrivenBoard board_;
+  HomingPath path_;
+  StepOptions steps_;
+  MotionDrive drive_;
+};
+
+}  // namespace passo::test
