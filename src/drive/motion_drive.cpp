@@ -124,15 +124,19 @@ MotionDrive::Turn MotionDrive::advance() {
 
 bool MotionDrive::turn(Seconds most) {
   const Turn turn = advance();
-  if (turn != Turn::waits) return turn != Turn::ended;
-  const bool rests = state_ == State::held || !script_.empty();
-  if (state_ == State::held && script_.empty() && std::isinf(most.value())) return true;
-  const Seconds from = now();
-  board_.poll(std::max(std::min(most, due() - from), Seconds(0)));
-  if (rests) feed_->note_rest(now() - from);
-  return true;
+  if (turn == Turn::waits) wait(most);
+  return turn != Turn::ended;
 }
 
+void MotionDrive::wait(Seconds most) {
+  const bool held = state_ == State::held && script_.empty();
+  if (held && std::isinf(most.value())) return;
+  const Seconds from = now();
+  board_.poll(std::max(std::min(most, due() - from), Seconds(0)));
+  if (held || !script_.empty()) feed_->note_rest(now() - from);
+}
+
+// When the drive looks again though there is no news.
 Seconds MotionDrive::due() const {
   const Seconds next = std::max(awaits_index_ ? spindle_.looks_at() : Seconds(0), pause_end_);
   return next - now() > hardly_any ? next : Seconds(std::numeric_limits<double>::infinity());

@@ -29,9 +29,10 @@ BoardSession::BoardSession(BoardPort& port, const LineCare& care)
 }
 
 void BoardSession::inquire(Question question) {
-  assert(phase_ == Phase::before_hello && (question == Question::about || question == Question::status));
+  assert(question == Question::about || question == Question::status);
   about_.reset();
   status_.reset();
+  answered_ = true;  // what went before is over
   await(question);
 }
 
@@ -62,6 +63,12 @@ void BoardSession::forget_what_was() {
   rests_ = repeating_ = false;
   refusals_ = doubts_ = free_ = 0;
   pressed_ = 0;
+}
+
+void BoardSession::hang_up() {
+  forget_what_was();
+  phase_ = Phase::before_hello;
+  decoder_.set_motors(max_motors);
 }
 
 void BoardSession::say_hello() {
@@ -108,6 +115,10 @@ BoardSession::Progress BoardSession::poll(Seconds most) {
   const Seconds end = port_.elapsed() + most;
   Progress progress;
   news_ = false;
+  if (error_) {  // nothing is expected any more, but time passes
+    progress.heard = hear(endless ? Seconds(0) : most);
+    return progress;
+  }
   do {
     const Seconds patience = std::max(quiet_since_ + care_.answer_within - port_.elapsed(), Seconds(0));
     const Seconds left = std::max(end - port_.elapsed(), Seconds(0));
@@ -343,6 +354,7 @@ void BoardSession::take(const BoardStatus& status) {
     probe_.confirm(status);
     settle(Question::watch);
   }
+  if (status.answers == question_) settle(Question::status);
   if (session_ == 0 || status.session != session_) {
     // Before the board has heard of the session it is no wonder.
     if (session_ != 0 && phase_ == Phase::ready) doubt(LinkError::was_reset);

@@ -6,7 +6,7 @@
 // HoldReasons say why the machine is to rest, ProbeMove what the probe finds, SpindleTracker what follows the spindle.
 //
 // No function of a drive waits. advance() does what can be done now; where it says `waits` its owner lets the board
-// go on, by turn() or by a poll of the board's session, no longer than until due(). See docs/decisions/0017 and 0065.
+// go on, by turn() or wait(). See docs/decisions/0017 and 0065.
 #pragma once
 
 #include <limits>
@@ -71,11 +71,13 @@ class MotionDrive {
   // advance(), and where the drive waits the board goes on until there is news, but no longer than `most`. False when
   // the drive has ended. In a hold virtual time passes as far as `most` goes; endless, none does.
   bool turn(Seconds most = Seconds(std::numeric_limits<double>::infinity()));
-  // When the drive wants to look again though there is no news.
-  Seconds due() const;
+  // Where the drive waits: the board goes on until there is news, but no longer than `most`.
+  void wait(Seconds most);
 
   State state() const { return state_; }
   const HoldReasons& holds() const { return holds_; }
+  // As the program has ordered them.
+  const OutputState& outputs() const { return outputs_.ordered(); }
   // Of the board's side.
   Seconds now() const { return board_.now(); }
   // The motion that was planned and is not played yet: so long from now on nothing can be changed.
@@ -139,6 +141,7 @@ class MotionDrive {
   void rest_in_hold();
   void lose_thread();
   Turn end();
+  Seconds due() const;
 
   BoardSession& board_;
   AnswerBook& answers_;

@@ -60,7 +60,7 @@ class BoardSession final : public Link {
   // endless poll is a wait for news: a board that stays silent is an error then.
   Progress poll(Seconds most);
 
-  // Before the hello: `about` or `status`. settled() tells that the answer is there.
+  // `about` or `status`, before the hello or after it. settled() tells that the answer is there.
   void inquire(Question question);
   // What the board said when it was asked; nothing: it has not answered.
   const std::optional<About>& about() const { return about_; }
@@ -71,6 +71,10 @@ class BoardSession final : public Link {
   void greet(const Greeting& greeting);
   // After the hello, at rest: the board is known by another number from now on, as of a new job.
   void name_session(std::uint16_t number);
+  // After an error: another hello is to follow, and before it questions.
+  void hang_up();
+  // Whoever uses the link had found that the work could not go on; the board is as it was, and at rest.
+  void forgive() { error_.reset(); }
   // The hello was answered, the board suits, and the board knows the session's number.
   bool ready() const { return phase_ == Phase::ready && !error_; }
 

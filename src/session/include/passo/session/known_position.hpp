@@ -1,0 +1,33 @@
+// KnownPosition: where a machine stands, and how far that can be trusted.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "passo/geometry/axes.hpp"
+
+namespace passo {
+
+enum class Trust : std::uint8_t {
+  unknown,    // nobody knows: the machine was never homed, or the motors were stopped at once
+  commanded,  // what was sent has been played, as far as the host knows
+  counted,    // the board's counts agree with what was commanded
+  homed,      // counted, from a place that the switches have told
+};
+constexpr std::string_view name_of(Trust trust) {
+  switch (trust) {
+    case Trust::unknown: return "unknown";
+    case Trust::commanded: return "commanded";
+    case Trust::counted: return "counted";
+    case Trust::homed: return "homed";
+  }
+  return "";
+}
+
+struct KnownPosition {
+  Point place;  // machine coordinates
+  Trust trust = Trust::unknown;
+  friend bool operator==(const KnownPosition&, const KnownPosition&) = default;
+};
+
+}  // namespace passo

@@ -1,0 +1,163 @@
+// MachineSession: the object that is the machine. Everything that moves one goes through it.
+//
+// Requests go in, bounded turns pass, a status and an ordered list of changes come out. The session owns the board's
+// session, what the machine is busy with, where it stands and how far that can be trusted. It waits for nothing, has no
+// thread and no clock: its owner turns it, in the board's virtual time or in real time.
+//
+//   owner:  session.request(…);  while (…) { session.turn(Seconds(0.02));  session.status();  session.take_changes(); }
+//
+// Invariant: the state changes only as the table in machine_state.hpp says. A position whose trust is not `unknown` is
+// true as far as the board's counts are. Each request is answered, once.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "passo/activity/program.hpp"
+#include "passo/base/result.hpp"
+#include "passo/drive/refiller.hpp"
+#include "passo/link/board_session.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/plant/motor_steps.hpp"
+#include "passo/session/machine_status.hpp"
+#include "passo/session/request.hpp"
+
+namespace passo {
+
+struct SessionOptions {
+  // The board is at the end of a line: what it holds always ends at rest, its counts are compared with what was
+  // commanded, and its buttons and its door are heeded. Without, it is in this process.
+  bool over_a_line = false;
+  LineCare care = {};
+  Greeting greeting = {};   // `motors` is the session's to say
+  KnownPosition start = {};  // where the machine stands, as far as the owner knows
+};
+
+class MachineSession {
+ public:
+  // Machine and port outlive the session. Nothing is said to the board before greet() or the first turn().
+  MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options = {});
+  ~MachineSession();
+  MachineSession(const MachineSession&) = delete;
+  MachineSession& operator=(const MachineSession&) = delete;
+
+  // Before the first turn(): how the board is. Nothing about the board changes by that.
+  BoardSession& board() { return board_; }
+  const BoardSession& board() const { return board_; }
+  // Before the first turn(), where the greeting depends on how the board was: SessionOptions have it otherwise.
+  void greet(const Greeting& greeting);
+  // Between two programs: from now on the board is known by another number.
+  void name_session(std::uint16_t number);
+
+  [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
+  // One bounded step. Where there is nothing to do but to wait for the board, time passes until something is new, but no
+  // longer than `most`; endless only while something moves.
+  void turn(Seconds most);
+
+  MachineStatus status() const;
+  std::vector<MachineChange> take_changes();
+  MachineState state() const { return state_; }
+  // The board's time.
+  Seconds now() const { return board_.now(); }
+  // Something is going on.
+  bool busy() const { return row_of(state_).has_activity; }
+  // What keeps the machine from being driven by this board, as a sentence without a full stop.
+  const std::string& trouble_words() const { return trouble_words_; }
+
+  // What is going on, or what ended last until something else begins, for whoever reports it; null: there was nothing.
+  const MotionDrive* drive() const;
+  const Program* program() const;
+  const HomingPath* homing() const;
+  const Refiller* refiller() const;
+  // How the board's counts have differed from what was commanded, if they did: the position is lost.
+  struct CountMismatch {
+    std::size_t motor = 0;
+    std::int64_t counted = 0;  // from machine zero
+    std::int64_t commanded = 0;
+  };
+  const std::optional<CountMismatch>& mismatch() const { return mismatch_; }
+
+ private:
+  class Work;
+  class Panel;
+
+  // Requests, one each.
+  using Answer = Result<Ticket, Refusal>;
+  Answer take(request::Start& start);
+  Answer take(request::Jog& jog);
+  Answer take(request::RenewLease& renew);
+  Answer take(request::Home& home);
+  Answer take(request::Probe& probe);
+  Answer take(request::Check& check);
+  Answer take(request::Hold& hold);
+  Answer take(request::Resume& resume);
+  Answer take(request::Stop& stop);
+  Answer take(request::Override& change);
+  Answer take(request::OperatorDone& done);
+  Answer take(request::SetPosition& set);
+  Answer take(request::Reset& reset);
+  Answer take(request::Sleep& sleep);
+  Answer take(request::Wake& wake);
+  std::optional<Refusal> refuse(MachineEvent event) const;
+  Answer at_once();
+  Answer begin(MachineEvent event, std::unique_ptr<Work> work);
+  DriveOptions drive_options() const;
+  StepOptions step_options() const;
+
+  void put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead);
+
+  void go_online(Seconds most);
+  void begin_reset();
+  void find_place_again();
+  void stand_at(const KnownPosition& position);
+  void count_from_here();
+  MotorSteps steps_of(const BoardPlace& place) const;
+
+  void turn_work(Seconds most);
+  void turn_check();
+  void finish_work();
+  void end_work();
+  std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
+  void note_place();
+  Point home_place();
+  void compare_counts();
+  void mind_lease();
+  void mind_holds();
+  void note_tails();
+  void mind_board();
+  void look_at_panel();
+
+  void move_to(MachineEvent event);
+  void note(MachineChange change);
+  void answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault = {});
+  void answer_holds(Outcome outcome);
+
+  const MachineDescription& machine_;
+  SessionOptions options_;
+  BoardSession board_;
+  MachineState state_ = MachineState::offline;
+  bool greeted_ = false;
+  bool asks_place_ = false;  // before another hello
+  bool unsuited_ = false;
+  KnownPosition position_;
+  Trust trust_before_ = Trust::unknown;    // the board was lost
+  std::optional<BoardPlace> place_;        // where the board stands, below a step too; nothing: as after a hello
+  std::optional<MotorSteps> zero_counts_;  // the board's counts at machine zero
+  std::optional<CountMismatch> mismatch_;
+  std::unique_ptr<Work> work_;  // what is going on, or has ended last
+  std::unique_ptr<Panel> panel_;
+  Overrides overrides_;
+  std::optional<LinkError> trouble_;
+  std::string trouble_words_;
+  std::deque<MachineChange> changes_;
+  std::vector<Ticket> waiting_holds_;  // answered when the machine rests
+  Ticket last_ticket_ = 0;
+  std::uint64_t version_ = 0;
+};
+
+}  // namespace passo

@@ -1,0 +1,174 @@
+// MachineState: what a machine is doing, and the one table of what may follow what.
+//
+// The table is data. MachineSession goes by it, docs/machine-states.md is drawn from it, and a test walks each of its
+// cells. A cell that is not in the table is no transition: the session refuses a request that would need it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace passo {
+
+enum class MachineState : std::uint8_t {
+  offline,      // no board has answered yet, or the next hello is on its way
+  idle,         // at rest, ready
+  run,          // a program runs
+  hold,         // a program brakes or rests: the operator's hold, or a stop of the program (M0, M1)
+  jog,          // axes are moved by hand
+  home,         // the machine finds its place by switches
+  probe,        // one probe move
+  tool_change,  // a program waits for another tool (M6)
+  check,        // a program is gone through without motion
+  door,         // the door is open, or was, and nobody has pressed start since
+  alarm,        // the motors were stopped at once: the place is not certain
+  fault,        // the board does not answer, or does not suit
+  sleep,        // at rest, nothing is accepted but waking
+};
+inline constexpr std::size_t state_count = 13;
+
+enum class MachineEvent : std::uint8_t {
+  ready,  // the board has answered the hello
+  begin_run,
+  begin_jog,
+  begin_home,
+  begin_probe,
+  begin_check,
+  hold,       // somebody wants a rest, or the program does (M0, M1)
+  resume,     // no reason is left to rest
+  want_tool,  // the program comes to a tool change
+  open_door,
+  close_door,    // and nothing was going on
+  end,           // what was going on is done, or was stopped
+  stop_at_once,  // a limit, an emergency stop: steps may be lost
+  lose_board,    // no answer, a reset, another protocol
+  reset,         // begin anew with a hello
+  fall_asleep,
+  wake,
+};
+inline constexpr std::size_t event_count = 17;
+
+struct Transition {
+  MachineState from;
+  MachineEvent event;
+  MachineState to;
+};
+
+// What is true in a state, whatever led to it.
+struct StateRow {
+  MachineState state;
+  std::string_view name;     // as people and status lines read it
+  bool has_activity;         // something is going on, or rests and goes on later
+  bool may_move;             // motors may turn: all others are states of rest
+  bool program_has_outputs;  // spindle and coolant are as the program says; in all others they are off
+};
+
+// A fault may still move: a board that the host cannot hear plays its tail to the end.
+inline constexpr std::array<StateRow, state_count> state_rows = {{
+    {MachineState::offline, "Offline", false, false, false},
+    {MachineState::idle, "Idle", false, false, false},
+    {MachineState::run, "Run", true, true, true},
+    {MachineState::hold, "Hold", true, true, true},
+    {MachineState::jog, "Jog", true, true, false},
+    {MachineState::home, "Home", true, true, false},
+    {MachineState::probe, "Probe", true, true, false},
+    {MachineState::tool_change, "Tool", true, false, true},
+    {MachineState::check, "Check", true, false, false},
+    {MachineState::door, "Door", true, true, true},
+    {MachineState::alarm, "Alarm", false, false, false},
+    {MachineState::fault, "Fault", false, true, true},
+    {MachineState::sleep, "Sleep", false, false, false},
+}};
+constexpr const StateRow& row_of(MachineState state) {
+  return state_rows[static_cast<std::size_t>(state)];
+}
+
+inline constexpr auto transitions = [] {
+  using enum MachineState;
+  using Event = MachineEvent;
+  return std::array{
+      Transition{offline, Event::ready, idle},
+      Transition{offline, Event::stop_at_once, alarm},
+      Transition{offline, Event::lose_board, fault},
+
+      Transition{idle, Event::begin_run, run},
+      Transition{idle, Event::begin_jog, jog},
+      Transition{idle, Event::begin_home, home},
+      Transition{idle, Event::begin_probe, probe},
+      Transition{idle, Event::begin_check, check},
+      Transition{idle, Event::open_door, door},
+      Transition{idle, Event::stop_at_once, alarm},
+      Transition{idle, Event::lose_board, fault},
+      Transition{idle, Event::reset, offline},
+      Transition{idle, Event::fall_asleep, sleep},
+
+      Transition{run, Event::hold, hold},
+      Transition{run, Event::want_tool, tool_change},
+      Transition{run, Event::open_door, door},
+      Transition{run, Event::end, idle},
+      Transition{run, Event::stop_at_once, alarm},
+      Transition{run, Event::lose_board, fault},
+
+      Transition{hold, Event::resume, run},
+      Transition{hold, Event::want_tool, tool_change},
+      Transition{hold, Event::open_door, door},
+      Transition{hold, Event::end, idle},
+      Transition{hold, Event::stop_at_once, alarm},
+      Transition{hold, Event::lose_board, fault},
+
+      Transition{tool_change, Event::resume, run},
+      Transition{tool_change, Event::hold, hold},
+      Transition{tool_change, Event::open_door, door},
+      Transition{tool_change, Event::end, idle},
+      Transition{tool_change, Event::stop_at_once, alarm},
+      Transition{tool_change, Event::lose_board, fault},
+
+      Transition{door, Event::resume, run},
+      Transition{door, Event::hold, hold},
+      Transition{door, Event::want_tool, tool_change},
+      Transition{door, Event::close_door, idle},
+      Transition{door, Event::end, idle},
+      Transition{door, Event::stop_at_once, alarm},
+      Transition{door, Event::lose_board, fault},
+
+      Transition{jog, Event::end, idle},
+      Transition{jog, Event::stop_at_once, alarm},
+      Transition{jog, Event::lose_board, fault},
+      Transition{home, Event::end, idle},
+      Transition{home, Event::stop_at_once, alarm},
+      Transition{home, Event::lose_board, fault},
+      Transition{probe, Event::end, idle},
+      Transition{probe, Event::stop_at_once, alarm},
+      Transition{probe, Event::lose_board, fault},
+      Transition{check, Event::end, idle},
+      Transition{check, Event::stop_at_once, alarm},
+      Transition{check, Event::lose_board, fault},
+
+      Transition{alarm, Event::reset, offline},
+      Transition{alarm, Event::lose_board, fault},
+      Transition{fault, Event::reset, offline},
+      Transition{sleep, Event::wake, idle},
+      Transition{sleep, Event::stop_at_once, alarm},
+      Transition{sleep, Event::lose_board, fault},
+  };
+}();
+
+// Where an event leads from a state; nothing: the event is not to happen there.
+constexpr std::optional<MachineState> next_state(MachineState from, MachineEvent event) {
+  for (const Transition& one : transitions) {
+    if (one.from == from && one.event == event) return one.to;
+  }
+  return {};
+}
+
+constexpr std::string_view name_of(MachineState state) {
+  return row_of(state).name;
+}
+std::string_view name_of(MachineEvent event);
+
+// The page docs/machine-states.md: the drawing, and the two tables.
+std::string state_page();
+
+}  // namespace passo

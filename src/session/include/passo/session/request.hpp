@@ -1,0 +1,113 @@
+// Requests: what can be asked of a machine. Each is answered: refused at once, or taken, with a ticket by which a change
+// tells later what has become of the request.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "passo/activity/jog_line.hpp"
+#include "passo/drive/motion_drive.hpp"
+#include "passo/gcode/program_reader.hpp"
+#include "passo/interpreter/interpreter.hpp"
+#include "passo/journal/resume_point.hpp"
+#include "passo/session/known_position.hpp"
+
+namespace passo {
+
+// Who wants to see data walk by. Empty ones cost nothing.
+struct Watchers {
+  std::function<void(const PathItem&)> path;
+  std::function<void(const MotionItem&)> motion;
+  std::function<void(const BoardItem&)> items;
+  std::function<void(const ProbeOutcome&)> probe;
+  std::function<void(const LinkItem&)> executed;  // over a line: what the board has done, tails included
+  std::function<void(const BoardRest&)> rests;    // over a line: where the board may come to rest, before it can
+};
+
+namespace request {
+
+// Runs a program from where the machine stands. The program was checked before.
+struct Start {
+  ProgramReader program;
+  InterpreterOptions options;            // `start` is the session's to say
+  Seconds nominal_time{0};               // of the check, for progress
+  bool waits_for_operator = true;        // at M0, M1 and M6
+  bool live = true;                      // reacts at once, and therefore reads less far ahead
+  bool answers_probes = true;            // by the board; else a probe move is touched at its end
+  std::optional<ResumePoint> from = {};  // begun by another host, which has left the machine there
+  Watchers watchers = {};
+  Diagnostics* findings = nullptr;       // gets what is still found amid the run; outlives it. Null: nobody looks
+};
+// Moves axes for as long as the lease is renewed; the machine begins to brake when the lease is over at the latest.
+struct Jog {
+  JogWay way;
+  Seconds lease{0.25};  // of the start, and of each renewal
+};
+struct RenewLease {};
+// Finds the machine's place by its switches.
+struct Home {};
+// One move that ends where the probe gets touched, or free.
+struct Probe {
+  Point target;  // machine coordinates
+  MmPerSecond speed{0};
+  bool toward = true;
+};
+// Goes through a program without motion.
+struct Check {
+  ProgramReader program;
+  InterpreterOptions options;
+  Diagnostics* findings = nullptr;  // outlives the check
+};
+struct Hold {};
+struct Resume {};
+// Brakes on the path and ends what is going on.
+struct Stop {};
+// Factors; nothing: stays as it is. Feed and spindle 0 to 2, the machine's own factor 0 to 1.
+struct Override {
+  std::optional<double> feed = {};
+  std::optional<double> adaptive_feed = {};
+  std::optional<double> spindle = {};
+};
+// The operator has done what the program waits for: M0, M1, M6.
+struct OperatorDone {};
+// Says where the machine stands, as somebody has seen.
+struct SetPosition {
+  KnownPosition position;
+};
+// After an alarm or a fault: another hello. The place is unknown after that.
+struct Reset {};
+struct Sleep {};
+struct Wake {};
+
+}  // namespace request
+
+using Request =
+    std::variant<request::Start, request::Jog, request::RenewLease, request::Home, request::Probe, request::Check,
+                 request::Hold, request::Resume, request::Stop, request::Override, request::OperatorDone,
+                 request::SetPosition, request::Reset, request::Sleep, request::Wake>;
+
+using Ticket = std::uint64_t;
+
+enum class RefusalCode : std::uint8_t {
+  busy,          // something else is going on
+  not_ready,     // the board has not answered yet
+  alarm,         // a reset has to come first
+  asleep,        // a wake has to come first
+  nothing_runs,  // there is nothing to hold, to resume, to stop or to renew
+  not_waiting,   // the program does not wait for the operator
+  door_open,     // the door has to be closed first
+  no_switches,   // the machine has none to be homed by
+  bad_value,     // not a number, or out of range
+};
+std::string_view code_of(RefusalCode code);
+
+struct Refusal {
+  RefusalCode code = RefusalCode::busy;
+  std::string message;  // a sentence without a full stop
+};
+
+}  // namespace passo

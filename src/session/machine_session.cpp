@@ -1,0 +1,408 @@
+#include "passo/session/machine_session.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "panel.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "work.hpp"
+
+namespace passo {
+namespace {
+
+// Path items of a check in one turn.
+constexpr std::uint64_t items_a_turn = 2000;
+// Changes that nobody has taken; then the oldest are dropped.
+constexpr std::size_t most_changes = 4096;
+
+// The board is as it was: whoever used the link has found that the work cannot go on.
+constexpr bool is_of_work(LinkError error) {
+  switch (error) {
+    case LinkError::too_few_places:
+    case LinkError::no_encoder:
+    case LinkError::spindle_stands:
+    case LinkError::encoder_wrong:
+    case LinkError::thread_lost: return true;
+    default: return false;
+  }
+}
+
+}  // namespace
+
+MachineSession::MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options)
+    : machine_(machine),
+      options_(options),
+      board_(port, options.care),
+      position_(options.start),
+      panel_(std::make_unique<Panel>(board_)) {
+  options_.greeting.motors = static_cast<std::uint8_t>(machine.axes.size());
+}
+
+MachineSession::~MachineSession() = default;
+
+void MachineSession::greet(const Greeting& greeting) {
+  options_.greeting = greeting;
+  options_.greeting.motors = static_cast<std::uint8_t>(machine_.axes.size());
+  greeted_ = true;
+  board_.greet(options_.greeting);
+}
+
+void MachineSession::name_session(std::uint16_t number) {
+  options_.greeting.session = number;
+  board_.name_session(number);
+}
+
+void MachineSession::turn(Seconds most) {
+  if (state_ == MachineState::offline) {
+    go_online(most);
+  } else if (state_ == MachineState::check) {
+    turn_check();
+  } else if (busy() && work_) {
+    turn_work(most);
+  } else {
+    board_.poll(std::isinf(most.value()) ? Seconds(0) : most);
+  }
+  mind_board();
+  look_at_panel();
+}
+
+// Hello, and before a second one: how is the board, and where does it stand?
+void MachineSession::go_online(Seconds most) {
+  if (asks_place_) {
+    if (!board_.settled()) board_.poll(most);
+    if (!board_.settled() || board_.error()) return;
+    asks_place_ = false;
+    find_place_again();
+    greet(options_.greeting);
+  }
+  if (!greeted_) greet(options_.greeting);
+  if (!board_.ready()) board_.poll(most);
+  if (!board_.ready()) return;
+  const bool wants_encoder = options_.over_a_line && machine_.spindle.counts_per_turn > 0;
+  if (const auto words = unsuited(board_, passo::step_options(machine_), wants_encoder)) {
+    trouble_words_ = *words;
+    unsuited_ = true;
+    move_to(MachineEvent::lose_board);
+    return;
+  }
+  stand_at(position_);
+  move_to(MachineEvent::ready);
+}
+
+// From here on the board's counts are those of that place.
+void MachineSession::stand_at(const KnownPosition& position) {
+  position_ = position;
+  place_.reset();
+  count_from_here();
+  ++version_;
+}
+
+void MachineSession::count_from_here() {
+  if (!options_.over_a_line || !board_.status()) return;
+  const MotorSteps steps = place_ ? steps_of(*place_) : steps_at(machine_, position_.place);
+  zero_counts_.emplace();
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    (*zero_counts_)[m] = std::int64_t{board_.status()->positions[m]} - steps[m];
+  }
+}
+
+MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
+  MotorSteps steps{};
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) steps[m] = place.steps(m);
+  return steps;
+}
+
+void MachineSession::begin_reset() {
+  board_.hang_up();
+  trouble_.reset();
+  trouble_words_.clear();
+  greeted_ = unsuited_ = false;
+  asks_place_ = options_.over_a_line;
+  if (asks_place_) board_.inquire(Question::status);
+  if (!options_.over_a_line) position_.trust = Trust::unknown;
+  move_to(MachineEvent::reset);
+}
+
+// A board that knows the session, and has lost no step, has counted on.
+void MachineSession::find_place_again() {
+  const BoardStatus& status = *board_.status();
+  const bool knows = status.session == options_.greeting.session && status.motors == machine_.axes.size() &&
+                     (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
+  place_.reset();
+  if (!knows || !zero_counts_) {
+    position_.trust = Trust::unknown;
+    return;
+  }
+  position_.trust = trust_before_;
+  const StepOptions steps = passo::step_options(machine_);
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    const auto counted = static_cast<double>(status.positions[m] - (*zero_counts_)[m]);
+    position_.place[steps.motors[m].axis] = counted / steps.motors[m].steps_per_unit;
+  }
+}
+
+void MachineSession::turn_check() {
+  if (!work_->stopped && !work_->checker->go_on(items_a_turn)) return;
+  end_work();
+}
+
+void MachineSession::turn_work(Seconds most) {
+  if (work_->finishing) {
+    if (!board_.settled()) board_.poll(most);
+    if (board_.settled()) end_work();
+    return;
+  }
+  mind_lease();
+  const MotionDrive::Turn turn = work_->drive->advance();
+  if (turn == MotionDrive::Turn::ended) return finish_work();
+  mind_holds();
+  if (turn != MotionDrive::Turn::waits) return;
+  const bool held = work_->drive->state() == MotionDrive::State::held;
+  if (held && options_.over_a_line) most = std::min(most, Panel::in_a_hold);
+  work_->drive->wait(most);
+}
+
+// The moves that one step asks for may not end after the lease: they are committed then.
+void MachineSession::mind_lease() {
+  if (!work_->lease_end) return;
+  const Seconds pulled = 3 * live_commitment.longest_move;
+  if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
+}
+
+// The state of a program is that of its strongest reason to rest.
+void MachineSession::mind_holds() {
+  if (work_->program == nullptr || !work_->drive) return;
+  const MotionDrive& drive = *work_->drive;
+  const HoldReasons holds = drive.holds();
+  const bool held = drive.state() == MotionDrive::State::held;
+  note_tails();
+  if (holds.has(HoldReason::door)) {
+    if (state_ != MachineState::door) move_to(MachineEvent::open_door);
+  } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop}) ||
+             (held && holds.has(HoldReason::zero_feed) && !holds.has(HoldReason::tool_change))) {
+    if (state_ != MachineState::hold) move_to(MachineEvent::hold);
+  } else if (holds.has(HoldReason::tool_change)) {
+    if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
+  } else if (state_ != MachineState::run && !drive.stopped()) {
+    move_to(MachineEvent::resume);
+  }
+  if (!held) {
+    work_->rest_told = false;
+  } else if (!std::exchange(work_->rest_told, true)) {
+    note({.kind = MachineChange::Kind::came_to_rest});
+    answer_holds(Outcome::done);
+  }
+}
+
+void MachineSession::note_tails() {
+  const Refiller* const tails = work_->drive->refiller();
+  for (; tails != nullptr && work_->recoveries_told < tails->recoveries(); ++work_->recoveries_told) {
+    note({.kind = MachineChange::Kind::rested_by_tail});
+  }
+}
+
+// The drive has ended. Over a line the board tells where it stands.
+void MachineSession::finish_work() {
+  note_tails();
+  if (!options_.over_a_line || board_.error()) return end_work();
+  work_->finishing = true;
+  board_.inquire(Question::status);
+}
+
+void MachineSession::end_work() {
+  work_->ended = true;
+  Outcome outcome = Outcome::done;
+  std::optional<ActivityFault> fault;
+  if (work_->checker) {
+    const bool good = work_->checker->result().good;
+    outcome = work_->stopped ? Outcome::stopped : good ? Outcome::done : Outcome::failed;
+  } else {
+    std::tie(outcome, fault) = judge_work();
+    note_place();
+  }
+  if (board_.error() && is_of_work(*board_.error())) board_.forgive();
+  const Ticket ticket = work_->ticket;
+  if (!board_.error()) move_to(MachineEvent::end);
+  answer(ticket, outcome, std::move(fault));
+  answer_holds(outcome == Outcome::failed ? Outcome::failed : Outcome::done);
+}
+
+std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() const {
+  if (const auto error = board_.error()) {
+    return {Outcome::failed, ActivityFault{*error == LinkError::stopped ? "board.stopped" : "board.lost",
+                                           std::string(message_of(*error))}};
+  }
+  if (work_->findings->any_error()) {
+    return {Outcome::failed, ActivityFault{"program.wrong", "the program cannot go on"}};
+  }
+  if (work_->drive->stopped_by_probe()) {
+    return {Outcome::failed,
+            ActivityFault{"probe.guard", "the probe was touched in a move that is no probe move"}};
+  }
+  if (work_->drive->stopped()) return {Outcome::stopped, {}};
+  auto fault = work_->activity->fault();
+  return {fault ? Outcome::failed : Outcome::done, std::move(fault)};
+}
+
+// At rest, unless the board was lost: then nobody knows until it answers again.
+void MachineSession::note_place() {
+  if (board_.error() && !is_of_work(*board_.error())) return;
+  place_ = work_->drive->place();
+  const StepOptions steps = passo::step_options(machine_);
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
+    position_.place[steps.motors[m].axis] = exact / steps.motors[m].steps_per_unit;
+  }
+  if (work_->finishing) compare_counts();
+  const bool homed = work_->homing != nullptr && work_->homing->done();
+  if (homed) {
+    position_.place = home_place();
+    position_.trust = Trust::homed;
+    count_from_here();
+  }
+}
+
+// The switches have told where the homed axes stand; the others keep their places.
+Point MachineSession::home_place() {
+  Point place = position_.place;
+  const StepOptions steps = passo::step_options(machine_);
+  for (const HomedAxis& homed : work_->homing->homed()) {
+    place[homed.axis] = homed.place;
+    for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+      if (steps.motors[m].axis != homed.axis) continue;
+      place_->set_steps(m, std::llround(homed.place * steps.motors[m].steps_per_unit));
+    }
+  }
+  return place;
+}
+
+void MachineSession::compare_counts() {
+  if (!board_.status() || !zero_counts_) return;
+  const BoardStatus& status = *board_.status();
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    const std::int64_t counted = std::int64_t{status.positions[m]} - (*zero_counts_)[m];
+    if (counted == place_->steps(m)) continue;
+    mismatch_ = CountMismatch{.motor = m, .counted = counted, .commanded = place_->steps(m)};
+    position_.trust = Trust::unknown;
+    note({.kind = MachineChange::Kind::position_lost});
+    return;
+  }
+  if (position_.trust == Trust::commanded) position_.trust = Trust::counted;
+}
+
+// An error of the board ends what is going on, and the machine is in alarm or in fault until a reset.
+void MachineSession::mind_board() {
+  if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
+  const LinkError error = *board_.error();
+  if (work_ && !work_->ended && is_of_work(error)) return;  // the drive ends by itself
+  trouble_ = error;
+  trouble_words_ = message_of(error);
+  if (work_ && !work_->ended) end_work();
+  trust_before_ = position_.trust;
+  position_.trust = Trust::unknown;
+  place_.reset();
+  move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
+}
+
+void MachineSession::look_at_panel() {
+  if (!options_.over_a_line || board_.error() || !board_.ready()) return;
+  const bool runs = busy() && work_ && work_->drive && !work_->ended && !work_->finishing;
+  if (!work_ || !work_->finishing || work_->ended) {
+    panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
+  }
+  const Panel::Pressed pressed = panel_->take();
+  if (state_ == MachineState::idle && panel_->door_is_open()) {
+    move_to(MachineEvent::open_door);
+  } else if (state_ == MachineState::door && !runs && !panel_->door_is_open()) {
+    move_to(MachineEvent::close_door);
+  }
+  if (!runs) return;
+  if (work_->program == nullptr) {
+    if (pressed.hold || pressed.door) work_->drive->stop();
+    return;
+  }
+  if (pressed.hold) work_->drive->hold(HoldReason::operator_hold);
+  if (pressed.door) work_->drive->hold(HoldReason::door);
+  if (pressed.start) {
+    work_->drive->resume(HoldReason::operator_hold);
+    work_->drive->resume(HoldReason::door);
+  }
+  mind_holds();
+}
+
+void MachineSession::move_to(MachineEvent event) {
+  const std::optional<MachineState> next = next_state(state_, event);
+  assert(next);
+  if (!next) return;
+  state_ = *next;
+  note({.kind = MachineChange::Kind::state, .state = state_});
+}
+
+void MachineSession::note(MachineChange change) {
+  change.time = now();
+  ++version_;
+  if (changes_.size() == most_changes) changes_.pop_front();
+  changes_.push_back(std::move(change));
+}
+
+void MachineSession::answer(Ticket ticket, Outcome outcome, std::optional<ActivityFault> fault) {
+  note({.kind = MachineChange::Kind::answered, .ticket = ticket, .outcome = outcome, .fault = std::move(fault)});
+}
+
+void MachineSession::answer_holds(Outcome outcome) {
+  for (const Ticket ticket : std::exchange(waiting_holds_, {})) answer(ticket, outcome);
+}
+
+std::vector<MachineChange> MachineSession::take_changes() {
+  std::vector<MachineChange> taken(changes_.begin(), changes_.end());
+  changes_.clear();
+  return taken;
+}
+
+MachineStatus MachineSession::status() const {
+  MachineStatus status;
+  status.version = version_;
+  status.time = now();
+  status.state = state_;
+  status.position = position_;
+  status.ahead = position_.place;
+  status.inputs = board_.inputs();
+  status.overrides = overrides_;
+  status.trouble = trouble_;
+  status.trouble_words = trouble_words_;
+  if (!work_ || work_->ended || !work_->drive) return status;
+  const MotionDrive& drive = *work_->drive;
+  status.holds = drive.holds();
+  status.rests = drive.state() == MotionDrive::State::held || drive.state() == MotionDrive::State::ended;
+  status.ahead = work_->ahead;
+  status.activity = work_->activity->kind();
+  status.progress = work_->activity->progress();
+  status.committed = drive.committed();
+  status.outputs = drive.outputs();
+  if (const auto& wait = drive.waits_for()) {
+    status.waits_for = OperatorWait{.kind = wait->kind, .tool = wait->tool, .line = wait->source.line};
+  }
+  if (work_->homing != nullptr && !work_->homing->done()) {
+    status.homing = work_->homing->stage();
+    status.homing_axis = work_->homing->axis()->axis;
+  }
+  return status;
+}
+
+const MotionDrive* MachineSession::drive() const {
+  return work_ ? work_->drive.get() : nullptr;
+}
+const Program* MachineSession::program() const {
+  return work_ ? work_->program : nullptr;
+}
+const HomingPath* MachineSession::homing() const {
+  return work_ ? work_->homing : nullptr;
+}
+const Refiller* MachineSession::refiller() const {
+  return work_ && work_->drive ? work_->drive->refiller() : nullptr;
+}
+
+}  // namespace passo

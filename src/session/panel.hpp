@@ -1,0 +1,47 @@
+// Panel: the buttons and the door of a board, and what they ask for. Private to session/.
+//
+// The board tells at once what is pressed; the panel asks besides, for a message may be lost. Feed hold brakes on the
+// path; cycle start goes on. An open door is a hold too: the machine goes on when the door is closed and somebody
+// presses cycle start.
+#pragma once
+
+#include "passo/session/machine_session.hpp"
+#include "passo/wire/message.hpp"
+
+namespace passo {
+
+class MachineSession::Panel {
+ public:
+  // In a hold somebody is near, and a start is to be heard soon.
+  static constexpr Seconds between_questions{0.2};
+  static constexpr Seconds in_a_hold{0.05};
+
+  // The board outlives the panel.
+  explicit Panel(BoardSession& board) : board_(board) {}
+
+  void ask(bool holds) {
+    if (board_.now() - asked_ < (holds ? in_a_hold : between_questions)) return;
+    asked_ = board_.now();
+    board_.ask();
+  }
+  struct Pressed {
+    bool hold = false;
+    bool door = false;
+    bool start = false;  // and neither hold is pressed nor the door open
+  };
+  Pressed take() {
+    const unsigned pressed = board_.take_pressed();
+    const bool barred = (board_.inputs() & (input_hold | input_door)) != 0;
+    const bool holds = (pressed & (input_hold | input_door)) != 0;
+    return {.hold = (pressed & input_hold) != 0,
+            .door = (pressed & input_door) != 0,
+            .start = (pressed & input_start) != 0 && !holds && !barred};
+  }
+  bool door_is_open() const { return (board_.inputs() & input_door) != 0; }
+
+ private:
+  BoardSession& board_;
+  Seconds asked_{0};
+};
+
+}  // namespace passo

@@ -1,0 +1,309 @@
+// What a session does when it is asked.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "panel.hpp"
+#include "passo/activity/jog_line.hpp"
+#include "passo/activity/probe_line.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "passo/geometry/euclid.hpp"
+#include "work.hpp"
+
+namespace passo {
+namespace {
+
+// A lease has to be longer than what is committed; and who does not renew one for so long is not there.
+constexpr Seconds shortest_lease{0.1};
+constexpr Seconds longest_lease{10};
+constexpr double highest_factor = 2;
+
+bool is_factor(const std::optional<double>& value, double highest) {
+  return !value || (*value >= 0 && *value <= highest);
+}
+
+bool is_finite(const Point& point) {
+  return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
+}
+
+Failure<Refusal> refusal(RefusalCode code, const char* message) {
+  return Failure{Refusal{.code = code, .message = message}};
+}
+
+}  // namespace
+
+std::string_view code_of(RefusalCode code) {
+  switch (code) {
+    case RefusalCode::busy: return "machine.busy";
+    case RefusalCode::not_ready: return "machine.not-ready";
+    case RefusalCode::alarm: return "machine.alarm";
+    case RefusalCode::asleep: return "machine.asleep";
+    case RefusalCode::nothing_runs: return "machine.nothing-runs";
+    case RefusalCode::not_waiting: return "machine.not-waiting";
+    case RefusalCode::door_open: return "machine.door-open";
+    case RefusalCode::no_switches: return "machine.no-switches";
+    case RefusalCode::bad_value: return "machine.bad-value";
+  }
+  return "machine";
+}
+
+Result<Ticket, Refusal> MachineSession::request(Request wanted) {
+  return std::visit([this](auto& one) { return take(one); }, wanted);
+}
+
+// Why an event is not to happen now; nothing: the table has it.
+std::optional<Refusal> MachineSession::refuse(MachineEvent event) const {
+  if (next_state(state_, event)) return {};
+  switch (state_) {
+    case MachineState::offline: return Refusal{RefusalCode::not_ready, "the board has not answered yet"};
+    case MachineState::alarm:
+      return Refusal{RefusalCode::alarm, "the motors were stopped at once: reset the machine first"};
+    case MachineState::fault: return Refusal{RefusalCode::alarm, "the board was lost: reset the machine first"};
+    case MachineState::sleep: return Refusal{RefusalCode::asleep, "the machine sleeps: wake it first"};
+    case MachineState::door: return Refusal{RefusalCode::door_open, "the door is open"};
+    default: break;
+  }
+  if (busy()) return Refusal{RefusalCode::busy, "the machine is busy"};
+  return Refusal{RefusalCode::nothing_runs, "nothing is going on"};
+}
+
+MachineSession::Answer MachineSession::at_once() {
+  const Ticket ticket = ++last_ticket_;
+  answer(ticket, Outcome::done);
+  return ticket;
+}
+
+MachineSession::Answer MachineSession::begin(MachineEvent event, std::unique_ptr<Work> work) {
+  work_ = std::move(work);
+  work_->ticket = ++last_ticket_;
+  move_to(event);
+  return work_->ticket;
+}
+
+StepOptions MachineSession::step_options() const {
+  StepOptions options = passo::step_options(machine_);
+  options.start = position_.place;
+  options.place = place_;
+  return options;
+}
+
+DriveOptions MachineSession::drive_options() const {
+  DriveOptions options{.live = live_commitment};
+  if (options_.over_a_line) options.tails.emplace();
+  return options;
+}
+
+MachineSession::Answer MachineSession::take(request::Start& start) {
+  if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
+  auto work = std::make_unique<Work>();
+  if (start.from) {
+    position_.place = start.from->point;
+    place_.reset();
+  }
+  if (start.findings != nullptr) work->findings = start.findings;
+  const int counts = machine_.spindle.counts_per_turn;
+  // Over a line no tap turns round with the spindle: the spindle rests meanwhile, and its holder floats. With a limit of
+  // jerk a change of speed is made before the next is asked for: too slow to turn round with a spindle.
+  work->answers = AnswerBook(
+      {.probes = start.answers_probes, .taps = !options_.over_a_line && counts > 0 && !has_jerk_limit(machine_)});
+  InterpreterOptions interpretation = start.options;
+  if (!start.from) interpretation.start = position_.place;
+  auto program = std::make_unique<Program>(std::move(start.program), machine_, interpretation, work->answers,
+                                           *work->findings, start.nominal_time);
+  work->program = program.get();
+  work->activity = std::move(program);
+  work->watchers = std::move(start.watchers);
+  DriveOptions options = drive_options();
+  options.counts_per_turn = counts;
+  options.guards_by_probe = machine_.probe.guards && start.answers_probes;
+  options.waits_for_operator = start.waits_for_operator;
+  if (!start.live && !options.guards_by_probe) options.live = endless_commitment;
+  if (start.from) options.begin_at = start.from->place;
+  put_on_drive(*work, options, start.live);
+  if (start.from && work->drive->refiller() != nullptr) {
+    work->drive->switch_on(start.from->outputs, start.from->spindle_wait);
+  }
+  return begin(MachineEvent::begin_run, std::move(work));
+}
+
+// What is below depends on what is above; those who watch are told of both.
+void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
+  work.drive = std::make_unique<MotionDrive>(*work.activity, motion_limits(machine_), step_options(), board_,
+                                             work.answers, options);
+  MotionDrive& drive = *work.drive;
+  Watchers& watchers = work.watchers;
+  work.ahead = position_.place;
+  if (knows_ahead) {
+    drive.motion().watch([&work](const MotionItem& item) {
+      if (const auto* move = std::get_if<PlannedMove>(&item)) work.ahead = move->segment.curve.at(move->to);
+    });
+  }
+  if (work.program != nullptr && watchers.path) work.program->path().watch(watchers.path);
+  if (watchers.motion) drive.motion().watch(watchers.motion);
+  if (watchers.items) drive.items().watch(watchers.items);
+  drive.probe().watch([this, &work](const ProbeOutcome& outcome) {
+    if (work.watchers.probe) work.watchers.probe(outcome);
+    note({.kind = MachineChange::Kind::probed, .probe = outcome});
+  });
+  if (Refiller* const refiller = drive.refiller()) {
+    if (watchers.executed) refiller->watch_executed(watchers.executed);
+    if (watchers.rests) refiller->watch_rests(watchers.rests);
+  }
+  if (overrides_.feed != 1) drive.set_feed_override(overrides_.feed);
+  if (overrides_.adaptive_feed != 1) drive.set_adaptive_feed(overrides_.adaptive_feed);
+  if (overrides_.spindle != 1) drive.set_spindle_override(overrides_.spindle);
+}
+
+MachineSession::Answer MachineSession::take(request::Jog& jog) {
+  if (auto refused = refuse(MachineEvent::begin_jog)) return Failure{*refused};
+  const double speed = jog.way.speed.value();
+  const bool good = std::isfinite(speed) && speed > 0 && is_finite(jog.way.direction) &&
+                    std::isfinite(jog.way.distance.value()) && length_of(jog.way.direction) > 0;
+  if (!good) return refusal(RefusalCode::bad_value, "a jog needs a direction, and a speed above 0");
+  if (!(jog.lease >= shortest_lease && jog.lease <= longest_lease)) {
+    return refusal(RefusalCode::bad_value, "the lease of a jog is 0.1 to 10 s");
+  }
+  auto work = std::make_unique<Work>();
+  work->activity =
+      std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
+  work->lease = jog.lease;
+  work->lease_end = now() + jog.lease;
+  put_on_drive(*work, drive_options(), true);
+  return begin(MachineEvent::begin_jog, std::move(work));
+}
+
+// Without effect on a jog that has begun to brake.
+MachineSession::Answer MachineSession::take(request::RenewLease&) {
+  if (state_ != MachineState::jog) return refusal(RefusalCode::nothing_runs, "no jog is going on");
+  work_->lease_end = now() + work_->lease;
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::Home&) {
+  if (auto refused = refuse(MachineEvent::begin_home)) return Failure{*refused};
+  if (machine_.homing.empty()) {
+    return refusal(RefusalCode::no_switches, "no axis has a switch to be homed by, a table [axis.X.home]");
+  }
+  auto work = std::make_unique<Work>();
+  auto path = std::make_unique<HomingPath>(machine_, work->answers, position_.place);
+  work->homing = path.get();
+  work->activity = std::move(path);
+  DriveOptions options = drive_options();
+  options.live = endless_commitment;
+  put_on_drive(*work, options, true);
+  return begin(MachineEvent::begin_home, std::move(work));
+}
+
+MachineSession::Answer MachineSession::take(request::Probe& probe) {
+  if (auto refused = refuse(MachineEvent::begin_probe)) return Failure{*refused};
+  if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
+    return refusal(RefusalCode::bad_value, "a probe move needs a place to go to, and a speed above 0");
+  }
+  auto work = std::make_unique<Work>();
+  work->activity = std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->answers);
+  put_on_drive(*work, drive_options(), true);
+  return begin(MachineEvent::begin_probe, std::move(work));
+}
+
+MachineSession::Answer MachineSession::take(request::Check& check) {
+  if (auto refused = refuse(MachineEvent::begin_check)) return Failure{*refused};
+  auto work = std::make_unique<Work>();
+  if (check.findings != nullptr) work->findings = check.findings;
+  check.options.start = position_.place;
+  work->checker =
+      std::make_unique<ProgramChecker>(std::move(check.program), machine_, check.options, *work->findings);
+  return begin(MachineEvent::begin_check, std::move(work));
+}
+
+// What is no program ends by a hold.
+MachineSession::Answer MachineSession::take(request::Hold&) {
+  if (!busy() || state_ == MachineState::check) return refusal(RefusalCode::nothing_runs, "nothing moves");
+  const Ticket ticket = ++last_ticket_;
+  if (work_->program == nullptr) {
+    work_->drive->stop();
+  } else {
+    work_->drive->hold();
+    work_->rest_told = false;
+  }
+  waiting_holds_.push_back(ticket);
+  mind_holds();
+  return ticket;
+}
+
+MachineSession::Answer MachineSession::take(request::Resume&) {
+  if (!busy() || work_->program == nullptr) return refusal(RefusalCode::nothing_runs, "no program is held");
+  MotionDrive& drive = *work_->drive;
+  const HoldReasons holds = drive.holds();
+  if (!holds.any_of({HoldReason::operator_hold, HoldReason::door})) {
+    return refusal(RefusalCode::nothing_runs, "no program is held");
+  }
+  if (panel_->door_is_open()) return refusal(RefusalCode::door_open, "the door is open");
+  drive.resume(HoldReason::operator_hold);
+  drive.resume(HoldReason::door);
+  mind_holds();
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::Stop&) {
+  if (!busy()) return refusal(RefusalCode::nothing_runs, "nothing is going on");
+  const Ticket ticket = ++last_ticket_;
+  waiting_holds_.push_back(ticket);
+  work_->stopped = true;
+  if (work_->drive) work_->drive->stop();
+  return ticket;
+}
+
+MachineSession::Answer MachineSession::take(request::Override& change) {
+  if (!is_factor(change.feed, highest_factor) || !is_factor(change.adaptive_feed, 1) ||
+      !is_factor(change.spindle, highest_factor)) {
+    return refusal(RefusalCode::bad_value, "an override is a factor of 0 to 2, the machine's own 0 to 1");
+  }
+  overrides_.feed = change.feed.value_or(overrides_.feed);
+  overrides_.adaptive_feed = change.adaptive_feed.value_or(overrides_.adaptive_feed);
+  overrides_.spindle = change.spindle.value_or(overrides_.spindle);
+  if (busy() && work_->program != nullptr) {
+    MotionDrive& drive = *work_->drive;
+    if (change.feed) drive.set_feed_override(*change.feed);
+    if (change.adaptive_feed) drive.set_adaptive_feed(*change.adaptive_feed);
+    if (change.spindle) drive.set_spindle_override(*change.spindle);
+    mind_holds();
+  }
+  ++version_;
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::OperatorDone&) {
+  if (!busy() || !work_->drive || !work_->drive->waits_for()) {
+    return refusal(RefusalCode::not_waiting, "the program does not wait for the operator");
+  }
+  work_->drive->done();
+  mind_holds();
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::SetPosition& set) {
+  if (state_ != MachineState::idle) return Failure{*refuse(MachineEvent::wake)};
+  if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
+  stand_at(set.position);
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::Reset&) {
+  if (auto refused = refuse(MachineEvent::reset)) return Failure{*refused};
+  begin_reset();
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::Sleep&) {
+  if (auto refused = refuse(MachineEvent::fall_asleep)) return Failure{*refused};
+  move_to(MachineEvent::fall_asleep);
+  return at_once();
+}
+
+MachineSession::Answer MachineSession::take(request::Wake&) {
+  if (auto refused = refuse(MachineEvent::wake)) return Failure{*refused};
+  move_to(MachineEvent::wake);
+  return at_once();
+}
+
+}  // namespace passo
