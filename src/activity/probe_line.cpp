@@ -16,8 +16,7 @@ bool ProbeLine::next(PathItem& item) {
   }
   if (step_ == Step::done) return false;
   step_ = Step::done;
-  item = Action{
-      .kind = Action::Kind::probe_end, .probe_toward = toward_, .place = refused ? start_ : target_};
+  item = Action{.kind = Action::Kind::probe_end, .probe_toward = toward_, .place = refused ? start_ : target_};
   return true;
 }
 

@@ -52,12 +52,14 @@ std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const 
     path_.begin_at(*options.begin_at);
   }
   if (!options.tails) {
-    auto direct = std::make_unique<DirectFeed>(
-        DirectFeed::Stages{
-            .planner = planner_, .generator = step_generator_, .items = watched_items_, .link = board_, .outputs = outputs_},
-        DirectFeed::Options{.live = options.live,
-                            .follows_spindle = options.counts_per_turn > 0,
-                            .waits_for_operator = options.waits_for_operator});
+    auto direct = std::make_unique<DirectFeed>(DirectFeed::Stages{.planner = planner_,
+                                                                  .generator = step_generator_,
+                                                                  .items = watched_items_,
+                                                                  .link = board_,
+                                                                  .outputs = outputs_},
+                                               DirectFeed::Options{.live = options.live,
+                                                                   .follows_spindle = options.counts_per_turn > 0,
+                                                                   .waits_for_operator = options.waits_for_operator});
     direct_ = direct.get();
     return direct;
   }
@@ -364,7 +366,8 @@ void MotionDrive::stop() {
   if (state_ == State::ended || stopped()) return;
   change_holds(HoldReason::stop, true);
   feed_->cut_dwell();
-  if (std::exchange(awaits_index_, false)) script_.clear();
+  if (std::exchange(awaits_index_, false))
+    script_.clear();
   else if (state_ != State::held) {
     state_ = State::holding;
     return;

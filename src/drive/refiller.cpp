@@ -58,8 +58,7 @@ class Braking final : public Source<MotionItem> {
 
 }  // namespace
 
-Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options,
-                   bool waits_for_operator)
+Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options, bool waits_for_operator)
     : stages_(stages),
       steps_(steps),
       options_(options),
@@ -454,7 +453,9 @@ Action Refiller::take_action() {
 // A host that is started anew meets an action again that the drive has taken and not done.
 void Refiller::switch_outputs(const BoardOutputs& outputs) {
   assert(refills_under_way_.empty() && pulled_.empty());
-  if (rest_watcher_) rest_watcher_({.executed = static_cast<ItemNumber>(stages_.link.sent() + 1), .place = before_action_.value_or(given_)});
+  if (rest_watcher_)
+    rest_watcher_(
+        {.executed = static_cast<ItemNumber>(stages_.link.sent() + 1), .place = before_action_.value_or(given_)});
   switched_ = outputs;
   stages_.link.send(outputs);
 }

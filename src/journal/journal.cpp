@@ -146,7 +146,7 @@ std::optional<JournalHead> read_head(std::string_view text) {
   head.session = words.number<std::uint16_t>();
   words.expect("place");
   head.place = place(words);
-  if (!words.good() || !words.at_end() || head.greeting == 0 || head.session == 0) return {};
+  if (!words.good() || !words.at_end() || head.session == 0) return {};
   return head;
 }
 
@@ -222,7 +222,8 @@ Journal::State Journal::state_of(const BoardStatus& status) const {
   if (status.session == head_.session) return State::in_session;
   // Something was sent only after the board had heard both. That it now seems to have not is a reset.
   if (!rests_.empty() || torn_ > 0) return State::another;
-  if (status.session == 0 && status.motors != 0 && status.executed == head_.greeting) return State::before_session;
+  const bool greeted = head_.greeting != 0 && status.session == 0 && status.motors != 0;
+  if (greeted && status.executed == head_.greeting) return State::before_session;
   const bool as_before = status.session == head_.session_before && status.executed == head_.executed_before;
   return as_before ? State::before_hello : State::another;
 }
@@ -238,7 +239,8 @@ std::optional<PathPlace> Journal::place_of(const BoardStatus& status) const {
                                   [&](const BoardRest& rest) { return rest.executed == status.executed; });
   if (found != rests_.end()) return found->place;
   // Nothing was sent, or nothing arrived.
-  if (status.executed == head_.greeting) return head_.place;
+  const ItemNumber first = head_.greeting != 0 ? head_.greeting : head_.executed_before;
+  if (status.executed == first) return head_.place;
   return {};
 }
 

@@ -60,8 +60,12 @@ bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardSta
   return true;
 }
 
-JournalHead head_of_beginning(JournalHead job, const BoardStatus& status, std::size_t motors) {
-  job.job_counts.assign(status.positions, status.positions + motors);
+JournalHead head_of_beginning(JournalHead job, const BoardStatus& status,
+                              const std::array<std::int64_t, max_motors>& steps, std::size_t motors) {
+  job.job_counts.clear();
+  for (std::size_t m = 0; m < motors; ++m) {
+    job.job_counts.push_back(static_cast<int>(status.positions[m] - steps[m]));
+  }
   job.session_before = status.session;
   job.executed_before = status.executed;
   return job;

@@ -4,13 +4,15 @@ namespace passo {
 
 std::optional<About> ask_about(BoardSession& session, Seconds within) {
   session.inquire(Question::about);
-  await(session, [&] { return session.settled(); }, within);
+  await(
+      session, [&] { return session.settled(); }, within);
   return session.about();
 }
 
 std::optional<BoardStatus> ask_status(BoardSession& session, Seconds within) {
   session.inquire(Question::status);
-  await(session, [&] { return session.settled(); }, within);
+  await(
+      session, [&] { return session.settled(); }, within);
   return session.status();
 }
 

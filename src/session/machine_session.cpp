@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "panel.hpp"
-#include "passo/activity/stage_options.hpp"
 #include "work.hpp"
+
+#include "passo/activity/stage_options.hpp"
 
 namespace passo {
 namespace {
@@ -239,8 +240,7 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
     return {Outcome::failed, ActivityFault{"program.wrong", "the program cannot go on"}};
   }
   if (work_->drive->stopped_by_probe()) {
-    return {Outcome::failed,
-            ActivityFault{"probe.guard", "the probe was touched in a move that is no probe move"}};
+    return {Outcome::failed, ActivityFault{"probe.guard", "the probe was touched in a move that is no probe move"}};
   }
   if (work_->drive->stopped()) return {Outcome::stopped, {}};
   auto fault = work_->activity->fault();

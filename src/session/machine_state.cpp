@@ -6,8 +6,9 @@ namespace passo {
 
 std::string_view name_of(MachineEvent event) {
   constexpr std::array<std::string_view, event_count> names = {
-      "ready",     "begin run", "begin jog",  "begin home", "begin probe",  "begin check", "hold",        "resume", "want tool",
-      "open door", "close door", "end",       "stop at once", "lose board", "reset",       "fall asleep", "wake"};
+      "ready",        "begin run",  "begin jog", "begin home",  "begin probe", "begin check",
+      "hold",         "resume",     "want tool", "open door",   "close door",  "end",
+      "stop at once", "lose board", "reset",     "fall asleep", "wake"};
   return names[static_cast<std::size_t>(event)];
 }
 
@@ -54,7 +55,8 @@ std::string cells() {
 
 std::string state_page() {
   return "# The states of a machine\n\n"
-         "`MachineSession` goes by one table, `transitions` in `session/machine_state.hpp`. This page is made from the table, and a\n"
+         "`MachineSession` goes by one table, `transitions` in `session/machine_state.hpp`. This page is made from the "
+         "table, and a\n"
          "test holds the two together: `PASSO_UPDATE_GOLDEN=1` makes the page anew.\n\n" +
          drawing() + "\n## What is true in each state\n\n" + rows() + "\n## Each transition\n\n" + cells();
 }

@@ -4,11 +4,12 @@
 #include <utility>
 
 #include "panel.hpp"
+#include "work.hpp"
+
 #include "passo/activity/jog_line.hpp"
 #include "passo/activity/probe_line.hpp"
 #include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
-#include "work.hpp"
 
 namespace passo {
 namespace {
@@ -96,14 +97,11 @@ DriveOptions MachineSession::drive_options() const {
 MachineSession::Answer MachineSession::take(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   auto work = std::make_unique<Work>();
-  if (start.from) {
-    position_.place = start.from->point;
-    place_.reset();
-  }
+  if (start.from) stand_at({.place = start.from->point, .trust = position_.trust});
   if (start.findings != nullptr) work->findings = start.findings;
   const int counts = machine_.spindle.counts_per_turn;
-  // Over a line no tap turns round with the spindle: the spindle rests meanwhile, and its holder floats. With a limit of
-  // jerk a change of speed is made before the next is asked for: too slow to turn round with a spindle.
+  // Over a line no tap turns round with the spindle: the spindle rests meanwhile, and its holder floats. With a limit
+  // of jerk a change of speed is made before the next is asked for: too slow to turn round with a spindle.
   work->answers = AnswerBook(
       {.probes = start.answers_probes, .taps = !options_.over_a_line && counts > 0 && !has_jerk_limit(machine_)});
   InterpreterOptions interpretation = start.options;
@@ -164,8 +162,7 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
     return refusal(RefusalCode::bad_value, "the lease of a jog is 0.1 to 10 s");
   }
   auto work = std::make_unique<Work>();
-  work->activity =
-      std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
+  work->activity = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
   work->lease = jog.lease;
   work->lease_end = now() + jog.lease;
   put_on_drive(*work, drive_options(), true);
@@ -210,8 +207,7 @@ MachineSession::Answer MachineSession::take(request::Check& check) {
   auto work = std::make_unique<Work>();
   if (check.findings != nullptr) work->findings = check.findings;
   check.options.start = position_.place;
-  work->checker =
-      std::make_unique<ProgramChecker>(std::move(check.program), machine_, check.options, *work->findings);
+  work->checker = std::make_unique<ProgramChecker>(std::move(check.program), machine_, check.options, *work->findings);
   return begin(MachineEvent::begin_check, std::move(work));
 }
 

@@ -20,9 +20,9 @@ class MachineSession::Work {
 
   Ticket ticket = 0;
   bool ended = false;
-  bool stopped = false;  // somebody asked for that
-  bool finishing = false;    // the drive has ended, and the board's counts are asked for
-  bool rest_told = false;    // of the hold at hand
+  bool stopped = false;    // somebody asked for that
+  bool finishing = false;  // the drive has ended, and the board's counts are asked for
+  bool rest_told = false;  // of the hold at hand
   int recoveries_told = 0;
 
   // For a jog: when the lease is over, and for how long it is renewed.
@@ -35,7 +35,7 @@ class MachineSession::Work {
   AnswerBook answers;
   Watchers watchers;
   std::unique_ptr<Activity> activity;
-  Program* program = nullptr;     // of the activity, where it is one
+  Program* program = nullptr;  // of the activity, where it is one
   HomingPath* homing = nullptr;
   std::unique_ptr<MotionDrive> drive;
   std::unique_ptr<ProgramChecker> checker;  // of a check, which has no activity

@@ -102,7 +102,8 @@ class StepGenerator::Implementation {
     const std::int64_t gap = time - board_.time();
     // Where what is given is to be little, so are waits.
     // A dwell that is cut short ends with the segment that is played.
-    const std::int64_t most = std::min<std::int64_t>(exactness_.one_in > 0 ? most_events : fitter_.longest(), longest_idle);
+    const std::int64_t most =
+        std::min<std::int64_t>(exactness_.one_in > 0 ? most_events : fitter_.longest(), longest_idle);
     const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, most);
     return send(without_steps(static_cast<std::uint16_t>(events), std::min(idle, gap)), item);
   }

@@ -16,13 +16,16 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "passo/transport/inquiry.hpp"
+#include "passo/link/await.hpp"
 #include "passo/transport/stream_port.hpp"
 
 namespace passo {
 namespace {
 
 namespace fs = std::filesystem;
+
+// An Arduino that was just opened is in its boot loader for a second or two: it is asked again and again.
+constexpr LineCare inquiry_care{.answer_within = Seconds(0.25), .patience = Seconds(3600)};
 
 // The names that stay the same wherever a board is plugged in; else those that the kernel gives.
 std::vector<std::string> serial_lines() {
@@ -54,9 +57,9 @@ std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
   return nullptr;
 }
 
-std::string silence(const Inquiry& inquiry) {
-  if (inquiry.heard().empty()) return "does not answer";
-  return fmt::format("answers, but not as a board of Passo's: \"{}\"", inquiry.heard().substr(0, 60));
+std::string silence(const BoardSession& board) {
+  if (board.gibberish().empty()) return "does not answer";
+  return fmt::format("answers, but not as a board of Passo's: \"{}\"", board.gibberish().substr(0, 60));
 }
 
 struct Found {
@@ -72,11 +75,11 @@ Found look_at(const std::string& device, Seconds wait) {
     found.words = port.error();
     return found;
   }
-  Inquiry inquiry(**port);
-  found.about = inquiry.about(wait);
+  BoardSession board(**port, inquiry_care);
+  found.about = ask_about(board, wait);
   found.words = found.about ? fmt::format("{}, firmware {}, {} events/s", name_of(*found.about),
                                           version_of(*found.about), found.about->highest_event_rate)
-                            : silence(inquiry);
+                            : silence(board);
   return found;
 }
 
@@ -118,10 +121,10 @@ int board_info(const BoardInfoArguments& arguments) {
   int code = exit_done;
   const auto port = open_named(arguments.board, code);
   if (!port) return code;
-  Inquiry inquiry(*port);
-  const auto about = inquiry.about(Seconds(arguments.wait));
-  const auto status = about ? inquiry.status(Seconds(arguments.wait)) : std::nullopt;
-  if (!status) return fail(exit_failed, arguments.board + ": " + silence(inquiry));
+  BoardSession board(*port, inquiry_care);
+  const auto about = ask_about(board, Seconds(arguments.wait));
+  const auto status = about ? ask_status(board, Seconds(arguments.wait)) : std::nullopt;
+  if (!status) return fail(exit_failed, arguments.board + ": " + silence(board));
   if (arguments.json) {
     fmt::print("{}\n", nlohmann::json{{"about", to_json(*about)}, {"status", to_json(*status)}}.dump(2));
     return exit_done;
@@ -149,14 +152,14 @@ int board_monitor(const BoardMonitorArguments& arguments) {
   std::signal(SIGINT, note_interrupt);
   const bool live = is_terminal(STDOUT_FILENO) && !arguments.json;
   if (!arguments.json) fmt::print("state     steps of each motor   item + events done   switches that are on\n");
-  Inquiry inquiry(*port);
+  BoardSession board(*port, inquiry_care);
   for (std::uint64_t n = 0; !interrupted && (arguments.count == 0 || n < arguments.count); ++n) {
     if (n > 0) std::this_thread::sleep_for(std::chrono::duration<double>(arguments.every));
-    const auto status = inquiry.status(Seconds(5));
+    const auto status = ask_status(board, Seconds(5));
     if (interrupted) break;
     if (!status) {
       if (live) fmt::print("\n");
-      return fail(exit_failed, arguments.board + ": " + silence(inquiry));
+      return fail(exit_failed, arguments.board + ": " + silence(board));
     }
     // On a terminal one line that changes, in a pipe a line each.
     fmt::print("{}{}", arguments.json ? to_json(*status).dump() : line_of(*status), live ? "\033[K\r" : "\n");

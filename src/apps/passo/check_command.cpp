@@ -1,16 +1,21 @@
 // passo check: interpret the program and build its path, and say what is wrong. Nothing runs; with --motion the path is
 // planned and stepped all the same, and the motion measured.
 #include <cstdio>
+#include <utility>
 
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 
+#include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/link/await.hpp"
+#include "passo/machine/virtual_machine.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
+#include "passo/session/machine_session.hpp"
 
 namespace passo {
 namespace {
@@ -19,16 +24,32 @@ nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
   return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
 }
 
-// Plays the whole program, watched; `nominal` is for the progress line.
-MotionProof prove(Job& job, const MachineDescription& machine, const std::string& program, Seconds nominal) {
-  constexpr unsigned segments_between_looks = 1024;
+// Plays the whole program on a virtual machine, watched; `nominal` is for the progress line.
+MotionProof prove(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
+                  Seconds nominal, Diagnostics& findings) {
+  constexpr unsigned turns_between_looks = 1024;
   MotionProver prover(proof_options(machine));
-  job.path().watch([&](const PathItem& item) { prover.watch(item); });
-  job.motion().watch([&](const MotionItem& item) { prover.watch(item); });
-  job.board().watch([&](const BoardItem& item) { prover.watch(item); });
-  ProgressDisplay progress(program);
-  for (unsigned played = 0; job.advance(); ++played) {
-    if (played % segments_between_looks == 0) progress.update(job.nominal_time() / nominal);
+  ProgressDisplay progress(program.name());
+  VirtualMachine board(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
+                       machine.board.highest_event_rate);
+  IdealPlant plant = plant_of(machine, options.start);
+  board.connect(plant);
+  MachineSession session(machine, board, {.start = {.place = options.start, .trust = Trust::commanded}});
+  while (session.state() == MachineState::offline) session.turn(endless);
+  request::Start start{.program = std::move(program),
+                       .options = options,
+                       .nominal_time = nominal,
+                       .waits_for_operator = false,
+                       .live = false,
+                       .answers_probes = false,
+                       .findings = &findings};
+  start.watchers.path = [&](const PathItem& item) { prover.watch(item); };
+  start.watchers.motion = [&](const MotionItem& item) { prover.watch(item); };
+  start.watchers.items = [&](const BoardItem& item) { prover.watch(item); };
+  static_cast<void>(session.request(std::move(start)).has_value());
+  for (unsigned turns = 0; session.busy(); ++turns) {
+    session.turn(endless);
+    if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / nominal);
   }
   return prover.finish();
 }
@@ -48,8 +69,7 @@ int check(const CheckArguments& arguments) {
   const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
   if (result.good && arguments.motion) {
     show(findings);
-    Job job(std::move(*program), *machine, *options, findings, {.probing = Job::Probing::nominal});
-    const MotionProof proof = prove(job, *machine, arguments.program.program, result.nominal_time);
+    const MotionProof proof = prove(std::move(*program), *machine, *options, result.nominal_time, findings);
     std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
     return proof.good() ? exit_done : exit_failed;
   }

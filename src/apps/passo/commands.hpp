@@ -52,6 +52,7 @@ struct RunArguments {
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was broken off
   bool home = false;                   // the machine is homed first, and the program begins where it rests then
+  bool yes = false;                    // goes on at M0, M1 and M6 without asking
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
 };
@@ -59,7 +60,8 @@ int run(const RunArguments& arguments);
 
 struct JogArguments {
   std::string machine;
-  std::vector<std::string> moves;  // "X+10", or "X+" as far as the travel goes
+  std::string board = "virtual";   // as parse_board_address() has it
+  std::vector<std::string> moves;  // "X+10", or "X+" as far as the travel goes; none: by keys
   double feed = 600;               // mm a minute along the way
   double lease = 0.2;              // s
   std::optional<double> held;      // s for which the lease is renewed; none: to the end

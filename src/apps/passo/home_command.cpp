@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "board_run.hpp"
 #include "commands.hpp"
 #include "homing_run.hpp"
+#include "opened_machine.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include <fmt/format.h>
@@ -53,15 +53,12 @@ int home(const HomeArguments& arguments) {
   if (!machine) return exit_bad_machine;
   if (machine->homing.empty()) return fail(exit_bad_machine, words_without_homing(arguments.machine));
   end_on_signals();
-  IdealPlant plant = plant_of(*machine);
-  std::unique_ptr<BoardRun> board;
-  if (arguments.board != "virtual") {
-    int code = exit_done;
-    board = BoardRun::open(arguments.board, static_cast<std::uint8_t>(machine->axes.size()), false, plant, code);
-    if (!board) return code;
-  }
+  int code = exit_done;
+  const auto opened = OpenedMachine::open(*machine, {.board = arguments.board}, code);
+  if (!opened) return code;
   brake_on_signals();
-  const HomingReport report = home_machine(*machine, board.get(), plant, !arguments.quiet);
+  if (!opened->greet(opened->usual_greeting(), code)) return code;
+  const HomingReport report = home_machine(*opened, !arguments.quiet);
   if (arguments.json) {
     fmt::print("{}\n", to_json(report).dump(2));
   } else if (!arguments.quiet) {

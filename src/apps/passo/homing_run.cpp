@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "passo/transport/inquiry.hpp"
+#include "passo/link/await.hpp"
 
 namespace passo {
 namespace {
@@ -50,29 +50,31 @@ class StageLine {
   std::string shown_;
 };
 
-void note_link_error(LinkError error, BoardPort& port, HomingReport& report) {
-  report.code = error == LinkError::stopped ? "home.stopped" : "home.board";
-  report.message = message_of(error);
-  if (error != LinkError::stopped) return;
-  const auto status = Inquiry(port).status(answer);
+// What stopped the motors may still be closed.
+void note_closed_switches(BoardSession& board, HomingReport& report) {
+  board.hang_up();
+  const auto status = ask_status(board, answer);
   if (!status) return;
   const std::vector<std::string> closed = switches_of(*status);
   if (!closed.empty()) report.message += fmt::format("; closed now: {}", fmt::join(closed, ", "));
 }
 
-void note_end(const Homing& homing, BoardPort& port, HomingReport& report) {
-  report.axes = homing.path().homed();
-  report.place = homing.place();
-  if (homing.done()) return;
-  if (homing.path().axis() != nullptr) report.axis = homing.path().axis()->axis;
-  if (const auto error = homing.drive().link().error()) return note_link_error(*error, port, report);
-  if (const auto fault = homing.path().fault()) {
-    report.code = code_of(*fault);
-    report.message = message_of(*fault);
+void note_end(MachineSession& session, const Answered& answered, HomingReport& report) {
+  const HomingPath* const path = session.homing();
+  report.axes = path->homed();
+  if (answered.outcome == Outcome::done) return;
+  if (path->axis() != nullptr) report.axis = path->axis()->axis;
+  if (answered.outcome == Outcome::stopped) {
+    report.code = "home.interrupted";
+    report.message = "interrupted; it is not homed";
     return;
   }
-  report.code = "home.interrupted";
-  report.message = "interrupted; it is not homed";
+  report.code = answered.fault->code;
+  report.message = answered.fault->message;
+  if (const auto trouble = session.status().trouble) {
+    report.code = *trouble == LinkError::stopped ? "home.stopped" : "home.board";
+    if (*trouble == LinkError::stopped) note_closed_switches(session.board(), report);
+  }
 }
 
 }  // namespace
@@ -86,28 +88,22 @@ std::string words_without_homing(const std::string& machine_file) {
   return machine_file + ": no axis has a switch to be homed by, a table [axis.X.home] [home.no-switch]";
 }
 
-HomingReport home_machine(const MachineDescription& machine, BoardRun* board, Plant& plant, bool shows) {
-  VirtualMachine own(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
-                     machine.board.highest_event_rate);
-  BoardPort* const port = board != nullptr ? &board->port() : nullptr;
-  if (port == nullptr) own.connect(plant);
+HomingReport home_machine(OpenedMachine& machine, bool shows) {
+  MachineSession& session = machine.session();
   HomingReport report;
-  Homing homing(machine, own, port != nullptr ? BoardLine::to_board(*port) : BoardLine());
-  if (const auto words = homing.drive().unsuited()) {
-    report.code = "home.board";
-    report.message = *words;
+  const Seconds from = session.now();
+  const auto ticket = session.request(request::Home{});
+  if (!ticket) {
+    report.code = code_of(ticket.error().code);
+    report.message = ticket.error().message;
     return report;
   }
-  const Seconds from = homing.drive().now();
   {
     StageLine line(shows);
-    while (homing.advance()) {
-      if (interrupted_by() != 0 && !homing.drive().stopped()) homing.drive().stop();
-      line.look(homing.path());
-    }
+    turn_to_the_end(session, [&] { line.look(*session.homing()); });
   }
-  report.time = homing.drive().now() - from;
-  note_end(homing, port != nullptr ? *port : own, report);
+  report.time = session.now() - from;
+  note_end(session, answer_of(session.take_changes(), *ticket), report);
   return report;
 }
 

@@ -1,18 +1,23 @@
-// passo jog: axes of the virtual machine moved by hand, for as long as the lease is renewed.
+// passo jog: axes moved by hand, for as long as the lease is renewed, or a key is held.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "commands.hpp"
+#include "jog_keys.hpp"
+#include "opened_machine.hpp"
 #include "program_input.hpp"
+#include "run_signals.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include "passo/activity/jog_line.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/link/await.hpp"
 
 namespace passo {
 namespace {
@@ -54,43 +59,48 @@ std::optional<JogWords> read_words(const std::vector<std::string>& texts, const 
   return mixed || !(length_of(words.way) > 0) ? std::nullopt : std::optional(words);
 }
 
-// By the steps that the motors made.
-Point place_of(const VirtualMachine& machine, const MachineDescription& description) {
-  const MachineCounts counts = machine.counts();
-  Point place;
-  for (std::size_t m = 0; m < description.axes.size(); ++m) {
-    const AxisDescription& axis = description.axes[m];
-    const auto steps = static_cast<double>(counts.motors[m].position);
-    place[axis.axis] = (axis.inverted ? -steps : steps) / axis.steps_per_unit;
-  }
-  return place;
-}
-
 struct Ending {
   Point place;
   Seconds time{0};
   const char* why = "";  // distance, travel or lease
+  std::optional<ActivityFault> fault = {};
 };
 
-Ending jog_to_rest(const MachineDescription& description, const JogWords& words, const JogArguments& arguments) {
-  VirtualMachine machine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,
-                         description.board.highest_event_rate);
-  const JogRequest request{.direction = words.way,
-                           .speed = MmPerSecond(arguments.feed / seconds_per_minute),
-                           .distance = Mm(words.is_endless ? 0 : length_of(words.way)),
-                           .lease = Seconds(arguments.lease)};
-  Jog jog(description, machine, Point(), request);
-  while (jog.advance()) {
-    if (!arguments.held || jog.drive().now() < Seconds(*arguments.held)) jog.renew();
+// The button is held: the lease is renewed, and a real machine is looked at more often than that.
+constexpr Seconds between_renewals{0.02};
+
+Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArguments& arguments) {
+  MachineSession& session = opened.session();
+  const KnownPosition from = session.status().position;
+  const JogWay way{.direction = words.way,
+                   .speed = MmPerSecond(arguments.feed / seconds_per_minute),
+                   .distance = Mm(words.is_endless ? 0 : length_of(words.way))};
+  const Seconds begun = session.now();
+  const auto ticket = session.request(request::Jog{.way = way, .lease = Seconds(arguments.lease)});
+  if (!ticket) {
+    Ending refused;
+    refused.fault = ActivityFault{std::string(code_of(ticket.error().code)), ticket.error().message};
+    return refused;
   }
-  constexpr double rounding = 1e-6;
-  const bool is_there = distance(jog.place(), jog.target()) < rounding;
-  const bool is_all = !words.is_endless && distance(jog.place(), words.way) < rounding;
-  return {.place = place_of(machine, description),
-          .time = jog.drive().now(),
-          .why = is_all     ? "distance"
-                 : is_there ? "travel"
-                            : "lease"};
+  bool brakes = false;
+  while (session.busy()) {
+    if (interrupted_by() != 0 && !std::exchange(brakes, true)) {
+      static_cast<void>(session.request(request::Stop{}).has_value());
+    }
+    const bool holds = !arguments.held || session.now() - begun < Seconds(*arguments.held);
+    if (holds && !brakes) static_cast<void>(session.request(request::RenewLease{}).has_value());
+    session.turn(opened.has_board() ? between_renewals : endless);
+  }
+  const Answered answered = answer_of(session.take_changes(), *ticket);
+  const MachineStatus status = session.status();
+  constexpr double rounding = 1e-3;
+  const bool is_all = !words.is_endless && distance(status.position.place, from.place + words.way) < rounding;
+  return {.place = status.position.place,
+          .time = session.now() - begun,
+          .why = is_all                              ? "distance"
+                 : answered.outcome == Outcome::done ? "travel"
+                                                     : "lease",
+          .fault = answered.fault};
 }
 
 std::string_view in_words(std::string_view why) {
@@ -113,6 +123,20 @@ void print(const Ending& ending, const MachineDescription& machine, bool json) {
   fmt::print(" (machine): {}\n", in_words(ending.why));
 }
 
+// What is wrong with the arguments, beside the moves.
+std::optional<std::string> wrong_numbers(const JogArguments& arguments) {
+  if (!(std::isfinite(arguments.feed) && arguments.feed > 0)) {
+    return fmt::format("-F must be above 0 mm/min, not {:g}", arguments.feed);
+  }
+  if (!(arguments.lease >= shortest_lease && arguments.lease <= longest_lease)) {
+    return fmt::format("--lease must be {:g} to {:g} s, not {:g}", shortest_lease, longest_lease, arguments.lease);
+  }
+  if (arguments.held && !(std::isfinite(*arguments.held) && *arguments.held >= 0)) {
+    return fmt::format("--held must be 0 s or more, not {:g}", *arguments.held);
+  }
+  return {};
+}
+
 }  // namespace
 
 int jog(const JogArguments& arguments) {
@@ -120,24 +144,26 @@ int jog(const JogArguments& arguments) {
   const std::optional<MachineDescription> machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
   if (!machine) return exit_bad_machine;
-  const std::optional<JogWords> words = read_words(arguments.moves, *machine);
+  const bool by_keys = arguments.moves.empty() && is_terminal(STDIN_FILENO) && is_terminal(STDOUT_FILENO);
+  const std::optional<JogWords> words = by_keys ? JogWords() : read_words(arguments.moves, *machine);
   if (!words) {
     return fail(exit_bad_program,
                 "expected axes that the machine has, each once and all with a distance (X+10 Y-3) or all without "
-                "(X+ Y-: as far as the travel goes)");
+                "(X+ Y-: as far as the travel goes); on a terminal none, to jog by keys");
   }
-  if (!(std::isfinite(arguments.feed) && arguments.feed > 0)) {
-    return fail(exit_bad_program, fmt::format("-F must be above 0 mm/min, not {:g}", arguments.feed));
-  }
-  if (!(arguments.lease >= shortest_lease && arguments.lease <= longest_lease)) {
-    return fail(exit_bad_program, fmt::format("--lease must be {:g} to {:g} s, not {:g}", shortest_lease, longest_lease,
-                                              arguments.lease));
-  }
-  if (arguments.held && !(std::isfinite(*arguments.held) && *arguments.held >= 0)) {
-    return fail(exit_bad_program, fmt::format("--held must be 0 s or more, not {:g}", *arguments.held));
-  }
-  print(jog_to_rest(*machine, *words, arguments), *machine, arguments.json);
-  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+  if (const auto wrong = wrong_numbers(arguments)) return fail(exit_bad_program, *wrong);
+  int code = exit_done;
+  const auto opened = OpenedMachine::open(*machine, {.board = arguments.board}, code);
+  if (!opened) return code;
+  brake_on_signals();
+  if (!opened->greet(opened->usual_greeting(), code)) return code;
+  if (by_keys) return jog_by_keys(*opened, *machine, MmPerSecond(arguments.feed / seconds_per_minute));
+  const Ending ending = jog_to_rest(*opened, *words, arguments);
+  if (ending.fault) return fail(exit_failed, fmt::format("{} [{}]", ending.fault->message, ending.fault->code));
+  if (const auto differs = opened->compare()) return fail(exit_failed, "the board: " + *differs);
+  print(ending, *machine, arguments.json);
+  if (std::fflush(stdout) != 0) return fail(exit_failed, "cannot write to standard output");
+  return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;
 }
 
 }  // namespace passo

@@ -81,9 +81,11 @@ void add_board(CLI::App& command, std::string& board) {
 }
 
 CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
-  CLI::App& command = *app.add_subcommand("jog", "move axes of the virtual machine by hand, and say where they rest");
-  command.add_option("MOVES", arguments.moves, "X+10 Y-3: by so much; X+: as far as the travel goes")->required();
+  CLI::App& command = *app.add_subcommand("jog", "move axes by hand, and say where they rest");
+  command.add_option("MOVES", arguments.moves,
+                     "X+10 Y-3: by so much; X+: as far as the travel goes; none, on a terminal: by keys");
   add_machine(command, arguments.machine);
+  add_board(command, arguments.board);
   command.add_option("-F,--feed", arguments.feed, "along the way, mm/min")->capture_default_str();
   command.add_option("--lease", arguments.lease, "SECONDS: not renewed for so long, the machine brakes")
       ->capture_default_str();
@@ -93,7 +95,8 @@ CLI::App& add_jog(CLI::App& app, JogArguments& arguments) {
       "Examples:\n  passo jog -m router.toml X+10 -F 600          10 mm to the right\n"
       "  passo jog -m router.toml X-3 Y+4              straight to both\n"
       "  passo jog -m router.toml Z+                   up to the end of the travel\n"
-      "  passo jog -m router.toml X- --held 1.5        let go after 1.5 s: it rests a lease later");
+      "  passo jog -m router.toml X- --held 1.5        let go after 1.5 s: it rests a lease later\n"
+      "  passo jog -m uno.toml --board serial:/dev/ttyACM0      by keys, on a real machine: arrows, Page Up and Down");
   return command;
 }
 
@@ -145,6 +148,7 @@ int parse_and_run(int argc, char** argv) {
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
   run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
+  run_command.add_flag("-y,--yes", run_arguments.yes, "go on at M0, M1 and M6 without asking");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(

@@ -6,6 +6,8 @@
 
 #include "program_input.hpp"
 
+#include "passo/link/await.hpp"
+
 namespace passo {
 namespace {
 
@@ -29,6 +31,8 @@ std::optional<std::pair<double, double>> pair_of(std::string_view text, char bet
   return std::pair(*first, *second);
 }
 
+}  // namespace
+
 std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description) {
   std::vector<double> place;
   const MachineCounts counts = machine.counts();
@@ -40,8 +44,6 @@ std::vector<double> place_of(const VirtualMachine& machine, const MachineDescrip
   return place;
 }
 
-}  // namespace
-
 std::optional<CableCut> read_cable_cut(const std::string& text) {
   const auto both = pair_of(text, ':');
   if (both) return CableCut{.at = Seconds(both->first), .missing = Seconds(both->second)};
@@ -50,14 +52,15 @@ std::optional<CableCut> read_cable_cut(const std::string& text) {
   return std::nullopt;
 }
 
-void TailWatch::look(const MotionDrive& drive, const VirtualMachine& machine, const MachineDescription& description) {
-  const Refiller* const refiller = drive.refiller();
+void TailWatch::look(const MachineSession& session, const VirtualMachine& machine,
+                     const MachineDescription& description) {
+  const Refiller* const refiller = session.refiller();
   if (refiller == nullptr || static_cast<std::size_t>(refiller->recoveries()) == tails_.size()) return;
   std::int64_t last_step = 0;
   for (const MotorCounts& motor : machine.counts().motors) last_step = std::max(last_step, motor.last_step.count);
   tails_.push_back({.rest = Seconds(static_cast<double>(last_step) / description.board.clock.value()),
                     .place = place_of(machine, description),
-                    .resumed = drive.now()});
+                    .resumed = session.now()});
 }
 
 std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>& holds,
@@ -87,46 +90,57 @@ std::optional<MidRunChanges> MidRunChanges::read(const std::vector<std::string>&
   return changes;
 }
 
-void MidRunChanges::begin(MotionDrive& drive) const {
-  if (any()) drive.go_live({});
+Seconds MidRunChanges::act(MachineSession& session, const VirtualMachine& machine,
+                           const MachineDescription& description) {
+  const Seconds most = mind_rest(session, machine, description);
+  for (; next_ < changes_.size() && changes_[next_].at <= now(session) && session.busy(); ++next_) {
+    // One hold after the other.
+    if (!changes_[next_].factor && holds_now_) break;
+    apply(changes_[next_], session);
+  }
+  return most;
 }
 
-void MidRunChanges::act(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description) {
-  if (drive.state() == MotionDrive::State::held) {
-    if (drive.hold_asked()) {
-      rest(drive, machine, description);
-    } else {
-      wait_for_feed(drive);
-    }
+void MidRunChanges::apply(const Change& change, MachineSession& session) {
+  if (change.factor) {
+    static_cast<void>(session.request(request::Override{.feed = change.factor}).has_value());
+    return;
   }
-  for (; next_ < changes_.size() && changes_[next_].at <= drive.now(); ++next_) {
-    const Change& change = changes_[next_];
-    if (change.factor) {
-      drive.set_feed_override(*change.factor);
-      continue;
-    }
-    // One after the other.
-    if (drive.hold_asked()) return;
-    drive.hold();
-    pause_ = change.pause;
-    holds_.push_back({.asked = drive.now(), .reaction = drive.committed()});
-  }
+  const Seconds committed = session.status().committed;
+  if (!session.request(request::Hold{})) return;
+  holds_now_ = true;
+  pause_ = change.pause;
+  holds_.push_back({.asked = now(session), .reaction = committed});
 }
 
-void MidRunChanges::rest(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description) {
+// At rest: in a hold until its pause is over; at a feed of nothing until the next change, or for good where none comes.
+Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& machine,
+                                 const MachineDescription& description) {
+  const MachineStatus status = session.status();
+  if (!session.busy() || status.state != MachineState::hold || !status.rests) return endless;
+  if (!holds_now_) {
+    if (!status.holds.has(HoldReason::zero_feed)) return endless;
+    if (next_ < changes_.size()) return std::max(changes_[next_].at - now(session), Seconds(0));
+    static_cast<void>(session.request(request::Stop{}).has_value());
+    return endless;
+  }
   HoldSummary& hold = holds_.back();
-  hold.rest = drive.now();
-  hold.place = place_of(machine, description);
-  if (!pause_) return drive.stop();
-  drive.wait(*pause_);
-  hold.resumed = drive.now();
-  drive.resume();
-}
-
-// Until the next change; where none comes, for good.
-void MidRunChanges::wait_for_feed(MotionDrive& drive) {
-  if (next_ == changes_.size()) return drive.stop();
-  drive.wait(std::max(changes_[next_].at - drive.now(), Seconds(0)));
+  if (!resume_at_) {
+    hold.rest = now(session);
+    hold.place = place_of(machine, description);
+    resume_at_ = now(session) + pause_.value_or(Seconds(0));
+  }
+  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
+  if (pause_ && *resume_at_ - now(session) > hardly_any) return *resume_at_ - now(session);
+  holds_now_ = false;
+  resume_at_.reset();
+  if (pause_) {
+    hold.resumed = now(session);
+    static_cast<void>(session.request(request::Resume{}).has_value());
+  } else {
+    static_cast<void>(session.request(request::Stop{}).has_value());
+  }
+  return endless;
 }
 
 std::vector<HoldSummary> MidRunChanges::holds() const {

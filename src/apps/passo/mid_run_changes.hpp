@@ -1,13 +1,14 @@
-// MidRunChanges: what `passo run` does to a job while it runs: holds and feed overrides at given times.
+// MidRunChanges: what `passo run` does to a program while it runs: holds and feed overrides at given times.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "passo/drive/motion_drive.hpp"
+#include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/summary.hpp"
+#include "passo/session/machine_session.hpp"
 
 namespace passo {
 
@@ -19,11 +20,14 @@ struct CableCut {
 // Of "SECONDS:SECONDS"; nothing where it says something else, which is told on standard error.
 std::optional<CableCut> read_cable_cut(const std::string& text);
 
-// Watches a job for rests at the ends of braking tails.
+// Where the motors of a virtual machine stand, on each axis, from the steps that were counted.
+std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description);
+
+// Watches a run for rests at the ends of braking tails.
 class TailWatch {
  public:
-  // After each step of the drive.
-  void look(const MotionDrive& drive, const VirtualMachine& machine, const MachineDescription& description);
+  // After each turn of the session.
+  void look(const MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   const std::vector<TailSummary>& tails() const { return tails_; }
 
  private:
@@ -33,16 +37,16 @@ class TailWatch {
 class MidRunChanges {
  public:
   // `holds`: "2.5" ends the run at rest from 2.5 s on; "2.5:1" goes on after a second of rest. `overrides`: "50@2.5" is
-  // half the feed from 2.5 s on. Times are those of the virtual machine. Nothing where one says something else, which
-  // is told on standard error.
+  // half the feed from 2.5 s on. Times are those of the board, from the start of the program. Nothing where one says
+  // something else, which is told on standard error.
   static std::optional<MidRunChanges> read(const std::vector<std::string>& holds,
                                            const std::vector<std::string>& overrides);
 
   bool any() const { return !changes_.empty(); }
-  // Before the first step.
-  void begin(MotionDrive& drive) const;
-  // Between any two steps of the drive.
-  void act(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description);
+  // The program begins now.
+  void begin(Seconds now) { begun_ = now; }
+  // Before each turn of the session. How long that may take at most.
+  Seconds act(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
 
   // Those that came before the end of the program.
   std::vector<HoldSummary> holds() const;
@@ -53,12 +57,16 @@ class MidRunChanges {
     std::optional<double> factor = {};  // of the feed; none: a hold
     std::optional<Seconds> pause = {};  // of a hold, until it goes on
   };
-  void wait_for_feed(MotionDrive& drive);
-  void rest(MotionDrive& drive, VirtualMachine& machine, const MachineDescription& description);
+  Seconds now(const MachineSession& session) const { return session.now() - begun_; }
+  Seconds mind_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
+  void apply(const Change& change, MachineSession& session);
 
   std::vector<Change> changes_;  // by time
   std::size_t next_ = 0;
-  std::optional<Seconds> pause_;
+  Seconds begun_{0};
+  bool holds_now_ = false;            // a hold was asked for, and is not over
+  std::optional<Seconds> pause_;      // of it
+  std::optional<Seconds> resume_at_;  // it rests until then
   std::vector<HoldSummary> holds_;
 };
 

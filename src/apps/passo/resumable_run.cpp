@@ -7,6 +7,9 @@
 #include "program_input.hpp"
 #include <fmt/format.h>
 
+#include "passo/activity/stage_options.hpp"
+#include "passo/link/await.hpp"
+
 namespace passo {
 namespace {
 
@@ -94,16 +97,16 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const Subject& subject, int& co
   return run;
 }
 
-bool ResumableRun::find_place(BoardRun& board, const ProgramReader& program, const Subject& subject, int& code) {
-  if (const auto stranger = refuse_stranger(*before_, board.before())) {
+bool ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code) {
+  if (const auto stranger = refuse_stranger(*before_, machine.before())) {
     code = refuse(*stranger);
     return false;
   }
-  if (!board.wait_for_rest()) {
+  if (!machine.wait_for_rest()) {
     code = fail(exit_failed, "the board: it does not answer any more");
     return false;
   }
-  const auto found = resume_point_of(*before_, board.before(), program, subject.machine, subject.options);
+  const auto found = resume_point_of(*before_, machine.before(), program, subject.machine, subject.options);
   if (!found) {
     if (found.error() == ResumeRefusal::rest_unknown && before_->torn() > 0) {
       code = refuse("resume.torn-journal", file_.path() + " is not whole, and the board's rest is not in it");
@@ -113,26 +116,41 @@ bool ResumableRun::find_place(BoardRun& board, const ProgramReader& program, con
     return false;
   }
   point_ = *found;
-  head_ = head_of_resumption(before_->head(), board.before(), *point_);
-  board.count_from(head_.job_counts);
+  head_ = head_of_resumption(before_->head(), machine.before(), *point_);
   fmt::print(stderr, "passo: goes on {}\n", place_words(*point_, subject.machine));
   return true;
 }
 
-bool ResumableRun::begin(BoardRun& board, const ProgramReader& program, const Subject& subject, int& code) {
-  const BoardStatus& status = board.before();
+bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code) {
+  MachineSession& session = machine.session();
+  const bool is_ready = session.state() != MachineState::offline;
+  const BoardStatus status = is_ready ? *session.board().status() : machine.before();
   if (resumes_) {
-    if (!find_place(board, program, subject, code)) return false;
+    if (!find_place(machine, program, subject, code)) return false;
   } else {
-    head_ = head_of_beginning(std::move(head_), status, subject.machine.axes.size());
-    if (before_ && before_->is_of(status)) {
+    // The journal that was there is of the board as it was before the hello.
+    if (before_ && before_->is_of(machine.before())) {
       const std::string name = std::filesystem::path(before_->head().program.name).filename().string();
       note(fmt::format("{} was not finished on this board; --resume would have gone on with it",
                        name.empty() ? "a program" : name));
     }
+    head_ = head_of_beginning(std::move(head_), status, steps_at(subject.machine, session.status().position.place),
+                              subject.machine.axes.size());
   }
   head_.session = any_session(status.session);
-  head_.greeting = any_greeting();
+  head_.greeting = is_ready ? std::uint8_t{0} : any_greeting();
+  if (!write_head(subject, code)) return false;
+  if (!is_ready) {
+    return machine.greet({.session = head_.session, .number = head_.greeting}, code) &&
+           stands_there(session.board(), code);
+  }
+  session.name_session(head_.session);
+  if (await(session.board(), [&] { return session.board().ready(); })) return true;
+  code = fail(exit_failed, "the board: it does not answer any more");
+  return false;
+}
+
+bool ResumableRun::write_head(const Subject& subject, int& code) {
   writer_.begin(head_);
   if (!writer_.failed()) return true;
   const std::string words = file_.path() + ": this journal cannot be written";
@@ -144,28 +162,25 @@ bool ResumableRun::begin(BoardRun& board, const ProgramReader& program, const Su
   return true;
 }
 
-void ResumableRun::add_to(Job::Options& options) const {
-  options.session = head_.session;
-  options.greeting = head_.greeting;
-  options.resume_at = point_;
+// The board was greeted, and is as it was before.
+bool ResumableRun::stands_there(const BoardSession& board, int& code) const {
+  if (!point_ || (board.status() && stands_at(head_, *point_, *board.status()))) return true;
+  code = refuse(ResumeRefusal::counts_differ);
+  return false;
 }
 
-bool ResumableRun::start(Job& job, int& code) {
-  const auto& status = job.link().status();
-  if (point_ && !(status && stands_at(head_, *point_, *status))) {
-    code = refuse(ResumeRefusal::counts_differ);
-    return false;
-  }
-  job.drive().refiller()->watch_rests([this](const BoardRest& rest) { writer_.note(rest); });
-  job.resume();
-  return true;
+void ResumableRun::add_to(request::Start& start) {
+  start.from = point_;
+  start.watchers.rests = [this](const BoardRest& rest) { writer_.note(rest); };
 }
 
-void ResumableRun::end(const Job& job) {
-  const auto error = job.link().error();
-  if (!error && !job.drive().stopped()) return file_.remove();
+void ResumableRun::end(const MachineSession& session, const Answered& answered) {
+  const auto trouble = session.status().trouble;
+  const bool ended = !trouble && answered.outcome == Outcome::done;
+  const bool by_program = answered.fault && answered.fault->code == "program.wrong";
+  if (ended || by_program) return file_.remove();
   // Where it stands is not certain: --resume would be refused, and the reason said.
-  if (error == LinkError::stopped || error == LinkError::was_reset) return;
+  if (trouble == LinkError::stopped || trouble == LinkError::was_reset) return;
   if (writer_.failed()) return note(file_.path() + ": this journal could not be written");
   note("the program has not come to its end; the same command with --resume goes on with it");
 }

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "board_run.hpp"
 #include "commands.hpp"
 #include "journal_file.hpp"
+#include "opened_machine.hpp"
 
 #include "passo/activity/program.hpp"
 #include "passo/journal/resumption.hpp"
@@ -29,18 +29,19 @@ class ResumableRun {
   // said why, with `code` to exit with. Also null, with exit_done, where no journal is kept.
   static std::unique_ptr<ResumableRun> open(const Subject& subject, int& code);
 
-  // Waits until the board rests, finds the place with --resume, and writes the head of the new journal. False, and said
-  // why, where the job cannot go on.
-  [[nodiscard]] bool begin(BoardRun& board, const ProgramReader& program, const Subject& subject, int& code);
-  void add_to(Job::Options& options) const;
-  // The board was greeted. False, and said why, where it is not as it was before.
-  [[nodiscard]] bool start(Job& job, int& code);
+  // Waits until the board rests, finds the place with --resume, writes the head of the new journal, and greets the
+  // board by it, or names the session where the machine is ready already. False, and said why, where the program cannot
+  // go on.
+  [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
+  void add_to(request::Start& start);
   // The program has come to its end; else the journal stays.
-  void end(const Job& job);
+  void end(const MachineSession& session, const Answered& answered);
 
  private:
   explicit ResumableRun(const std::string& path) : file_(path), writer_(file_) {}
-  bool find_place(BoardRun& board, const ProgramReader& program, const Subject& subject, int& code);
+  bool find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
+  bool write_head(const Subject& subject, int& code);
+  bool stands_there(const BoardSession& board, int& code) const;
 
   JournalFile file_;
   JournalWriter writer_;

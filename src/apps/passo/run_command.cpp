@@ -1,17 +1,16 @@
-// passo run: check the program, run it on the virtual machine, and write what was asked for.
+// passo run: check the program, run it on the machine, and write what was asked for.
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 
-#include "board_run.hpp"
 #include "commands.hpp"
 #include "homing_run.hpp"
 #include "mid_run_changes.hpp"
+#include "opened_machine.hpp"
+#include "operator_prompt.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "resumable_run.hpp"
@@ -22,11 +21,9 @@
 #include <unistd.h>
 
 #include "passo/activity/program.hpp"
-#include "passo/activity/machine_plant.hpp"
-#include "passo/session/operator_panel.hpp"
-#include "passo/journal/path_fingerprint.hpp"
-#include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
+#include "passo/journal/path_fingerprint.hpp"
+#include "passo/link/await.hpp"
 #include "passo/report/line_load.hpp"
 #include "passo/report/summary.hpp"
 #include "passo/report/summary_builder.hpp"
@@ -34,29 +31,66 @@
 namespace passo {
 namespace {
 
-// How often the clock is read for the progress line: every so many board segments.
-constexpr unsigned segments_between_looks = 1024;
+// How often the clock is read for the progress line: every so many turns.
+constexpr unsigned turns_between_looks = 1024;
 
-void add_board(RunSummary& summary, Job& job, const MachineDescription& machine) {
-  const MachineCounts counts = job.machine().counts();
+// What the machine had done when the program began, if it was homed before. The hello counts as the program's.
+struct Before {
+  MachineCounts counts;
+  Ticks time;
+  std::uint64_t frames = 0;
+  std::uint64_t bytes = 0;
+};
+
+Before before_program(OpenedMachine& machine) {
+  if (machine.session().homing() == nullptr) return {};
+  const BoardSession& board = machine.session().board();
+  return {.counts = machine.machine().counts(),
+          .time = machine.machine().now(),
+          .frames = board.frames_sent(),
+          .bytes = board.bytes_sent()};
+}
+
+void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine, const Before& before) {
+  const MachineCounts counts = opened.machine().counts();
+  const BoardSession& link = opened.session().board();
   BoardSummary board;
-  board.end = Seconds(static_cast<double>(job.machine().now().count) / machine.board.clock.value());
-  board.events = static_cast<std::uint64_t>(counts.events);
-  board.frames = job.link().frames_sent();
-  board.bytes = job.link().bytes_sent();
-  if (const Refiller* refiller = job.drive().refiller(); refiller != nullptr && job.link().board()) {
-    board.held_items = job.link().board()->capacity;
+  const Ticks time{opened.machine().now().count - before.time.count};
+  board.end = Seconds(static_cast<double>(time.count) / machine.board.clock.value());
+  board.events = static_cast<std::uint64_t>(counts.events - before.counts.events);
+  board.frames = link.frames_sent() - before.frames;
+  board.bytes = link.bytes_sent() - before.bytes;
+  if (const Refiller* refiller = opened.session().refiller(); refiller != nullptr && link.board()) {
+    board.held_items = link.board()->capacity;
     board.rests = refiller->recoveries();
   }
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;
+    const std::int64_t total = counts.motors[m].total - before.counts.motors[m].total;
     summary.axes[m].net_steps = Steps{net};
-    summary.axes[m].total_steps = Steps{counts.motors[m].total};
+    summary.axes[m].total_steps = Steps{total};
     summary.axes[m].position = static_cast<double>(net) / axis.steps_per_unit;
-    board.pulses += static_cast<std::uint64_t>(counts.motors[m].total);
+    board.pulses += static_cast<std::uint64_t>(total);
   }
   summary.board = board;
+}
+
+ActivityFault refused(const Refusal& refusal) {
+  return {.code = std::string(code_of(refusal.code)), .message = refusal.message};
+}
+
+void stop(MachineSession& session) {
+  static_cast<void>(session.request(request::Stop{}).has_value());
+}
+
+// How often the board had to brake by itself.
+void tell_tails(const MachineSession& session) {
+  const int rests = session.refiller()->recoveries();
+  if (rests == 0) return;
+  fmt::print(stderr,
+             "passo: nothing had come to the board in time, {}: it came to rest on the path, and went on from there\n",
+             rests == 1 ? "once" : fmt::format("{} times", rests));
 }
 
 std::vector<Axis> axes_of(const MachineDescription& machine) {
@@ -80,47 +114,66 @@ void count(const ProbeOutcome& outcome, const MachineDescription& machine, Probe
   probes.farthest_overrun = std::max(probes.farthest_overrun, Mm(length_of(outcome.rest - outcome.contact)));
 }
 
-RunSummary play(Job& job, const ProgramCheck& check, const RunArguments& arguments, const MachineDescription& machine,
-                RunOutputs& outputs, MidRunChanges& changes, const BoardRun* board) {
+// What a run is of, beside its arguments.
+struct Run {
+  const RunArguments& arguments;
+  const MachineDescription& machine;
+  const ProgramCheck& check;
+  OpenedMachine& opened;
+  MidRunChanges& changes;
+  RunOutputs& outputs;
+};
+
+// Runs the program to its end, watched.
+RunSummary play(const Run& run, request::Start start, Answered& answered) {
+  MachineSession& session = run.opened.session();
+  const MachineDescription& machine = run.machine;
   SummaryBuilder builder(axes_of(machine));
-  job.motion().watch([&](const MotionItem& item) {
+  ProbeSummary probes;
+  start.watchers.motion = [&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
-  });
-  ProbeSummary probes;
-  job.drive().probe().watch([&](const ProbeOutcome& outcome) { count(outcome, machine, probes); });
-  outputs.watch(job);
-  changes.begin(job.drive());
-  OperatorPanel panel(job.drive());
+  };
+  start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };
+  run.outputs.watch(run.opened.machine(), start.watchers);
+  run.opened.follow(start.watchers, start.from ? start.from->point : session.status().position.place);
+  const Before before = before_program(run.opened);
   TailWatch tails;
   LineLoad load;
-  {
-    ProgressDisplay progress(arguments.program.program, !arguments.quiet);
-    for (unsigned played = 0; job.advance() && !outputs.failed(); ++played) {
-      if (interrupted_by() != 0 && !job.drive().stopped()) job.drive().stop();
-      if (board != nullptr) panel.look();
-      if (changes.any() && !panel.holds()) changes.act(job.drive(), job.machine(), machine);
-      if (board == nullptr) tails.look(job.drive(), job.machine(), machine);
-      load.look(job.drive().now(), job.link().bytes_sent());
-      if (played % segments_between_looks == 0) progress.update(job.nominal_time() / check.nominal_time);
+  OperatorPrompt prompt(run.arguments.program.program);
+  run.changes.begin(session.now());
+  const auto ticket = session.request(std::move(start));
+  if (!ticket) {
+    answered = {.outcome = Outcome::failed, .fault = refused(ticket.error())};
+  } else {
+    ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
+    bool brakes = false;
+    for (unsigned turns = 0; session.busy() && !run.outputs.failed(); ++turns) {
+      if (interrupted_by() != 0 && !std::exchange(brakes, true)) stop(session);
+      const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
+      session.turn(std::min(most, prompt.look(session)));
+      if (!run.opened.has_board()) tails.look(session, run.opened.machine(), machine);
+      load.look(session.now(), session.board().bytes_sent());
+      if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
+    answered = answer_of(session.take_changes(), *ticket);
   }
+  run.opened.catch_up();
   RunSummary summary = builder.summary();
-  summary.program = arguments.program.program;
+  summary.program = run.arguments.program.program;
   summary.machine = machine.name;
-  add_board(summary, job, machine);
+  add_board(summary, run.opened, machine, before);
   summary.board->busiest_second = load.busiest();
-  summary.holds = changes.holds();
+  summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
+  if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   return summary;
 }
 
 // Why a run ended before its program did, and where.
-std::string stopped_words(const Job& job, const RunSummary& summary) {
-  std::string words = interrupted_by() != 0            ? "interrupted; "
-                      : job.drive().stopped_by_probe() ? "the probe was touched in a move that is no probe move; "
-                                                       : "the program cannot go on; ";
+std::string stopped_words(const Answered& answered, const RunSummary& summary) {
+  std::string words = interrupted_by() != 0 ? "interrupted; " : answered.fault->message + "; ";
   words += "the machine rests at";
   for (const AxisSummary& axis : summary.axes) words += fmt::format(" {}{:.3f}", letter_of(axis.axis), axis.position);
   return words + " (machine coordinates), and nothing was written";
@@ -146,36 +199,27 @@ bool keeps_journal(const RunArguments& arguments) {
   return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
 }
 
-std::function<void(const PathItem&)> known_again(PathFingerprint& path, const RunArguments& arguments) {
-  if (!keeps_journal(arguments)) return {};
-  return [&path](const PathItem& item) { path.add(item); };
+// The machine is homed before the program. The exit code.
+int home_first(OpenedMachine& machine, bool shows) {
+  const HomingReport report = home_machine(machine, shows);
+  if (report.code.empty()) return exit_done;
+  const int failed = fail(exit_failed, words_of(report));
+  return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }
 
-// The exit code; `board` is null where the machine is virtual.
-int home_first(const MachineDescription& machine, BoardRun* board, Plant& plant, bool shows) {
-  const HomingReport report = home_machine(machine, board, plant, shows);
-  if (!report.code.empty()) {
-    const int failed = fail(exit_failed, words_of(report));
-    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
-  }
-  if (board == nullptr || board->stands_at(steps_at(machine, report.place))) return exit_done;
-  return fail(exit_failed, "the board: it does not answer any more");
-}
-
-// Opens it, and the journal of what runs on it. From here on Ctrl-C brakes.
-int reach_board(const ResumableRun::Subject& subject, const ProgramReader& program, Plant& plant,
-                std::unique_ptr<BoardRun>& board, std::unique_ptr<ResumableRun>& resumable) {
+// The machine becomes ready, is homed if that is asked for, and a journal is begun. From here on Ctrl-C brakes.
+int make_ready(const ResumableRun::Subject& subject, const ProgramReader& program, OpenedMachine& machine,
+               ResumableRun* resumable) {
   const RunArguments& arguments = subject.arguments;
   int code = exit_done;
-  if (keeps_journal(arguments)) resumable = ResumableRun::open(subject, code);
-  if (code != exit_done) return code;
-  const auto motors = static_cast<std::uint8_t>(subject.machine.axes.size());
-  board = BoardRun::open(arguments.board, motors, arguments.resume, plant, code);
-  if (!board) return code;
-  brake_on_signals();
-  // A job that is resumed began so.
-  if (arguments.home && !arguments.resume) code = home_first(subject.machine, board.get(), plant, !arguments.quiet);
-  if (code == exit_done && resumable) static_cast<void>(resumable->begin(*board, program, subject, code));
+  if (machine.has_board()) brake_on_signals();
+  // A program that is resumed began so.
+  const bool homes = arguments.home && !arguments.resume;
+  if ((homes || resumable == nullptr) && !machine.greet(machine.usual_greeting(), code)) return code;
+  if (homes) code = home_first(machine, !arguments.quiet);
+  if (code == exit_done && resumable != nullptr) {
+    static_cast<void>(resumable->begin(machine, program, subject, code));
+  }
   return code;
 }
 
@@ -226,8 +270,11 @@ int run(const RunArguments& arguments) {
   if (arguments.home) options->start = home_rest(*machine);
   Diagnostics findings;
   PathFingerprint path;
-  const ProgramCheck check =
-      check_program(program->again(), *machine, *options, findings, known_again(path, arguments));
+  ProgramStops stops;
+  const ProgramCheck check = check_program(program->again(), *machine, *options, findings, [&](const PathItem& item) {
+    if (keeps_journal(arguments)) path.add(item);
+    stops.watch(item);
+  });
   show(findings);
   if (!check.good) return exit_bad_program;
   if (!suits_the_board(arguments)) return exit_bad_program;
@@ -238,43 +285,44 @@ int run(const RunArguments& arguments) {
       RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
   if (!outputs) return fail(exit_failed, outputs.error().message);
 
-  IdealPlant plant = plant_of(*machine, Point(), *boxes);
-  std::unique_ptr<BoardRun> board;
+  int code = exit_done;
   std::unique_ptr<ResumableRun> resumable;
-  Job::Options reaches;
-  reaches.plant = &plant;
-  if (cut) reaches.line.emplace();
-  if (arguments.board != "virtual") {
-    const int code =
-        reach_board({arguments, *machine, *options, check, path.value()}, *program, plant, board, resumable);
-    if (code != exit_done) return code;
-    reaches.board = &board->port();
-    if (resumable) resumable->add_to(reaches);
-  } else if (arguments.home) {
-    if (const int code = home_first(*machine, nullptr, plant, !arguments.quiet); code != exit_done) return code;
-  }
+  const ResumableRun::Subject subject{arguments, *machine, *options, check, path.value()};
+  if (keeps_journal(arguments)) resumable = ResumableRun::open(subject, code);
+  if (code != exit_done) return code;
+  const auto opened = OpenedMachine::open(
+      *machine, {.board = arguments.board, .cut = cut, .boxes = *boxes, .may_move = arguments.resume}, code);
+  if (!opened) return code;
+  code = make_ready(subject, *program, *opened, resumable.get());
+  if (code != exit_done) return code;
 
   Diagnostics late;
-  Job job(std::move(*program), *machine, *options, late, reaches);
-  if ((cut || board) && !job.link().error()) {
-    if (const auto words = job.unsuited()) return fail(exit_failed, "the board: " + *words);
+  request::Start start{.program = std::move(*program),
+                       .options = *options,
+                       .nominal_time = check.nominal_time,
+                       .waits_for_operator = !arguments.yes && (keeps_journal(arguments) || asks_operator()),
+                       .live = changes->any(),
+                       .findings = &late};
+  if (resumable) resumable->add_to(start);
+  if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
+  Answered answered;
+  const RunSummary summary =
+      play({arguments, *machine, check, *opened, *changes, *outputs}, std::move(start), answered);
+  const MachineSession& session = opened->session();
+  if (resumable) resumable->end(session, answered);
+  if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
+  if (answered.fault && answered.fault->code == "board.failed") {
+    return fail(exit_failed, "the board: " + answered.fault->message);
   }
-  if (cut) job.line().cut(cut->at, cut->missing);
-  if (int code = exit_done; resumable && !job.link().error() && !resumable->start(job, code)) return code;
-  const RunSummary summary = play(job, check, arguments, *machine, *outputs, *changes, board.get());
-  if (resumable) resumable->end(job);
-  if (const auto error = job.link().error()) return fail(exit_failed, "the board: " + std::string(message_of(*error)));
-  if (board) {
-    if (const auto words = board->compare(job.machine().counts())) return fail(exit_failed, "the board: " + *words);
-    board->tell(*job.drive().refiller());
-  }
-  if (late.any_error() || job.drive().stopped_by_probe() || interrupted_by() != 0) {
+  if (const auto words = opened->compare()) return fail(exit_failed, "the board: " + *words);
+  if (opened->has_board()) tell_tails(session);
+  if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
     show(late);
-    const int failed = fail(exit_failed, stopped_words(job, summary));
+    const int failed = fail(exit_failed, stopped_words(answered, summary));
     return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
   }
-  const Status<OutputError> written =
-      outputs->commit(summary, job.saved_parameters(), job.tools(), options->machine_units);
+  const Status<OutputError> written = outputs->commit(summary, session.program()->saved_parameters(),
+                                                      session.program()->tools(), options->machine_units);
   if (!written) return fail(exit_failed, written.error().message);
 
   return print(summary, arguments);

@@ -127,14 +127,15 @@ Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, 
   return RunOutputs(std::move(state));
 }
 
-void RunOutputs::watch(Job& job) {
-  state_->machine = &job.machine();
-  for (State::TraceFile& trace : state_->traces) job.machine().add_observer(*trace.trace);
+void RunOutputs::watch(VirtualMachine& machine, Watchers& watchers) {
+  state_->machine = &machine;
+  for (State::TraceFile& trace : state_->traces) machine.add_observer(*trace.trace);
   if (state_->pictures.empty()) return;
-  job.motion().watch([state = state_.get()](const MotionItem& item) {
+  watchers.motion = [state = state_.get(), before = std::move(watchers.motion)](const MotionItem& item) {
+    if (before) before(item);
     const auto* move = std::get_if<PlannedMove>(&item);
     state->recorder.watch(item, move != nullptr ? move->segment.work_zero : Point());
-  });
+  };
 }
 
 bool RunOutputs::failed() const {

@@ -9,11 +9,12 @@
 #include "commands.hpp"
 
 #include "passo/base/result.hpp"
-#include "passo/activity/program.hpp"
 #include "passo/machine/machine_observer.hpp"
+#include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/report/summary.hpp"
+#include "passo/session/request.hpp"
 
 namespace passo {
 
@@ -31,11 +32,11 @@ class RunOutputs {
   RunOutputs& operator=(RunOutputs&&) noexcept;
   ~RunOutputs();
 
-  // Before the first step of the job.
-  void watch(Job& job);
+  // Before the first step of the program. `machine` does what the board does.
+  void watch(VirtualMachine& machine, Watchers& watchers);
   // A file cannot take more: there is no point in going on.
   bool failed() const;
-  // After the job has come to its end.
+  // After the program has come to its end.
   Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters, const ToolTable& tools,
                              LengthUnits machine_units);
 

@@ -1,5 +1,5 @@
-// Activity: what a machine can be busy with: a path, and what the path needs of the machine. A program, a jog, homing, a
-// probe move.
+// Activity: what a machine can be busy with: a path, and what the path needs of the machine. A program, a jog, homing,
+// a probe move.
 //
 // An activity is a plain source of path items. It knows nothing of boards and waits for nothing: what the machine finds
 // on the way reaches it through MachineAnswers, and no stage reads past a question before the answer is there.

@@ -1,5 +1,5 @@
-// JogLine: the path of a jog: straight, at the given speed, and only so far as the travel of the machine or the distance
-// that is asked for.
+// JogLine: the path of a jog: straight, at the given speed, and only so far as the travel of the machine or the
+// distance that is asked for.
 //
 // A jog needs a lease that is renewed; the session minds that. The path knows nothing of time.
 #pragma once

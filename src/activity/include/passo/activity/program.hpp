@@ -71,9 +71,9 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 class Program final : public Activity {
  public:
-  // `answers` and `diagnostics` outlive the program. `diagnostics` gets what is still found amid the run: nothing after a
-  // good check, if nothing was probed. An error there ends the path, at rest before the move that is wrong.
-  // `whole`: the nominal time of the check, for progress().
+  // `answers` and `diagnostics` outlive the program. `diagnostics` gets what is still found amid the run: nothing after
+  // a good check, if nothing was probed. An error there ends the path, at rest before the move that is wrong. `whole`:
+  // the nominal time of the check, for progress().
   Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
           const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0));
 

@@ -46,7 +46,7 @@ class HoldReasons {
 inline constexpr HoldReasons heeded_holds{HoldReason::operator_hold, HoldReason::door};
 inline constexpr HoldReasons sure_holds{HoldReason::probe_contact, HoldReason::tap, HoldReason::stop};
 // With these the machine stays at rest once it rests; the others end there.
-inline constexpr HoldReasons lasting_holds{HoldReason::operator_hold, HoldReason::door,        HoldReason::program_stop,
+inline constexpr HoldReasons lasting_holds{HoldReason::operator_hold, HoldReason::door,      HoldReason::program_stop,
                                            HoldReason::tool_change,   HoldReason::zero_feed, HoldReason::stop};
 
 }  // namespace passo

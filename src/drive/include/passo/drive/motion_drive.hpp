@@ -171,10 +171,11 @@ class MotionDrive {
   bool contact_seen_ = false;  // of what the board watches for now
   bool stopped_by_probe_ = false;
   std::optional<Point> end_of_probe_;  // where the motion in a probe move ends, if that is not the end of the move
-  Point end_of_tap_;  // of the motion that is committed
+  Point end_of_tap_;                   // of the motion that is committed
 };
 
-// What keeps a machine of such steps from being driven by the board that was greeted, as a sentence without a full stop.
+// What keeps a machine of such steps from being driven by the board that was greeted, as a sentence without a full
+// stop.
 std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder);
 
 }  // namespace passo

@@ -211,7 +211,7 @@ class Refiller final : public Feed {
   bool guards_threads_ = false;
   std::optional<PathPlace> before_action_;  // that was taken last, while nothing has been sent since
   bool waits_for_operator_;
-  bool outputs_changed_ = false;              // and the board is to hear of it
+  bool outputs_changed_ = false;               // and the board is to hear of it
   std::optional<BoardOutputs> switched_ = {};  // sent by themselves, and not known to be done
   Seconds longest_ahead_{0};
 

@@ -1,5 +1,5 @@
-// SpindleTracker: keeps motion in step with the spindle, by what the board's encoder tells: waits for the index, sets the
-// ratio of the feed, finds out when a tap turns round, and gives up where nothing can be followed.
+// SpindleTracker: keeps motion in step with the spindle, by what the board's encoder tells: waits for the index, sets
+// the ratio of the feed, finds out when a tap turns round, and gives up where nothing can be followed.
 //
 // Between the feed, which knows how far ahead motion is committed, and the planner, which is told how fast to go.
 #pragma once

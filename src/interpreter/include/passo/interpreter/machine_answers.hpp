@@ -15,8 +15,8 @@ class MachineAnswers {
   virtual ~MachineAnswers() = default;
   // What the last probe move has found. Null: nobody answers, and a probe move is touched at its end.
   virtual const ProbeOutcome* probe() const { return nullptr; }
-  // Where the tool rested when the spindle turned round in the last tap. Null: nothing follows that, and a tap goes back
-  // from its end.
+  // Where the tool rested when the spindle turned round in the last tap. Null: nothing follows that, and a tap goes
+  // back from its end.
   virtual const Point* tap_rest() const { return nullptr; }
 };
 

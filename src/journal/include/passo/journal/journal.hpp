@@ -9,7 +9,8 @@
 //
 // A session begins in four steps, between any two of which the host may be killed: the head is written, the board
 // hears hello (and forgets the session before), hears the session's number, and gets its first items. The board's
-// status tells which it was: a hello has a number that is not 0, which the board has nowhere else from.
+// status tells which it was: a hello has a number that is not 0, which the board has nowhere else from. A program that
+// is not the first of its host begins without a hello, and goes by the session's number alone.
 #pragma once
 
 #include <cstddef>
@@ -38,11 +39,11 @@ struct JournalHead {
   FileStamp program;            // without a name: from no file
   FileStamp machine;            // the machine's file
   std::uint64_t path = 0;       // fingerprint of all that the program means
-  std::vector<int> job_counts;  // the board's, of each motor, where the job began: path and counts start there
+  std::vector<int> job_counts;  // the board's, of each motor, where the machine's zero is
   // The board as it was before this session's hello, and what it gets to hear.
   std::uint16_t session_before = 0;
   ItemNumber executed_before = 0;
-  std::uint8_t greeting = 0;  // not 0
+  std::uint8_t greeting = 0;  // 0: no hello, the board hears of the session alone
   std::uint16_t session = 0;  // not 0
   PathPlace place;            // where this session begins
   friend bool operator==(const JournalHead&, const JournalHead&) = default;

@@ -5,6 +5,7 @@
 // counts must fit even where the journal is sure.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,7 +43,9 @@ bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardSta
 
 // The head of a journal, before the board's new session: of a job that begins where the board rests, or of one that
 // goes on from that point.
-JournalHead head_of_beginning(JournalHead job, const BoardStatus& status, std::size_t motors);
+// `steps`: of each motor from machine zero, where the job begins.
+JournalHead head_of_beginning(JournalHead job, const BoardStatus& status,
+                              const std::array<std::int64_t, max_motors>& steps, std::size_t motors);
 JournalHead head_of_resumption(JournalHead before, const BoardStatus& status, const ResumePoint& point);
 
 }  // namespace passo

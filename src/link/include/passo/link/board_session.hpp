@@ -10,8 +10,8 @@
 // Where nothing is lost on the way an error that the board reports is a bug on one of the two sides, and final. Where
 // something may be lost, what was sent is kept until the board has taken it, and repeated from where the board says
 // that something is missing: a few frames, and a question how far the board is now, and so on until it has all. After a
-// silence the session asks the board how it is, again and again while patience lasts: a line that comes back is found by
-// that, and what the line had swallowed is sent again.
+// silence the session asks the board how it is, again and again while patience lasts: a line that comes back is found
+// by that, and what the line had swallowed is sent again.
 //
 // Damage that looks like a message is rare, but not never: what would end the job is believed when it comes again.
 #pragma once
@@ -171,34 +171,34 @@ class BoardSession final : public Link {
   Decoder decoder_;
   Phase phase_ = Phase::before_hello;
   std::uint8_t motors_ = 0;
-  std::uint8_t greeting_ = 0;   // the hello's own number
+  std::uint8_t greeting_ = 0;  // the hello's own number
   std::uint16_t session_ = 0;
-  Seconds greeted_{0};          // when the hello or the session's number was said last
+  Seconds greeted_{0};  // when the hello or the session's number was said last
   std::optional<HelloReply> board_;
   std::optional<About> about_;
   std::string gibberish_;
   std::optional<BoardStatus> status_;
   Seconds status_time_{0};
   std::optional<LinkError> error_;
-  ItemNumber sent_ = 0;                // number of the last frame sent
-  ItemNumber taken_ = 0;               // of the last one that the board told to have
-  ItemNumber executed_ = 0;            // of the last item that it told to be done
-  ItemNumber asked_behind_ = 0;        // the last one sent when the board was last asked
-  std::optional<Question> awaited_;    // the host goes on when this is answered
-  std::uint8_t question_ = 0;          // the number of the last question
+  ItemNumber sent_ = 0;              // number of the last frame sent
+  ItemNumber taken_ = 0;             // of the last one that the board told to have
+  ItemNumber executed_ = 0;          // of the last item that it told to be done
+  ItemNumber asked_behind_ = 0;      // the last one sent when the board was last asked
+  std::optional<Question> awaited_;  // the host goes on when this is answered
+  std::uint8_t question_ = 0;        // the number of the last question
   Question last_question_ = Question::status;
   Question usual_question_ = Question::status;
   std::optional<Turned> turned_;
-  std::optional<Seconds> rehearsed_;   // since when
-  std::uint8_t repeated_before_ = 0;   // the question behind what was repeated last
-  bool repeating_ = false;             // and not heard the answer since
-  std::uint8_t refused_ = 0;           // sequence number of the frame that the board refused last
-  int refusals_ = 0;                   // so many times in a row
-  int doubts_ = 0;                     // statuses in a row that would end the job
-  int free_ = 0;                       // room that the board had when it told so
+  std::optional<Seconds> rehearsed_;  // since when
+  std::uint8_t repeated_before_ = 0;  // the question behind what was repeated last
+  bool repeating_ = false;            // and not heard the answer since
+  std::uint8_t refused_ = 0;          // sequence number of the frame that the board refused last
+  int refusals_ = 0;                  // so many times in a row
+  int doubts_ = 0;                    // statuses in a row that would end the job
+  int free_ = 0;                      // room that the board had when it told so
   bool rests_ = false;
   ProbeWatch probe_;
-  bool answered_ = true;                                // since the last frame was sent
+  bool answered_ = true;  // since the last frame was sent
   Seconds unanswered_since_{0};
   std::uint16_t inputs_ = 0;
   std::uint16_t pressed_ = 0;

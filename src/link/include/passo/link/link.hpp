@@ -74,8 +74,8 @@ class Link {
   // Questions that must be answered before the host goes on. One at a time; settled() tells that the answer has come.
   //
   // At rest, with all executed that did not come too late: asks how the probe is. From the answer on the board keeps
-  // where the probe changes first. With `limit`, the bit of a limit switch, that switch takes the probe's place, and does
-  // not stop the motors until the next watch.
+  // where the probe changes first. With `limit`, the bit of a limit switch, that switch takes the probe's place, and
+  // does not stop the motors until the next watch.
   virtual void watch_probe(ProbeUntil until, std::uint8_t limit = 0) = 0;
   // At rest again: asks what the board has kept. After the answer the report has the steps.
   virtual void recall_contact() = 0;

@@ -54,7 +54,7 @@ class ProbeWatch {
   ProbeUntil until_ = ProbeUntil::off;
   std::uint8_t limit_ = 0;
   ProbeReport report_;
-  bool began_as_wanted_ = false;                // the probe was as it is to become
+  bool began_as_wanted_ = false;                 // the probe was as it is to become
   std::array<std::int32_t, max_motors> from_{};  // positions when the watch began
 };
 

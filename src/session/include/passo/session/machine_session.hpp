@@ -34,7 +34,7 @@ struct SessionOptions {
   // commanded, and its buttons and its door are heeded. Without, it is in this process.
   bool over_a_line = false;
   LineCare care = {};
-  Greeting greeting = {};   // `motors` is the session's to say
+  Greeting greeting = {};    // `motors` is the session's to say
   KnownPosition start = {};  // where the machine stands, as far as the owner knows
 };
 
@@ -55,8 +55,8 @@ class MachineSession {
   void name_session(std::uint16_t number);
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
-  // One bounded step. Where there is nothing to do but to wait for the board, time passes until something is new, but no
-  // longer than `most`; endless only while something moves.
+  // One bounded step. Where there is nothing to do but to wait for the board, time passes until something is new, but
+  // no longer than `most`; endless only while something moves.
   void turn(Seconds most);
 
   MachineStatus status() const;

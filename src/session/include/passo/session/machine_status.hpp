@@ -1,4 +1,5 @@
-// MachineStatus: all that is to be known of a machine at one moment, as a value. MachineChange: what has happened since.
+// MachineStatus: all that is to be known of a machine at one moment, as a value. MachineChange: what has happened
+// since.
 #pragma once
 
 #include <cstdint>

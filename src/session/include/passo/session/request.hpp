@@ -1,5 +1,5 @@
-// Requests: what can be asked of a machine. Each is answered: refused at once, or taken, with a ticket by which a change
-// tells later what has become of the request.
+// Requests: what can be asked of a machine. Each is answered: refused at once, or taken, with a ticket by which a
+// change tells later what has become of the request.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct Start {
   bool answers_probes = true;            // by the board; else a probe move is touched at its end
   std::optional<ResumePoint> from = {};  // begun by another host, which has left the machine there
   Watchers watchers = {};
-  Diagnostics* findings = nullptr;       // gets what is still found amid the run; outlives it. Null: nobody looks
+  Diagnostics* findings = nullptr;  // gets what is still found amid the run; outlives it. Null: nobody looks
 };
 // Moves axes for as long as the lease is renewed; the machine begins to brake when the lease is over at the latest.
 struct Jog {

@@ -1,0 +1,155 @@
+#include "opened_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "board_opening.hpp"
+#include "commands.hpp"
+#include "program_input.hpp"
+#include "run_signals.hpp"
+#include <fmt/format.h>
+
+#include "passo/activity/machine_plant.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "passo/link/await.hpp"
+
+namespace passo {
+namespace {
+
+// An Arduino whose line is opened is in its boot loader for up to two seconds.
+constexpr Seconds first_answer{4};
+constexpr Seconds answer{2};
+
+// A line may be slow, but a board that lives answers at once.
+constexpr LineCare virtual_line{.answer_within = Seconds(0.05), .patience = Seconds(3600)};
+constexpr LineCare real_line{.answer_within = Seconds(0.1), .patience = Seconds(60)};
+
+}  // namespace
+
+OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWish& wish)
+    : description_(machine),
+      plant_(plant_of(machine, Point(), wish.boxes)),
+      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
+               static_cast<std::size_t>(machine.board.held_items)) {}
+
+std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& machine, const MachineWish& wish,
+                                                   int& code) {
+  std::unique_ptr<OpenedMachine> opened(new OpenedMachine(machine, wish));
+  if (wish.board == "virtual") {
+    opened->machine_.connect(opened->plant_);
+    const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
+    if (!wish.cut) {
+      opened->session_ = std::make_unique<MachineSession>(machine, opened->machine_, SessionOptions{.start = at_zero});
+      return opened;
+    }
+    opened->line_.emplace(opened->machine_, machine.board.clock, LineOptions());
+    opened->line_->cut(wish.cut->at, wish.cut->missing);
+    opened->session_ = std::make_unique<MachineSession>(
+        machine, *opened->line_,
+        SessionOptions{.over_a_line = true, .care = virtual_line, .greeting = {.session = 1}, .start = at_zero});
+    return opened;
+  }
+  const auto address = parse_board_address(wish.board);
+  if (!address) {
+    code = fail(exit_bad_program, address.error());
+    return nullptr;
+  }
+  auto port = open_addressed(*address, &opened->plant_);
+  if (!port) {
+    code = fail(exit_failed, port.error());
+    return nullptr;
+  }
+  opened->port_ = std::move(*port);
+  opened->plant_is_behind_ = address->kind == BoardAddress::Kind::emulated;
+  opened->session_ = std::make_unique<MachineSession>(
+      machine, *opened->port_,
+      SessionOptions{.over_a_line = true, .care = real_line, .greeting = {.session = 1}, .start = {}});
+  return opened->ask_first(wish.board, wish.may_move, code) ? std::move(opened) : nullptr;
+}
+
+bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& code) {
+  if (const auto status = ask_status(session_->board(), first_answer)) {
+    before_ = *status;
+    if ((status->state & board_manual) != 0) {
+      code = fail(exit_failed, fmt::format("{}: {}", address, message_of(LinkError::manual)));
+      return false;
+    }
+    if (may_move || (status->state & board_moves) == 0) return true;
+    code = fail(exit_failed, address + ": it moves: another program runs on it, or has just left it");
+    return false;
+  }
+  // The greeting has kept its form in all versions: what does not answer a question may answer that.
+  BoardSession greeting(*port_, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
+  passo::greet(greeting, {.motors = static_cast<std::uint8_t>(description_.axes.size())});
+  const LinkError error = greeting.error().value_or(LinkError::wrong_version);
+  code = fail(exit_failed, fmt::format("{}: {}", address, message_of(error)));
+  return false;
+}
+
+bool OpenedMachine::wait_for_rest() {
+  const auto status = ask_status_at_rest(session_->board(), answer);
+  if (status) before_ = *status;
+  return status.has_value();
+}
+
+bool OpenedMachine::greet(const Greeting& greeting, int& code) {
+  MachineSession& session = *session_;
+  session.greet(greeting);
+  while (session.state() == MachineState::offline) session.turn(endless);
+  const MachineState state = session.state();
+  if (state == MachineState::idle || state == MachineState::door) return true;
+  code = fail(exit_failed, "the board: " + session.trouble_words());
+  return false;
+}
+
+void OpenedMachine::follow(Watchers& watchers, const Point& place) {
+  if (!has_board()) return;
+  machine_.stand_at(steps_at(description_, place));
+  shadow_ = std::make_unique<BoardSession>(machine_);
+  passo::greet(*shadow_, {.motors = static_cast<std::uint8_t>(description_.axes.size())});
+  watchers.executed = [this](const LinkItem& item) { send(*shadow_, item); };
+}
+
+void OpenedMachine::catch_up() {
+  if (shadow_) drain(*shadow_);
+}
+
+std::optional<std::string> OpenedMachine::compare() {
+  if (const auto& mismatch = session_->mismatch()) {
+    return fmt::format("motor {} stands {} steps from machine zero, and {} were planned", mismatch->motor + 1,
+                       mismatch->counted, mismatch->commanded);
+  }
+  if (!has_board() || !plant_is_behind_) return {};
+  const MachineCounts planned = machine_.counts();
+  const Truth truth = plant_.truth_at(session_->now());
+  for (std::size_t motor = 0; motor < description_.axes.size(); ++motor) {
+    const auto steps = std::llround(truth.positions[motor]);
+    if (steps == planned.motors[motor].position) continue;
+    return fmt::format("motor {} is truly {} steps from machine zero, and {} were planned", motor + 1, steps,
+                       planned.motors[motor].position);
+  }
+  return {};
+}
+
+void turn_to_the_end(MachineSession& session, const std::function<void()>& look) {
+  bool asked_to_stop = false;
+  while (session.busy()) {
+    if (interrupted_by() != 0 && !std::exchange(asked_to_stop, true)) {
+      static_cast<void>(session.request(request::Stop{}).has_value());
+    }
+    session.turn(endless);
+    if (look) look();
+  }
+}
+
+Answered answer_of(const std::vector<MachineChange>& changes, Ticket ticket) {
+  for (const MachineChange& change : changes) {
+    if (change.kind != MachineChange::Kind::answered || change.ticket != ticket) continue;
+    return {.outcome = change.outcome, .fault = change.fault};
+  }
+  return {.outcome = Outcome::stopped, .fault = {}};
+}
+
+}  // namespace passo

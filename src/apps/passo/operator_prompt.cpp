@@ -1,0 +1,92 @@
+#include "operator_prompt.hpp"
+
+#include <cstdio>
+#include <utility>
+
+#include "program_input.hpp"
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include "passo/link/await.hpp"
+
+namespace passo {
+namespace {
+
+// While somebody is waited for, the machine is heard so often.
+constexpr Seconds between_looks{0.05};
+constexpr std::size_t most_told = 5;
+
+// Whether a line was typed meanwhile.
+bool enter_was_pressed(Seconds within) {
+  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+  if (poll(&input, 1, static_cast<int>(within.value() * 1e3)) <= 0) return false;
+  char typed[256];
+  return read(STDIN_FILENO, typed, sizeof typed) > 0;
+}
+
+std::string what(const OperatorWait& wait) {
+  switch (wait.kind) {
+    case Action::Kind::tool_change: return fmt::format("tool {} (M6)", wait.tool);
+    case Action::Kind::optional_stop: return "the operator (M1)";
+    default: return "the operator (M0)";
+  }
+}
+
+}  // namespace
+
+bool asks_operator() {
+  return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO);
+}
+
+std::string words_of(const OperatorWait& wait) {
+  return fmt::format("line {}: {}", wait.line, what(wait));
+}
+
+void ProgramStops::watch(const PathItem& item) {
+  const auto* action = std::get_if<Action>(&item);
+  if (action == nullptr) return;
+  using Kind = Action::Kind;
+  const bool stops =
+      action->kind == Kind::program_stop || action->kind == Kind::optional_stop || action->kind == Kind::tool_change;
+  if (!stops || ++count_ > most_told) return;
+  stops_.push_back({.kind = action->kind, .tool = action->tool, .line = action->source.line});
+}
+
+void ProgramStops::tell(const RunArguments& arguments) const {
+  if (count_ == 0 || arguments.quiet) return;
+  std::string words;
+  for (const OperatorWait& stop : stops_) words += (words.empty() ? "" : "; ") + words_of(stop);
+  if (count_ > most_told) words += fmt::format("; and {} more", count_ - most_told);
+  fmt::print(stderr,
+             "passo: note: {} would wait for {}. Nobody stands at this machine, so it goes on; a board waits, and so "
+             "does a run on a terminal. --yes goes on everywhere\n",
+             arguments.program.program, words);
+}
+
+Seconds OperatorPrompt::look(MachineSession& session) {
+  const auto wait = session.status().waits_for;
+  if (!wait) {
+    asked_ = false;
+    return endless;
+  }
+  if (!asks_operator()) {
+    if (!fault_) {
+      fault_ = ActivityFault{
+          .code = "run.waits",
+          .message = fmt::format("{} waits at {}, and there is no terminal to ask on: run it on one, or with --yes "
+                                 "when all is prepared, together with --resume to go on from here [run.waits]",
+                                 program_, words_of(*wait))};
+      static_cast<void>(session.request(request::Stop{}).has_value());
+    }
+    return endless;
+  }
+  if (!std::exchange(asked_, true)) {
+    fmt::print(stderr, "\r\033[K{} waits at {}. Press Enter to go on. ", program_, words_of(*wait));
+    std::fflush(stderr);
+  }
+  if (enter_was_pressed(between_looks)) static_cast<void>(session.request(request::OperatorDone{}).has_value());
+  return Seconds(0);
+}
+
+}  // namespace passo
