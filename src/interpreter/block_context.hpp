@@ -27,6 +27,8 @@ struct BlockContext {
   BlockWords words;
   const CodeEntry* motion = nullptr;  // what the block does with its axis words, if a motion does
   OperationSource source;
+  WordPlace word;  // that is executed now: see Operation::word
+  AxisWords axis_words;
 
   bool missing_feed_told = false;  // since the last F
   bool ended = false;              // the program, and no block follows

@@ -29,6 +29,17 @@ constexpr bool drills(CodeNumber number) {
   return number == code(73) || number == code(74) || (number > code(80) && number <= code(89));
 }
 
+// From the first word to the end of the last.
+WordPlace place_of_words(const Block& block) {
+  if (block.words.empty()) return {};
+  const Span& first = block.words.front().span;
+  const Span& last = block.words.back().span;
+  return {first.column, last.column + last.length - first.column};
+}
+WordPlace place_of(Span span) {
+  return {span.column, span.length};
+}
+
 }  // namespace
 
 // The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
@@ -108,9 +119,11 @@ void BlockExecutor::finish(Closing closing) {
 void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
   block_.source = {block.line, line_number_of(block)};
+  block_.word = place_of_words(block);
   const bool readable = words_.read(block, parameters_, reporter_);
   if (words_.calls_macro()) return subprograms_.call_macro(readable);
   if (!readable) return;
+  words_.find_axes(block_.axis_words);
   if (!resolve_motion() || !check_words_used() || !check_words_shared() || !cutter_codes_.check()) return;
   if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
     subprograms_.call_or_leave(stops->number);
@@ -130,6 +143,8 @@ void BlockExecutor::go_on() {
     Cycle& cycle = cycle_->cycle();
     Operation operation;
     bool more = true;
+    operation.word = block_.word;
+    operation.axis_words = &block_.axis_words;
     while (operations_.has_room() && (more = cycle.next(operation))) operations_.push(operation);
     state_.position = cycle.position();
     if (more) return;
@@ -150,19 +165,28 @@ void BlockExecutor::end_contour() {
 
 bool BlockExecutor::execute_words() {
   if (splines_.nurbs_is_open()) splines_.check_nurbs_is_closed();
+  const WordPlace all = block_.word;
   const bool only_moves = (words_.groups() & ~bit_of(motion)) == 0;  // as most blocks do
   if (!only_moves && !run(steps_before_words)) return false;
   if (words_.has('F') && !set_feed_rate()) return false;
-  if (words_.has('S') && !spindles_.set_speed()) return false;
+  if (words_.has('S') && !set_spindle_speed()) return false;
   if (words_.has('T') && !tools_.select()) return false;
   if (!only_moves && !run(steps_after_words)) return false;
+  block_.word = all;
   return block_.motion == nullptr || move(block_.motion->number);
+}
+
+bool BlockExecutor::set_spindle_speed() {
+  block_.word = place_of(words_.span('S'));
+  return spindles_.set_speed();
 }
 
 bool BlockExecutor::run(std::span<const Step> steps) {
   for (const Step& step : steps) {
     const CodeEntry* const entry = words_.code(step.group);
-    if (entry != nullptr && !step.run(*this, entry->number)) return false;
+    if (entry == nullptr) continue;
+    block_.word = place_of(words_.span(step.group));
+    if (!step.run(*this, entry->number)) return false;
   }
   return true;
 }

@@ -92,6 +92,7 @@ class BlockExecutor : private CodeFamily {
   bool obey(const Comment& comment);
   bool set_feed_mode(CodeNumber code);
   bool set_feed_rate();
+  bool set_spindle_speed();
   bool run_spindle_group(CodeNumber code);
   bool switch_coolant(CodeNumber code);
   bool switch_overrides(CodeNumber code);

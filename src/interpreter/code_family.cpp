@@ -83,15 +83,6 @@ bool CodeFamily::machine_end_point(Point& end) {
   return true;
 }
 
-// Without G51 bit for bit what the program says.
-double CodeFamily::scaled_place(Axis axis, double value) const {
-  return state_.scaling.factor(axis) == 1 ? value : state_.scaling.place(axis, value);
-}
-
-double CodeFamily::scaled_way(Axis axis, double value) const {
-  return state_.scaling.way(axis, value);
-}
-
 // @ is a distance from the origin and ^ an angle about it; what is not given stays.
 bool CodeFamily::apply_polar(Point& end) {
   const char letter = words_.has('@') ? '@' : '^';

@@ -35,8 +35,11 @@ class CodeFamily {
 
   // Places. end_point: where the block's axis words lead, in work coordinates.
   double axis_word(Axis axis) const;
-  double scaled_place(Axis axis, double value) const;
-  double scaled_way(Axis axis, double value) const;
+  // Without G51 bit for bit what the program says.
+  double scaled_place(Axis axis, double value) const {
+    return state_.scaling.factor(axis) == 1 ? value : state_.scaling.place(axis, value);
+  }
+  double scaled_way(Axis axis, double value) const { return state_.scaling.way(axis, value); }
   bool end_point(Point& end);
 
   bool check_feed();
@@ -52,15 +55,18 @@ class CodeFamily {
   bool spindle_word(SpindleChoice choice, SpindleRange& range);
 
   void emit(const OperationKind& what) {
-    operations_.push(operations_.holding() ? origin(what) : Operation{what, block_.source});
+    operations_.push(operations_.holding() ? kept_operation(what) : operation_of(what));
   }
   // Not behind the moves that cutter compensation holds back: what goes to the operator, or moves nothing.
-  void emit_ahead(const OperationKind& what) { operations_.push_ahead({what, block_.source}); }
+  void emit_ahead(const OperationKind& what) { operations_.push_ahead(operation_of(what)); }
   // LinuxCNC tells changes of its own modes as comments, and its canonical calls are what others compare with.
   void note(std::string_view text) { emit(operation::Comment{text}); }
-  // An operation that is held back while other lines are read, with the text of its own.
-  Operation origin(const OperationKind& what = operation::Comment{}) const {
-    return {what, block_.source, reporter_.file(), reporter_.block().text};
+  Operation operation_of(const OperationKind& what) const {
+    return {what, block_.source, block_.word, &block_.axis_words};
+  }
+  // One that is held back while other lines are read: with the text of its own.
+  Operation kept_operation(const OperationKind& what = operation::Comment{}) const {
+    return {what, block_.source, block_.word, &block_.axis_words, reporter_.file(), reporter_.block().text};
   }
 
   BlockContext& block_;

@@ -22,7 +22,9 @@ class Cycle : public Source<Operation> {
       given_ = count_ = 0;
       done_ = !step();
     }
-    operation = Operation{operations_[given_++], source_};
+    operation.what = operations_[given_++];
+    operation.source = source_;
+    operation.file = operation.text = {};
     return true;
   }
   // Where the step leaves the tool that gave the last operation: work coordinates.

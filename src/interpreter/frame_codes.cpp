@@ -25,7 +25,7 @@ void FrameCodes::change_frame(const Operations&... operations) {
     operations_.push(operation);
     state_.frame.follow(operation);
   };
-  (change(Operation{operations, block_.source}), ...);
+  (change(operation_of(operations)), ...);
   state_.position = state_.frame.work_from_machine(machine);
 }
 

@@ -48,6 +48,7 @@ void BlockExecutor::leave_sub(const OperationSource& source) {
   if (left >= snapshots_.size() || !std::exchange(snapshots_[left].valid, false)) return;
   if (!snapshots_[left].restore_at_return) return;
   block_.source = source;
+  block_.word = {};
   restore(snapshots_[left]);
 }
 

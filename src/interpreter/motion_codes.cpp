@@ -185,11 +185,12 @@ bool MotionCodes::straight(bool rapid, const Point& start) {
     }
     return true;
   }
-  return cutter_codes_.report(cutter_.line({rapid, start, state_.position, origin()}), motion_span());
+  return cutter_codes_.report(cutter_.line({rapid, start, state_.position, kept_operation()}), motion_span());
 }
 
 bool MotionCodes::arc_beside(const Point& start, PlanePoint center, std::int32_t turns) {
-  return cutter_codes_.report(cutter_.arc({false, start, state_.position, origin()}, center, turns), motion_span());
+  return cutter_codes_.report(cutter_.arc({false, start, state_.position, kept_operation()}, center, turns),
+                              motion_span());
 }
 
 // G33 and G33.1: K is how far the tool goes in a revolution.
