@@ -25,71 +25,90 @@ std::int64_t line_number_of(const Block& block) {
   return number;
 }
 
+constexpr bool drills(CodeNumber number) {
+  return number == code(73) || number == code(74) || (number > code(80) && number <= code(89));
+}
+
+// From the first word to the end of the last.
+WordPlace place_of_words(const Block& block) {
+  if (block.words.empty()) return {};
+  const Span& first = block.words.front().span;
+  const Span& last = block.words.back().span;
+  return {first.column, last.column + last.length - first.column};
+}
+WordPlace place_of(Span span) {
+  return {span.column, span.length};
+}
+
 }  // namespace
 
 // The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
 // mode, F, S, T, M codes, G codes, motion, stops.
 const BlockExecutor::Step BlockExecutor::steps_before_words[] = {
-    {spindle_mode, &BlockExecutor::set_spindle_mode},
-    {feed_mode, &BlockExecutor::set_feed_mode},
+    {spindle_mode, of<&BlockExecutor::spindles_, &SpindleCodes::set_mode>},
+    {feed_mode, own<&BlockExecutor::set_feed_mode>},
 };
 const BlockExecutor::Step BlockExecutor::steps_after_words[] = {
-    {macro, &BlockExecutor::end_macro_calls},
-    {input_output, &BlockExecutor::use_input_output},
-    {tool_change, &BlockExecutor::change_tool},
-    {spindle, &BlockExecutor::run_spindle_group},
-    {coolant, &BlockExecutor::switch_coolant},
-    {overrides, &BlockExecutor::switch_overrides},
-    {user, &BlockExecutor::run_user_code},
-    {non_modal, &BlockExecutor::dwell},
-    {plane, &BlockExecutor::select_plane},
-    {length_units, &BlockExecutor::set_length_units},
-    {lathe_diameter, &BlockExecutor::set_lathe_diameter},
-    {cutter_compensation, &BlockExecutor::set_cutter_compensation},
-    {tool_length, &BlockExecutor::set_tool_length},
-    {work_system, &BlockExecutor::select_work_system},
-    {path_mode, &BlockExecutor::set_path_mode},
-    {distance, &BlockExecutor::set_distance_mode},
-    {arc_distance, &BlockExecutor::set_arc_distance_mode},
-    {retract, &BlockExecutor::set_retract_mode},
-    {non_modal, &BlockExecutor::run_non_modal},
+    {macro, of<&BlockExecutor::subprograms_, &SubprogramCodes::end_macro_calls>},
+    {input_output, of<&BlockExecutor::input_output_, &InputOutputCodes::run>},
+    {tool_change, of<&BlockExecutor::tools_, &ToolCodes::change>},
+    {spindle, own<&BlockExecutor::run_spindle_group>},
+    {coolant, own<&BlockExecutor::switch_coolant>},
+    {overrides, own<&BlockExecutor::switch_overrides>},
+    {user, of<&BlockExecutor::input_output_, &InputOutputCodes::run_user_code>},
+    {non_modal, own<&BlockExecutor::dwell>},
+    {plane, own<&BlockExecutor::select_plane>},
+    {length_units, own<&BlockExecutor::set_length_units>},
+    {lathe_diameter, own<&BlockExecutor::set_lathe_diameter>},
+    {cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>},
+    {tool_length, of<&BlockExecutor::tools_, &ToolCodes::set_length>},
+    {work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>},
+    {path_mode, own<&BlockExecutor::set_path_mode>},
+    {distance, own<&BlockExecutor::set_distance_mode>},
+    {arc_distance, own<&BlockExecutor::set_arc_distance_mode>},
+    {retract, own<&BlockExecutor::set_retract_mode>},
+    {non_modal, own<&BlockExecutor::run_non_modal>},
 };
 
-BlockExecutor::BlockExecutor(MachineState& state, Parameters& parameters, OperationQueue& operations,
-                             Reporter& reporter, SymbolTable& symbols)
-    : state_(state),
-      parameters_(parameters),
-      operations_(operations),
-      reporter_(reporter),
-      symbols_(symbols),
-      cutter_(operations) {}
+BlockExecutor::BlockExecutor(BlockContext& block, SymbolTable& symbols)
+    : CodeFamily(block),
+      cutter_codes_(block),
+      frame_(block),
+      spindles_(block),
+      tools_(block, frame_, spindles_),
+      input_output_(block),
+      motion_(block, cutter_codes_),
+      splines_(block),
+      probe_(block),
+      drilling_(block),
+      threading_(block),
+      lathe_(block, symbols),
+      subprograms_(block),
+      symbols_(symbols) {}
 
 void BlockExecutor::start(const InterpreterOptions& options) {
-  options_ = options;
+  block_.options = options;
   if (options.settings) {
-    options_.orient_offset = options.settings->number("RS274NGC", "ORIENT_OFFSET").value_or(options.orient_offset);
-    options_.spindles = static_cast<int>(options.settings->number("TRAJ", "SPINDLES").value_or(options.spindles));
+    block_.options.orient_offset =
+        options.settings->number("RS274NGC", "ORIENT_OFFSET").value_or(options.orient_offset);
+    block_.options.spindles = static_cast<int>(options.settings->number("TRAJ", "SPINDLES").value_or(options.spindles));
   }
   state_.on_machine = options.on_machine;
-  state_.spindle_count = std::clamp(options_.spindles, 1, static_cast<int>(most_spindles));
+  state_.spindle_count = std::clamp(block_.options.spindles, 1, static_cast<int>(most_spindles));
   state_.modal.set(length_units, options.units == LengthUnits::inch ? code(20) : code(21));
   state_.tools = options.tools;
   has_settings_ = options.settings != nullptr;
   emit(operation::SetLengthUnits{options.units});
-  start_frame();
+  frame_.start();
   state_.position = state_.frame.work_from_machine(options.start);
   emit(operation::SetFeedReference{});
   emit(operation::Reset{});
 }
 
 void BlockExecutor::finish(Closing closing) {
-  if (nurbs_.open && !nurbs_.wrong && !reporter_.full()) {
-    reporter_.error("gcode.open-nurbs", {1, 1},
-                    fmt::format("the program ends while the NURBS that begins in line {} is open", nurbs_.line),
-                    "G5.3 before");
-  }
+  splines_.report_open_nurbs();
   (void)cutter_.release();
-  source_.line_number = -1;
+  block_.source.line_number = -1;
   if (closing == Closing::percent) emit(operation::Finish{});
   if (closing == Closing::missing) note("interpreter: percent sign missing from end of file");
   // Twice, as rs274 does: the end of the program, and of the interpreter. With settings it does not get there.
@@ -99,67 +118,139 @@ void BlockExecutor::finish(Closing closing) {
 
 void BlockExecutor::execute(const Block& block) {
   state_.line = block.line;
-  source_ = {block.line, line_number_of(block)};
+  block_.source = {block.line, line_number_of(block)};
+  block_.word = place_of_words(block);
   const bool readable = words_.read(block, parameters_, reporter_);
-  if (words_.calls_macro()) return call_macro(readable);
+  if (words_.calls_macro()) return subprograms_.call_macro(readable);
   if (!readable) return;
-  if (!resolve_motion() || !check_words_used() || !check_words_shared() || !check_cutter_compensation()) return;
+  words_.find_axes(block_.axis_words);
+  if (!resolve_motion() || !check_words_used() || !check_words_shared() || !cutter_codes_.check()) return;
   if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
-    jump(stops->number);
+    subprograms_.call_or_leave(stops->number);
     return;
   }
   if (!block.assignments.empty() && !assign(block)) return;
   if (!block.comments.empty() && !obey_comments(block)) return;
   if (block.words.empty() || !execute_words()) return;
   go_on();
-  if (modal_macro_ && moves()) call_modal_macro();
+  subprograms_.call_modal_macro();
 }
 
 // A cycle gives as many operations at a time as the queue takes, and the rest of its block comes behind it.
 void BlockExecutor::go_on() {
-  if (cycle_ == Cycle::contour) return;
-  while (cycle_ != Cycle::none && operations_.has_room()) {
-    if (!step_cycle()) {
-      cycle_ = Cycle::none;
-      return;
-    }
+  if (lathe_.wants_contour()) return;
+  if (cycle_ != nullptr) {
+    Cycle& cycle = cycle_->cycle();
+    Operation operation;
+    bool more = true;
+    operation.word = block_.word;
+    operation.axis_words = &block_.axis_words;
+    while (operations_.has_room() && (more = cycle.next(operation))) operations_.push(operation);
+    state_.position = cycle.position();
+    if (more) return;
+    if (!std::exchange(cycle_, nullptr)->finish()) return;
   }
-  if (cycle_ == Cycle::none && words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
+  if (words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
 }
 
-bool BlockExecutor::step_cycle() {
-  switch (cycle_) {
-    case Cycle::drilling: return step_drilling();
-    case Cycle::threading: return step_threading();
-    case Cycle::lathe: return step_lathe();
-    case Cycle::contour:
-    case Cycle::none: break;
-  }
-  return true;
+// A line of a lathe cycle's contour.
+void BlockExecutor::add_to_contour(const Block& block) {
+  state_.line = block.line;
+  lathe_.add_to_contour(words_.read(block, parameters_, reporter_) && (block.assignments.empty() || assign(block)));
+}
+
+void BlockExecutor::end_contour() {
+  if (lathe_.end_contour()) cycle_ = &lathe_;
 }
 
 bool BlockExecutor::execute_words() {
-  if (nurbs_.open) check_nurbs_is_closed();
+  if (splines_.nurbs_is_open()) splines_.check_nurbs_is_closed();
+  const WordPlace all = block_.word;
   const bool only_moves = (words_.groups() & ~bit_of(motion)) == 0;  // as most blocks do
   if (!only_moves && !run(steps_before_words)) return false;
   if (words_.has('F') && !set_feed_rate()) return false;
   if (words_.has('S') && !set_spindle_speed()) return false;
-  if (words_.has('T') && !select_tool()) return false;
+  if (words_.has('T') && !tools_.select()) return false;
   if (!only_moves && !run(steps_after_words)) return false;
-  return motion_ == nullptr || move(motion_->number);
+  block_.word = all;
+  return block_.motion == nullptr || move(block_.motion->number);
+}
+
+bool BlockExecutor::set_spindle_speed() {
+  block_.word = place_of(words_.span('S'));
+  return spindles_.set_speed();
 }
 
 bool BlockExecutor::run(std::span<const Step> steps) {
   for (const Step& step : steps) {
     const CodeEntry* const entry = words_.code(step.group);
-    if (entry != nullptr && !(this->*step.run)(entry->number)) return false;
+    if (entry == nullptr) continue;
+    block_.word = place_of(words_.span(step.group));
+    if (!step.run(*this, entry->number)) return false;
   }
   return true;
 }
 
+bool BlockExecutor::move(CodeNumber number) {
+  if (!drills(number)) drilling_.forget();
+  state_.modal.set(motion, number);
+  const bool good = move_by(number);
+  if (cutter_.active()) {
+    if (!good) cutter_.skip_to(state_.position);
+    state_.cutter_shift = cutter_.shift(state_.position);
+  }
+  return good;
+}
+
+bool BlockExecutor::move_by(CodeNumber number) {
+  if (!motion_.check_scaling(number)) return false;
+  if (number != code(5)) splines_.interrupt();
+  switch (number) {
+    case code(0): return motion_.traverse();
+    case code(1): return motion_.feed();
+    case code(2): return motion_.arc(true);
+    case code(3): return motion_.arc(false);
+    case code(5): return splines_.cubic();
+    case code(5, 1): return splines_.quadratic();
+    case code(5, 2): return splines_.nurbs_point();
+    case code(5, 3): return splines_.end_nurbs();
+    case code(33): return motion_.threading(false);
+    case code(33, 1): return motion_.threading(true);
+    case code(38, 2):
+    case code(38, 3):
+    case code(38, 4):
+    case code(38, 5): return probe_.probe(number);
+    case code(73):
+    case code(74):
+    case code(81):
+    case code(82):
+    case code(83):
+    case code(84):
+    case code(85):
+    case code(86):
+    case code(87):
+    case code(88):
+    case code(89): return begin(drilling_, drilling_.start(number));
+    case code(76): return begin(threading_, threading_.start());
+    case code(70):
+    case code(71):
+    case code(71, 1):
+    case code(71, 2):
+    case code(72):
+    case code(72, 1):
+    case code(72, 2): return lathe_.start(number);
+    default: note("interpreter: motion mode set to none"); return true;  // G80
+  }
+}
+
+bool BlockExecutor::begin(CycleCodes& codes, bool good) {
+  if (good) cycle_ = &codes;
+  return good;
+}
+
 // Who takes the axis words: a code of the block that is no motion, the block's motion, or the motion that is active.
 bool BlockExecutor::resolve_motion() {
-  motion_ = words_.code(motion);
+  block_.motion = words_.code(motion);
   const CodeEntry* taker = words_.code(non_modal);
   ModalGroup taker_group = non_modal;
   if (taker == nullptr || taker->axes == AxisUse::none) {
@@ -169,17 +260,18 @@ bool BlockExecutor::resolve_motion() {
   if (taker != nullptr && taker->axes == AxisUse::none) taker = nullptr;
 
   const bool any_axis = words_.any_axis();
-  if (motion_ != nullptr && motion_->axes != AxisUse::none && taker != nullptr) {
-    return fail("gcode.axis-conflict", words_.span(taker_group),
-                fmt::format("{} and {} both use the axis words of the block", spelling(*taker), spelling(*motion_)),
-                "two blocks");
+  if (block_.motion != nullptr && block_.motion->axes != AxisUse::none && taker != nullptr) {
+    return fail(
+        "gcode.axis-conflict", words_.span(taker_group),
+        fmt::format("{} and {} both use the axis words of the block", spelling(*taker), spelling(*block_.motion)),
+        "two blocks");
   }
-  const CodeEntry* const user = taker != nullptr ? taker : motion_;
+  const CodeEntry* const user = taker != nullptr ? taker : block_.motion;
   if (user != nullptr && user->axes == AxisUse::must && !any_axis) {
     return fail("gcode.missing-axis", words_.span(user->group), fmt::format("{} without axis words", spelling(*user)),
                 "one of X Y Z A B C U V W at least");
   }
-  if (motion_ != nullptr || taker != nullptr) return true;
+  if (block_.motion != nullptr || taker != nullptr) return true;
 
   const CodeNumber active = state_.modal[motion];
   const bool arc_words = words_.present().bits() != 0 && (words_.present() & LetterSet("IJK")).any();
@@ -188,7 +280,7 @@ bool BlockExecutor::resolve_motion() {
       return fail("gcode.missing-motion", motion_span(), "axis words, and no code that moves is active",
                   "G0, G1, G2, G3 or another motion code before, or in this block");
     }
-    motion_ = find_code('G', active);
+    block_.motion = find_code('G', active);
   }
   return true;
 }
@@ -206,7 +298,7 @@ bool BlockExecutor::check_words_used() {
   for (std::uint32_t groups = words_.groups(); groups != 0; groups &= groups - 1) {
     add(words_.code(static_cast<ModalGroup>(std::countr_zero(groups))));
   }
-  add(motion_);
+  add(block_.motion);
   if (axes) used = used | axis_letters;
 
   const LetterSet unused = words_.present() - used;
@@ -242,38 +334,6 @@ bool BlockExecutor::check_words_shared() {
     }
   }
   return true;
-}
-
-// M98 P L and M99 stand alone, as they do in LinuxCNC: what else is in the block would not be executed.
-bool BlockExecutor::jump(CodeNumber number) {
-  const bool call = number == code(98);
-  for (const Word& word : reporter_.block().words) {
-    if (word.span == words_.span(stopping) || (call && (word.letter == 'P' || word.letter == 'L'))) continue;
-    return fail("gcode.unused-word", word.span, fmt::format("{} beside {}", word.letter, spelling('M', number)),
-                call ? "M98 P L alone in the block" : "M99 alone in the block");
-  }
-  if (const auto& assignments = reporter_.block().assignments; !assignments.empty()) {
-    return fail("gcode.unused-word", assignments.front().span,
-                fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
-  }
-  SubprogramJump found;
-  found.kind = call ? SubprogramJump::Kind::call : SubprogramJump::Kind::leave;
-  found.span = words_.span(stopping);
-  if (call) found.good = program_words(found);
-  if (!call && state_.call_depth == 0) modal_macro_.reset();  // the main program begins again
-  jump_ = found;
-  return true;
-}
-
-// P, the program, and L, how often.
-bool BlockExecutor::program_words(SubprogramJump& found) {
-  constexpr double highest_program = 999'999'999;
-  if (!words_.has('P')) {
-    return fail("gcode.missing-word", found.span, fmt::format("{} without P", found.code()),
-                "P, the number of the program to call");
-  }
-  return whole_word('P', 0, highest_program, found.program) &&
-         (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
 }
 
 // All values are computed before any is stored: in `#1=2 #2=#1` the second one sees the old #1.
@@ -347,7 +407,7 @@ bool BlockExecutor::obey(const Comment& comment) {
     case Kind::log_append: emit_ahead(Log{Log::Kind::append, comment.text}); return true;
     case Kind::log_close: emit_ahead(Log{Log::Kind::close, {}}); return true;
     case Kind::abort:
-      ended_ = true;
+      block_.ended = true;
       return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));
     case Kind::probe_open:
     case Kind::probe_close:  // as rs274 shows them: whole
@@ -355,22 +415,6 @@ bool BlockExecutor::obey(const Comment& comment) {
       return true;
   }
   return true;
-}
-
-bool BlockExecutor::whole_word(char letter, double lowest, double highest, std::int32_t& value) {
-  const double number = words_[letter];
-  const double whole = std::round(number);
-  if (std::abs(number - whole) > whole_tolerance || whole < lowest || whole > highest) {
-    return fail("gcode.not-whole", words_.span(letter), fmt::format("{} is {}", letter, plain_number(number)),
-                fmt::format("a whole number, {} to {}", plain_number(lowest), plain_number(highest)));
-  }
-  value = static_cast<std::int32_t>(whole);
-  return true;
-}
-
-bool BlockExecutor::fail(std::string_view code, Span span, std::string message, std::string expected) {
-  reporter_.error(code, span, std::move(message), std::move(expected));
-  return false;
 }
 
 }  // namespace passo

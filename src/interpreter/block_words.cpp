@@ -1,5 +1,6 @@
 #include "block_words.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +11,13 @@ namespace {
 // G code numbers are read as written: 59.1 in binary is not 59.1.
 constexpr double code_tolerance = 1e-4;
 constexpr double code_limit = 1000;
+
+// By letter_index().
+constexpr auto axis_of_letter = [] {
+  std::array<Axis, letter_count> axes{};
+  for (const Axis axis : all_axes) axes[letter_index(letter_of(axis))] = axis;
+  return axes;
+}();
 
 }  // namespace
 
@@ -34,6 +42,14 @@ bool BlockWords::read(const Block& block, const ParameterValues& parameters, Rep
     }
   }
   return good;
+}
+
+void BlockWords::find_axes(AxisWords& places) const {
+  places = {};
+  for (std::uint32_t bits = (present_ & axis_letters).bits(); bits != 0; bits &= bits - 1) {
+    const auto letter = static_cast<std::size_t>(std::countr_zero(bits));
+    places[axis_of_letter[letter]] = {spans_[letter].column, spans_[letter].length};
+  }
 }
 
 bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {

@@ -9,6 +9,7 @@
 
 #include "passo/gcode/block.hpp"
 #include "passo/gcode/expression.hpp"
+#include "passo/interpreter/operation.hpp"
 
 namespace passo {
 
@@ -30,6 +31,8 @@ class BlockWords {
   LetterSet present() const { return present_; }  // without G, M, N, O
   // G65 or G66: what is behind it are arguments, M too.
   bool calls_macro() const { return calls_macro_; }
+  // Where the axis words are.
+  void find_axes(AxisWords& places) const;
   bool any_axis() const { return (present_ & (axis_letters | polar_letters)).any(); }
 
   const CodeEntry* code(ModalGroup group) const { return codes_[index_of(group)]; }

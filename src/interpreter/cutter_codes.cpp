@@ -1,7 +1,7 @@
-// BlockExecutor: cutter compensation, G40 to G42.1, and what cannot be done while it is on.
+#include "cutter_codes.hpp"
+
 #include <cmath>
 
-#include "block_executor.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -34,7 +34,7 @@ bool is_contour(CodeNumber motion_code) {
 }  // namespace
 
 // What goes with compensation, told before anything of the block is done.
-bool BlockExecutor::check_cutter_compensation() {
+bool CutterCodes::check() {
   const CodeEntry* const switched = words_.code(cutter_compensation);
   const bool was_on = state_.modal[cutter_compensation] != code(40);
   const bool is_on = switched == nullptr ? was_on : switched->number != code(40);
@@ -58,22 +58,22 @@ bool BlockExecutor::check_cutter_compensation() {
     return fail("gcode.cutter-compensation", words_.span(non_modal),
                 fmt::format("G10 changes the active work system {}", with), cure);
   }
-  if (is_on && motion_ != nullptr && !is_contour(motion_->number)) {
+  if (is_on && block_.motion != nullptr && !is_contour(block_.motion->number)) {
     return fail("gcode.cutter-compensation", motion_span(),
-                fmt::format("{} ({}) {}", spelling(*motion_), motion_->what, with), cure);
+                fmt::format("{} ({}) {}", spelling(*block_.motion), block_.motion->what, with), cure);
   }
   return true;
 }
 
-bool BlockExecutor::set_cutter_compensation(CodeNumber number) {
-  if (number != code(40)) return start_cutter_compensation(number);
+bool CutterCodes::set(CodeNumber number) {
+  if (number != code(40)) return start(number);
   note("interpreter: cutter radius compensation off");
   state_.modal.set(cutter_compensation, code(40));
   state_.cutter_shift = {};
-  return report_cutter(cutter_.stop(), words_.span(cutter_compensation));
+  return report(cutter_.stop(), words_.span(cutter_compensation));
 }
 
-bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
+bool CutterCodes::start(CodeNumber number) {
   const Span span = words_.span(cutter_compensation);
   if (state_.modal.plane() != Plane::xy && state_.modal.plane() != Plane::zx) {
     return fail("gcode.cutter-compensation", span,
@@ -87,7 +87,7 @@ bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
   setup.plane = state_.modal.plane();
   setup.left = number == code(41) || number == code(41, 1);
   const bool by_words = number == code(41, 1) || number == code(42, 1);
-  if (!(by_words ? cutter_from_words(number, setup) : cutter_from_table(setup))) return false;
+  if (!(by_words ? from_words(number, setup) : from_table(setup))) return false;
   if (setup.radius < 0) {  // the contour is drawn for a larger tool
     setup.left = !setup.left;
     setup.radius = -setup.radius;
@@ -100,7 +100,7 @@ bool BlockExecutor::start_cutter_compensation(CodeNumber number) {
 }
 
 // G41.1 D L: the diameter, and on a lathe the orientation.
-bool BlockExecutor::cutter_from_words(CodeNumber number, CutterSetup& setup) {
+bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
   if (!words_.has('D')) {
     return fail("gcode.missing-word", words_.span(cutter_compensation),
                 fmt::format("{} without D", spelling('G', number)), "D, the tool's diameter");
@@ -116,7 +116,7 @@ bool BlockExecutor::cutter_from_words(CodeNumber number, CutterSetup& setup) {
 }
 
 // G41 D: the tool of this number, or the one in the spindle.
-bool BlockExecutor::cutter_from_table(CutterSetup& setup) {
+bool CutterCodes::from_table(CutterSetup& setup) {
   const Tool* tool = &state_.spindle_tool;
   const Span span = words_.has('D') ? words_.span('D') : words_.span(cutter_compensation);
   std::int32_t number = 0;
@@ -137,24 +137,7 @@ bool BlockExecutor::cutter_from_table(CutterSetup& setup) {
               "G18, the plane ZX, before");
 }
 
-bool BlockExecutor::straight(bool rapid, const Point& start) {
-  cutter_.left();
-  if (!cutter_.active()) {
-    if (rapid) {
-      emit(operation::StraightTraverse{state_.position});
-    } else {
-      emit(operation::StraightFeed{state_.position});
-    }
-    return true;
-  }
-  return report_cutter(cutter_.line({rapid, start, state_.position, origin()}), motion_span());
-}
-
-bool BlockExecutor::arc_beside(const Point& start, PlanePoint center, std::int32_t turns) {
-  return report_cutter(cutter_.arc({false, start, state_.position, origin()}, center, turns), motion_span());
-}
-
-bool BlockExecutor::report_cutter(CutterFault fault, Span span) {
+bool CutterCodes::report(CutterFault fault, Span span) {
   constexpr const char* smaller = "a smaller tool, or a contour with more room";
   const double radius = cutter_.radius() / state_.length_unit();
   const auto refuse = [&](std::string_view code, std::string message, const char* expected) {

@@ -1,41 +1,91 @@
-// What a drilling cycle (G73, G74, G81 … G89) remembers: from block to block, and from hole to hole of one block.
+// DrillingCycle: the holes of one block with a drilling, tapping or boring cycle (G73, G74, G81 … G89), as operations.
 //
-// "Depth" and "height" are along the axis through the active plane. Millimetres.
+// The moves are those of RS274/NGC (NIST 6556, 3.5.16) in the order in which LinuxCNC makes them. "Depth" and "height"
+// are along the axis through the active plane. Millimetres.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "code_table.hpp"
-
-#include "passo/interpreter/operation.hpp"
+#include "cycle.hpp"
+#include "machine_state.hpp"
 
 namespace passo {
 
-// Words that hold until another motion code, and with them R, the depth and P or Q of the blocks that leave them out.
-struct DrillingWords {
-  CodeNumber code = 0;  // 0: no cycle is active
-  Plane plane = Plane::xy;
-  bool complete = false;  // false: its first block was wrong, and what follows is not drilled
-  double initial_height = 0;
-  double retract = 0;  // R as written
-  double depth = 0;    // the depth axis' word as written
-  double dwell = 0;
-  double peck = 0;
-  Point aside;  // G87: how far the tool goes aside, in the plane; through it the top of the back bore as written
+// From hole to hole by a distance from the origin and an angle about it (@ and ^ in incremental distances).
+struct PolarWay {
+  double radius = 0;
+  double angle = 0;  // radians
 };
 
-// One block's holes.
-struct DrillingCycle {
+struct DrillingPlan {
   CodeNumber code = 0;
-  Axis axis = Axis::z;
-  std::int32_t holes_left = 0;
-  bool in_hole = false;
-  double retract = 0;  // the height of R
+  Axis axis = Axis::z;  // that the holes go along
+  Point start;          // where the tool is
+  Point hole;           // the first one; its height does not count
+  std::int32_t holes = 1;
+  std::optional<Point> way = {};       // from hole to hole; none: all are at one place
+  std::optional<PolarWay> polar = {};  // in its stead
+  double initial_height = 0;           // of the tool, when the first cycle began
+  bool returns_to_initial = false;     // G98: between holes, not only to `retract`
+  double retract = 0;                  // R: where the feed begins
   double bottom = 0;
-  double top = 0;      // of a back bore
-  double height = 0;   // to the next hole
-  double clear = 0;    // out of a hole
-  double reached = 0;  // by the pecks so far
+  double top = 0;    // of a back bore
+  Point aside = {};  // G87: how far the tool goes aside, in the plane
+  double dwell = 0;  // P, seconds
+  double peck = 0;   // Q
+  SpindleDirection spindle = SpindleDirection::off;
+  bool feed_override = true;  // whether it counts, and again after a tap
+  bool speed_override = true;
+  bool retracts_by_hand = false;              // G88: an operator takes the tool out
+  PathMode path_mode = PathMode::continuous;  // after the cycle
+  PathTolerance tolerance = {};
 };
+
+class DrillingCycle final : public Cycle {
+ public:
+  DrillingCycle(const DrillingPlan& plan, const OperationSource& source);
+
+  // It broke off: from the origin there is no angle to go on from (DrillingPlan::polar).
+  bool stuck() const { return stuck_; }
+
+ private:
+  bool step() override;
+  void begin();
+  bool go_to_hole();
+  bool find_hole(Point& hole);
+  bool peck();
+  void finish_hole();
+  void tap();
+  void bore_back();
+  void end();
+  void traverse_to(double height);
+  void feed_to(double height);
+  void traverse_by(const Point& way) { traverse(position_ + way); }
+
+  DrillingPlan plan_;
+  double height_ = 0;   // to the next hole
+  double clear_ = 0;    // out of a hole
+  double reached_ = 0;  // by the pecks so far
+  std::int32_t holes_left_;
+  bool begun_ = false;
+  bool in_hole_ = false;
+  bool stuck_ = false;
+};
+
+// What cycles do; the codes check their words by it.
+constexpr bool pecks(CodeNumber number) {
+  return number == code(73) || number == code(83);
+}
+constexpr bool taps(CodeNumber number) {
+  return number == code(74) || number == code(84);
+}
+constexpr bool dwells(CodeNumber number) {
+  return number == code(82) || number == code(86) || number == code(88) || number == code(89);
+}
+constexpr bool stops_spindle(CodeNumber number) {
+  return number == code(86) || number == code(87) || number == code(88);
+}
 
 }  // namespace passo

@@ -14,7 +14,8 @@ class Interpreter::Implementation {
         parameters_(symbols_, state_, options.machine_units, options.settings),
         reporter_(diagnostics),
         flow_(std::move(reader), flow_options(options), state_, parameters_, symbols_, reporter_),
-        executor_(state_, parameters_, operations_, reporter_, symbols_) {
+        block_(state_, parameters_, operations_, reporter_),
+        executor_(block_, symbols_) {
     parameters_.load(options.parameters);
     executor_.start(options);
     diagnostics.look_up_rules_with(rule_of);
@@ -62,7 +63,7 @@ class Interpreter::Implementation {
 
   // One block: none, one or several operations.
   void step() {
-    if (executor_.wants_contour()) return read_contour();
+    if (LatheCodes* const lathe = executor_.wants_contour()) return read_contour(*lathe);
     if (executor_.busy()) {
       executor_.go_on();
       return follow_jump();
@@ -106,12 +107,12 @@ class Interpreter::Implementation {
   }
 
   // The blocks of a lathe cycle's sub are not executed: they are its contour.
-  void read_contour() {
-    if (!flow_.call_for_contour(executor_.contour_sub(), executor_.contour_span())) return executor_.abandon_cycle();
+  void read_contour(LatheCodes& lathe) {
+    if (!flow_.call_for_contour(lathe.contour_sub(), lathe.contour_span())) return lathe.abandon_contour();
     while (const Block* const block = flow_.next()) executor_.add_to_contour(*block);
-    if (flow_.end() != ProgramFlow::End::none) return executor_.abandon_cycle();
+    if (flow_.end() != ProgramFlow::End::none) return lathe.abandon_contour();
     executor_.end_contour();
-    text_ = executor_.contour_text();
+    text_ = lathe.text();
   }
 
   SavedParameters saved_;  // as they were before the program
@@ -121,6 +122,7 @@ class Interpreter::Implementation {
   Reporter reporter_;
   OperationQueue operations_;
   ProgramFlow flow_;
+  BlockContext block_;
   BlockExecutor executor_;
   std::string_view text_;  // of the block at hand
   bool finished_ = false;

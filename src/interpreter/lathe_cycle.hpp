@@ -1,34 +1,43 @@
-// What a lathe cycle (G70 to G72) keeps while its contour is read and its moves are given.
+// LatheCycle: the moves of a lathe cycle (G70 to G72) along a contour, as operations.
+//
+// LatheRoughing and LatheFinishing know where to cut, in the contour's own orientation and the program's units; here
+// their moves become those of the machine. Memory is the contour's.
 #pragma once
 
 #include <optional>
-#include <string>
+#include <variant>
 
-#include "block_words.hpp"
+#include "arc_center.hpp"
+#include "code_table.hpp"
+#include "cycle.hpp"
 #include "lathe_moves.hpp"
-
-#include "passo/gcode/symbols.hpp"
-#include "passo/interpreter/operation.hpp"
 
 namespace passo {
 
-struct LatheCycle {
-  static constexpr std::size_t most_segments = 10'000;
+struct LathePlan {
+  std::variant<LatheRoughing, LatheFinishing> cuts;
+  Point start;      // where the tool is; the axes but X and Z stay there
+  double unit = 1;  // of the contour, in millimetres
+  ArcTolerance tolerance = arc_tolerance_mm;
+};
 
-  CodeNumber code = 0;
-  BlockWords words;  // of the cycle's block
-  Span span;         // of its Q: what is wrong with the whole contour is told here
-  std::string text;  // its line
-  OperationSource source;
-  Symbol sub;
-  Point start;  // where the tool is before the first cut
+class LatheCycle final : public Cycle {
+ public:
+  LatheCycle(LathePlan plan, const OperationSource& source) : Cycle(plan.start, source), plan_(std::move(plan)) {}
 
-  bool good = true;   // all lines of the contour so far
-  LathePoint corner;  // the contour's last point so far
-  LatheContour contour;
+  // Why it broke off.
+  LatheFault fault() const { return fault_; }
+  // The code of the last move, which LinuxCNC leaves active; none: there was no move.
+  std::optional<CodeNumber> last_motion() const { return last_motion_; }
 
-  std::optional<LatheRoughing> roughing;
-  std::optional<LatheFinishing> finishing;
+ private:
+  bool step() override;
+  LatheFault add(const LatheMove& move, const LatheOrientation& orientation);
+  LatheFault add_arc(const LatheMove& move, const LatheOrientation& orientation, const Point& end);
+
+  LathePlan plan_;
+  LatheFault fault_ = LatheFault::none;
+  std::optional<CodeNumber> last_motion_;
 };
 
 }  // namespace passo

@@ -66,6 +66,7 @@ struct Scaling {
   double way(Axis axis, double value) const { return value * factor(axis); }
 };
 
+inline constexpr double highest_tool = 99999;
 inline constexpr std::size_t most_spindles = 8;
 struct SpindleState {
   double speed = 0;          // S: revolutions a minute; under constant surface speed metres or feet a minute

@@ -47,7 +47,8 @@ void BlockExecutor::leave_sub(const OperationSource& source) {
   const auto left = static_cast<std::size_t>(state_.call_depth) + 1;
   if (left >= snapshots_.size() || !std::exchange(snapshots_[left].valid, false)) return;
   if (!snapshots_[left].restore_at_return) return;
-  source_ = source;
+  block_.source = source;
+  block_.word = {};
   restore(snapshots_[left]);
 }
 
@@ -56,26 +57,27 @@ void BlockExecutor::leave_sub(const OperationSource& source) {
 void BlockExecutor::restore(const ModalSnapshot& saved) {
   words_.clear();
   const auto put_back = [&](ModalGroup group, GroupFunction set) {
-    if (state_.modal[group] != saved.modal[group]) (this->*set)(saved.modal[group]);
+    if (state_.modal[group] != saved.modal[group]) set(*this, saved.modal[group]);
   };
-  put_back(length_units, &BlockExecutor::set_length_units);
-  put_back(feed_mode, &BlockExecutor::set_feed_mode);
+  put_back(length_units, own<&BlockExecutor::set_length_units>);
+  put_back(feed_mode, own<&BlockExecutor::set_feed_mode>);
   state_.feed = saved.feed;
   if (!state_.modal.inverse_time()) emit_feed_rate(saved.feed / state_.length_unit());
   restore_spindles(saved);
-  put_back(plane, &BlockExecutor::select_plane);
-  put_back(lathe_diameter, &BlockExecutor::set_lathe_diameter);
+  put_back(plane, own<&BlockExecutor::select_plane>);
+  put_back(lathe_diameter, own<&BlockExecutor::set_lathe_diameter>);
   // It can be put back to off; on, it wants a tool and a move that leads in.
-  if (saved.modal[cutter_compensation] == code(40))
-    put_back(cutter_compensation, &BlockExecutor::set_cutter_compensation);
-  restore_tool_offset(saved);
-  put_back(work_system, &BlockExecutor::select_work_system);
+  if (saved.modal[cutter_compensation] == code(40)) {
+    put_back(cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>);
+  }
+  frame_.restore_tool_offset(saved);
+  put_back(work_system, of<&BlockExecutor::frame_, &FrameCodes::select_work_system>);
   state_.modal.set(path_mode, saved.modal[path_mode]);
   state_.tolerance = saved.tolerance;
   emit_path_mode();
-  put_back(distance, &BlockExecutor::set_distance_mode);
-  put_back(arc_distance, &BlockExecutor::set_arc_distance_mode);
-  put_back(retract, &BlockExecutor::set_retract_mode);
+  put_back(distance, own<&BlockExecutor::set_distance_mode>);
+  put_back(arc_distance, own<&BlockExecutor::set_arc_distance_mode>);
+  put_back(retract, own<&BlockExecutor::set_retract_mode>);
   restore_switches(saved);
 }
 

@@ -31,6 +31,7 @@ void OperationQueue::push_held(const Operation& operation) {
   Operation& kept = at(pushed_) = operation;
   Texts& copies = texts(pushed_++);
   copies.line.assign(operation.text);
+  copies.axis_words = operation.axis_words == nullptr ? AxisWords{} : *operation.axis_words;
   if (const std::string_view* const payload = borrowed_text(kept)) copies.payload.assign(*payload);
 }
 
@@ -47,6 +48,7 @@ void OperationQueue::release() {
   for (; ready_ != pushed_; ++ready_) {
     Operation& operation = at(ready_);
     operation.text = texts(ready_).line;
+    operation.axis_words = &texts(ready_).axis_words;
     if (std::string_view* const payload = borrowed_text(operation)) *payload = texts(ready_).payload;
   }
   holding_ = false;

@@ -2,7 +2,8 @@
 //
 // First in, first out, without a heap. Cutter compensation may *hold* it: what is pushed from then on stays, in its
 // place, until it is known where the held moves end (release()). A few operations overtake what is held
-// (push_ahead()). The text of a line is gone when the next one is read, so what is held gets a copy.
+// (push_ahead()). The text of a line and its axis words are gone when the next one is read, so what is held gets
+// copies.
 #pragma once
 
 #include <array>
@@ -49,6 +50,7 @@ class OperationQueue {
   struct Texts {
     std::string line;
     std::string payload;  // of a comment and its like
+    AxisWords axis_words;
   };
   Operation& at(std::size_t i) { return operations_[i & (capacity - 1)]; }
   const Operation& at(std::size_t i) const { return operations_[i & (capacity - 1)]; }

@@ -34,7 +34,7 @@ bool BlockExecutor::set_feed_rate() {
                 "F of 0 or more");
   }
   if (state_.modal.inverse_time()) {
-    const CodeNumber mover = motion_ == nullptr ? code(80) : motion_->number;
+    const CodeNumber mover = block_.motion == nullptr ? code(80) : block_.motion->number;
     const bool feeds = mover >= code(1) && mover <= code(5, 1);
     if (!feeds) {
       reporter_.warning(
@@ -52,14 +52,21 @@ bool BlockExecutor::set_feed_rate() {
                       fmt::format("{} in a block before", spelling(*new_units)));
   }
   state_.feed = units * state_.length_unit();
-  missing_feed_told_ = false;
+  block_.missing_feed_told = false;
   emit_feed_rate(units);
   return true;
 }
 
-void BlockExecutor::emit_feed_rate(double units) {
-  const double time = state_.modal.per_revolution() ? 1 : seconds_per_minute;
-  emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
+// M3, M4, M5, M19 share a modal group with M70 to M73.
+bool BlockExecutor::run_spindle_group(CodeNumber number) {
+  switch (number) {
+    case code(19): return spindles_.orient();
+    case code(70):
+    case code(71):
+    case code(72):
+    case code(73): return keep_modal_state(number);
+    default: return spindles_.turn(number);
+  }
 }
 
 bool BlockExecutor::switch_coolant(CodeNumber number) {
@@ -94,9 +101,9 @@ bool BlockExecutor::dwell(CodeNumber number) {
   if (!words_.has('P')) {
     return fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
   }
-  if (motion_ != nullptr && motion_->letters.has('P')) {
+  if (block_.motion != nullptr && block_.motion->letters.has('P')) {
     return fail("gcode.ambiguous-word", words_.span('P'),
-                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*motion_)), "two blocks");
+                fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)), "two blocks");
   }
   if (words_['P'] < 0) {
     return fail("gcode.negative-word", words_.span('P'),
@@ -179,26 +186,38 @@ bool BlockExecutor::set_retract_mode(CodeNumber number) {
 bool BlockExecutor::run_non_modal(CodeNumber number) {
   switch (number) {
     case code(10): return set_table();
-    case code(28): return go_home(first_home_parameter);
-    case code(28, 1): return store_home(first_home_parameter);
-    case code(30): return go_home(second_home_parameter);
-    case code(30, 1): return store_home(second_home_parameter);
+    case code(28): return splines_.interrupt(), frame_.go_home(first_home_parameter);
+    case code(28, 1): return frame_.store_home(first_home_parameter);
+    case code(30): return splines_.interrupt(), frame_.go_home(second_home_parameter);
+    case code(30, 1): return frame_.store_home(second_home_parameter);
     case code(50): state_.scaling = Scaling{}; return true;
-    case code(51): return set_scaling();
+    case code(51): return frame_.set_scaling();
     case code(52):
     case code(92):
     case code(92, 1):
     case code(92, 2):
-    case code(92, 3): return set_g92(number);
+    case code(92, 3): return frame_.set_g92(number);
     case code(53):
-      if (motion_ != nullptr && (motion_->number == code(0) || motion_->number == code(1))) return true;
+      if (block_.motion != nullptr && (block_.motion->number == code(0) || block_.motion->number == code(1)))
+        return true;
       return fail("gcode.g53-without-move", words_.span(non_modal), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
     default: return true;  // G4 came before
   }
 }
 
+// G10: what it sets is told by L.
+bool BlockExecutor::set_table() {
+  const double table = words_.has('L') ? words_['L'] : -1;
+  if (table == 0) return tools_.reload_tools();
+  if (table == 1 || table == 10 || table == 11) return tools_.set_tool_table_entry();
+  if (table == 2 || table == 20) return frame_.set_work_offset();
+  return fail("gcode.missing-word", words_.has('L') ? words_.span('L') : words_.span(non_modal),
+              "G10 without L0, L1, L2, L10, L11 or L20",
+              "G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position, G10 L1 P1 Z… sets a tool");
+}
+
 bool BlockExecutor::stop(CodeNumber number) {
-  (void)report_cutter(cutter_.release(), words_.span(stopping));  // told; the program stops all the same
+  (void)cutter_codes_.report(cutter_.release(), words_.span(stopping));  // told; the program stops all the same
   switch (number) {
     case code(0): emit(operation::ProgramStop{}); return true;
     case code(1): emit(operation::OptionalProgramStop{}); return true;
@@ -214,7 +233,7 @@ bool BlockExecutor::stop(CodeNumber number) {
 
 // M2 and M30 put the machine back to where programs may expect it.
 void BlockExecutor::end_program(bool pallet) {
-  activate_system(1, false);
+  frame_.activate_system(1, false);
   if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});
   emit(operation::SetFeedMode{});
   emit(operation::SetFeedRate{});
@@ -228,7 +247,7 @@ void BlockExecutor::end_program(bool pallet) {
   if (state_.flood) emit(operation::SetFlood{false});
   if (pallet) emit(operation::PalletShuttle{});
   emit(operation::ProgramEnd{});
-  ended_ = true;
+  block_.ended = true;
 }
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// BlockExecutor: the codes and words of spindles: S, M3, M4, M5, M19, G96, G97, and `$`, which says which spindle.
+#include "spindle_codes.hpp"
+
 #include <cmath>
 
-#include "block_executor.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -9,33 +9,12 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr int every_spindle = -1;
 constexpr double no_limit = 1e30;  // G96 without D, as LinuxCNC prints it
 constexpr double full_turn = 360;
 
 }  // namespace
 
-// The spindles of `$`: one, or with -1 all where the code is for several; spindle 0 where there is no `$`.
-bool BlockExecutor::spindle_word(SpindleChoice choice, SpindleRange& range) {
-  range = {0, 1};
-  if (!words_.has('$')) return true;
-  const int lowest = choice == SpindleChoice::one_or_all ? every_spindle : 0;
-  const int highest = state_.spindle_count - 1;
-  const double number = words_['$'];
-  if (number != std::round(number) || number < lowest || number > highest) {
-    return fail("gcode.no-such-spindle", words_.span('$'),
-                fmt::format("there is no spindle {} here", plain_number(number)),
-                highest == 0 ? std::string("$0: the machine has one spindle")
-                             : fmt::format("$0 to ${}{}", highest, lowest < 0 ? ", or $-1 for all" : ""));
-  }
-  const auto spindle = static_cast<int>(number);
-  range = spindle == every_spindle
-              ? SpindleRange{0, static_cast<std::uint8_t>(state_.spindle_count)}
-              : SpindleRange{static_cast<std::uint8_t>(spindle), static_cast<std::uint8_t>(spindle + 1)};
-  return true;
-}
-
-bool BlockExecutor::set_spindle_mode(CodeNumber number) {
+bool SpindleCodes::set_mode(CodeNumber number) {
   SpindleRange range;
   if (!spindle_word(SpindleChoice::one, range)) return false;
   double limit = 0;
@@ -56,7 +35,7 @@ bool BlockExecutor::set_spindle_mode(CodeNumber number) {
   return true;
 }
 
-bool BlockExecutor::set_spindle_speed() {
+bool SpindleCodes::set_speed() {
   SpindleRange range;
   if (!spindle_word(SpindleChoice::one_or_all, range)) return false;
   if (words_['S'] < 0) {
@@ -71,19 +50,7 @@ bool BlockExecutor::set_spindle_speed() {
   return true;
 }
 
-// M3, M4, M5, M19 share a modal group with M70 to M73.
-bool BlockExecutor::run_spindle_group(CodeNumber number) {
-  switch (number) {
-    case code(19): return orient_spindle();
-    case code(70):
-    case code(71):
-    case code(72):
-    case code(73): return keep_modal_state(number);
-    default: return turn_spindle(number);
-  }
-}
-
-bool BlockExecutor::turn_spindle(CodeNumber number) {
+bool SpindleCodes::turn(CodeNumber number) {
   SpindleRange range;
   if (!spindle_word(SpindleChoice::one_or_all, range)) return false;
   const SpindleDirection direction = number == code(3)   ? SpindleDirection::clockwise
@@ -96,7 +63,7 @@ bool BlockExecutor::turn_spindle(CodeNumber number) {
   return true;
 }
 
-void BlockExecutor::stop_spindles() {
+void SpindleCodes::stop() {
   for (std::uint8_t i = 0; i < state_.spindle_count; ++i) {
     state_.spindles[i].direction = SpindleDirection::off;
     emit(operation::TurnSpindle{SpindleDirection::off, i});
@@ -104,7 +71,7 @@ void BlockExecutor::stop_spindles() {
 }
 
 // Without R and P there is nowhere to turn to; Q alone still waits.
-bool BlockExecutor::orient_spindle() {
+bool SpindleCodes::orient() {
   using Way = operation::OrientSpindle::Way;
   SpindleRange range;
   if (!spindle_word(SpindleChoice::one, range)) return false;
@@ -121,7 +88,7 @@ bool BlockExecutor::orient_spindle() {
   }
   state_.spindles[range.first].direction = SpindleDirection::off;
   const bool turns = words_.has('R') || words_.has('P');
-  if (turns) emit(operation::OrientSpindle{angle + options_.orient_offset, static_cast<Way>(way), range.first});
+  if (turns) emit(operation::OrientSpindle{angle + block_.options.orient_offset, static_cast<Way>(way), range.first});
   if (words_.has('Q')) emit(operation::AwaitSpindle{Seconds(words_['Q']), range.first});
   return true;
 }

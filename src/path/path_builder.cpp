@@ -47,26 +47,6 @@ bool turns_only_rotary_axes(const Curve& curve) {
   return curve.shape() == Curve::Shape::line;
 }
 
-// Where the word with this letter stands in a line of G-code; where there is none, the line as a whole.
-SourcePlace place_of_word(std::string_view text, char letter, std::uint32_t line) {
-  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
-  const std::size_t code_end = std::min(text.find_first_of("(;"), text.size());
-  const std::size_t first = std::min(text.find_first_not_of(" \t/"), code_end);
-  std::size_t begin = first;
-  std::size_t end = code_end;
-  for (std::size_t i = 0; i < code_end; ++i) {
-    if (letter == 0 || (text[i] != letter && text[i] != letter - 'A' + 'a')) continue;
-    begin = i;
-    end = i + 1;
-    while (end < code_end && !is_letter(text[end])) ++end;
-    break;
-  }
-  while (end > begin + 1 && (text[end - 1] == ' ' || text[end - 1] == '\t' || text[end - 1] == '\r')) --end;
-  if (end <= begin) return {.line = line, .column = 0, .length = 1};
-  return {
-      .line = line, .column = static_cast<std::uint32_t>(begin + 1), .length = static_cast<std::uint32_t>(end - begin)};
-}
-
 template <class... Handlers>
 struct Overloaded : Handlers... {
   using Handlers::operator()...;
@@ -236,24 +216,24 @@ void PathBuilder::lacks(Lack what) {
   switch (what) {
     case Lack::orientation:
       return report(Severity::error, "path.no-orientation", "the machine cannot turn its spindle to an angle (M19)",
-                    "a program without M19", 'M');
+                    "a program without M19");
     case Lack::outputs:
       return report(Severity::warning, "path.no-outputs", "the machine has no such output: nothing is switched",
-                    "a program without M62 to M65, M67 and M68", 'M');
+                    "a program without M62 to M65, M67 and M68");
     case Lack::inputs:
       return report(Severity::warning, "path.no-inputs",
                     "the machine has no inputs: reading one gives 0, and waiting for one takes all of its time",
-                    "a program without M66", 'M');
+                    "a program without M66");
     case Lack::user_codes:
       return report(Severity::warning, "path.no-user-codes", "no program is run for a user code: nothing happens",
-                    "a program without M100 to M199", 'M');
+                    "a program without M100 to M199");
   }
 }
 
 void PathBuilder::refuse_surface_speed(const operation::SetSpindleMode& mode) {
   if (mode.surface_limit == 0) return;
   report(Severity::error, "path.no-surface-speed", "the machine cannot hold a constant surface speed (G96)",
-         "G97 and S in revolutions a minute", 'G');
+         "G97 and S in revolutions a minute");
 }
 
 bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
@@ -414,7 +394,7 @@ void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
   report(Severity::warning, "path.spindle-too-fast",
          fmt::format("the program asks for {:.0f} rpm, and the spindle turns at {:.0f} at most, which is used",
                      revolutions_per_minute, limit),
-         fmt::format("S up to {:.0f}", limit), 'S');
+         fmt::format("S up to {:.0f}", limit));
 }
 
 // G61 and G61.1 leave the path nowhere: their tolerance is 0.
@@ -464,14 +444,20 @@ Action PathBuilder::outputs_action() const {
           .source = outputs_source_};
 }
 
-void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected, char letter) {
-  diagnostics_.add({.severity = severity,
-                    .code = std::move(code),
-                    .file = operation_.file.empty() ? options_.file : std::string(operation_.file),
-                    .place = place_of_word(operation_.text, letter, operation_.source.line),
-                    .message = std::move(message),
-                    .expected = std::move(expected),
-                    .text = std::string(operation_.text)});
+void PathBuilder::report(Severity severity, std::string code, std::string message, std::string expected,
+                         std::optional<Axis> axis) {
+  WordPlace word = operation_.word;
+  if (axis && operation_.axis_words != nullptr && (*operation_.axis_words)[*axis].column != 0) {
+    word = (*operation_.axis_words)[*axis];
+  }
+  diagnostics_.add(
+      {.severity = severity,
+       .code = std::move(code),
+       .file = operation_.file.empty() ? options_.file : std::string(operation_.file),
+       .place = {.line = operation_.source.line, .column = word.column, .length = std::max(word.length, 1U)},
+       .message = std::move(message),
+       .expected = std::move(expected),
+       .text = std::string(operation_.text)});
 }
 
 }  // namespace passo

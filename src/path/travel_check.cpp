@@ -64,8 +64,7 @@ void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Cu
       fmt::format("{} would reach {:.3f} (work {:.3f}), {:.3f} {} {} its travel's end at {:.3f}", letter_of(axis),
                   reached, frame_.work_from_machine(place_of(curve, axis, reached))[axis],
                   high_side ? reached - limit : limit - reached, unit_of(axis), high_side ? "beyond" : "below", limit),
-      fmt::format("{} within {:.3f} to {:.3f}, machine coordinates", letter_of(axis), travel.low, travel.high),
-      letter_of(axis));
+      fmt::format("{} within {:.3f} to {:.3f}, machine coordinates", letter_of(axis), travel.low, travel.high), axis);
 }
 
 // Once an axis: a program for a machine with more axes moves them in most of its lines.
@@ -79,7 +78,7 @@ void PathBuilder::check_axes(const Curve& curve) {
     }
     report(Severity::error, "travel.no-such-axis",
            fmt::format("this moves the axis {}, which the machine does not have", letter_of(axis)),
-           fmt::format("moves of {} only", has), letter_of(axis));
+           fmt::format("moves of {} only", has), axis);
   }
 }
 

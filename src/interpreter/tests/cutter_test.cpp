@@ -202,7 +202,8 @@ TEST(CutterCompensation, radius_and_orientation_come_from_the_tool_table_and_the
     Parameters parameters(symbols, copy);
     Reporter reporter(diagnostics);
     OperationQueue operations;
-    BlockExecutor executor(copy, parameters, operations, reporter, symbols);
+    BlockContext context(copy, parameters, operations, reporter);
+    BlockExecutor executor(context, symbols);
     const BlockParser parser("test.ngc", symbols);
     const std::string file = "test.ngc";
     std::uint32_t line = 0;

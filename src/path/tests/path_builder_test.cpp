@@ -307,6 +307,24 @@ TEST_F(PathTest, a_move_beyond_the_travel_says_where_and_by_how_much) {
   EXPECT_EQ(found.message, "X would reach 312.500 (work 112.500), 12.500 mm beyond its travel's end at 300.000");
 }
 
+TEST_F(PathTest, a_finding_points_at_the_words_that_the_operation_names) {
+  AxisWords axis_words;
+  axis_words[Axis::x] = {.column = 9, .length = 4};
+  feed(10);
+  operations_.push_back({.what = operation::StraightFeed{xyz(400, 400)},
+                         .source = {.line = 5},
+                         .word = {.column = 6, .length = 7},
+                         .axis_words = &axis_words,
+                         .text = "any text"});
+  go(0, 0, 400);
+  (void)build();
+  ASSERT_EQ(diagnostics_.all().size(), 3U);
+  EXPECT_EQ(diagnostics_.all()[0].place, (SourcePlace{5, 9, 4}));
+  EXPECT_EQ(diagnostics_.all()[1].place, (SourcePlace{5, 6, 7}));  // no word of Y: all that ask for the move
+  EXPECT_EQ(diagnostics_.all()[2].place, (SourcePlace{3, 0, 1}));  // no word at all: the line
+  EXPECT_EQ(diagnostics_.all()[0].text, "any text");
+}
+
 TEST_F(PathTest, an_excursion_is_reported_once_until_the_path_is_back_inside) {
   feed(10);
   for (int i = 0; i < 100; ++i) go(301 + i % 2, i);

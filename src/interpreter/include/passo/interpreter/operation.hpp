@@ -247,9 +247,22 @@ struct OperationSource {
   std::int64_t line_number = -1;  // N word; -1: none
 };
 
+// A stretch of the line: the column counts from 1, in bytes. Column 0: there is none.
+struct WordPlace {
+  std::uint32_t column = 0;
+  std::uint32_t length = 0;
+  friend bool operator==(const WordPlace&, const WordPlace&) = default;
+};
+using AxisWords = PerAxis<WordPlace>;
+
 struct Operation {
   OperationKind what;
   OperationSource source;
+  // The words in the line that ask for it, so that later stages can point at them and read no G-code: the code or the
+  // S alone; of a move all words of its block, with the place of each axis word (borrowed, until the next operation is
+  // asked for; null: there are none).
+  WordPlace word{};
+  const AxisWords* axis_words = nullptr;
   // The file and the line it comes from, for diagnostics; borrowed, until the next operation is asked for.
   std::string_view file{};
   std::string_view text{};

@@ -95,8 +95,9 @@ class PathBuilder final : public Source<PathItem> {
   void check_travel(const Curve& curve);
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
   void check_axes(const Curve& curve);
-  // `letter` says which word of the block is meant; 0: all of it.
-  void report(Severity severity, std::string code, std::string message, std::string expected, char letter = 0);
+  // Points at the axis word, or where there is none at the words that ask for the operation in hand.
+  void report(Severity severity, std::string code, std::string message, std::string expected,
+              std::optional<Axis> axis = std::nullopt);
 
   Source<Operation>& operations_;
   const PathOptions& options_;

@@ -1,11 +1,7 @@
-// BlockExecutor: the lathe cycles G70, G71, G72 (.1 .2).
-//
-// A cycle's block moves to its X and Z. The lines of its sub are then read as a contour instead of being executed
-// (interpreter.cpp gives them to add_to_contour), and when the sub has returned the moves are given, a few at a time.
+#include "lathe_codes.hpp"
+
 #include <cmath>
 
-#include "arc_center.hpp"
-#include "block_executor.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -27,9 +23,9 @@ constexpr bool faces(CodeNumber number) {
 
 }  // namespace
 
-bool BlockExecutor::start_lathe(CodeNumber number) {
+bool LatheCodes::start(CodeNumber number) {
   std::int32_t sub = 0;
-  if (!check_lathe(number) || !whole_word('Q', 0, highest_sub, sub)) return false;
+  if (!check(number) || !whole_word('Q', 0, highest_sub, sub)) return false;
   Point start;
   if (!end_point(start) || !check_feed()) return false;
   start[Axis::u] = state_.position[Axis::u];  // U and W are allowances here
@@ -38,21 +34,20 @@ bool BlockExecutor::start_lathe(CodeNumber number) {
   emit(operation::StraightTraverse{start});
   state_.modal.set(motion, code(0));  // the contour's first line may leave it out
 
-  if (lathe_ == nullptr) lathe_ = std::make_unique<LatheCycle>();
-  *lathe_ = LatheCycle{};
-  lathe_->code = number;
-  lathe_->words = words_;
-  lathe_->span = words_.span('Q');
-  lathe_->text = reporter_.block().text;
-  lathe_->source = source_;
-  lathe_->sub = symbols_.intern(fmt::format("{}", sub));
-  lathe_->start = start;
-  lathe_->corner = lathe_point(start);
-  cycle_ = Cycle::contour;
+  if (contour_ == nullptr) contour_ = std::make_unique<Contour>();
+  *contour_ = Contour{};
+  contour_->code = number;
+  contour_->words = words_;
+  contour_->span = words_.span('Q');
+  contour_->text = reporter_.block().text;
+  contour_->source = block_.source;
+  contour_->sub = symbols_.intern(fmt::format("{}", sub));
+  contour_->start = start;
+  contour_->corner = lathe_point(start);
   return true;
 }
 
-bool BlockExecutor::check_lathe(CodeNumber number) {
+bool LatheCodes::check(CodeNumber number) {
   const std::string name = spelling('G', number);
   if (!words_.has('Q')) {
     return fail("gcode.missing-word", motion_span(), fmt::format("{} without Q", name),
@@ -73,31 +68,27 @@ bool BlockExecutor::check_lathe(CodeNumber number) {
   return positive('I') && (!words_.has('P') || whole_word('P', 1, most_finishing_passes, passes));
 }
 
-LathePoint BlockExecutor::lathe_point(const Point& point) const {
+LathePoint LatheCodes::lathe_point(const Point& point) const {
   return LathePoint(point[Axis::z], point[Axis::x]) / state_.length_unit();
 }
 
-void BlockExecutor::abandon_cycle() {
-  cycle_ = Cycle::none;
+// What is wrong with it is told; the cycle is not executed then.
+void LatheCodes::add_to_contour(bool readable) {
+  if (!readable || !add_segment()) contour_->good = false;
 }
 
-// A line of the contour. What is wrong with it is told; the cycle is not executed then.
-void BlockExecutor::add_to_contour(const Block& block) {
-  state_.line = block.line;
-  if (!words_.read(block, parameters_, reporter_) || (!block.assignments.empty() && !assign(block)) ||
-      !add_segment(block)) {
-    lathe_->good = false;
-  }
-}
-
-bool BlockExecutor::add_segment(const Block& block) {
-  for (const Word& word : block.words) {
+void LatheCodes::warn_of_unused_words() {
+  for (const Word& word : reporter_.block().words) {
     const bool motion_code = word.letter == 'G' && words_.code(motion) != nullptr;
     if (motion_code || contour_letters.has(word.letter)) continue;
     reporter_.warning("gcode.unused-in-contour", word.span,
                       fmt::format("{} has no effect in the contour of a lathe cycle", reporter_.quote(word.span)),
                       "G0 to G3 with X Z U W, I K or R, A or C");
   }
+}
+
+bool LatheCodes::add_segment() {
+  warn_of_unused_words();
   if (words_.code(motion) != nullptr) {
     const CodeNumber number = words_.code(motion)->number;
     if (number > code(3)) {
@@ -107,8 +98,8 @@ bool BlockExecutor::add_segment(const Block& block) {
     state_.modal.set(motion, number);
   }
   LatheSegment segment;
-  segment.line = block.line;
-  segment.start = lathe_->corner;
+  segment.line = state_.line;
+  segment.start = contour_->corner;
   if (!contour_point(segment.end)) return false;
   if (segment.end == segment.start) return true;
   const CodeNumber active = state_.modal[motion];
@@ -116,23 +107,23 @@ bool BlockExecutor::add_segment(const Block& block) {
     segment.shape = active == code(2) ? Shape::clockwise : Shape::counterclockwise;
     if (!contour_arc(segment)) return false;
   }
-  std::vector<LatheSegment>& segments = lathe_->contour.segments;
-  if (segments.size() + 2 > LatheCycle::most_segments) {
+  std::vector<LatheSegment>& segments = contour_->shape.segments;
+  if (segments.size() + 2 > most_segments) {
     return fail("gcode.bad-contour", motion_span(),
-                fmt::format("the contour has more than {} lines and arcs", LatheCycle::most_segments), "fewer");
+                fmt::format("the contour has more than {} lines and arcs", most_segments), "fewer");
   }
   segments.push_back(segment);
-  lathe_->corner = segment.end;
+  contour_->corner = segment.end;
   state_.position[Axis::z] = segment.end.real() * state_.length_unit();
   state_.position[Axis::x] = segment.end.imag() * state_.length_unit();
   return add_corner(segment);
 }
 
 // X and Z as the cycle's block counts distances; U and W are always increments.
-bool BlockExecutor::contour_point(LathePoint& end) {
+bool LatheCodes::contour_point(LathePoint& end) {
   const double unit = state_.length_unit();
   const bool incremental = state_.modal.incremental();
-  double coordinates[2] = {lathe_->corner.real(), lathe_->corner.imag()};
+  double coordinates[2] = {contour_->corner.real(), contour_->corner.imag()};
   for (const auto& [axis, increment, at] : {std::tuple{Axis::z, 'W', 0}, {Axis::x, 'U', 1}}) {
     const char letter = letter_of(axis);
     if (words_.has(increment) && (words_.has(letter) || incremental)) {
@@ -150,7 +141,7 @@ bool BlockExecutor::contour_point(LathePoint& end) {
   return true;
 }
 
-bool BlockExecutor::contour_arc(LatheSegment& segment) {
+bool LatheCodes::contour_arc(LatheSegment& segment) {
   const double unit = state_.length_unit();
   const auto in_plane = [unit](LathePoint point) { return PlanePoint{point.real() * unit, point.imag() * unit}; };
   const ArcTolerance& tolerance = state_.modal.inches() ? arc_tolerance_inch : arc_tolerance_mm;
@@ -176,7 +167,7 @@ bool BlockExecutor::contour_arc(LatheSegment& segment) {
 }
 
 // A: the corner behind this line is rounded; C: it is cut off.
-bool BlockExecutor::add_corner(const LatheSegment& behind) {
+bool LatheCodes::add_corner(const LatheSegment& behind) {
   if (!words_.has('A') && !words_.has('C')) return true;
   if (words_.has('A') && words_.has('C')) {
     return fail("gcode.bad-contour", words_.span('C'), "A and C on one corner", "A rounds it, C cuts it off");
@@ -186,45 +177,40 @@ bool BlockExecutor::add_corner(const LatheSegment& behind) {
   corner.size = words_[words_.has('A') ? 'A' : 'C'];
   corner.start = corner.end = behind.end;
   corner.line = behind.line;
-  if (corner.size != 0) lathe_->contour.segments.push_back(corner);
+  if (corner.size != 0) contour_->shape.segments.push_back(corner);
   return true;
 }
 
-// The sub has returned.
-void BlockExecutor::end_contour() {
-  cycle_ = Cycle::none;
-  words_ = lathe_->words;
-  source_ = lathe_->source;
-  state_.line = lathe_->source.line;
-  state_.position = lathe_->start;
-  if (!lathe_->good) return;
-  if (lathe_->contour.segments.size() < 2) {
-    fail_contour("the contour has fewer than two lines and arcs", "a line to where the part begins, and the part");
-    return;
+bool LatheCodes::end_contour() {
+  contour_->open = false;
+  words_ = contour_->words;
+  block_.source = contour_->source;
+  state_.line = contour_->source.line;
+  state_.position = contour_->start;
+  if (!contour_->good) return false;
+  if (contour_->shape.segments.size() < 2) {
+    return fail_contour("the contour has fewer than two lines and arcs",
+                        "a line to where the part begins, and the part");
   }
-  if (!finishes(lathe_->code)) lead_out();
-  lathe_->contour.segments.front().start = lathe_point(lathe_->start);
-  const LatheFault fault = finishes(lathe_->code) ? plan_finishing() : plan_roughing();
-  if (fault != LatheFault::none) {
-    report_contour(fault);
-    return;
-  }
-  cycle_ = Cycle::lathe;
+  if (!finishes(contour_->code)) lead_out();
+  contour_->shape.segments.front().start = lathe_point(contour_->start);
+  const LatheFault fault = finishes(contour_->code) ? plan_finishing() : plan_roughing();
+  return fault == LatheFault::none || report_contour(fault);
 }
 
 // A contour that ends inside the stock is led out of it, and that way out is set off as well; but where the contour
 // ends along the cuts, it ends there, and the way out (LatheRoughing adds it) is at its very end.
-void BlockExecutor::lead_out() {
-  std::vector<LatheSegment>& segments = lathe_->contour.segments;
-  const LathePoint start = lathe_point(lathe_->start);
-  const LathePoint end = lathe_->corner;
+void LatheCodes::lead_out() {
+  std::vector<LatheSegment>& segments = contour_->shape.segments;
+  const LathePoint start = lathe_point(contour_->start);
+  const LathePoint end = contour_->corner;
   const LathePoint first = segments.front().end - segments.front().start;
   const LathePoint last = segments.back().end - segments.back().start;
   if (last.real() == 0 || last.imag() == 0) return;
   LatheSegment out;
   out.line = segments.back().line;
   out.start = end;
-  if (faces(lathe_->code)) {
+  if (faces(contour_->code)) {
     if (first.real() * (start.real() - end.real()) >= 0) return;
     out.end = {start.real(), end.imag()};
   } else {
@@ -234,24 +220,22 @@ void BlockExecutor::lead_out() {
   segments.push_back(out);
 }
 
-LatheFault BlockExecutor::plan_roughing() {
-  const auto word = [this](char letter, double otherwise) { return words_.has(letter) ? words_[letter] : otherwise; };
-  LatheContour& contour = lathe_->contour;
-  if (faces(lathe_->code)) contour.turn();
+LatheFault LatheCodes::plan_roughing() {
+  LatheContour& contour = contour_->shape;
+  if (faces(contour_->code)) contour.turn();
   contour.orient();
   if (const LatheFault fault = contour.work_out_corners(); fault != LatheFault::none) return fault;
   if (const LatheFault fault = contour.check_one_way(); fault != LatheFault::none) return fault;
   if (const LatheFault fault = contour.offset(word('D', 0)); fault != LatheFault::none) return fault;
   for (LatheSegment& segment : contour.segments) segment.move({word('W', 0), word('U', 0)});
-  const auto extent = static_cast<LatheRoughing::Extent>(lathe_->code % 10);
-  lathe_->roughing.emplace(std::move(contour), extent, word('I', 1), word('R', 0.5));
+  const auto extent = static_cast<LatheRoughing::Extent>(contour_->code % 10);
+  begin(LatheRoughing(std::move(contour), extent, word('I', 1), word('R', 0.5)));
   return LatheFault::none;
 }
 
 // Turning or facing, whichever way the contour goes.
-LatheFault BlockExecutor::plan_finishing() {
-  const auto word = [this](char letter, double otherwise) { return words_.has(letter) ? words_[letter] : otherwise; };
-  LatheContour& contour = lathe_->contour;
+LatheFault LatheCodes::plan_finishing() {
+  LatheContour& contour = contour_->shape;
   LatheContour part = contour;
   part.segments.erase(part.segments.begin());
   part.orient();
@@ -260,54 +244,27 @@ LatheFault BlockExecutor::plan_finishing() {
   if (const LatheFault fault = contour.work_out_corners(); fault != LatheFault::none) return fault;
   if (const LatheFault fault = contour.check_one_way(); fault != LatheFault::none) return fault;
   const auto passes = static_cast<std::int32_t>(std::round(word('P', 1)));
-  lathe_->finishing.emplace(std::move(contour), word('D', 0), word('E', 0), passes);
+  begin(LatheFinishing(std::move(contour), word('D', 0), word('E', 0), passes));
   return LatheFault::none;
 }
 
-bool BlockExecutor::step_lathe() {
-  LatheMoves moves;
-  const bool more = lathe_->roughing ? lathe_->roughing->step(moves) : lathe_->finishing->step(moves);
-  const LatheFault fault = lathe_->roughing ? lathe_->roughing->fault() : lathe_->finishing->fault();
-  for (const LatheMove& move : moves) {
-    if (!emit_lathe_move(move)) return false;
-  }
-  if (fault != LatheFault::none) return report_contour(fault);
-  if (!more) cycle_ = Cycle::none;
-  return true;
+void LatheCodes::begin(std::variant<LatheRoughing, LatheFinishing> cuts) {
+  cycle_.emplace(LathePlan{.cuts = std::move(cuts),
+                           .start = contour_->start,
+                           .unit = state_.length_unit(),
+                           .tolerance = state_.modal.inches() ? arc_tolerance_inch : arc_tolerance_mm},
+                 contour_->source);
 }
 
-bool BlockExecutor::emit_lathe_move(const LatheMove& move) {
-  using Kind = LatheMove::Kind;
-  const LatheOrientation& orientation =
-      lathe_->roughing ? lathe_->roughing->orientation() : lathe_->finishing->orientation();
-  const double unit = state_.length_unit();
-  const LathePoint end = orientation.to_program(move.end) * unit;
-  if (!std::isfinite(end.real()) || !std::isfinite(end.imag())) return report_contour(LatheFault::stuck);
-  const PlanePoint from{state_.position[Axis::z], state_.position[Axis::x]};
-  state_.position[Axis::z] = end.real();
-  state_.position[Axis::x] = end.imag();
-  if (move.kind == Kind::rapid || move.kind == Kind::line) {
-    const bool rapid = move.kind == Kind::rapid;
-    state_.modal.set(motion, rapid ? code(0) : code(1));
-    rapid ? emit(operation::StraightTraverse{state_.position}) : emit(operation::StraightFeed{state_.position});
-    return true;
-  }
-  const PlanePoint to{end.real(), end.imag()};
-  if (std::hypot(to.first - from.first, to.second - from.second) < lathe_tolerance::same * unit) return true;
-  const LathePoint center = orientation.to_program(move.center) * unit;
-  const ArcCenter arc = check_center(from, to, {center.real(), center.imag()},
-                                     state_.modal.inches() ? arc_tolerance_inch : arc_tolerance_mm);
-  if (arc.fault != ArcFault::none) return report_contour(LatheFault::vanished);
-  const bool clockwise = (move.kind == Kind::clockwise) != orientation.swaps_arcs();
-  state_.modal.set(motion, clockwise ? code(2) : code(3));
-  emit(operation::ArcFeed{Plane::zx, state_.position, Mm(center.real()), Mm(center.imag()), clockwise ? -1 : 1});
-  return true;
+bool LatheCodes::finish() {
+  if (cycle_->last_motion()) state_.modal.set(motion, *cycle_->last_motion());
+  return cycle_->fault() == LatheFault::none || report_contour(cycle_->fault());
 }
 
-bool BlockExecutor::report_contour(LatheFault fault) {
+bool LatheCodes::report_contour(LatheFault fault) {
   switch (fault) {
     case LatheFault::not_monotonic:
-      return fail_contour("the contour turns back along its way", faces(lathe_->code)
+      return fail_contour("the contour turns back along its way", faces(contour_->code)
                                                                       ? "X that only rises, or only falls"
                                                                       : "Z that only rises, or only falls");
     case LatheFault::corner:
@@ -320,8 +277,8 @@ bool BlockExecutor::report_contour(LatheFault fault) {
 }
 
 // The contour's lines are behind us: the cycle's own line is quoted.
-bool BlockExecutor::fail_contour(std::string message, std::string expected) {
-  reporter_.error_at("gcode.bad-contour", lathe_->source.line, lathe_->text, lathe_->span, std::move(message),
+bool LatheCodes::fail_contour(std::string message, std::string expected) {
+  reporter_.error_at("gcode.bad-contour", contour_->source.line, contour_->text, contour_->span, std::move(message),
                      std::move(expected));
   return false;
 }

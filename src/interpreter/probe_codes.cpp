@@ -1,9 +1,9 @@
-// BlockExecutor: probing, G38.2 to G38.5.
+#include "probe_codes.hpp"
+
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "block_executor.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -24,12 +24,12 @@ constexpr bool must_touch(CodeNumber number) {
 }  // namespace
 
 // G38.2 and G38.3 go on until the probe is touched, G38.4 and G38.5 until it is not; .3 and .5 need not succeed.
-bool BlockExecutor::probe(CodeNumber number) {
+bool ProbeCodes::probe(CodeNumber number) {
   const Point start = state_.position;
   Point end;
   if (!end_point(end)) return false;
   state_.position = end;
-  if (!check_probe(number)) return false;
+  if (!check(number)) return false;
   if (must_touch(number) && end == start) {
     return fail("gcode.probe-too-short", motion_span(), "the probe move ends where it starts",
                 "an end away from here, in the direction in which to probe");
@@ -37,36 +37,36 @@ bool BlockExecutor::probe(CodeNumber number) {
   emit(operation::TurnProbe{true});
   emit(operation::StraightProbe{end, is_toward(number), must_touch(number)});
   emit(operation::TurnProbe{false});
-  if (options_.probe != nullptr) {
-    probing_ = number;
+  if (block_.options.probe != nullptr) {
+    awaited_ = number;
     return true;
   }
-  keep_probe_result(end, options_.on_machine);
-  if (!options_.on_machine) state_.position = end - preview_backoff(start, end);
+  keep_result(end, block_.options.on_machine);
+  if (!block_.options.on_machine) state_.position = end - preview_backoff(start, end);
   return true;
 }
 
 // The machine stands behind the probe move: the program goes on from there, or ends.
-void BlockExecutor::take_probe_outcome() {
-  const CodeNumber number = *std::exchange(probing_, std::nullopt);
-  const ProbeOutcome& outcome = *options_.probe;
+void ProbeCodes::take_outcome() {
+  const CodeNumber number = *std::exchange(awaited_, std::nullopt);
+  const ProbeOutcome& outcome = *block_.options.probe;
   const std::string name = spelling('G', number);
   state_.position = state_.frame.work_from_machine(outcome.rest);
-  keep_probe_result(state_.frame.work_from_machine(outcome.contact), outcome.touched);
+  keep_result(state_.frame.work_from_machine(outcome.contact), outcome.touched);
   if (outcome.refused) {
-    ended_ = true;
+    block_.ended = true;
     fail("gcode.probe-before", motion_span(),
          fmt::format("{} begins with the probe {} already", name, is_toward(number) ? "touched" : "free"),
          is_toward(number) ? "a move away from what it touches before" : "the probe touched before");
   } else if (!outcome.touched && must_touch(number)) {
-    ended_ = true;
+    block_.ended = true;
     fail("gcode.probe-untouched", motion_span(),
          fmt::format("{} came to its end, and the probe is still {}", name, is_toward(number) ? "free" : "touched"),
          "a way that is long enough; or G38.3, G38.5, which go on, and a look at #5070");
   }
 }
 
-bool BlockExecutor::check_probe(CodeNumber number) {
+bool ProbeCodes::check(CodeNumber number) {
   const std::string name = spelling('G', number);
   if (state_.modal[cutter_compensation] != code(40)) {
     return fail("gcode.probe-mode", motion_span(), name + " while the cutter radius is compensated", "G40 before");
@@ -80,14 +80,14 @@ bool BlockExecutor::check_probe(CodeNumber number) {
 }
 
 // #5061 …: where the probe is, in the program's units and system; #5070: whether it touched.
-void BlockExecutor::keep_probe_result(const Point& place, bool touched) {
+void ProbeCodes::keep_result(const Point& place, bool touched) {
   for (const Axis axis : all_axes) {
     parameters_.set(probe_parameter + static_cast<int>(index_of(axis)), place[axis] / state_.units_of(axis));
   }
   parameters_.set(probe_success_parameter, touched ? 1 : 0);
 }
 
-Point BlockExecutor::preview_backoff(const Point& start, const Point& end) const {
+Point ProbeCodes::preview_backoff(const Point& start, const Point& end) const {
   Point step;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) step[axis] = end[axis] - start[axis];
   const double length = std::hypot(step[Axis::x], step[Axis::y], step[Axis::z]);

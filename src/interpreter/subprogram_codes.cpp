@@ -1,9 +1,7 @@
-// BlockExecutor: macro calls, as Fanuc and grblHAL have them. G65 calls a numbered program with arguments; G66 has it
-// called behind each block that moves, until G67.
-//
 // The letters behind the code are the arguments, whatever they mean elsewhere: in the program that is called they are
 // #1 … #26. The table is Fanuc's (argument specification I).
-#include "block_executor.hpp"
+#include "subprogram_codes.hpp"
+
 #include <fmt/format.h>
 
 namespace passo {
@@ -23,7 +21,39 @@ constexpr std::size_t parameter_of(char letter) {
 
 }  // namespace
 
-void BlockExecutor::call_macro(bool readable) {
+// M98 P L and M99 stand alone, as they do in LinuxCNC: what else is in the block would not be executed.
+bool SubprogramCodes::call_or_leave(CodeNumber number) {
+  const bool call = number == code(98);
+  for (const Word& word : reporter_.block().words) {
+    if (word.span == words_.span(stopping) || (call && (word.letter == 'P' || word.letter == 'L'))) continue;
+    return fail("gcode.unused-word", word.span, fmt::format("{} beside {}", word.letter, spelling('M', number)),
+                call ? "M98 P L alone in the block" : "M99 alone in the block");
+  }
+  if (const auto& assignments = reporter_.block().assignments; !assignments.empty()) {
+    return fail("gcode.unused-word", assignments.front().span,
+                fmt::format("an assignment beside {}", spelling('M', number)), "a block of its own");
+  }
+  SubprogramJump found;
+  found.kind = call ? SubprogramJump::Kind::call : SubprogramJump::Kind::leave;
+  found.span = words_.span(stopping);
+  if (call) found.good = program_words(found);
+  if (!call && state_.call_depth == 0) modal_macro_.reset();  // the main program begins again
+  jump_ = found;
+  return true;
+}
+
+// P, the program, and L, how often.
+bool SubprogramCodes::program_words(SubprogramJump& found) {
+  constexpr double highest_program = 999'999'999;
+  if (!words_.has('P')) {
+    return fail("gcode.missing-word", found.span, fmt::format("{} without P", found.code()),
+                "P, the number of the program to call");
+  }
+  return whole_word('P', 0, highest_program, found.program) &&
+         (!words_.has('L') || whole_word('L', 0, highest_program, found.passes));
+}
+
+void SubprogramCodes::call_macro(bool readable) {
   SubprogramJump call;
   call.kind = words_.has_code(macro, code(65)) ? Kind::macro : Kind::find_macro;
   call.span = words_.span(macro);
@@ -37,7 +67,7 @@ void BlockExecutor::call_macro(bool readable) {
   modal_macro_->kind = Kind::modal_macro;
 }
 
-bool BlockExecutor::check_macro_words(const SubprogramJump& call) {
+bool SubprogramCodes::check_macro_words(const SubprogramJump& call) {
   const Block& block = reporter_.block();
   if (!block.assignments.empty()) {
     return fail("gcode.unused-word", block.assignments.front().span,
@@ -59,20 +89,22 @@ bool BlockExecutor::check_macro_words(const SubprogramJump& call) {
   return true;
 }
 
-bool BlockExecutor::end_macro_calls(CodeNumber /*number*/) {
+bool SubprogramCodes::end_macro_calls(CodeNumber /*number*/) {
   modal_macro_.reset();
   return true;
 }
 
 // Whether the block was one that moves. Of a NURBS the last one does.
-bool BlockExecutor::moves() const {
-  if (ended_) return false;
+bool SubprogramCodes::moves() const {
+  if (block_.ended) return false;
   if (words_.has_code(non_modal, code(28)) || words_.has_code(non_modal, code(30))) return true;
-  if (motion_ == nullptr || motion_->number == code(80) || motion_->number == code(5, 2)) return false;
-  return motion_->axes == AxisUse::none || words_.any_axis() || (words_.present() & LetterSet("IJK")).any();
+  if (block_.motion == nullptr || block_.motion->number == code(80) || block_.motion->number == code(5, 2))
+    return false;
+  return block_.motion->axes == AxisUse::none || words_.any_axis() || (words_.present() & LetterSet("IJK")).any();
 }
 
-void BlockExecutor::call_modal_macro() {
+void SubprogramCodes::call_modal_macro() {
+  if (!modal_macro_ || !moves()) return;
   jump_ = modal_macro_;
   jump_->span = motion_span();
 }

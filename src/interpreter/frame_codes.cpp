@@ -1,5 +1,5 @@
-// BlockExecutor: the codes that move the work frame, and those that need it as a whole.
-#include "block_executor.hpp"
+#include "frame_codes.hpp"
+
 #include <fmt/format.h>
 
 namespace passo {
@@ -19,18 +19,18 @@ constexpr CodeNumber code_of_system(int system) {
 
 // The tool stays where it is; its position gets other numbers.
 template <class... Operations>
-void BlockExecutor::change_frame(const Operations&... operations) {
+void FrameCodes::change_frame(const Operations&... operations) {
   const Point machine = state_.machine_position();
   const auto change = [this](const Operation& operation) {
     operations_.push(operation);
     state_.frame.follow(operation);
   };
-  (change(Operation{operations, source_}), ...);
+  (change(operation_of(operations)), ...);
   state_.position = state_.frame.work_from_machine(machine);
 }
 
 // Where the last run left it: the system and the offsets that the parameters hold.
-void BlockExecutor::start_frame() {
+void FrameCodes::start() {
   const int system = static_cast<int>(parameters_.get(work_system_parameter));
   state_.modal.set(work_system, code_of_system(system));
   change_frame(
@@ -38,17 +38,17 @@ void BlockExecutor::start_frame() {
       operation::SetG92Offset{active_g92()}, operation::SetRotation{parameters_.get(rotation_parameter(system))});
 }
 
-void BlockExecutor::use_tool_offset(const Point& offset) {
+void FrameCodes::use_tool_offset(const Point& offset) {
   change_frame(operation::SetToolOffset{offset});
 }
 
-void BlockExecutor::restore_tool_offset(const ModalSnapshot& saved) {
+void FrameCodes::restore_tool_offset(const ModalSnapshot& saved) {
   if (state_.modal[tool_length] == saved.modal[tool_length] && state_.frame.tool_offset() == saved.tool_offset) return;
   state_.modal.set(tool_length, saved.modal[tool_length]);
   change_frame(operation::SetToolOffset{saved.tool_offset});
 }
 
-bool BlockExecutor::select_work_system(CodeNumber number) {
+bool FrameCodes::select_work_system(CodeNumber number) {
   if (state_.modal[work_system] == number) {
     note("interpreter: continuing to use same coordinate system");
     return true;
@@ -57,7 +57,7 @@ bool BlockExecutor::select_work_system(CodeNumber number) {
   return true;
 }
 
-void BlockExecutor::activate_system(int system, bool with_g92) {
+void FrameCodes::activate_system(int system, bool with_g92) {
   state_.modal.set(work_system, code_of_system(system));
   parameters_.set(work_system_parameter, system);
   const operation::SetWorkOffset offset{static_cast<std::uint8_t>(system),
@@ -71,10 +71,9 @@ void BlockExecutor::activate_system(int system, bool with_g92) {
 }
 
 // G28 and G30: by way of the given point, then the given axes (or all) to the stored one.
-bool BlockExecutor::go_home(int parameter) {
+bool FrameCodes::go_home(int parameter) {
   Point end;
   if (!end_point(end)) return false;
-  spline_exit_.reset();
   emit(operation::StraightTraverse{end});
   const Point home = state_.frame.work_from_machine(parameters_.point(parameter));
   for (const Axis axis : all_axes) {
@@ -85,23 +84,12 @@ bool BlockExecutor::go_home(int parameter) {
   return true;
 }
 
-bool BlockExecutor::store_home(int parameter) {
+bool FrameCodes::store_home(int parameter) {
   parameters_.set_point(parameter, state_.machine_position());
   return true;
 }
 
-// G10: what it sets is told by L.
-bool BlockExecutor::set_table() {
-  const double table = words_.has('L') ? words_['L'] : -1;
-  if (table == 0) return reload_tools();
-  if (table == 1 || table == 10 || table == 11) return set_tool_table_entry();
-  if (table == 2 || table == 20) return set_work_offset();
-  return fail("gcode.missing-word", words_.has('L') ? words_.span('L') : words_.span(non_modal),
-              "G10 without L0, L1, L2, L10, L11 or L20",
-              "G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position, G10 L1 P1 Z… sets a tool");
-}
-
-bool BlockExecutor::check_work_offset_words(int& system) {
+bool FrameCodes::check_work_offset_words(int& system) {
   if (!words_.has('P')) {
     return fail("gcode.missing-word", words_.span(non_modal), "G10 without P",
                 "P, the work system: 1 to 9, or 0 for the active one");
@@ -121,7 +109,7 @@ bool BlockExecutor::check_work_offset_words(int& system) {
 }
 
 // G10 L2: a system's offset is… G10 L20: a system's offset is such that this is the position…
-bool BlockExecutor::set_work_offset() {
+bool FrameCodes::set_work_offset() {
   int system = 0;
   if (!check_work_offset_words(system)) return false;
   const int first = work_offset_parameter(system);
@@ -134,9 +122,9 @@ bool BlockExecutor::set_work_offset() {
     if (words_.has('R')) parameters_.set(rotation_parameter(system), words_['R']);
   } else {
     Frame frame = state_.frame;
-    frame.follow({operation::SetWorkOffset{static_cast<std::uint8_t>(system), offset}, source_});
-    frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(system))}, source_});
-    frame.follow({operation::SetG92Offset{active_g92()}, source_});
+    frame.follow({operation::SetWorkOffset{static_cast<std::uint8_t>(system), offset}, block_.source});
+    frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(system))}, block_.source});
+    frame.follow({operation::SetG92Offset{active_g92()}, block_.source});
     const Point here = state_.machine_position();
     Point wanted = frame.work_from_machine(here);
     bool any_of_plane = false;
@@ -162,11 +150,11 @@ bool BlockExecutor::set_work_offset() {
   return true;
 }
 
-Point BlockExecutor::active_g92() const {
+Point FrameCodes::active_g92() const {
   return parameters_.get(g92_active_parameter) != 0 ? parameters_.point(g92_parameter) : Point{};
 }
 
-bool BlockExecutor::set_g92(CodeNumber number) {
+bool FrameCodes::set_g92(CodeNumber number) {
   Point offset;
   switch (number) {
     case code(92):
@@ -193,7 +181,7 @@ bool BlockExecutor::set_g92(CodeNumber number) {
 
 // G51, as in grblHAL: X Y Z is the centre (else the tool is), P the factor of all three, I J K those of X Y Z. A factor
 // that is not given stays as it was.
-bool BlockExecutor::set_scaling() {
+bool FrameCodes::set_scaling() {
   constexpr char letters[] = {'I', 'J', 'K'};
   if (!words_.has('P') && !(words_.present() & LetterSet("IJK")).any()) {
     return fail("gcode.missing-word", words_.span(non_modal), "G51 without a factor",

@@ -1,5 +1,5 @@
-// BlockExecutor: the codes that speak with the machine's inputs and outputs: M62 to M68, and M100 to M199.
-#include "block_executor.hpp"
+#include "input_output_codes.hpp"
+
 #include <fmt/format.h>
 
 namespace passo {
@@ -11,7 +11,7 @@ constexpr double highest_channel = 63;  // LinuxCNC has 64 of each kind
 
 }  // namespace
 
-bool BlockExecutor::use_input_output(CodeNumber number) {
+bool InputOutputCodes::run(CodeNumber number) {
   switch (number) {
     case code(62):
     case code(63):
@@ -22,7 +22,7 @@ bool BlockExecutor::use_input_output(CodeNumber number) {
   }
 }
 
-bool BlockExecutor::set_digital_output(CodeNumber number) {
+bool InputOutputCodes::set_digital_output(CodeNumber number) {
   std::int32_t output = 0;
   if (!words_.has('P')) {
     return fail("gcode.missing-word", words_.span(input_output), fmt::format("{} without P", spelling('M', number)),
@@ -34,7 +34,7 @@ bool BlockExecutor::set_digital_output(CodeNumber number) {
   return true;
 }
 
-bool BlockExecutor::set_analog_output(bool with_motion) {
+bool InputOutputCodes::set_analog_output(bool with_motion) {
   std::int32_t output = 0;
   for (const char letter : {'E', 'Q'}) {
     if (words_.has(letter)) continue;
@@ -47,7 +47,7 @@ bool BlockExecutor::set_analog_output(bool with_motion) {
 }
 
 // The answer is in #5399. Nobody is there to give one: inputs are 0, and on the machine a wait runs out.
-bool BlockExecutor::read_input() {
+bool InputOutputCodes::read_input() {
   using Until = operation::ReadInput::Until;
   const bool analog = words_.has('E');
   if (analog == words_.has('P')) {
@@ -67,13 +67,13 @@ bool BlockExecutor::read_input() {
                 fmt::format("M66 L{} waits, and there is no time after which it gives up", until),
                 "Q above 0, in seconds");
   }
-  parameters_.set(input_parameter, until != 0 && options_.on_machine ? -1 : 0);
+  parameters_.set(input_parameter, until != 0 && block_.options.on_machine ? -1 : 0);
   emit(operation::ReadInput{input, analog, static_cast<Until>(until), Seconds(until != 0 ? words_['Q'] : 0)});
   return true;
 }
 
-bool BlockExecutor::run_user_code(CodeNumber number) {
-  if (!options_.user_codes) {
+bool InputOutputCodes::run_user_code(CodeNumber number) {
+  if (!block_.options.user_codes) {
     return fail("gcode.user-code", words_.span(user),
                 fmt::format("{} is a user code, and these are not allowed here", spelling('M', number)),
                 "the option --user-codes, if you know what it does");

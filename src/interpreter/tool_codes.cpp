@@ -1,7 +1,7 @@
-// BlockExecutor: tools. Which one is in the spindle, what its offset is, and what the tool table says of it.
+#include "tool_codes.hpp"
+
 #include <cmath>
 
-#include "block_executor.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -15,14 +15,14 @@ constexpr int rotary_fixture = 9;  // G10 L11 measures in G59.3
 }  // namespace
 
 // Null, and no error, for "no tool" (0) and where there is no table to look in.
-bool BlockExecutor::find_tool(std::int32_t number, Span span, const Tool*& tool) {
+bool ToolCodes::find_tool(std::int32_t number, Span span, const Tool*& tool) {
   tool = state_.tools.find(number);
   if (tool != nullptr || number == 0 || state_.tools.name.empty()) return true;
   return fail("gcode.unknown-tool", span, fmt::format("there is no tool {} in {}", number, state_.tools.name),
               fmt::format("a line T{} P… in the tool table", number));
 }
 
-bool BlockExecutor::select_tool() {
+bool ToolCodes::select() {
   std::int32_t number = 0;
   const Tool* tool = nullptr;
   if (!whole_word('T', 0, highest_tool, number) || !find_tool(number, words_.span('T'), tool)) return false;
@@ -31,7 +31,7 @@ bool BlockExecutor::select_tool() {
   return true;
 }
 
-bool BlockExecutor::change_tool(CodeNumber number) {
+bool ToolCodes::change(CodeNumber number) {
   if (number == code(61)) {
     std::int32_t tool = 0;
     const Tool* known = nullptr;
@@ -47,19 +47,19 @@ bool BlockExecutor::change_tool(CodeNumber number) {
   }
   load_tool(state_.selected_tool);
   emit(operation::StartToolChange{});
-  stop_spindles();
+  spindles_.stop();
   emit(operation::ChangeTool{state_.tool});
   return true;
 }
 
-void BlockExecutor::load_tool(std::int32_t number) {
+void ToolCodes::load_tool(std::int32_t number) {
   const Tool* const known = state_.tools.find(number);
   state_.spindle_tool = known != nullptr ? *known : Tool{.number = number};
   state_.tool = number;
-  tool_was_loaded_ = true;
+  was_loaded_ = true;
 }
 
-bool BlockExecutor::set_tool_length(CodeNumber number) {
+bool ToolCodes::set_length(CodeNumber number) {
   Point offset;
   if (number == code(43, 1) || (number == code(43, 2) && !words_.has('H'))) {
     if (number == code(43, 2) && !words_.any_axis()) {
@@ -80,12 +80,12 @@ bool BlockExecutor::set_tool_length(CodeNumber number) {
     if (number == code(43, 2)) offset = offset + state_.frame.tool_offset();
   }
   state_.modal.set(tool_length, number);
-  use_tool_offset(offset);
+  frame_.use_tool_offset(offset);
   return true;
 }
 
 // Of the tool of H; without it or with H0, of the one in the spindle.
-bool BlockExecutor::tool_offset(Point& offset) {
+bool ToolCodes::tool_offset(Point& offset) {
   std::int32_t number = 0;
   const Tool* tool = nullptr;
   if (words_.has('H') && !whole_word('H', 0, highest_tool, number)) return false;
@@ -96,7 +96,7 @@ bool BlockExecutor::tool_offset(Point& offset) {
     return false;
   }
   if (tool != nullptr) offset = tool->offset;
-  if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_tool_table_told_, true)) {
+  if (number != 0 && state_.tools.name.empty() && !std::exchange(missing_table_told_, true)) {
     reporter_.warning("gcode.no-tool-table", words_.span(tool_length),
                       fmt::format("the offset of tool {} is {}: no tool table was given", number,
                                   state_.tools.find(number) == nullptr ? "taken as zero" : "that of an example"),
@@ -106,7 +106,7 @@ bool BlockExecutor::tool_offset(Point& offset) {
 }
 
 // G10 L0. Nothing changes the table but the program, whose changes LinuxCNC would have written and now read again.
-bool BlockExecutor::reload_tools() {
+bool ToolCodes::reload_tools() {
   if (state_.tool != 0) {
     return fail("gcode.tool-loaded", words_.span('L'),
                 fmt::format("the tool table cannot be read again while tool {} is in the spindle", state_.tool),
@@ -121,7 +121,7 @@ bool BlockExecutor::reload_tools() {
   return true;
 }
 
-bool BlockExecutor::check_tool_entry_words(Tool*& tool) {
+bool ToolCodes::check_tool_entry_words(Tool*& tool) {
   if (!words_.has('P')) {
     return fail("gcode.missing-word", words_.span(non_modal), "G10 without P", "P, the tool that is set");
   }
@@ -145,7 +145,7 @@ bool BlockExecutor::check_tool_entry_words(Tool*& tool) {
 
 // G10 L1: the tool's offset is… L10: such that this is the given position once G43 is active. L11: the same, in G59.3
 // and without a G92 offset.
-bool BlockExecutor::set_tool_table_entry() {
+bool ToolCodes::set_tool_table_entry() {
   Tool* tool = nullptr;
   if (!check_tool_entry_words(tool)) return false;
   set_tool_offsets(*tool);
@@ -155,7 +155,7 @@ bool BlockExecutor::set_tool_table_entry() {
   if (words_.has('Q')) tool->orientation = static_cast<std::int32_t>(std::round(words_['Q']));
   emit(operation::SetToolTableEntry{tool->place, tool});
   // Until a tool is loaded the first one of the table counts as the one in the spindle, as in rs274.
-  const bool in_spindle = tool_was_loaded_ ? tool->number == state_.tool : tool->place == 1;
+  const bool in_spindle = was_loaded_ ? tool->number == state_.tool : tool->place == 1;
   if (in_spindle) {
     state_.spindle_tool = *tool;
     state_.tool = tool->number;
@@ -164,7 +164,7 @@ bool BlockExecutor::set_tool_table_entry() {
   return true;
 }
 
-void BlockExecutor::set_tool_offsets(Tool& tool) {
+void ToolCodes::set_tool_offsets(Tool& tool) {
   if (words_['L'] == 1) {
     for (const Axis axis : all_axes) {
       if (words_.has(letter_of(axis))) tool.offset[axis] = axis_word(axis);
@@ -173,13 +173,13 @@ void BlockExecutor::set_tool_offsets(Tool& tool) {
   }
   Frame frame = state_.frame;
   if (words_['L'] == 11) {
-    frame.follow(
-        {operation::SetWorkOffset{rotary_fixture, parameters_.point(work_offset_parameter(rotary_fixture))}, source_});
-    frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(rotary_fixture))}, source_});
-    frame.follow({operation::SetG92Offset{}, source_});
+    frame.follow({operation::SetWorkOffset{rotary_fixture, parameters_.point(work_offset_parameter(rotary_fixture))},
+                  block_.source});
+    frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(rotary_fixture))}, block_.source});
+    frame.follow({operation::SetG92Offset{}, block_.source});
   }
   // With the tool's offset as it is this is `here`; the tool's offset takes up the difference to what is wanted.
-  frame.follow({operation::SetToolOffset{tool.offset}, source_});
+  frame.follow({operation::SetToolOffset{tool.offset}, block_.source});
   const Point machine = state_.machine_position();
   Point wanted = frame.work_from_machine(machine);
   bool any_of_plane = false;

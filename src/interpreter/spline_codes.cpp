@@ -1,10 +1,7 @@
-// BlockExecutor: splines. G5 and G5.1, which are Bézier curves, and the NURBS between G5.2 and G5.3.
-//
-// All lie in X and Y, which LinuxCNC names by their words; the other axes stay. G5.2 is modal: each block gives one
-// control point, with its weight P, and the tool moves at G5.3. Between the two nothing may move the tool or the frame.
+#include "spline_codes.hpp"
+
 #include <algorithm>
 
-#include "block_executor.hpp"
 #include <fmt/format.h>
 
 #include "passo/geometry/bezier.hpp"
@@ -42,7 +39,7 @@ double length_of(std::span<const ControlPoint> points) {
 }  // namespace
 
 // What holds for G5 and G5.1 alike.
-bool BlockExecutor::check_spline() {
+bool SplineCodes::check() {
   if (state_.modal[cutter_compensation] != code(40) || cutter_.leaving()) {
     return fail("gcode.spline-compensated", motion_span(), "a spline while the cutter's radius is compensated",
                 "G40 and a straight move before, or lines and arcs");
@@ -50,10 +47,10 @@ bool BlockExecutor::check_spline() {
   if (state_.modal.plane() != Plane::xy) {
     return fail("gcode.spline-plane", motion_span(), "a spline outside the plane XY", "G17 before");
   }
-  return check_spline_axes();
+  return check_axes();
 }
 
-bool BlockExecutor::check_spline_axes() {
+bool SplineCodes::check_axes() {
   for (const Axis axis : all_axes) {
     const char letter = letter_of(axis);
     if (axis == Axis::x || axis == Axis::y || !words_.has(letter)) continue;
@@ -64,7 +61,7 @@ bool BlockExecutor::check_spline_axes() {
 }
 
 // Of two words that go together one is missing, or both.
-bool BlockExecutor::fail_pair(std::string_view name, char first, char second, std::string expected) {
+bool SplineCodes::fail_pair(std::string_view name, char first, char second, std::string expected) {
   const char present = words_.has(first) ? first : second;
   const char missing = words_.has(first) ? second : first;
   if (!words_.has(present)) {
@@ -76,10 +73,10 @@ bool BlockExecutor::fail_pair(std::string_view name, char first, char second, st
 }
 
 // I and J lead from the start to the second control point, P and Q from the end to the third.
-bool BlockExecutor::cubic_spline() {
+bool SplineCodes::cubic() {
   const Point start = state_.position;
-  const std::optional<PlanePoint> before = std::exchange(spline_exit_, std::nullopt);
-  if (!end_point(state_.position) || !check_spline()) return false;
+  const std::optional<PlanePoint> before = std::exchange(exit_, std::nullopt);
+  if (!end_point(state_.position) || !check()) return false;
   const double unit = state_.length_unit();
   if (!words_.has('P') || !words_.has('Q')) {
     return fail_pair("G5", 'P', 'Q', "P and Q, the way from the end to the control point before it");
@@ -94,23 +91,23 @@ bool BlockExecutor::cubic_spline() {
     entry = *before;
   }
   const PlanePoint exit{scaled_way(Axis::x, -words_['P'] * unit), scaled_way(Axis::y, -words_['Q'] * unit)};
-  spline_exit_ = exit;
+  exit_ = exit;
   if (!check_feed()) return false;
 
   const Point& end = state_.position;
   const double x = start[Axis::x];
   const double y = start[Axis::y];
-  spline_ = {control_point(x, y), control_point(x + entry.first, y + entry.second),
+  points_ = {control_point(x, y), control_point(x + entry.first, y + entry.second),
              control_point(end[Axis::x] - exit.first, end[Axis::y] - exit.second),
              control_point(end[Axis::x], end[Axis::y])};
-  if (state_.modal.inverse_time()) emit_inverse_time_feed(length_of<3>(spline_), false);
-  emit(operation::NurbsFeed{spline_, cubic_order});
+  if (state_.modal.inverse_time()) emit_inverse_time_feed(length_of<3>(points_), false);
+  emit(operation::NurbsFeed{points_, cubic_order});
   return true;
 }
 
-bool BlockExecutor::quadratic_spline() {
+bool SplineCodes::quadratic() {
   const Point start = state_.position;
-  if (!end_point(state_.position) || !check_spline()) return false;
+  if (!end_point(state_.position) || !check()) return false;
   if (!words_.has('I') || !words_.has('J')) {
     return fail_pair("G5.1", 'I', 'J', "I and J, the way from the start to the control point");
   }
@@ -120,17 +117,17 @@ bool BlockExecutor::quadratic_spline() {
   const double unit = state_.length_unit();
   const double x = start[Axis::x];
   const double y = start[Axis::y];
-  spline_[0] = control_point(x, y);
-  spline_[1] = control_point(x + scaled_way(Axis::x, words_['I'] * unit), y + scaled_way(Axis::y, words_['J'] * unit));
-  spline_[2] = control_point(end[Axis::x], end[Axis::y]);
-  const std::span<const ControlPoint> points(spline_.data(), quadratic_order);
+  points_[0] = control_point(x, y);
+  points_[1] = control_point(x + scaled_way(Axis::x, words_['I'] * unit), y + scaled_way(Axis::y, words_['J'] * unit));
+  points_[2] = control_point(end[Axis::x], end[Axis::y]);
+  const std::span<const ControlPoint> points(points_.data(), quadratic_order);
   if (state_.modal.inverse_time()) emit_inverse_time_feed(length_of<2>(points), false);
   emit(operation::NurbsFeed{points, quadratic_order});
   return true;
 }
 
 // G5.2. The curve begins where the tool is: that is the first control point.
-bool BlockExecutor::nurbs_point() {
+bool SplineCodes::nurbs_point() {
   const bool first = !nurbs_.open;
   if (first) {
     nurbs_.points.clear();
@@ -146,7 +143,7 @@ bool BlockExecutor::nurbs_point() {
   return good;
 }
 
-bool BlockExecutor::check_nurbs() {
+bool SplineCodes::check_nurbs() {
   if (state_.modal[cutter_compensation] != code(40) || cutter_.leaving()) {
     return fail("gcode.spline-compensated", motion_span(), "a NURBS while the cutter's radius is compensated",
                 "G40 and a straight move before, or lines and arcs");
@@ -156,15 +153,15 @@ bool BlockExecutor::check_nurbs() {
     if (!whole_word('L', quadratic_order, highest_order, order)) return false;
     nurbs_.order = std::max(nurbs_.order, order);
   }
-  return check_spline_axes() && check_nurbs_feed();
+  return check_axes() && check_nurbs_feed();
 }
 
-bool BlockExecutor::check_nurbs_feed() {
+bool SplineCodes::check_nurbs_feed() {
   if (!state_.modal.inverse_time()) return check_feed();
   return fail("gcode.spline-inverse-time", motion_span(), "a NURBS in inverse time (G93)", "G94 or G95 before");
 }
 
-bool BlockExecutor::add_nurbs_point(bool first) {
+bool SplineCodes::add_nurbs_point(bool first) {
   if (words_.has('X') != words_.has('Y')) {
     return fail_pair("a control point", 'X', 'Y', "X and Y of each control point");
   }
@@ -195,7 +192,7 @@ bool BlockExecutor::add_nurbs_point(bool first) {
 }
 
 // G5.3: the tool goes along the curve. No motion code is active after it.
-bool BlockExecutor::end_nurbs() {
+bool SplineCodes::end_nurbs() {
   state_.modal.set(motion, code(80));
   if (!nurbs_.open) {
     return fail("gcode.no-nurbs", motion_span(), "G5.3 without G5.2 before", "G5.2 and its control points before");
@@ -212,14 +209,21 @@ bool BlockExecutor::end_nurbs() {
   return true;
 }
 
-void BlockExecutor::close_nurbs() {
+void SplineCodes::close_nurbs() {
   nurbs_.open = false;
   state_.position[Axis::x] = nurbs_.points.back().x;
   state_.position[Axis::y] = nurbs_.points.back().y;
 }
 
+void SplineCodes::report_open_nurbs() {
+  if (!nurbs_.open || nurbs_.wrong || reporter_.full()) return;
+  reporter_.error("gcode.open-nurbs", {1, 1},
+                  fmt::format("the program ends while the NURBS that begins in line {} is open", nurbs_.line),
+                  "G5.3 before");
+}
+
 // Between G5.2 and G5.3: what would move the tool or the frame, or ends the program, is told, and the curve given up.
-void BlockExecutor::check_nurbs_is_closed() {
+void SplineCodes::check_nurbs_is_closed() {
   const auto belongs = [](const CodeEntry& entry) {
     const bool ends = entry.number == code(2) || entry.number == code(30) || entry.number == code(60);
     const bool stops = entry.group == stopping && !ends;

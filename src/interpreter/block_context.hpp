@@ -1,0 +1,37 @@
+// BlockContext: the block that is executed, and all that its codes work on. BlockExecutor fills it for each block; the
+// families of codes (code_family.hpp) read and write it.
+#pragma once
+
+#include "block_words.hpp"
+#include "cutter_compensation.hpp"
+#include "machine_state.hpp"
+#include "operation_queue.hpp"
+#include "parameters.hpp"
+#include "reporter.hpp"
+
+#include "passo/interpreter/interpreter.hpp"
+
+namespace passo {
+
+struct BlockContext {
+  BlockContext(MachineState& machine, Parameters& values, OperationQueue& queue, Reporter& findings)
+      : state(machine), parameters(values), operations(queue), reporter(findings), cutter(queue) {}
+
+  MachineState& state;
+  Parameters& parameters;
+  OperationQueue& operations;
+  Reporter& reporter;
+  CutterCompensation cutter;
+  InterpreterOptions options;
+
+  BlockWords words;
+  const CodeEntry* motion = nullptr;  // what the block does with its axis words, if a motion does
+  OperationSource source;
+  WordPlace word;  // that is executed now: see Operation::word
+  AxisWords axis_words;
+
+  bool missing_feed_told = false;  // since the last F
+  bool ended = false;              // the program, and no block follows
+};
+
+}  // namespace passo

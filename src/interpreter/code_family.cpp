@@ -1,0 +1,184 @@
+#include "code_family.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+using enum ModalGroup;
+
+constexpr double whole_tolerance = 1e-4;
+constexpr double slowest_inverse_time = 0.1;  // units a minute, as LinuxCNC bounds it
+constexpr int every_spindle = -1;
+
+}  // namespace
+
+bool CodeFamily::fail(std::string_view code, Span span, std::string message, std::string expected) {
+  reporter_.error(code, span, std::move(message), std::move(expected));
+  return false;
+}
+
+bool CodeFamily::whole_word(char letter, double lowest, double highest, std::int32_t& value) {
+  const double number = words_[letter];
+  const double whole = std::round(number);
+  if (std::abs(number - whole) > whole_tolerance || whole < lowest || whole > highest) {
+    return fail("gcode.not-whole", words_.span(letter), fmt::format("{} is {}", letter, plain_number(number)),
+                fmt::format("a whole number, {} to {}", plain_number(lowest), plain_number(highest)));
+  }
+  value = static_cast<std::int32_t>(whole);
+  return true;
+}
+
+// What to point at when a motion is wrong: its code, or where it is modal the first word that made it move.
+Span CodeFamily::motion_span() const {
+  if (words_.code(motion) != nullptr) return words_.span(motion);
+  for (const Word& word : reporter_.block().words) {
+    if ((axis_letters | polar_letters | LetterSet("IJK")).has(word.letter) && word.letter != 'G' &&
+        word.letter != 'M') {
+      return word.span;
+    }
+  }
+  return {1, 1};
+}
+
+double CodeFamily::axis_word(Axis axis) const {
+  const double value = words_[letter_of(axis)] * state_.units_of(axis);
+  return axis == Axis::x && state_.modal.diameters() ? value / 2 : value;
+}
+
+// Where the block's axis words lead, in work coordinates.
+bool CodeFamily::end_point(Point& end) {
+  end = state_.position;
+  if (words_.has_code(non_modal, code(53))) return machine_end_point(end);
+  const bool incremental = state_.modal.incremental();
+  for (const Axis axis : all_axes) {
+    if (!words_.has(letter_of(axis))) continue;
+    end[axis] = incremental ? end[axis] + scaled_way(axis, axis_word(axis)) : scaled_place(axis, axis_word(axis));
+  }
+  return !(words_.present() & polar_letters).any() || apply_polar(end);
+}
+
+bool CodeFamily::machine_end_point(Point& end) {
+  if (state_.modal.incremental()) {
+    return fail("gcode.g53-incremental", words_.span(non_modal), "G53 while distances are incremental (G91)",
+                "G90 before G53, or in its block");
+  }
+  if ((words_.present() & polar_letters).any()) {
+    return fail("gcode.bad-polar", motion_span(), "polar coordinates with G53", "X and Y");
+  }
+  Point machine = state_.machine_position();
+  for (const Axis axis : all_axes) {
+    if (words_.has(letter_of(axis))) machine[axis] = axis_word(axis);
+  }
+  const Point work = state_.frame.work_from_machine(machine);
+  // An axis that is not named keeps its value bit for bit; in a turned frame X and Y go together.
+  const bool turned = state_.frame.rotation_degrees() != 0 && (words_.has('X') || words_.has('Y'));
+  for (const Axis axis : all_axes) {
+    if (words_.has(letter_of(axis)) || (turned && (axis == Axis::x || axis == Axis::y))) end[axis] = work[axis];
+  }
+  return true;
+}
+
+// @ is a distance from the origin and ^ an angle about it; what is not given stays.
+bool CodeFamily::apply_polar(Point& end) {
+  const char letter = words_.has('@') ? '@' : '^';
+  if (state_.modal.plane() != Plane::xy || words_.has('X') || words_.has('Y')) {
+    return fail("gcode.bad-polar", words_.span(letter), "polar coordinates outside the plane XY, or beside X and Y",
+                "G17, and @ and ^ alone or with Z and others");
+  }
+  const double x = end[Axis::x];
+  const double y = end[Axis::y];
+  double radius = std::hypot(x, y);
+  double angle = std::atan2(y, x);
+  const bool incremental = state_.modal.incremental();
+  if (radius == 0 && (incremental || !words_.has('^'))) {
+    return fail_at_origin(letter);
+  }
+  if (words_.has('@')) radius = words_['@'] * state_.length_unit() + (incremental ? radius : 0);
+  if (words_.has('^')) angle = words_['^'] * (std::numbers::pi / 180) + (incremental ? angle : 0);
+  end[Axis::x] = radius * std::cos(angle);
+  end[Axis::y] = radius * std::sin(angle);
+  return true;
+}
+
+bool CodeFamily::check_feed() {
+  if (state_.modal.inverse_time()) {
+    if (words_.has('F') && words_['F'] > 0) return true;
+    return fail("gcode.missing-feed", motion_span(), "a feed move in inverse time (G93) without its own F",
+                "F in each block with a feed move, or G94");
+  }
+  if (state_.feed <= 0) {
+    if (std::exchange(block_.missing_feed_told, true)) return false;  // once, not at every move that follows
+    return fail("gcode.missing-feed", motion_span(), "no feed rate is set",
+                "F before the first feed move, or in its block");
+  }
+  if (state_.modal.per_revolution() && state_.spindles[0].speed == 0) {
+    return fail("gcode.missing-speed", motion_span(), "a feed for each revolution (G95) and no spindle speed",
+                "S before, or in this block");
+  }
+  return true;
+}
+
+void CodeFamily::emit_inverse_time_feed(double length, bool rotary) {
+  const double units = rotary ? length : length / state_.length_unit();
+  emit_feed_rate(std::max(slowest_inverse_time, units * words_['F']));
+}
+
+void CodeFamily::emit_feed_rate(double units) {
+  const double time = state_.modal.per_revolution() ? 1 : seconds_per_minute;
+  emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
+}
+
+// The spindles of `$`: one, or with -1 all where the code is for several; spindle 0 where there is no `$`.
+bool CodeFamily::spindle_word(SpindleChoice choice, SpindleRange& range) {
+  range = {0, 1};
+  if (!words_.has('$')) return true;
+  const int lowest = choice == SpindleChoice::one_or_all ? every_spindle : 0;
+  const int highest = state_.spindle_count - 1;
+  const double number = words_['$'];
+  if (number != std::round(number) || number < lowest || number > highest) {
+    return fail("gcode.no-such-spindle", words_.span('$'),
+                fmt::format("there is no spindle {} here", plain_number(number)),
+                highest == 0 ? std::string("$0: the machine has one spindle")
+                             : fmt::format("$0 to ${}{}", highest, lowest < 0 ? ", or $-1 for all" : ""));
+  }
+  const auto spindle = static_cast<int>(number);
+  range = spindle == every_spindle
+              ? SpindleRange{0, static_cast<std::uint8_t>(state_.spindle_count)}
+              : SpindleRange{static_cast<std::uint8_t>(spindle), static_cast<std::uint8_t>(spindle + 1)};
+  return true;
+}
+
+bool CodeFamily::report_arc(const ArcCenter& arc) {
+  const double unit = state_.length_unit();
+  switch (arc.fault) {
+    case ArcFault::none: return true;
+    case ArcFault::zero_radius:
+      return fail("gcode.zero-arc", motion_span(), "the arc's centre is its start or its end", "a radius above zero");
+    case ArcFault::radii_differ:
+      return fail("gcode.arc-radii-differ", motion_span(),
+                  fmt::format("the arc starts at a radius of {:.4f} and ends at {:.4f}", arc.start_radius / unit,
+                              arc.end_radius / unit),
+                  "a centre as far from the start as from the end");
+    case ArcFault::radius_too_small:
+      return fail(
+          "gcode.impossible-arc", words_.span('R'),
+          fmt::format("no arc with a radius of {} reaches from the start to the end", plain_number(words_['R'])),
+          "half the distance at least");
+    case ArcFault::ends_at_start:
+      return fail("gcode.impossible-arc", words_.span('R'), "an arc with R that ends where it starts",
+                  "a full circle is written with I J K");
+  }
+  return true;
+}
+
+bool CodeFamily::fail_at_origin(char letter) {
+  return fail("gcode.bad-polar", words_.span(letter), "at the origin there is no angle to go on from",
+              "^ with @, in absolute distances (G90)");
+}
+
+}  // namespace passo

@@ -1,0 +1,57 @@
+// Cycle: a source of the operations that one block with a cycle stands for: holes, passes of a thread, cuts of a lathe.
+//
+// It is made from a plain value that says all of it (DrillingPlan, ThreadingPlan, LathePlan) and knows no words and no
+// modal state. Memory is bounded, however long the cycle: a kind of cycle works out one step at a time, a hole, a peck
+// or a pass, of at most `longest_step` operations.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+#include "passo/base/source.hpp"
+#include "passo/interpreter/operation.hpp"
+
+namespace passo {
+
+class Cycle : public Source<Operation> {
+ public:
+  [[nodiscard]] bool next(Operation& operation) final {
+    while (given_ == count_) {
+      if (done_) return false;
+      given_ = count_ = 0;
+      done_ = !step();
+    }
+    operation.what = operations_[given_++];
+    operation.source = source_;
+    operation.file = operation.text = {};
+    return true;
+  }
+  // Where the step leaves the tool that gave the last operation: work coordinates.
+  const Point& position() const { return position_; }
+
+ protected:
+  static constexpr std::size_t longest_step = 20;
+  Cycle(const Point& start, const OperationSource& source) : source_(source), position_(start) {}
+
+  // Gives the operations of the next step. False: it was the last.
+  virtual bool step() = 0;
+
+  void give(const OperationKind& operation) {
+    assert(count_ < longest_step);
+    operations_[count_++] = operation;
+  }
+  void traverse(const Point& end) { give(operation::StraightTraverse{position_ = end}); }
+  void feed(const Point& end) { give(operation::StraightFeed{position_ = end}); }
+
+  OperationSource source_;
+  Point position_;
+
+ private:
+  std::array<OperationKind, longest_step> operations_;
+  std::size_t count_ = 0;
+  std::size_t given_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace passo

@@ -1,0 +1,50 @@
+// DrillingCodes: the words of drilling, tapping and boring cycles (G73, G74, G81 … G89). They hold until another motion
+// code, so that a block with X and Y alone drills the next hole. The holes are DrillingCycle's.
+#pragma once
+
+#include <optional>
+
+#include "cycle_codes.hpp"
+#include "drilling_cycle.hpp"
+
+namespace passo {
+
+class DrillingCodes final : public CycleCodes {
+ public:
+  explicit DrillingCodes(BlockContext& block) : CycleCodes(block) {}
+
+  bool start(CodeNumber code);
+  // Another motion code: the words hold no longer.
+  void forget() {
+    if (kept_.code != 0) kept_ = {};
+  }
+  Cycle& cycle() override { return *cycle_; }
+  bool finish() override;
+
+ private:
+  // Of the blocks since the cycle's code: R, the depth and P or Q of the blocks that leave them out. Millimetres.
+  struct KeptWords {
+    CodeNumber code = 0;  // 0: no cycle is active
+    Plane plane = Plane::xy;
+    bool complete = false;  // false: its first block was wrong, and what follows is not drilled
+    double initial_height = 0;
+    double retract = 0;  // R as written
+    double depth = 0;    // the depth axis' word as written
+    double dwell = 0;
+    double peck = 0;
+    Point aside;  // G87: how far the tool goes aside, in the plane; through it the top of the back bore as written
+  };
+
+  bool check(CodeNumber code, Point& hole);
+  bool check_spindle(CodeNumber code);
+  bool check_words(CodeNumber code, bool first, std::int32_t& holes);
+  void keep_words(bool first);
+  bool check_depths(const DrillingPlan& plan);
+  DrillingPlan plan_of(CodeNumber code, const Point& hole) const;
+  void plan_way(DrillingPlan& plan) const;
+
+  KeptWords kept_;
+  std::optional<DrillingCycle> cycle_;
+};
+
+}  // namespace passo

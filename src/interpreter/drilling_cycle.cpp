@@ -1,0 +1,153 @@
+#include "drilling_cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo {
+namespace {
+
+constexpr double peck_clearance = 0.254;  // mm above the bottom so far: a hundredth of an inch, as in LinuxCNC
+constexpr double at_bottom = 1e-7;        // mm: a peck that ends there is the last one
+
+}  // namespace
+
+DrillingCycle::DrillingCycle(const DrillingPlan& plan, const OperationSource& source)
+    : Cycle(plan.start, source), plan_(plan), holes_left_(plan.holes) {}
+
+bool DrillingCycle::step() {
+  if (!begun_) begin();
+  if (!in_hole_ && !go_to_hole()) return false;
+  if (pecks(plan_.code) && peck()) return true;
+  finish_hole();
+  in_hole_ = false;
+  if (--holes_left_ > 0) return true;
+  end();
+  return false;
+}
+
+void DrillingCycle::begin() {
+  begun_ = true;
+  if (plan_.initial_height < plan_.retract) traverse_to(plan_.retract);
+  const double between = plan_.returns_to_initial ? plan_.initial_height : plan_.retract;
+  height_ = std::max(position_[plan_.axis], between);
+  clear_ = std::max(plan_.retract, between);
+  if (plan_.path_mode != PathMode::exact_path) give(operation::SetPathMode{PathMode::exact_path, Mm(0)});
+}
+
+bool DrillingCycle::go_to_hole() {
+  Point hole = plan_.hole;
+  if (holes_left_ < plan_.holes && !find_hole(hole)) return false;
+  hole[plan_.axis] = height_;
+  traverse(hole);
+  if (height_ > plan_.retract) traverse_to(plan_.retract);
+  height_ = clear_;
+  reached_ = plan_.retract;
+  in_hole_ = true;
+  return true;
+}
+
+// The one after the first, from where the tool is.
+bool DrillingCycle::find_hole(Point& hole) {
+  if (plan_.way) hole = position_ + *plan_.way;
+  if (!plan_.polar) return true;
+  const double x = position_[Axis::x];
+  const double y = position_[Axis::y];
+  const double before = std::hypot(x, y);
+  stuck_ = before == 0;
+  const double radius = before + plan_.polar->radius;
+  const double angle = std::atan2(y, x) + plan_.polar->angle;
+  hole[Axis::x] = radius * std::cos(angle);
+  hole[Axis::y] = radius * std::sin(angle);
+  return !stuck_;
+}
+
+// False where what is left is the last peck.
+bool DrillingCycle::peck() {
+  reached_ -= plan_.peck;
+  if (reached_ <= plan_.bottom + at_bottom) return false;
+  feed_to(reached_);
+  if (plan_.code == code(83)) traverse_to(plan_.retract);
+  traverse_to(reached_ + peck_clearance);
+  return true;
+}
+
+void DrillingCycle::finish_hole() {
+  const CodeNumber number = plan_.code;
+  if (taps(number)) return tap();
+  if (number == code(87)) return bore_back();
+  feed_to(plan_.bottom);
+  if (dwells(number)) give(operation::Dwell{Seconds(plan_.dwell)});
+  if (stops_spindle(number)) give(operation::TurnSpindle{});
+  if (number == code(88)) give(operation::ProgramStop{});
+  if (number == code(85)) feed_to(plan_.retract);
+  if (number == code(88) && plan_.retracts_by_hand) {
+    position_[plan_.axis] = clear_;
+  } else if (number == code(89)) {
+    feed_to(clear_);
+  } else {
+    traverse_to(clear_);
+  }
+  if (stops_spindle(number)) give(operation::TurnSpindle{plan_.spindle});
+}
+
+// With the spindle held at an angle the tool goes aside, through the hole and under it, and bores upwards there.
+void DrillingCycle::bore_back() {
+  Point aside = plan_.aside;
+  aside[plan_.axis] = 0;
+  // LinuxCNC hands the number of the direction on, where M19 has its P.
+  const auto way = static_cast<operation::OrientSpindle::Way>(static_cast<int>(plan_.spindle) + 1);
+  const auto hold_spindle = [&] {
+    give(operation::TurnSpindle{});
+    give(operation::OrientSpindle{0, way});
+  };
+  traverse_by(aside);
+  hold_spindle();
+  traverse_to(plan_.bottom);
+  traverse_by(Point{} - aside);
+  give(operation::TurnSpindle{plan_.spindle});
+  feed_to(plan_.top);
+  feed_to(plan_.bottom);
+  hold_spindle();
+  traverse_by(aside);
+  traverse_to(clear_);
+  traverse_by(Point{} - aside);
+  give(operation::TurnSpindle{plan_.spindle});
+}
+
+// With a floating holder: the feed follows from F, in and out, and nobody may change it meanwhile.
+void DrillingCycle::tap() {
+  const SpindleDirection out =
+      plan_.spindle == SpindleDirection::clockwise ? SpindleDirection::counterclockwise : SpindleDirection::clockwise;
+  give(operation::SetFeedOverride{false});
+  give(operation::SetSpeedOverride{false});
+  feed_to(plan_.bottom);
+  give(operation::TurnSpindle{});
+  give(operation::TurnSpindle{out});
+  give(operation::Dwell{Seconds(plan_.dwell)});
+  feed_to(clear_);
+  give(operation::TurnSpindle{});
+  give(operation::TurnSpindle{plan_.spindle});
+  if (plan_.feed_override) give(operation::SetFeedOverride{true});
+  if (plan_.speed_override) give(operation::SetSpeedOverride{true});
+}
+
+void DrillingCycle::end() {
+  if (plan_.path_mode == PathMode::exact_path) return;
+  const bool continuous = plan_.path_mode == PathMode::continuous;
+  give(operation::SetPathMode{plan_.path_mode, continuous ? plan_.tolerance.path : Mm(0)});
+  give(operation::SetMergeTolerance{plan_.tolerance.merge});  // LinuxCNC tells both in any mode
+}
+
+void DrillingCycle::traverse_to(double height) {
+  Point end = position_;
+  end[plan_.axis] = height;
+  traverse(end);
+}
+
+void DrillingCycle::feed_to(double height) {
+  Point end = position_;
+  end[plan_.axis] = height;
+  feed(end);
+}
+
+}  // namespace passo

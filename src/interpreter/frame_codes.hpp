@@ -1,0 +1,33 @@
+// FrameCodes: the codes that move the work frame (G54 to G59.3, G10 L2 and L20, G52, G92, G51), and those that need it
+// as a whole (G28, G30). The tool stays where it is; its position gets other numbers.
+#pragma once
+
+#include "code_family.hpp"
+#include "modal_snapshot.hpp"
+
+namespace passo {
+
+class FrameCodes : private CodeFamily {
+ public:
+  explicit FrameCodes(BlockContext& block) : CodeFamily(block) {}
+
+  // Where the last run left it: the system and the offsets that the parameters hold.
+  void start();
+  bool select_work_system(CodeNumber code);
+  void activate_system(int system, bool with_g92);
+  bool go_home(int parameter);
+  bool store_home(int parameter);
+  bool set_work_offset();
+  bool set_g92(CodeNumber code);
+  bool set_scaling();
+  void use_tool_offset(const Point& offset);
+  void restore_tool_offset(const ModalSnapshot& saved);
+
+ private:
+  bool check_work_offset_words(int& system);
+  Point active_g92() const;
+  template <class... Operations>
+  void change_frame(const Operations&... operations);
+};
+
+}  // namespace passo

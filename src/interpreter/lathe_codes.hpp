@@ -1,0 +1,76 @@
+// LatheCodes: the words of the lathe cycles G70, G71, G72 (.1 .2), and their contours.
+//
+// A cycle's block moves to its X and Z. The lines of its sub are then read as a contour instead of being executed
+// (interpreter.cpp asks for that), and when the sub has returned the cuts are planned. The moves are LatheCycle's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cycle_codes.hpp"
+#include "lathe_cycle.hpp"
+
+#include "passo/gcode/symbols.hpp"
+
+namespace passo {
+
+class LatheCodes final : public CycleCodes {
+ public:
+  LatheCodes(BlockContext& block, SymbolTable& symbols) : CycleCodes(block), symbols_(symbols) {}
+
+  bool start(CodeNumber code);
+
+  // It waits for the blocks of this sub, one after the other.
+  bool wants_contour() const { return contour_ != nullptr && contour_->open; }
+  Symbol contour_sub() const { return contour_->sub; }
+  Span contour_span() const { return contour_->span; }
+  // A line of the contour, whose words are those of the context; false where they cannot be read.
+  void add_to_contour(bool readable);
+  // The sub has returned. False: there is nothing to cut.
+  bool end_contour();
+  void abandon_contour() { contour_->open = false; }
+  // The line of the cycle whose contour was read last.
+  std::string_view text() const { return contour_->text; }
+
+  Cycle& cycle() override { return *cycle_; }
+  bool finish() override;
+
+ private:
+  static constexpr std::size_t most_segments = 10'000;
+  // Of one cycle, while its contour is read.
+  struct Contour {
+    bool open = true;
+    bool good = true;  // all lines so far
+    CodeNumber code = 0;
+    BlockWords words;  // of the cycle's block
+    Span span;         // of its Q: what is wrong with the whole contour is told here
+    std::string text;  // its line
+    OperationSource source;
+    Symbol sub;
+    Point start;        // where the tool is before the first cut
+    LathePoint corner;  // the last point so far
+    LatheContour shape;
+  };
+
+  bool check(CodeNumber code);
+  LathePoint lathe_point(const Point& point) const;
+  double word(char letter, double otherwise) const { return words_.has(letter) ? words_[letter] : otherwise; }
+  bool add_segment();
+  void warn_of_unused_words();
+  bool contour_point(LathePoint& end);
+  bool contour_arc(LatheSegment& segment);
+  bool add_corner(const LatheSegment& behind);
+  void lead_out();
+  LatheFault plan_roughing();
+  LatheFault plan_finishing();
+  void begin(std::variant<LatheRoughing, LatheFinishing> cuts);
+  bool report_contour(LatheFault fault);
+  bool fail_contour(std::string message, std::string expected);
+
+  SymbolTable& symbols_;
+  std::unique_ptr<Contour> contour_;  // made when there is one
+  std::optional<LatheCycle> cycle_;
+};
+
+}  // namespace passo

@@ -1,0 +1,27 @@
+// ProbeCodes: probing, G38.2 to G38.5. On the machine the program waits for what a probe move finds.
+#pragma once
+
+#include <optional>
+
+#include "code_family.hpp"
+
+namespace passo {
+
+class ProbeCodes : private CodeFamily {
+ public:
+  explicit ProbeCodes(BlockContext& block) : CodeFamily(block) {}
+
+  bool probe(CodeNumber code);
+  // The program waits for what the machine finds in the probe move that was given last.
+  bool awaits_outcome() const { return awaited_.has_value(); }
+  void take_outcome();
+
+ private:
+  bool check(CodeNumber code);
+  void keep_result(const Point& place, bool touched);
+  Point preview_backoff(const Point& start, const Point& end) const;
+
+  std::optional<CodeNumber> awaited_;
+};
+
+}  // namespace passo
