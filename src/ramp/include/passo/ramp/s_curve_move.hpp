@@ -9,9 +9,9 @@
 // The time of each step comes from the position polynomial, solved for a whole number of steps. It is solved from the
 // start of the plan or from its end, whichever is at rest. Ticks are rounded from times since the motor last stood
 // still, so errors do not add up: each step is within half a tick in a move of any length. The count of steps is exact.
-//
 // Where `start` is not 0, the first and the last step of every leg take 1/start. They are inside the start/stop region,
-// and between them the rate does not fall below it. Where `start` is 0 the motor starts from rest, its
+// and between them the rate does not fall below it. Where `start` is 0 the motor starts from rest, its acceleration
+// from zero. A wanted rate inside the region is kept constant.
 // acceleration from zero. A wanted rate inside the region is kept constant.
 //
 // Ranges: positions within ±2^53 steps. Limits are positive and finite; only the rate may be infinite.
