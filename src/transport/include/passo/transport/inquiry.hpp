@@ -1,6 +1,6 @@
-// Inquiry: asks a board what it is and how it is, without disturbing what it does.
+// Inquiry: asks a board for its properties and its status, without disturbing its work.
 //
-// A board answers `ask` at any time, amid motion too, and nothing about it changes (docs/wire.md).
+// A board answers `ask` at any time, also during motion, and nothing in it changes (docs/wire.md).
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace passo {
 
 class Inquiry {
  public:
-  // The port outlives it.
+  // `port` must outlive the Inquiry.
   explicit Inquiry(BoardPort& port);
 
-  // Asks again and again until an answer comes or the time is over: an Arduino that was just opened is in its boot
+  // Asks again and again until an answer comes or the time is over: after it was opened, an Arduino is in its boot
   // loader for a second or two.
   std::optional<About> about(Seconds within);
   std::optional<BoardStatus> status(Seconds within);
-  // Asks until it rests, however long that takes as long as it answers: two answers alike, for a chip that has made its
-  // last event may not have counted the item yet.
+  // Asks until the board rests, however long that takes, as long as it answers. Two equal answers are needed: a chip
+  // that has made its last event may not have counted the item yet.
   std::optional<BoardStatus> status_at_rest(Seconds within);
-  // What came instead of an answer, for as far as it can be read: another firmware's greeting.
+  // Text that came instead of an answer, as far as it can be read: the greeting of another firmware.
   const std::string& heard() const { return heard_; }
 
  private:
