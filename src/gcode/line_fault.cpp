@@ -20,8 +20,7 @@ std::string shortened(std::string_view text) {
   constexpr std::size_t most = 24;
   if (text.size() <= most) return std::string(text);
   std::size_t size = most;
-  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U)
-    --size;  // do not cut through a character
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;  // cut no character in two
   return std::string(text.substr(0, size)) + "...";
 }
 

@@ -140,8 +140,7 @@ Content inspect(std::string_view first) {
 // line.
 struct ProgramReader::State {
   std::string name;
-  std::shared_ptr<const File>
-      file;  // null: the whole program is in `buffer`. All readers of one program share the file
+  std::shared_ptr<const File> file;  // null: the whole program is in `buffer`. Readers of one program share it
   std::vector<char> buffer;
   std::uint64_t size = 0;
   std::uint64_t start = 0;  // the first byte of the first line, after a byte order mark

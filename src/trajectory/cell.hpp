@@ -58,9 +58,8 @@ struct Cell {
   double length = 0;        // end - start, above 0
   double top_squared = 0;   // the limit by the axes' velocities, anywhere in the cell
   double feed_squared = 0;  // the programmed feed; infinite for a rapid
-  double acceleration =
-      0;  // the greatest along the path, either way; a straight cell uses just this, and may speed up and brake within
-  bool straight = false;
+  double acceleration = 0;  // the greatest along the path, either way
+  bool straight = false;    // uses just this acceleration; may speed up and brake within the cell
   std::uint8_t demand_count = 0;
   std::uint8_t falling_count = 0;
   SpindleLock lock = SpindleLock::none;

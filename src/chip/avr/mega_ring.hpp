@@ -21,8 +21,7 @@ inline constexpr uint16_t times_high_address = 0x200;
 inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
-inline constexpr uint8_t most_events =
-    220;  // two milliseconds at the highest rate; all that is in the ring will be played
+inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
 inline constexpr uint8_t most_at_once = 100;  // made in one call
 // In the list of items. From 100 on the host fits motion finely.
 inline constexpr uint8_t queue_capacity = 100;

@@ -30,10 +30,9 @@ enum class EndJudging : std::uint8_t { coordinates, projection, total };
 
 struct Method {
   MethodName name = MethodName::lean;
-  bool half_loaded = false;  // DDA
-  std::optional<std::uint8_t> register_bits =
-      {};                                      // DDA of lines; empty: left-normalised, the fewest that hold the move
-  EndJudging end_judging = EndJudging::total;  // point comparison of lines; the pulses are the same for all
+  bool half_loaded = false;                        // DDA
+  std::optional<std::uint8_t> register_bits = {};  // DDA of lines; empty: left-normalised, the fewest possible
+  EndJudging end_judging = EndJudging::total;      // point comparison of lines; the pulses are the same for all
 };
 
 // All names, in a fixed order: "master-slave", "lean", ….
