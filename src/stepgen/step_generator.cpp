@@ -90,7 +90,7 @@ class StepGenerator::Implementation {
   bool wait_until(std::int64_t time, BoardItem& item) {
     constexpr std::int64_t idle = 32768 * whole_tick;
     const std::int64_t gap = time - board_.time();
-    // Where little motion may be given at once, waits are short too.
+    // Where what is given is to be little, so are waits.
     const std::int64_t most = exactness_.one_in > 0 ? most_events : fitter_.longest();
     const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, most);
     return send(without_steps(static_cast<std::uint16_t>(events), std::min(idle, gap)), item);

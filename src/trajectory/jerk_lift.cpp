@@ -16,8 +16,7 @@ constexpr double target_falls = 0.2;     // the factor from step to step, at bes
 constexpr double short_of_limit = 0.95;  // a step goes at most this part of the way to a slack or price of 0
 constexpr double least_share = 1e-3;     // of a step; if no more is possible, there is no solution
 constexpr double passable = 0.05;        // a limit may be exceeded by this share; the check decides
-constexpr double outer_part =
-    0.65;  // weight of x at the node in the mean speed of half a cell; the middle has the rest
+constexpr double outer_part = 0.65;  // weight of x at the node in the mean speed of half a cell; the rest: the middle
 constexpr double least_slack = 0.3;  // slack at the start, as a share of the limit
 
 double times(const std::array<double, 4>& factors, const double* values) {
