@@ -58,7 +58,7 @@ TEST(TraceVcd, a_tick_is_a_whole_number_of_units_where_it_can_be) {
   EXPECT_EQ(timescale_at(84e6), "1 ps");    // 11.9… ns
   EXPECT_EQ(timescale_at(72e6), "1 ps");
   EXPECT_EQ(timescale_at(125e3), "1 us");  // 8 µs
-  EXPECT_EQ(timescale_at(1e6), "100 ns");  // half a tick must be a whole number too
+  EXPECT_EQ(timescale_at(1e6), "100 ns");  // less than a tick, since half a tick needs a place too
   EXPECT_EQ(timescale_at(1), "100 ms");
 }
 

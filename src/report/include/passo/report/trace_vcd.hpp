@@ -7,9 +7,9 @@
 //   X_dir  ____/‾‾‾‾‾‾‾‾‾‾‾‾     changes together with the first step in that direction
 //   X_step ____/‾\______/‾\_     high for the step pulse, but at most half the time to the next event with steps
 //
-// Time is exact: the unit is the largest power of ten of which half a tick is a whole multiple. If a tick is no whole
-// number of picoseconds, the unit is a picosecond and times are rounded. There is no date: the same job gives the same
-// bytes. Cost: about 30 ns an event.
+// Time is exact. The unit is the largest power of ten of which a tick is a multiple, but less than a tick, because half
+// a tick needs a place too. If a tick is no whole number of picoseconds, the unit is a picosecond and times are
+// rounded. There is no date: the same job gives the same bytes. Cost: about 30 ns an event.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class TraceVcd final : public Trace {
     explicit Scale(Hertz clock);
     std::uint64_t units(std::uint64_t ticks) const;
     std::uint64_t ticks_a_second;
-    std::uint64_t units_a_tick = 0;  // 0: a tick is no whole number of units
+    std::uint64_t units_a_tick = 0;  // 0: a tick is no whole number of picoseconds
     std::uint64_t picoseconds = 1;   // in one unit
   };
 
