@@ -1,4 +1,5 @@
-// Events a second from board segments to counted pulses: link, wire, board and machine, all of them; and with traces.
+// Events a second from board segments to counted pulses, through link, wire, board and machine; and the same with
+// traces.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,8 +17,8 @@
 namespace passo {
 namespace {
 
-// A circle of X and Y with Z going down slowly, one segment for each of a thousand directions: no two are alike, so
-// that no branch can be learned by heart.
+// A circle of X and Y while Z slowly goes down, with one segment for each of a thousand directions. No two segments are
+// alike, so no branch can be learned by heart.
 std::vector<BoardSegment> spiral(std::uint8_t events) {
   constexpr int directions = 1000;
   std::vector<BoardSegment> segments;
@@ -49,7 +50,7 @@ void rate(benchmark::State& state, const std::vector<BoardSegment>& segments) {
       benchmark::Counter(events * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-// The player alone: the lower bound.
+// The player alone, as the lower bound.
 void player(benchmark::State& state) {
   const std::vector<BoardSegment> segments = spiral(static_cast<std::uint8_t>(state.range(0)));
   for (auto _ : state) {
@@ -96,13 +97,13 @@ void with_an_observer(benchmark::State& state) {
 }
 BENCHMARK(with_an_observer)->Arg(100)->Unit(benchmark::kMicrosecond);
 
-// Written to nowhere: what the text itself costs.
+// The text goes nowhere: this measures the cost of the text itself.
 template <class SomeTrace>
 void with_a_trace(benchmark::State& state) {
   std::size_t bytes = 0;
   SomeTrace trace({.motors = {{.axis = Axis::x}, {.axis = Axis::y}, {.axis = Axis::z}}},
                   [&](std::string_view text) { bytes += text.size(); });
-  // The machine starts anew each time and so does its time, which a trace would not like.
+  // The machine and its time start anew each round. A trace expects a time that only grows.
   class Onwards final : public MachineObserver {
    public:
     explicit Onwards(MachineObserver& next) : next_(next) {}

@@ -1,4 +1,4 @@
-// What a chord costs, for each kind of curve: from the curve's formula to displacements in steps.
+// The cost of a chord for each kind of curve, from the curve's formula to displacements in steps.
 #include <cmath>
 #include <numbers>
 
@@ -18,7 +18,7 @@ const StepScale scale{{640, 640, 640}};
 
 template <ParametricCurve C>
 void cut(benchmark::State& state, const C& curve) {
-  // Thousandths of a millimetre, as the argument of the benchmark.
+  // The argument of the benchmark is in thousandths of a millimetre.
   const ChordTolerance tolerance = *ChordTolerance::of(Mm(1e-3 * static_cast<double>(state.range(0))));
   std::int64_t count = 0;
   for (auto _ : state) {

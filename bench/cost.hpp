@@ -1,4 +1,4 @@
-// What a stretch of the benchmark, or another program, costs.
+// The cost of a part of the benchmark, or of another program.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace passo {
 
-// Of this process (RUSAGE_SELF), or of those it started and waited for (RUSAGE_CHILDREN).
+// The CPU time of this process (RUSAGE_SELF), or of its ended child processes (RUSAGE_CHILDREN).
 inline double cpu_seconds(int who) {
   rusage usage{};
   getrusage(who, &usage);
@@ -25,11 +25,10 @@ inline double cpu_seconds(int who) {
 
 struct Cost {
   double seconds = 0;    // wall time
-  double mebibytes = 0;  // at most
+  double mebibytes = 0;  // the highest use of memory
 };
 
-// Runs a command, what it prints thrown away. Its memory counts from what this process has at the moment, so that
-// should be little.
+// Runs a command and discards its output. Its memory counts from this process's present memory, which should be small.
 inline Cost cost_of(const std::vector<std::string>& command) {
   const auto start = std::chrono::steady_clock::now();
   std::fflush(stdout);

@@ -1,4 +1,4 @@
-// What a line of G-code costs: reading, parsing, evaluating, and all of it over a file of a million lines.
+// The cost of a line of G-code: reading, parsing, evaluating, and all of it over a file of a million lines.
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -64,7 +64,7 @@ BENCHMARK_CAPTURE(evaluate_expression, number, "X1.5");
 BENCHMARK_CAPTURE(evaluate_expression, polynomial, "X[#1 * 2 + #3 / 4 - 1]");
 BENCHMARK_CAPTURE(evaluate_expression, sine, "X[#2 + 3 * SIN[#<angle>] / 2]");
 
-// A job of a million lines from disk (page cache), parsed.
+// Reads and parses a job of a million lines from disk (page cache).
 void read_and_parse_file(benchmark::State& state) {
   const std::string path = (std::filesystem::temp_directory_path() / "passo-gcode-benchmark.ngc").string();
   constexpr int lines = 1'000'000;

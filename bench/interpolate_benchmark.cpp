@@ -1,4 +1,4 @@
-// Pulses a second of every interpolator and ramp on the host: the same list of methods as on the chip
+// Pulses a second of every interpolator and ramp on the host, for the same list of methods as on the chip
 // (tests/emulator/methods.hpp). Names: kind/method/axes/bits.
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace {
 
 using ChosenTable = CompiledTable<ramp_table_size>;
 
-// Long enough that beginning costs nothing beside it, and with no pattern that a branch predictor learns by heart.
+// Long enough that the start costs nothing in comparison, without a pattern that a branch predictor could learn.
 Order long_order(MethodKind kind) {
   Order order{.method = 0, .values = {}, .most = 60'000};
   const auto choose = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
@@ -37,7 +37,7 @@ void pulses(benchmark::State& state, const Order& order) {
     std::uint16_t left = order.most;
     for (; left != 0 && !walk.done(); --left) {
       const auto pulse = walk.next();
-      benchmark::DoNotOptimize(pulse);  // each one, as if a port were written
+      benchmark::DoNotOptimize(pulse);  // each pulse, as if a port were written
     }
     count += order.most - left;
   }

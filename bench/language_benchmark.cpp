@@ -1,10 +1,10 @@
-// Interpretation against the clock, with rs274 (Debian: linuxcnc-uspace) beside it in the same run where it is there.
+// The speed of interpretation. If rs274 (Debian: linuxcnc-uspace) is installed, it runs beside it for comparison.
 //
 //   language_benchmark
 //
-// Five kinds of programs, 200,000 lines executed: how many lines a second of CPU time, with operations dropped and with
-// canonical calls printed. What rs274 prints goes to /dev/null. Then the most memory that `passo canon` takes for two
-// million lines of them. Prints figures; decides nothing.
+// Five kinds of programs of 200,000 executed lines: lines a second of CPU time, with operations dropped and with
+// canonical calls printed. The output of rs274 goes to /dev/null. Then the highest memory of `passo canon` for two
+// million lines of each kind. The benchmark prints figures and decides nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr int timed_lines = 200'000;
 constexpr int many_lines = 2'000'000;
-constexpr int rounds = 3;  // the best counts: other programs run beside it
+constexpr int rounds = 3;  // the best one counts, because other programs run at the same time
 
-// A kind of program, and what writes one with so many lines to execute.
+// A kind of program, and the function that writes one with so many lines to execute.
 struct Kind {
   const char* name;
   void (*write)(std::FILE* file, int lines);
@@ -106,13 +106,13 @@ double interpret(const std::string& path, bool print) {
   return timed_lines / best;
 }
 
-// Lines a second, or 0 where rs274 is not installed.
+// Lines a second; 0 if rs274 is not installed.
 double rs274(const std::string& path) {
   double best = 1e9;
   for (int round = 0; round < rounds; ++round) {
     const double start = cpu_seconds(RUSAGE_CHILDREN);
     const int status = std::system(fmt::format("rs274 -g {} >/dev/null 2>&1", path).c_str());
-    // It fails now and then where it ran well before; such a round does not count.
+    // Now and then it fails where it ran well before. Such a round does not count.
     if (status == 0) best = std::min(best, cpu_seconds(RUSAGE_CHILDREN) - start);
   }
   return best < 1e9 ? timed_lines / best : 0;

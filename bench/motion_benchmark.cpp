@@ -1,5 +1,5 @@
-// Segments a second through PathBuilder and Planner, from programs made on the fly: nothing is stored, so that the
-// numbers are those of a job of any length.
+// Segments a second through PathBuilder and Planner. Programs are generated on the fly and nothing is stored, so the
+// numbers hold for a job of any length.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,7 +13,7 @@
 namespace passo {
 namespace {
 
-// A spiral of chords, `size` mm each.
+// A spiral of chords of `size` mm each.
 Point place(std::size_t n, double size) {
   const double angle = std::sqrt(2 * size * static_cast<double>(n));
   Point point;
@@ -122,7 +122,7 @@ void path_arcs(benchmark::State& state) {
 }
 BENCHMARK(path_arcs)->Unit(benchmark::kMillisecond);
 
-// The argument is the chord in micrometres: the shorter, the longer the queue that braking needs.
+// The argument is the chord in micrometres. Shorter chords need a longer queue for braking.
 void planner_chords(benchmark::State& state) {
   for (auto _ : state) {
     Segments segments(count, static_cast<double>(state.range(0)) / 1000);
@@ -133,8 +133,8 @@ void planner_chords(benchmark::State& state) {
 }
 BENCHMARK(planner_chords)->Arg(1)->Arg(10)->Arg(100)->Arg(1000)->Unit(benchmark::kMillisecond);
 
-// The rows of a relief, 200 mm long and half a millimetre apart, in moves of a tenth of a millimetre: hills, rounded to
-// the micrometre as CAM programs write them.
+// The rows of a relief, 200 mm long and half a millimetre apart, in moves of a tenth of a millimetre. The hills are
+// rounded to the micrometre, as CAM programs write them.
 class Raster final : public Source<PathItem> {
  public:
   explicit Raster(std::size_t moves) : moves_(moves) {}
@@ -164,8 +164,8 @@ class Raster final : public Source<PathItem> {
   Point position_ = place(0);
 };
 
-// What a program of such moves costs from path to phases: smoothed, and planned with limits of acceleration, or of jerk
-// too. The argument is the limit of jerk in mm/s³; 0: none.
+// The cost of a program of such moves from path to phases: smoothed, and planned with limits of acceleration and maybe
+// of jerk. The argument is the limit of jerk in mm/s³; 0: none.
 void smoothed_raster(benchmark::State& state) {
   MotionLimits limits = motion_limits();
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
@@ -181,7 +181,7 @@ void smoothed_raster(benchmark::State& state) {
 }
 BENCHMARK(smoothed_raster)->Arg(0)->Arg(25'000)->Unit(benchmark::kMillisecond);
 
-// What the source alone costs, to be taken off the line above.
+// The cost of the source alone, to be subtracted from the result above.
 void source_chords(benchmark::State& state) {
   for (auto _ : state) {
     Segments segments(count, 0.01);

@@ -1,8 +1,8 @@
-// The whole street against the clock: text to counted steps, memory, and how long the program takes to start.
+// The speed of the whole street: from text to counted steps, memory, and the start-up time of the program.
 //
-//   pipeline_benchmark [PROGRAM…]      programs of one's own instead of the examples; on the router
+//   pipeline_benchmark [PROGRAM…]      uses these programs instead of the examples, on the router
 //
-// Prints figures; decides nothing.
+// The benchmark prints figures and decides nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 const fs::path source_dir = PASSO_SOURCE_DIR;
 const std::string router = (source_dir / "examples" / "machines" / "router.toml").string();
 
-// From text to frames that nobody plays. CPU seconds.
+// CPU seconds from text to frames that nobody plays.
 double time_to_the_wire(const std::string& path, const MachineDescription& machine) {
   Diagnostics diagnostics;
   auto program = ProgramReader::open(path);
@@ -75,7 +75,7 @@ void measure(const std::string& path, const MachineDescription& machine) {
               static_cast<double>(job.link().bytes_sent()) / machine_time / 1e3);
 }
 
-// A program of our own in the folder for such, removed at the end.
+// A generated program in the temporary folder, removed at the end.
 class GeneratedProgram {
  public:
   explicit GeneratedProgram(const std::string& name)
@@ -101,7 +101,7 @@ class GeneratedProgram {
   std::ofstream file_;
 };
 
-// A surface of hills and furrows in rows of a thousand moves of 0.2 mm, there and back.
+// Writes a surface of hills and furrows, in rows of a thousand moves of 0.2 mm, there and back.
 void write_relief(GeneratedProgram& program, int moves) {
   constexpr int a_row = 1000;
   const int rows = moves / a_row;

@@ -1,4 +1,4 @@
-// Steps a second through the step generator alone, its replay of the board included.
+// Steps a second through the step generator alone, including its replay of the board.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -48,7 +48,7 @@ Point at(double x, double y, double z) {
   return point;
 }
 
-// Of all motors, as board_segment.hpp's table has the increments.
+// The steps of all motors, from the increments as in board_segment.hpp's table.
 double steps_of(const BoardSegment& segment) {
   double steps = 0;
   for (unsigned m = 0; m < 3; ++m) {
@@ -148,7 +148,7 @@ void dense_relief_of_cubics(benchmark::State& state) {
 }
 BENCHMARK(dense_relief_of_cubics)->Unit(benchmark::kMillisecond);
 
-// Speeds up and slows down all the time, with jerk: a planner's phases every 20 mm or so.
+// Motion that speeds up and slows down all the time, with jerk: a planner's phases about every 20 mm.
 void dense_relief_with_jerk(benchmark::State& state) {
   const std::vector<Curve> curves = relief(4000, 0.15);
   double length = 0;

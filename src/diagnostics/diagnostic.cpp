@@ -7,10 +7,10 @@
 namespace passo {
 namespace {
 
-// A source line may be a megabyte long: what is shown is a window around the place.
+// A source line may be a megabyte long, so only a window around the place is shown: bytes before and after it.
 constexpr std::size_t window_before = 60;
 constexpr std::size_t window_after = 40;
-// At each end of a long stack of calls.
+// Calls shown at each end of a long stack of calls.
 constexpr std::size_t calls_shown = 4;
 
 struct Window {
@@ -83,7 +83,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
 }
 
 void Diagnostics::add_certain(Diagnostic diagnostic) {
-  // A line in a loop is wrong once, however often it is run.
+  // A line in a loop is run often, but its mistake is reported once.
   const auto is_same = [&](const Diagnostic& other) {
     return other.place == diagnostic.place && other.code == diagnostic.code && other.file == diagnostic.file;
   };

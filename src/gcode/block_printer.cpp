@@ -1,4 +1,4 @@
-// print: a block in its one canonical spelling. Upper case, one blank between items, words before comments.
+// print: a block in its canonical spelling. Upper case, one blank between items, words before comments.
 #include <cassert>
 #include <string>
 #include <string_view>
@@ -13,13 +13,13 @@
 namespace passo {
 namespace {
 
-// What an instruction looks like. Precedence 0: a function; the higher, the tighter it binds.
+// How an instruction is written. A higher precedence binds tighter; 0 means a function.
 struct Spelling {
   const char* name = "";
   int precedence = 0;
 };
 
-constexpr int tightest = 9;  // of a value that needs no brackets
+constexpr int tightest = 9;  // a value that needs no brackets
 
 Spelling spelling_of(ExpressionOp op) {
   switch (op) {
@@ -50,23 +50,23 @@ Spelling spelling_of(ExpressionOp op) {
     case ExpressionOp::sin: return {"SIN"};
     case ExpressionOp::sqrt: return {"SQRT"};
     case ExpressionOp::tan: return {"TAN"};
-    default: break;  // spelled by ExpressionPrinter itself
+    default: break;  // ExpressionPrinter writes it itself
   }
   return {};
 }
 
-// Runs the postfix code with texts in place of numbers.
+// Runs the postfix code on texts instead of numbers.
 class ExpressionPrinter {
  public:
   explicit ExpressionPrinter(const SymbolTable& symbols) : symbols_(symbols) {}
 
-  // As a value: a number, a parameter, a function or brackets.
+  // Prints the expression as a value: a number, a parameter, a function or brackets.
   std::string print(const Block& block, const Expression& expression) {
     for (std::uint32_t i = 0; i < expression.count; ++i) add(block.code[expression.first + i]);
     return pop_value();
   }
 
-  // Always in brackets.
+  // Prints the expression in brackets, always.
   std::string print_bracketed(const Block& block, const Expression& expression) {
     for (std::uint32_t i = 0; i < expression.count; ++i) add(block.code[expression.first + i]);
     return fmt::format("[{}]", pop().text);
@@ -106,7 +106,7 @@ class ExpressionPrinter {
     stack_.pop_back();
     return operand;
   }
-  // In brackets where it binds looser than `least`.
+  // Adds brackets if the value binds looser than `least`.
   std::string pop_value(int least = tightest) {
     Operand operand = pop();
     return operand.precedence < least ? fmt::format("[{}]", operand.text) : std::move(operand.text);
@@ -155,12 +155,12 @@ const char* keyword_of(ControlKind kind) {
   return "";
 }
 
-// The last plain comment goes behind ';', where any text may stand; the others keep their brackets.
+// The last plain comment is written after ';', where any text may stand. The others keep their brackets.
 std::string print_comment(const Comment& comment, bool is_last) {
   if (comment.kind == Comment::Kind::plain) {
     return is_last ? fmt::format(";{}", comment.text) : fmt::format("({})", comment.text);
   }
-  // These three are written without a comma, the text after a blank.
+  // These three are written without a comma: a blank, then the text.
   const bool bare = comment.kind == Comment::Kind::log_close || comment.kind == Comment::Kind::probe_open ||
                     comment.kind == Comment::Kind::probe_close;
   const bool comma = !bare || !(comment.text.empty() || comment.text.front() == ' ' || comment.text.front() == '\t');

@@ -8,7 +8,7 @@
 namespace passo {
 namespace {
 
-// A code point of UTF-8; length 0: not UTF-8.
+// A code point of UTF-8. Length 0 means that the bytes are not UTF-8.
 struct CodePoint {
   std::uint32_t value = 0;
   std::size_t length = 0;
@@ -31,7 +31,7 @@ CodePoint decode(std::string_view text) {
   return {value, length};
 }
 
-// Characters that word processors, web pages and other keyboards put where one of RS274/NGC's is meant.
+// Characters that word processors, web pages and foreign keyboards produce in place of those of RS274/NGC.
 struct LookAlike {
   std::uint32_t code;
   const char* meant;

@@ -1,4 +1,4 @@
-// What the characters of a line mean to RS274/NGC, and how to name those that mean nothing.
+// What the characters of a line mean to RS274/NGC, and names for those without a meaning.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@ constexpr bool is_digit(char c) {
 constexpr char to_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
-// Of an upper-case character.
+// For an upper-case character.
 constexpr bool is_letter(char c) {
   return c >= 'A' && c <= 'Z';
 }
 
-// A character as a person should read it in a message, and how to mend it.
+// A character as messages show it, and its replacement.
 struct NamedCharacter {
   std::size_t length = 1;  // bytes
   std::string name;        // "'='", "U+00B0 '°'", "control character U+0007", "byte 0xE9"
   std::string cure;        // "'-' (minus)"; empty: unknown
 };
 
-// The first character of `text`, which is not empty.
+// Names the first character of `text`, which must not be empty.
 NamedCharacter name_character(std::string_view text);
 
 }  // namespace passo

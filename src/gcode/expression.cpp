@@ -21,7 +21,7 @@ bool is_equal(double a, double b) {
   return std::abs(a - b) < equality_tolerance;
 }
 
-// What an operation gives: a number, or what is wrong with which operand.
+// The result of an operation: a number, or an error and the operand that caused it.
 struct Outcome {
   double value = 0;
   bool failed = false;
@@ -32,7 +32,7 @@ Outcome failure(Kind kind, double operand) {
   return {operand, true, kind};
 }
 
-// LinuxCNC's MOD is never negative.
+// As in LinuxCNC, MOD is never negative.
 Outcome modulo(double a, double b) {
   if (b == 0) return failure(Kind::division_by_zero, b);
   const double rest = std::fmod(a, b);
@@ -93,7 +93,7 @@ Outcome unary(ExpressionOp op, double a) {
   return failure(Kind::not_finite, a);
 }
 
-// #n, or whether there is one.
+// The value of #n, or with `exists` whether #n exists.
 Outcome numbered(const ParameterValues& parameters, double n, bool exists) {
   constexpr double largest = 1e15;  // whole numbers up to here are exact, and fit std::int64_t
   const double whole = std::round(n);

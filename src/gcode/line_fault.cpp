@@ -1,4 +1,5 @@
-// LineParser's wording of what is wrong: what was found, what was expected, and the cure where it can be guessed.
+// LineParser's messages about a wrong line: what was found, what was expected, and a correction where one can be
+// guessed.
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -14,16 +15,16 @@ namespace {
 
 constexpr const char* a_value = "a number, #parameter, [expression] or function";
 
-// At most this much of the line is repeated in a message.
+// A message repeats at most this much of the line.
 std::string shortened(std::string_view text) {
   constexpr std::size_t most = 24;
   if (text.size() <= most) return std::string(text);
   std::size_t size = most;
-  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;  // not through a character
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;  // cut no character in two
   return std::string(text.substr(0, size)) + "...";
 }
 
-// The word that was meant: one with a wrong letter, or with two of them swapped.
+// Guesses the word that was meant: one with a wrong letter, or with two letters swapped.
 std::string_view guess(std::string_view word, const std::vector<std::string_view>& candidates) {
   const std::string_view near = nearest(word, candidates);
   if (!near.empty()) return near;
@@ -54,7 +55,7 @@ bool LineParser::fail_missing_value(const char* owner) {
   std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;
   if (c == ',') cure = "a decimal point";
   if (c == '=') cure = "the value right after the letter, as in X5";
-  const bool is_known = std::string_view("=+-*/.%)").find(c) != std::string_view::npos;  // elsewhere it has a meaning
+  const bool is_known = std::string_view("=+-*/.%)").find(c) != std::string_view::npos;  // has a meaning elsewhere
   return fail(is_known ? "gcode.missing-value" : "gcode.bad-character", at_, found.length,
               fmt::format("{} where a value should be", found.name), cure);
 }

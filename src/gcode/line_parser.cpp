@@ -11,7 +11,7 @@ namespace {
 struct CommentKeyword {
   std::string_view name;
   Comment::Kind kind;
-  bool takes_comma;  // LinuxCNC writes (LOGCLOSE) and (PROBEOPEN name) without one
+  bool takes_comma;  // LinuxCNC writes (LOGCLOSE) and (PROBEOPEN name) without a comma
 };
 
 constexpr std::array comment_keywords = {
@@ -34,7 +34,7 @@ const CommentKeyword* find_comment_keyword(std::string_view name) {
   return nullptr;
 }
 
-// Finds the keyword at the start of a comment and takes it off the text.
+// Finds the keyword at the start of a comment and removes it from the text.
 Comment::Kind take_keyword(std::string_view& text) {
   std::array<char, 10> letters;  // the longest keyword
   std::size_t size = 0;
@@ -210,7 +210,7 @@ bool LineParser::parse_comment() {
   return true;
 }
 
-// To the end of the line, and never an active one, as in LinuxCNC.
+// A comment from ';' to the end of the line. As in LinuxCNC, its text never acts as a command.
 void LineParser::parse_semicolon_comment() {
   const char* const start = at_;
   token_end_ = at_ = end_;
@@ -260,7 +260,7 @@ bool LineParser::parse_label(Control& control) {
     control.computed_label = label;
     return true;
   }
-  // A label that is a plain number is a name like any other: "o100" is "o<100>".
+  // A label that is a plain number is treated as a name: "o100" is "o<100>".
   const double number = std::round(instruction.number);
   if (std::abs(number - instruction.number) > whole_number_tolerance || std::abs(number) > 1e9) {
     return fail("gcode.bad-o-word", first, label.span.length, "the label of the O-word is not a whole number",
@@ -276,7 +276,7 @@ bool LineParser::parse_control_arguments(Control& control, const char* keyword) 
   const Span name = span_from(keyword);
   while (control.arguments.size() < count.most) {
     const char c = peek();
-    if (c == '(' && control.kind == ControlKind::call) {  // LinuxCNC lets comments stand between arguments
+    if (c == '(' && control.kind == ControlKind::call) {  // LinuxCNC allows comments between arguments
       const char* const argument_end = token_end_;
       if (!parse_comment()) return false;
       token_end_ = argument_end;

@@ -8,8 +8,9 @@
 //              | function '[' expression ']' | ATAN '[' expression ']' '/' '[' expression ']' | EXISTS '[' '#' … ']'
 //   expression = value { operator value }                                             by precedence, from the left
 //
-// Blanks mean nothing outside comments, and so every token may have blanks inside. Expressions go to Block::code in
-// postfix order as they are read. The first fault ends the line. Lives on the stack for one line; depth is bounded.
+// Blanks mean nothing outside comments, so every token may have blanks inside. Expressions are stored in Block::code in
+// postfix order while they are read. The first fault ends the line. A LineParser lives on the stack for one line, and
+// its depth is bounded.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +23,7 @@
 
 namespace passo {
 
-// What is wrong with a line; its place in bytes from the line's start.
+// What is wrong with a line. The place counts in bytes from the start of the line.
 struct LineFault {
   const char* code = "";
   std::size_t offset = 0;
@@ -33,7 +34,7 @@ struct LineFault {
 
 class LineParser {
  public:
-  // `block` is clear; its views will point into `text`.
+  // `block` must be clear. Its views will point into `text`.
   LineParser(std::string_view text, Block& block, SymbolTable& symbols, LineFault& fault)
       : begin_(text.data()),
         end_(text.data() + text.size()),
@@ -43,7 +44,7 @@ class LineParser {
         symbols_(symbols),
         fault_(fault) {}
 
-  // False: see the fault.
+  // Returns false after a fault; `fault` then describes it.
   bool parse();
 
  private:
@@ -59,7 +60,8 @@ class LineParser {
   bool parse_control_arguments(Control& control, const char* keyword);
   bool parse_comments_only();
 
-  // value_parser.cpp: what gives a number. Each adds to Block::code; `owner` is what has no value if there is none.
+  // value_parser.cpp: everything that gives a number. Each function adds to Block::code. `owner` is what lacks a value
+  // if there is none.
   bool parse_expression(Expression& expression, const char* owner);
   bool parse_value(const char* owner);
   bool parse_number(const char* owner);
@@ -73,24 +75,24 @@ class LineParser {
   bool parse_name(Symbol& symbol);
   bool emit(ExpressionOp op, const char* start, double number = 0, Symbol symbol = {});
 
-  // line_fault.cpp: the wording of what is wrong. All return false.
+  // line_fault.cpp: the messages. All return false.
   bool fail(const char* code, const char* from, std::size_t length, std::string message, std::string expected);
   bool fail_missing_value(const char* owner);
-  bool fail_unexpected();                   // at_ is where no item can start
-  bool fail_in_brackets(const char* open);  // at_ is where an operator or ']' should be
+  bool fail_unexpected();                   // at_ is at a place where no item can start
+  bool fail_in_brackets(const char* open);  // at_ is at a place that needs an operator or ']'
   bool fail_function(const char* name_start, std::string_view name);
   bool fail_assignment(const char* target);  // no '=' after the parameter
-  bool fail_letter_o(const char* o);         // an O that is not the first on its line, perhaps a zero
+  bool fail_letter_o(const char* o);         // an O that is not the first item of its line; a zero may be meant
   bool fail_control_keyword(const char* start, std::string_view keyword);
 
   bool at_end() const { return at_ == end_; }
-  // The next character that is not blank, in upper case; NUL at the end.
+  // The next character that is not blank, in upper case. NUL at the end.
   char peek() {
     while (at_ != end_ && is_blank(*at_)) ++at_;
     return at_ == end_ ? '\0' : to_upper(*at_);
   }
   void take() { token_end_ = ++at_; }
-  // The letters that come next, blanks left out, in upper case, as far as `buffer` goes; takes them.
+  // Takes the next letters in upper case, without blanks, as far as `buffer` has room.
   std::string_view take_letters(char* buffer, std::size_t size);
   Span span_from(const char* start) const {
     return {static_cast<std::uint32_t>(start - begin_ + 1), static_cast<std::uint32_t>(token_end_ - start)};
@@ -100,12 +102,12 @@ class LineParser {
   const char* const begin_;
   const char* const end_;
   const char* at_;
-  const char* token_end_;  // after the last character that was taken: blanks at a span's end do not count
+  const char* token_end_;  // after the last character taken; a span does not include blanks at its end
   Block& block_;
   SymbolTable& symbols_;
   LineFault& fault_;
-  std::size_t nesting_ = 0;   // values inside values
-  std::size_t operands_ = 0;  // on the stack when the expression will be evaluated
+  std::size_t nesting_ = 0;   // values inside other values
+  std::size_t operands_ = 0;  // operands on the stack of the evaluation
 };
 
 }  // namespace passo

@@ -13,9 +13,9 @@ constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr std::uint64_t largest_exact_integer = std::uint64_t{1} << 53;
-constexpr std::size_t most_digits_of_mantissa = 18;  // fits std::uint64_t whatever the digits are
+constexpr std::size_t most_digits_of_mantissa = 18;  // fits std::uint64_t, whatever the digits
 
-// What the fast path cannot round correctly: std::from_chars on a copy without blanks.
+// Reads what the fast path cannot round correctly: std::from_chars on a copy without blanks.
 NumberReading read_long_number(const char* first, const char* last, bool negative) {
   std::array<char, longest_number> digits;
   std::size_t size = 0;
@@ -26,7 +26,7 @@ NumberReading read_long_number(const char* first, const char* last, bool negativ
     if (!is_digit(*at) && *at != '.') continue;
     before_point = before_point && *at != '.';
     has_integer_part = has_integer_part || (before_point && *at != '0');
-    if (size == 0 && *at == '0') continue;  // leading zeros are free
+    if (size == 0 && *at == '0') continue;  // leading zeros do not count as digits
     if (size == digits.size()) {
       reading.status = NumberStatus::too_long;
       return reading;
@@ -35,7 +35,7 @@ NumberReading read_long_number(const char* first, const char* last, bool negativ
   }
   const auto result = std::from_chars(digits.data(), digits.data() + size, reading.value, std::chars_format::fixed);
   if (result.ec == std::errc::result_out_of_range) {
-    reading.value = 0;  // too small is zero, too large is an error
+    reading.value = 0;  // too small becomes zero; too large is an error
     if (has_integer_part) reading.status = NumberStatus::too_large;
   }
   if (negative) reading.value = -reading.value;
@@ -56,7 +56,7 @@ NumberReading read_number(const char* at, const char* end) {
   bool point = false;
   for (; at != end; ++at) {
     if (is_digit(*at)) {
-      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');  // worth nothing behind most_digits_of_mantissa
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');  // not used after most_digits_of_mantissa
       ++digits;
       decimals += point ? 1 : 0;
     } else if (*at == '.' && !point) {
@@ -69,7 +69,7 @@ NumberReading read_number(const char* at, const char* end) {
     last = at + 1;
   }
   if (digits == 0) return {0, last, NumberStatus::no_digits};
-  // Both operands are exact doubles, so that the one division rounds once: correctly.
+  // Both operands are exact doubles, so the one division rounds correctly.
   if (digits <= most_digits_of_mantissa && mantissa <= largest_exact_integer && decimals < powers_of_ten.size()) {
     const double value = static_cast<double>(mantissa) / powers_of_ten[decimals];
     return {negative ? -value : value, last, NumberStatus::good};

@@ -1,4 +1,4 @@
-// Decimal numbers of RS274/NGC: sign, digits, decimal point, blanks anywhere, no exponent.
+// Decimal numbers of RS274/NGC: a sign, digits and a decimal point, with blanks anywhere and without an exponent.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ enum class NumberStatus : std::uint8_t {
   too_long,   // more than `longest_number` digits
 };
 
-// Enough for every double written out in full.
+// Enough digits for every double written out in full.
 inline constexpr std::size_t longest_number = 1100;
 
 struct NumberReading {
@@ -22,7 +22,7 @@ struct NumberReading {
   NumberStatus status = NumberStatus::good;
 };
 
-// Reads the longest number that starts at `at`; correctly rounded. A few nanoseconds up to 15 digits.
+// Reads the longest number that starts at `at`, correctly rounded. Takes a few nanoseconds for up to 15 digits.
 NumberReading read_number(const char* at, const char* end);
 
 // The shortest spelling without an exponent that reads back as the same double.

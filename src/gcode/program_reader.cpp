@@ -20,7 +20,7 @@ constexpr std::size_t buffer_size = std::size_t{256} * 1024;
 static_assert(buffer_size >= 2 * (longest_line + 2), "a line and its end fit wherever they start");
 
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-constexpr std::size_t inspected_bytes = 1024;  // what tells text from something else
+constexpr std::size_t inspected_bytes = 1024;  // enough to tell text from other data
 
 // A file descriptor that closes itself.
 class File {
@@ -55,7 +55,7 @@ Diagnostic unreadable(const std::string& name, int error) {
   return whole_file("file.unreadable", name, fmt::format("cannot be read: {}", std::strerror(error)), "");
 }
 
-// read() that an interrupted call does not end. Negative: errno says why.
+// read() that repeats calls interrupted by a signal. Negative: errno tells why.
 ssize_t read_some(int descriptor, char* to, std::size_t size) {
   for (;;) {
     const ssize_t count = ::read(descriptor, to, size);
@@ -81,7 +81,7 @@ bool write_all(int descriptor, const char* from, std::size_t size) {
   return true;
 }
 
-// Loops and subroutines go back, which a pipe cannot: its bytes go to a file without a name first.
+// Loops and subroutines go back, which a pipe cannot do. So its bytes first go to a file without a name.
 Result<File, Diagnostic> spool(int source, const std::string& name) {
   std::FILE* const temporary = std::tmpfile();
   if (temporary == nullptr) return Failure{unreadable(name, errno)};
@@ -120,7 +120,7 @@ Result<File, Diagnostic> open_file(const std::string& path) {
   return file;
 }
 
-// What the first bytes of a file say about it.
+// The kind of content that the first bytes of a file show.
 enum class Content : std::uint8_t { text, wide_text, binary };
 
 Content inspect(std::string_view first) {
@@ -130,26 +130,27 @@ Content inspect(std::string_view first) {
     return byte < 0x20 && (byte < '\t' || byte > '\r') && byte != 0x1A;  // old editors end a file with 0x1A
   };
   const auto controls = static_cast<std::size_t>(std::ranges::count_if(first, is_control));
-  // One stray NUL is reported where it stands; a program does not have dozens of them.
+  // One stray NUL is reported at its place. Many control characters mean that the file is no program.
   return controls >= 8 && controls * 32 >= first.size() ? Content::binary : Content::text;
 }
 
 }  // namespace
 
-// The bytes [offset, offset + filled) of the program are in the buffer; `cursor` is the next line's first byte there.
+// The buffer holds the bytes [offset, offset + filled) of the program. In it `cursor` is the first byte of the next
+// line.
 struct ProgramReader::State {
   std::string name;
-  std::shared_ptr<const File> file;  // none: the whole program is in `buffer`. Shared by readers of one program
+  std::shared_ptr<const File> file;  // null: the whole program is in `buffer`. Readers of one program share it
   std::vector<char> buffer;
   std::uint64_t size = 0;
-  std::uint64_t start = 0;  // of the first line, behind a byte order mark
+  std::uint64_t start = 0;  // the first byte of the first line, after a byte order mark
   std::uint64_t offset = 0;
   std::size_t filled = 0;
   std::size_t cursor = 0;
-  std::size_t line_feed = 0;  // the first LF at or after `cursor`, or `filled`; older than `cursor`: not known
+  std::size_t line_feed = 0;  // the first LF at or after `cursor`, or `filled`; a value below `cursor` means not known
   std::uint32_t line = 1;
   std::optional<ReaderPosition> sought;  // where to go before the next line is read
-  bool at_file_end = false;              // nothing comes after `filled`
+  bool at_file_end = false;              // no bytes come after `filled`
   bool failed = false;
 
   enum class Find : std::uint8_t { line, too_long, end };
@@ -163,7 +164,7 @@ struct ProgramReader::State {
               std::string_view text) const;
 };
 
-// Moves what is not read yet to the front and reads on behind it. False after an error.
+// Moves the unread bytes to the front and reads more after them. Returns false after an error.
 bool ProgramReader::State::fill(Diagnostics& diagnostics) {
   const std::size_t kept = filled - cursor;
   if (cursor > 0) {
@@ -190,7 +191,7 @@ bool ProgramReader::State::fill(Diagnostics& diagnostics) {
   return true;
 }
 
-// Keeps the buffer where the place is in it.
+// Keeps the content of the buffer if the place is in it.
 void ProgramReader::State::go_to(ReaderPosition position) {
   sought.reset();
   line = position.line;
@@ -205,12 +206,12 @@ void ProgramReader::State::go_to(ReaderPosition position) {
 }
 
 std::size_t ProgramReader::State::find_line_feed() {
-  if (cursor == filled) return filled;  // an empty buffer has no address to search at
+  if (cursor == filled) return filled;  // an empty buffer has no address for memchr
   const void* const found = std::memchr(buffer.data() + cursor, '\n', filled - cursor);
   return found == nullptr ? filled : static_cast<std::size_t>(static_cast<const char*>(found) - buffer.data());
 }
 
-// The line at the cursor is [cursor, end); the one after it starts at `next`.
+// The line at the cursor is [cursor, end). The next line starts at `next`.
 ProgramReader::State::Find ProgramReader::State::find_line(std::size_t& end, std::size_t& next,
                                                            Diagnostics& diagnostics) {
   for (;;) {
@@ -223,7 +224,7 @@ ProgramReader::State::Find ProgramReader::State::find_line(std::size_t& end, std
                 : static_cast<std::size_t>(static_cast<const char*>(carriage_return) - buffer.data());
       if (end - cursor > longest_line) return Find::too_long;
       const bool is_return = end < filled && buffer[end] == '\r';
-      // A line that touches the buffer's end may go on behind it, and a CR there may have its LF behind it.
+      // A line that reaches the end of the buffer may be longer, and a CR there may have its LF after it.
       const bool is_complete = end + (is_return ? 1 : 0) < filled;
       if (is_complete || at_file_end) {
         next = std::min(end + 1, filled);
@@ -237,7 +238,7 @@ ProgramReader::State::Find ProgramReader::State::find_line(std::size_t& end, std
   }
 }
 
-// Counts the bytes of a line that is too long without keeping them.
+// Counts the bytes of a line that is too long, without keeping them.
 void ProgramReader::State::skip_long_line(Diagnostics& diagnostics) {
   std::uint64_t length = 0;
   for (;;) {

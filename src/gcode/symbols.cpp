@@ -5,7 +5,7 @@
 namespace passo {
 namespace {
 
-// Writes `name` as names are compared and returns the end of it.
+// Writes `name` in the form that is compared, and returns its end.
 char* normalise(std::string_view name, char* out) {
   for (const char c : name) {
     if (c == ' ' || c == '\t') continue;

@@ -1,4 +1,4 @@
-// LineParser's values: numbers, expressions, parameters, functions. To postfix code in one pass.
+// LineParser's values: numbers, expressions, parameters, functions. One pass makes postfix code of them.
 #include <array>
 
 #include "line_parser.hpp"
@@ -15,7 +15,7 @@ struct Operator {
   std::string_view name;
 };
 
-// LinuxCNC's order. All of them go from the left, ** too: [2**3**2] is 64.
+// LinuxCNC's precedences. All operators group from the left, ** too: [2**3**2] is 64.
 constexpr int lowest = 1;
 constexpr std::array word_operators = {
     Operator{ExpressionOp::bit_and, 1, "AND"},      Operator{ExpressionOp::bit_or, 1, "OR"},
@@ -50,7 +50,7 @@ const char* skip_blanks(const char* at, const char* end) {
   return at;
 }
 
-// Where `name` ends if it stands at `at`, in any case and spacing; else null.
+// The end of `name` if it stands at `at`, in any case and spacing; else null.
 const char* match(std::string_view name, const char* at, const char* end) {
   for (const char letter : name) {
     at = skip_blanks(at, end);
@@ -60,7 +60,7 @@ const char* match(std::string_view name, const char* at, const char* end) {
   return at;
 }
 
-// The operator at `at` and where it ends.
+// Finds the operator at `at` and moves `at` to its end.
 Operator find_operator(const char*& at, const char* end) {
   if (at == end) return {};
   switch (*at) {
@@ -140,7 +140,8 @@ bool LineParser::parse_number(const char* owner) {
               too_long ? "at most " + std::to_string(longest_number) + " digits" : "a number below 1.8e308");
 }
 
-// A sign belongs to its number; before anything else it is an operation, and of a plain number that is a number again.
+// A sign belongs to the number after it. Before anything else it is an operation. On a plain number the result is a
+// number again.
 bool LineParser::parse_sign(const char* owner) {
   const char* const start = at_;
   const char* const after = skip_blanks(at_ + 1, end_);
@@ -209,7 +210,7 @@ bool LineParser::parse_function(const char* owner) {
     }
     return emit(function.op, start);
   }
-  // Not one. With brackets after it somebody meant a function, else a value is missing: "X Y5".
+  // No function has this name. If brackets follow, a function was meant; else a value is missing: "X Y5".
   while (is_letter(peek())) take();
   const Span written = span_from(start);
   const char next = peek();

@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// A Bézier curve is a spline of one span with all knots at its ends.
+// A Bézier curve is a spline of one span whose knots all lie at its ends.
 template <std::size_t degree>
 class AsSpan {
  public:
@@ -65,7 +65,7 @@ Result<QuadraticBezier, CurveError> parabola(const Vector3& vertex, const Vector
   const Vector3 right = {axis.y, -axis.x, 0};
   const double a = from.value();
   const double b = to.value();
-  // Tangents at a and b meet half-way between them across, and at a b / (4 f) along the axis.
+  // The tangents at the ends a and b meet at (a + b) / 2 across the axis, and at a b / (4 f) along it.
   const auto place = [&](double across, double product) {
     return vertex + right * across + axis * (product / (4 * focal_length));
   };

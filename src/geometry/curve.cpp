@@ -36,8 +36,8 @@ double largest_cosine(const Curve::ArcData& arc) {
   return std::max(std::abs(std::cos(arc.start_angle)), std::abs(std::cos(arc.start_angle + arc.sweep)));
 }
 
-// How far the arc reaches from its centre in the direction `toward`, a multiple of a quarter turn; 0 where no point
-// between its ends is the farthest. A growing radius reaches farthest on the first or on the last turn, at the angle
+// How far the arc reaches from its centre in the direction `toward`, a multiple of a quarter turn. 0 where one of the
+// arc's ends is the farthest point. A growing radius reaches farthest on the first or on the last turn, at the angle
 // where tan(angle - toward) = growth / radius.
 double reach(const Curve::ArcData& arc, double toward) {
   const double low = low_angle(arc);
@@ -63,7 +63,7 @@ Curve Curve::line(const Point& start, const Point& end) {
   curve.end_ = end;
   const Point travel = end - start;
   curve.length_ = counted_length(travel);
-  // A division, not a product with 1/length: a length of 1e-310 has no reciprocal.
+  // This divides instead of multiplying by 1/length, because a length of 1e-310 has no reciprocal.
   for (std::size_t i = 0; i < axis_count && curve.length_ > 0; ++i) {
     curve.slope_.values[i] = travel.values[i] / curve.length_;
   }
@@ -121,7 +121,8 @@ Curve Curve::cubic(const Point& start, const Point& start_tangent, const Point& 
   return curve;
 }
 
-// Not by arc(): a spiral's parameter is its length only on the whole, and a part keeps the parameter of the whole.
+// A part is not made by arc(). A spiral's parameter equals its length only over the whole spiral, and a part must keep
+// the parameter of the whole.
 Curve Curve::part(Mm from, Mm to) const {
   Curve piece = *this;
   piece.start_ = at(from);
@@ -220,7 +221,7 @@ Point Curve::third_derivative(Mm s) const {
   return third;
 }
 
-// A cubic's slope is largest at an end or where its change is nothing.
+// The slope of a cubic is largest at an end, or where the slope's own change is 0.
 Point Curve::steepest_of_cubic() const {
   Point steepest;
   for (std::size_t i = 0; i < axis_count; ++i) {
@@ -251,7 +252,8 @@ Point Curve::steepest() const {
   return steepest;
 }
 
-// A cubic's bend is linear; a slope of at most k, a quadratic, bends by at most 8 k over the length (Markov).
+// A cubic's second derivative is linear. A slope is a quadratic; one of at most k changes at a rate of at most 8 k /
+// length (Markov).
 double Curve::turning(const Point& steep) const {
   if (shape_ == Shape::arc) return std::abs(arc_.sweep);
   if (shape_ == Shape::line) return 0;
@@ -273,13 +275,13 @@ double Curve::curvature() const {
   if (shape_ == Shape::cubic) {
     return std::max(length_of(second_derivative(Mm(0))), length_of(second_derivative(length())));
   }
-  // r'' = 0 and angle'' = 0, so that what is left is the pull to the centre and, in a spiral, the sideways part.
+  // r'' = 0 and angle'' = 0. What is left is the pull towards the centre and, in a spiral, the sideways part.
   const double turning = arc_.sweep / length_;
   const double outward = (arc_.end_radius - arc_.start_radius) / length_;
   return std::hypot(std::max(arc_.start_radius, arc_.end_radius) * turning * turning, 2 * outward * turning);
 }
 
-// Where the slope of an axis is nothing between the ends.
+// The places between the ends where the slope of an axis is 0.
 void Curve::widen_by_turning_points(Box& box) const {
   for (std::size_t i = 0; i < axis_count; ++i) {
     const double a = 3 * cube_.values[i];

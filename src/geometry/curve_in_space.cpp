@@ -12,7 +12,7 @@ bool in_space(Axis axis) {
   return axis == Axis::x || axis == Axis::y || axis == Axis::z;
 }
 
-// Mm of radius for each radian.
+// Growth of the radius, in mm for each radian.
 double growth_of(const Curve::ArcData& arc) {
   return (arc.end_radius - arc.start_radius) / std::abs(arc.sweep);
 }
@@ -32,7 +32,8 @@ Result<CurveInSpace, CurveError> CurveInSpace::of(const Curve& curve) {
   return CurveInSpace(curve);
 }
 
-// Radius and angle change in proportion to s, so that of P = r e(angle) two terms are left: 2 r' e' and r e''.
+// Radius and angle change in proportion to s. Of the second derivative of P = r e(angle) two terms are left: 2 r' e'
+// and r e''.
 Vector3 CurveInSpace::second_derivative(double u) const {
   if (curve_.shape() == Curve::Shape::line || !curve_.has_length()) return {};
   const Curve::ArcData& arc = curve_.arc_data();
@@ -54,7 +55,7 @@ Mm CurveInSpace::deviation(double from, double to) const {
   const Curve::ArcData& arc = curve_.arc_data();
   const double length = curve_.length().value();
   const double half = (to - from) / length * std::abs(arc.sweep) / 2;
-  // No chord spans more than half a turn: a full circle smaller than the tolerance would become nothing.
+  // A chord spans at most half a turn. Otherwise a full circle smaller than the tolerance would vanish.
   constexpr double widest = std::numbers::pi / 2 * (1 + 1e-12);
   if (half > widest) return Mm(std::numeric_limits<double>::infinity());
   const double middle = (from + to) / 2 / length;
@@ -65,7 +66,8 @@ Mm CurveInSpace::deviation(double from, double to) const {
   return Mm(sagitta + std::abs(growth_of(arc)) * half * half / 2 * std::sqrt(4 + half * half));
 }
 
-// A radius that differs by what programs round away is cut like the larger one.
+// A difference of the radii that comes from rounding in programs is ignored: the arc is cut like one of the larger
+// radius.
 bool CurveInSpace::is_even() const {
   if (curve_.shape() == Curve::Shape::line) return true;
   const Curve::ArcData& arc = curve_.arc_data();

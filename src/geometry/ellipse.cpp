@@ -19,12 +19,12 @@ bool is_whole_turns(double sweep) {
   return std::abs(std::remainder(sweep, 2 * pi)) <= 1e-12 * std::abs(sweep);
 }
 
-// How far an arc over -d … d of P = c cos f + p sin f, as seen along its chord, is from the chord at most. `across` is
-// how far it is from the chord's line, per (cos f - cos d). The coordinate along the chord is p sin f ± |along| cos f;
-// it turns back before one of the ends where its greatest value, at f = outermost, comes before d:
+// The greatest distance from its chord of an arc of P = c cos f + p sin f over f = -d … d. `across` times (cos f - cos
+// d) is the distance from the chord's line. The coordinate along the chord is p sin f ± |along| cos f; it is greatest
+// at f = outermost. Where outermost is below d, the arc turns back before it reaches the end:
 //
-//          __ outermost            From there on to the end, and as far again before, the end of the chord is
-//     ____/  |                     the nearest place of it.
+//          __ outermost            From outermost to the end, and as far again before outermost, the nearest place of
+//     ____/  |                     the chord is its end.
 //    /_______|end
 //
 double farthest(double across, double along, double forward, double d) {
@@ -77,7 +77,7 @@ Ellipse::Ellipse(const Shape& shape) : shape_(shape) {
 }
 
 Vector3 Ellipse::at(double u) const {
-  // A whole turn ends where it began, and not a rounding beside it.
+  // A whole turn ends exactly at its start, without an error of rounding.
   if (u == 1 && is_whole_turns(shape_.sweep.value)) u = 0;
   const double angle = shape_.start.value + u * shape_.sweep.value;
   return shape_.centre + shape_.major * std::cos(angle) + shape_.minor * std::sin(angle);
@@ -95,7 +95,7 @@ Vector3 Ellipse::second_derivative(double u) const {
 
 Mm Ellipse::deviation(double from, double to) const {
   const double half = (to - from) * std::abs(shape_.sweep.value) / 2;
-  // No chord spans more than half a turn: an ellipse smaller than the tolerance would become nothing.
+  // A chord spans at most half a turn. Otherwise an ellipse smaller than the tolerance would vanish.
   constexpr double widest = pi / 2 * (1 + 1e-12);
   if (half > widest) return Mm(std::numeric_limits<double>::infinity());
   const double middle = shape_.start.value + (from + to) / 2 * shape_.sweep.value;

@@ -62,7 +62,7 @@ Checked check_knots(int degree, const std::vector<double>& knots, std::size_t co
     const double step = knots[i + 1] - knots[i];
     if (step > 0 && !(step >= 1e-9 * whole)) return wrong("two knots of a NURBS are almost equal: make them equal");
   }
-  // p + 1 equal knots inside would tear the curve apart there.
+  // p + 1 equal knots inside would tear the curve apart.
   for (std::size_t i = 1; i + p < knots.size() - 1; ++i) {
     if (knots[i] == knots[i + p] && knots[i] > knots[p] && knots[i] < knots[control_points]) {
       return wrong("a NURBS of degree " + std::to_string(degree) + " may have a knot inside at most " +
@@ -101,7 +101,7 @@ Nurbs::Nurbs(const Definition& definition, std::vector<double> knots)
     points_.push_back(WeightedPoint::of(control[i], definition.weights.empty() ? 1 : definition.weights[i]));
   }
   range_ = {knots_[p], knots_[control.size()]};
-  // A clamped end is the control point itself; multiplied by its weight and divided again it might not be.
+  // A clamped end is the control point itself. Multiplying it by its weight and dividing again might change it.
   const bool clamped_start = knots_[1] == range_.low && knots_[p + 1] > range_.low;
   const bool clamped_end = knots_[knots_.size() - 2] == range_.high && knots_[control.size() - 1] < range_.high;
   start_ = clamped_start ? control.front() : span_of(range_.low).at(range_.low);
@@ -110,7 +110,7 @@ Nurbs::Nurbs(const Definition& definition, std::vector<double> knots)
 
 SplineSpan Nurbs::span_of(double u) const {
   const auto p = static_cast<std::ptrdiff_t>(degree_);
-  // The last knot that is not above u, but one that begins a span.
+  // The last knot that is not above u and that begins a span.
   const auto inside = knots_.end() - p - 1;
   auto next = std::upper_bound(knots_.begin() + p + 1, inside, u);
   if (next == inside) next = std::lower_bound(knots_.begin() + p + 1, inside, range_.high);

@@ -19,7 +19,7 @@ WeightedPoint difference(const WeightedPoint& a, const WeightedPoint& b, double 
   return {(a.x - b.x) * factor, (a.y - b.y) * factor, (a.z - b.z) * factor, (a.weight - b.weight) * factor};
 }
 
-// f of `first` arguments u, then `second` arguments v, then w for what is left.
+// The blossom f with `first` arguments u, then `second` arguments v, then w for all others.
 WeightedPoint blossom(const SplineSpan& span, double u, int first, double v = 0, int second = 0, double w = 0) {
   Pyramid row;
   std::copy_n(span.points, span.degree + 1, row.begin());
@@ -70,9 +70,9 @@ class StraightPiece {
   double square_;
 };
 
-// A curve lies in the convex hull of its control points, and the distance from a straight piece is a convex function,
-// so that no point of the curve is farther than the farthest control point. Halving the curve brings the control points
-// close to it, and goes on where it may still matter.
+// A curve lies in the convex hull of its control points, and the distance from a straight piece is a convex function.
+// So no point of the curve is farther than the farthest control point. Halving the curve brings the control points
+// close to it; the search halves on only where the result may still change.
 class HullSearch {
  public:
   HullSearch(const StraightPiece& chord, int degree) : chord_(chord), degree_(degree) {}
@@ -93,7 +93,7 @@ class HullSearch {
  private:
   static constexpr double near_enough = 1.02;
 
-  // de Casteljau: `right` is the whole curve before.
+  // de Casteljau's algorithm. Before the call `right` is the whole curve.
   void halve(Pyramid& left, Pyramid& right) const {
     left[0] = right[0];
     for (int level = 1; level <= degree_; ++level) {
@@ -107,7 +107,7 @@ class HullSearch {
 
   const StraightPiece& chord_;
   int degree_;
-  double reached_ = 0;  // the farthest place of the curve itself seen so far
+  double reached_ = 0;  // the largest distance of the curve itself seen so far
 };
 
 }  // namespace
@@ -124,7 +124,7 @@ Vector3 SplineSpan::at(double u) const {
   return blossom(*this, u, degree).place();
 }
 
-// Of P = A / w: P' = (A' - w' P) / w, P'' = (A'' - 2 w' P' - w'' P) / w.
+// Derivatives of P = A / w: P' = (A' - w' P) / w, P'' = (A'' - 2 w' P' - w'' P) / w.
 Vector3 SplineSpan::derivative(double u) const {
   const WeightedPoint value = blossom(*this, u, degree);
   const WeightedPoint first = weighted_derivative(*this, u);

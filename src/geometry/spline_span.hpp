@@ -1,8 +1,9 @@
-// SplineSpan: one span of a rational B-spline between two knots, which is one Bézier curve. Private to geometry/.
+// SplineSpan: one span of a rational B-spline between two knots, itself one Bézier curve. Private to geometry/.
 //
-// Everything is said by the polar form, or blossom (Ramshaw 1987; Goldman, Pyramid Algorithms, ch. 6): a function f of
-// `degree` arguments, affine in each and the same in any order, with f(u, …, u) the curve. de Boor's pyramid works
-// it out. f(a, …, a, b, …, b) are the control points of the stretch from a to b, and differences of f are derivatives.
+// Everything follows from the polar form, or blossom (Ramshaw 1987; Goldman, Pyramid Algorithms, ch. 6). It is a
+// function f of `degree` arguments, affine in each and the same in any order; f(u, …, u) is the curve. de Boor's
+// pyramid computes f. The control points of the stretch from a to b are f(a, …, a, b, …, b), and differences of f are
+// derivatives.
 //
 // Points are homogeneous: x, y and z times the weight, and the weight.
 #pragma once
@@ -31,8 +32,8 @@ struct SplineSpan {
   Mm deviation(double from, double to) const;
 };
 
-// Never less than the distance of any point of the Bézier curve from the straight piece between its ends, and, to a few
-// in a hundred, not more either.
+// An upper bound of the distance between any point of the Bézier curve and the straight piece between its ends. It
+// exceeds the true distance by a few per cent at most.
 double distance_from_chord(std::span<const WeightedPoint> control);
 
 }  // namespace passo

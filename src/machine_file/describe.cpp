@@ -5,7 +5,7 @@
 namespace passo {
 namespace {
 
-// The acceleration at some speeds, where it follows the motor's torque.
+// The acceleration at some speeds, where the motor's torque limits it.
 std::string describe_torque(const AxisDescription& axis, const char* unit) {
   if (!axis.motor) return "";
   std::string line = fmt::format("                {:g} of pull-out:", axis.motor->share);

@@ -54,7 +54,7 @@ bool is_homed(const AxisDescription& axis) {
   return axis.home.has_value();
 }
 
-// Tools get out of the way first.
+// Axes that move the tool out of the way come first.
 std::vector<Axis> usual_order(const std::vector<AxisDescription>& axes) {
   std::vector<Axis> order;
   for (const AxisDescription& axis : axes) {

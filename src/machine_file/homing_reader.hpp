@@ -1,4 +1,4 @@
-// What a machine file says of homing: the table [axis.X.home] of each axis that has a switch for it, and [homing].
+// Reads what a machine file says of homing: [homing], and the table [axis.X.home] of each axis with a homing switch.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 
 namespace passo {
 
-// Of an axis whose travel and velocity are known, as far as the file is right. Nothing where anything is wrong.
+// Reads the table of one axis, whose travel and velocity must be known. Returns nothing where anything is wrong.
 std::optional<HomeDescription> read_home(TableReader& reader, const AxisDescription& axis);
 
-// The axes in the order in which they are homed. `homing`: the table, if there is one. `complete`: no table
+// The axes in the order in which they are homed. `homing` is the table, if there is one. `complete` means that no table
 // [axis.X.home] was wrong.
 std::vector<Axis> read_homing_order(TableReader* homing, const std::vector<AxisDescription>& axes, bool complete);
 

@@ -1,4 +1,4 @@
-// The bytes of a machine file: what cannot be one is refused before a parser sees it.
+// The bytes of a machine file. What cannot be a machine file is refused before a parser sees it.
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::size_t largest_file = 1U << 20U;
 constexpr std::size_t longest_line = 4096;
-// The TOML library recurses as deep as keys have dots, and stops by itself only where brackets nest. A machine file
-// needs a dot or two in a line, and numbers have some.
+// The TOML library recurses as deep as keys have dots, and limits only the nesting of brackets. A machine file needs a
+// dot or two in a line, and numbers have some.
 constexpr std::size_t most_dots = 16;
-constexpr std::size_t most_errors = 1000;  // kept to be sorted
+constexpr std::size_t most_errors = 1000;  // kept, so that they can be sorted
 
 struct FileCloser {
   void operator()(std::FILE* file) const { (void)std::fclose(file); }
@@ -37,7 +37,7 @@ void file_error(Diagnostics& diagnostics, const char* code, const std::string& f
                    .text = {}});
 }
 
-// At most one byte more than a machine file may have.
+// Reads at most one byte more than a machine file may have.
 std::optional<std::string> read_file(const std::string& path, Diagnostics& diagnostics) {
   errno = 0;
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
@@ -51,15 +51,15 @@ std::optional<std::string> read_file(const std::string& path, Diagnostics& diagn
   return text;
 }
 
-// Dots that may belong to keys: those of comments do not count. Never fewer than there are.
+// The number of dots that may belong to keys, without those of comments. Never less than the true number.
 std::size_t dots_of(std::string_view line) {
   const bool has_quotes = line.find_first_of("\"'") != std::string_view::npos;
   const std::string_view relevant = has_quotes ? line : line.substr(0, line.find('#'));
   return static_cast<std::size_t>(std::ranges::count(relevant, '.'));
 }
 
-// What a parser should not have to see. A text over several lines is refused too: without those, what is a comment
-// can be told from its line alone.
+// Refuses what a parser should not see. A text over several lines is refused too: without such texts a comment can be
+// recognised from its line alone.
 bool is_fit_for_parser(const Reporter& reporter) {
   for (std::uint32_t number = 1; number <= reporter.line_count(); ++number) {
     const std::string_view line = reporter.line(number);
@@ -90,7 +90,7 @@ bool is_fit_for_parser(const Reporter& reporter) {
   return true;
 }
 
-// A machine file is read by meaning; a person mends it from the top.
+// A machine file is checked by meaning, but a person corrects it from top to bottom: so sort by line.
 void hand_over(const Diagnostics& found, Diagnostics& diagnostics) {
   std::vector<Diagnostic> sorted = found.all();
   std::ranges::stable_sort(sorted, [](const Diagnostic& a, const Diagnostic& b) {

@@ -1,4 +1,4 @@
-// docs/manual/machine-file.md tells the user the same; tests/machine_manual_test.cpp holds the two together.
+// docs/manual/machine-file.md describes the same keys to the user. tests/machine_manual_test.cpp compares the two.
 #include "machine_reader.hpp"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ constexpr AxisKeys rotary_keys{
     .jerk = {"max_jerk_deg_s3", 1e-3, 1e9, "8000"},
 };
 
-// An interrupt that serves an event takes longer than this on any processor.
+// Fewer ticks for an event are impossible: on any processor its interrupt takes longer.
 constexpr double fewest_ticks_an_event = 16;
 constexpr double longest_interval_ticks = 65535;
 
@@ -79,8 +79,8 @@ class MachineReader {
   struct AxisEntry {
     AxisDescription description;
     std::optional<std::size_t> motor;
-    SourcePlace place;        // of its table
-    SourcePlace motor_place;  // of its motor's number
+    SourcePlace place;        // of the axis's table
+    SourcePlace motor_place;  // of the motor number in it
   };
 
   void read_board(const TomlEntry& entry);
@@ -104,7 +104,7 @@ class MachineReader {
   const TomlDocument& document_;
   const Reporter& reporter_;
   MachineDescription machine_;
-  std::optional<Hertz> event_rate_;  // of the board, where that is right
+  std::optional<Hertz> event_rate_;  // the board's, if it is right
   std::vector<AxisEntry> axes_;
   bool motors_are_readable_ = true;
   bool homes_are_readable_ = true;
@@ -143,7 +143,7 @@ void MachineReader::read_board(const TomlEntry& entry) {
   if (clock && rate) {
     board.clock = Hertz(*clock);
     const double fastest = *clock / fewest_ticks_an_event;
-    // Twice the slowest, so that between the two there is a multiple of every slow rate of steps.
+    // Twice the slowest rate: every slower rate of steps then has a multiple between the two.
     const double slowest = 2 * *clock / longest_interval_ticks;
     if (*rate > fastest || *rate < slowest) {
       reader.error("machine.event-rate", event_rate_key.name,
@@ -158,7 +158,7 @@ void MachineReader::read_board(const TomlEntry& entry) {
   board.highest_event_rate = Hertz(*rate);
   event_rate_ = board.highest_event_rate;
   if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
-  // A driver wants the pause as long as the pulse.
+  // A driver wants a pause as long as the pulse.
   const double longest_us = 1e6 / (2 * *rate);
   if ((pulse || !pulse_is_given) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
     reader.error("machine.step-pulse", step_pulse_key.name,
@@ -196,7 +196,7 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
   finish(reader);
 }
 
-// When all axes are known.
+// Called when all axes are known.
 void MachineReader::read_homing(const TomlEntry* entry) {
   std::optional<TableReader> reader;
   if (entry != nullptr) {
@@ -279,7 +279,7 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
   check_velocity(reader, keys, axis);
 }
 
-// A constant, a motor, or the lower one of both.
+// The limit is a constant, or the motor's, or the lower one of both.
 void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const {
   const TomlEntry* torque = reader.table(torque_table, "a table [axis.X.torque] with the motor's data", Need::optional);
   const auto constant = reader.number(keys.acceleration, torque == nullptr ? Need::required : Need::optional);
@@ -308,14 +308,14 @@ void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys,
                fmt::format("{} below {:.4g}, or a stronger motor", keys.velocity.name, fastest));
 }
 
-// Millimetres or degrees of the axis for a turn of the motor, where the file tells them.
+// Millimetres or degrees of the axis for one turn of the motor, if the file tells them.
 std::optional<double> MachineReader::way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis) {
   const std::optional<double> gear = reader.peek(keys.gear);
   if (!gear) return std::nullopt;
   return is_rotary(axis) ? 360 / *gear : *gear;
 }
 
-// Steps a millimetre or degree, told as such or by motor and gear; 0 where neither is right.
+// Steps a millimetre or degree. The file gives them directly, or by motor and gear. 0 where neither is right.
 double MachineReader::read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const {
   const NumberKey* const gear_keys[] = {&turn_key, &microsteps_key, &keys.gear};
   const auto by_gear = std::ranges::find_if(gear_keys, [&](const NumberKey* key) { return reader.has(key->name); });
@@ -359,7 +359,7 @@ void MachineReader::check_velocity(const TableReader& reader, const AxisKeys& ke
                            event_rate_->value() / axis.steps_per_unit));
 }
 
-// By their numbers where those are given, else in the order X Y Z A B C U V W.
+// Orders the motors by their numbers if the file gives them, else in the order X Y Z A B C U V W.
 void MachineReader::order_motors() {
   std::ranges::sort(axes_, {}, [](const AxisEntry& entry) { return index_of(entry.description.axis); });
   const bool numbered = std::ranges::any_of(axes_, [](const AxisEntry& entry) { return entry.motor.has_value(); });

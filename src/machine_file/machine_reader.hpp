@@ -1,4 +1,4 @@
-// From the tree of a TOML file to a MachineDescription: the keys, their ranges, and what they must be to each other.
+// Makes a MachineDescription of the tree of a TOML file. Checks the keys, their ranges, and how they fit together.
 #pragma once
 
 #include "reporter.hpp"
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// Whole and sound only where nothing was reported.
+// The result is whole and sound only if nothing was reported.
 MachineDescription read_machine(const TomlDocument& document, const Reporter& reporter);
 
 }  // namespace passo

@@ -6,7 +6,8 @@
 namespace passo {
 namespace {
 
-// Bytes before the character with this number (from 1); past the end of the line: one column for each character.
+// The number of bytes before the character with this number (from 1). Past the end of the line each character counts as
+// one byte.
 std::size_t bytes_before(std::string_view line, std::uint32_t character) {
   std::size_t byte = 0;
   for (std::uint32_t i = 1; i < character; ++i) {
@@ -16,7 +17,7 @@ std::size_t bytes_before(std::string_view line, std::uint32_t character) {
   return std::min(byte, line.size());
 }
 
-// Keys and values of the file are quoted in messages: what they carry must not steer a terminal.
+// Messages quote keys and values of the file. Their control characters must not reach a terminal.
 std::string printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = '?';

@@ -1,4 +1,4 @@
-// Reporter: a machine file's text by lines, and the way from a place in it to a diagnostic with its line and caret.
+// Reporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and caret.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ class Reporter {
   void error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const;
 
   std::size_t line_count() const { return lines_.size(); }
-  // Without its line end; lines count from 1.
+  // The line without its line end. Lines count from 1.
   std::string_view line(std::uint32_t number) const;
-  // From columns in characters, as a TOML parser counts, to columns in bytes.
+  // Converts columns in characters, as a TOML parser counts, to columns in bytes.
   SourcePlace place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const;
 
  private:

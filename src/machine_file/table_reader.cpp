@@ -10,8 +10,7 @@
 namespace passo {
 namespace {
 
-// The nearest known key; or one that is the same but for swapped letters ("naem"), or for a unit left out or added
-// ("max_velocity").
+// The nearest known key, or a key with swapped letters ("naem"), or one with a unit left out or added ("max_velocity").
 std::string_view suggestion(std::string_view word, const std::vector<std::string_view>& known) {
   if (const std::string_view near = nearest(word, known); !near.empty()) return near;
   const auto is_meant = [word](std::string_view key) {
@@ -61,7 +60,7 @@ void TableReader::wrong_type(const TomlEntry& entry, std::string expected) const
 }
 
 bool TableReader::in_range(const NumberKey& key, double value, const SourcePlace& place) const {
-  if (value >= key.least && value <= key.most) return true;  // false for what is not a number at all, too
+  if (value >= key.least && value <= key.most) return true;  // a NaN gives false
   reporter_.error("machine.out-of-range", place, fmt::format("{} is {}", full_name(key.name), value),
                   fmt::format("a number from {} to {}", key.least, key.most));
   return false;
@@ -199,7 +198,7 @@ void TableReader::report_unknown(const TomlEntry& entry, const std::vector<std::
                   expected);
 }
 
-// One mistake, one diagnostic: a misspelt key is not missing as well.
+// One mistake makes one diagnostic: a misspelt key is not reported as missing too.
 void TableReader::forgive_missing(std::string_view key) {
   const auto found = std::ranges::find(missing_, key, &MissingKey::name);
   if (found != missing_.end()) missing_.erase(found);

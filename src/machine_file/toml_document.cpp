@@ -50,7 +50,7 @@ TomlTable convert(const toml::table& table, const Reporter& reporter) {
   return result;
 }
 
-// What was probably meant, where the parser only knows that it cannot go on.
+// Guesses what was meant. The parser only knows that it cannot go on.
 std::string advice(std::string_view line, std::size_t offset) {
   const auto is_digit = [&](std::size_t i) {
     return i < line.size() && std::isdigit(static_cast<unsigned char>(line[i])) != 0;
@@ -93,7 +93,7 @@ void report(const toml::parse_error& error, const Reporter& reporter) {
 
 struct Attempt {
   std::optional<toml::table> table;
-  std::uint32_t wrong_line = 0;  // 0: the error may have begun before the line where it shows
+  std::uint32_t wrong_line = 0;  // 0: the error may have begun on an earlier line than where it shows
 };
 
 Attempt attempt(std::string_view text, const Reporter& reporter) {
@@ -109,8 +109,8 @@ Attempt attempt(std::string_view text, const Reporter& reporter) {
   }
 }
 
-// Overwrites a line with spaces, so that all others keep their places. False where that would not help: the line is
-// blank already, or is a table's head (the keys below would count as another's).
+// Overwrites a line with spaces, so that all other lines keep their places. Returns false where that would not help:
+// the line is blank already, or is the head of a table (the keys below it would go to another table).
 bool leave_out(std::string& text, std::uint32_t line) {
   std::size_t first = 0;
   for (std::uint32_t i = 1; i < line; ++i) {

@@ -1,6 +1,6 @@
-// TomlDocument: a TOML file as a plain tree, in the order of the file, every key and value with its place.
+// TomlDocument: a TOML file as a plain tree, in the order of the file. Every key and value has its place.
 //
-// The only file that sees the TOML library is toml_document.cpp: it compiles slowly, and its exceptions stay there.
+// Only toml_document.cpp sees the TOML library: the library compiles slowly, and its exceptions stay there.
 #pragma once
 
 #include <string>
@@ -16,10 +16,10 @@ struct TomlEntry;
 struct TomlValue;
 
 struct TomlTable {
-  std::vector<TomlEntry> entries;  // by place in the file
+  std::vector<TomlEntry> entries;  // in the order of the file
 };
 using TomlArray = std::vector<TomlValue>;
-// A date or a time: nothing in a machine file is one.
+// A date or a time. No key of a machine file takes one.
 struct TomlDate {};
 
 struct TomlValue {
@@ -34,15 +34,15 @@ struct TomlEntry {
 };
 
 const TomlEntry* find(const TomlTable& table, std::string_view key);
-// "a number", "the text \"25 mm\"": what a value is, for a message.
+// The kind of a value, for a message: "a number", "the text \"25 mm\"".
 std::string kind_of(const TomlValue& value);
 
 struct TomlDocument {
   TomlTable root;
-  bool complete = true;  // false: lines with errors were left out, so a missing key need not be missing
+  bool complete = true;  // false: lines with errors were left out, so a key that seems missing may be in one of them
 };
 
-// Every syntax error goes to the reporter: a line that is wrong is left out and the rest is read again.
+// Every syntax error goes to the reporter. A wrong line is left out, and the rest is read again.
 TomlDocument parse_toml(std::string text, const Reporter& reporter);
 
 }  // namespace passo

@@ -92,7 +92,7 @@ std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::opti
   load.inertia.value = reader.number(inertia_key, Need::optional).value_or(0) * kg_m2_per_g_cm2;
   load.friction.value = reader.number(shaft_friction_key, Need::optional).value_or(0);
   if (!rotary) {
-    const double way = metres_per_mm / radians_per_unit;  // of a radian
+    const double way = metres_per_mm / radians_per_unit;  // for each radian of the shaft
     load.inertia.value += reader.number(mass_key, Need::optional).value_or(0) * way * way;
     load.friction.value += reader.number(slide_friction_key, Need::optional).value_or(0) * way;
   }

@@ -1,4 +1,4 @@
-// The table [axis.X.torque] of a machine file: an axis's motor, what it is driven by and what it turns.
+// Reads the table [axis.X.torque] of a machine file: an axis's motor, its drive and its load.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// `unit_per_turn`: of the axis's scale, millimetres or degrees for one turn of the motor; without it there is a
-// diagnostic. Nothing where anything is wrong.
+// `unit_per_turn` is millimetres or degrees of the axis for one turn of the motor. Without it there is a diagnostic.
+// Returns nothing where anything is wrong.
 std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::optional<double> unit_per_turn);
 
 }  // namespace passo

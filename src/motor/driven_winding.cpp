@@ -15,7 +15,7 @@ DrivenWinding::DrivenWinding(const MotorData& data, const Drive& drive)
   inductance_ = winding.inductance.value;
   torque_constant_ = winding.holding_torque.value / (std::numbers::sqrt2 * current_);
   resistance_ = winding.resistance.value;
-  // No resistor where the supply cannot push the rated current through the winding alone.
+  // Where the winding's resistance alone keeps the current below the rated one, there is no resistor.
   if (!limits_current_) resistance_ = std::max(resistance_, voltage_ / current_);
 }
 
@@ -41,12 +41,12 @@ double DrivenWinding::best_current(double reactance, double back_emf) const {
   if (std::hypot(resistance_ * current_ + back_emf, reactance * current_) <= voltage_) return current_;
   const double top_d = -back_emf * reactance / impedance_squared;
   if (std::hypot(top_d, top_q) <= current_) return top_q;
-  // From 0 towards the centre of the voltage circle, then across.
+  // First from 0 towards the centre of the voltage circle, then at a right angle to that.
   const double distance = back_emf / impedance;
   const double radius = voltage_ / impedance;
   const double along = (distance * distance + current_ * current_ - radius * radius) / (2 * distance);
   const double across_squared = current_ * current_ - along * along;
-  if (across_squared < 0) return 0;  // the circles do not meet: the back-EMF is above what the supply can hold
+  if (across_squared < 0) return 0;  // the circles do not meet: the back-EMF is more than the supply can hold against
   return (std::sqrt(across_squared) * reactance - along * resistance_) / impedance;
 }
 

@@ -11,14 +11,14 @@ namespace {
 
 struct Piece {
   double width = 0;
-  double slope = 0;  // of its chord
+  double slope = 0;  // of the chord from one point to the next
 };
 
 Piece piece_between(const CurvePoint& from, const CurvePoint& to) {
   return {.width = to.x - from.x, .slope = (to.y - from.y) / (to.x - from.x)};
 }
 
-// The harmonic mean of both chords, the shorter piece counting more. Flat at a peak or valley.
+// The harmonic mean of both chords' slopes, in which the shorter piece counts more. 0 at a peak or valley.
 double inner_slope(const Piece& left, const Piece& right) {
   if (!(left.slope * right.slope > 0)) return 0;
   const double left_weight = left.width + 2 * right.width;
@@ -26,7 +26,7 @@ double inner_slope(const Piece& left, const Piece& right) {
   return (left_weight + right_weight) / (left_weight / left.slope + right_weight / right.slope);
 }
 
-// Of the parabola through the last three points, held back so that the end piece does not turn.
+// The slope of the parabola through the last three points, limited so that the end piece does not turn.
 double end_slope(const Piece& end, const Piece& next) {
   const double slope = ((2 * end.width + next.width) * end.slope - end.width * next.slope) / (end.width + next.width);
   if (!(slope * end.slope > 0)) return 0;
@@ -77,7 +77,7 @@ double MonotoneCurve::at(double x) const {
   const double width = to.x - from.x;
   const double t = (x - from.x) / width;
   const double u = 1 - t;
-  // Cubic Bézier form: rounding cannot leave the hull of its four values.
+  // In the cubic Bézier form rounding cannot leave the hull of the four values.
   const double second = from.y + slopes_[i] * width / 3;
   const double third = to.y - slopes_[i + 1] * width / 3;
   const double y = u * u * u * from.y + 3 * u * u * t * second + 3 * u * t * t * third + t * t * t * to.y;

@@ -10,10 +10,11 @@
 namespace passo {
 namespace {
 
-// No rotor survives a million radians a second; where the model still has torque there, it has no end.
+// No rotor survives a million radians a second. Where the model still has torque there, it has no end.
 constexpr double beyond_any_motor = 1e6;
 
-// Where `holds`, true up to some speed and false beyond it, ends: to the last bit, or nothing if it never does.
+// `holds` is true up to some speed and false beyond. Returns that speed to the last bit, or nothing if `holds` never
+// ends.
 template <class Holds>
 std::optional<double> end_of(const Holds& holds) {
   if (!holds(0.0)) return 0.0;
@@ -29,8 +30,8 @@ std::optional<double> end_of(const Holds& holds) {
   return low;
 }
 
-// The share cos β of the torque that friction may take if `energy`, in units of torque a tooth, has to be left to catch
-// the rotor: 2·(sin β − β·cos β), which rises from 0 to 2 while β goes from 0 to a quarter turn.
+// The share cos β of the torque that friction may take, where `energy` (in units of torque a tooth) must be left to
+// catch the rotor. Solves energy = 2·(sin β − β·cos β), which rises from 0 to 2 while β goes from 0 to a quarter turn.
 double friction_share_for(double energy) {
   double low = 0;
   double high = std::numbers::pi / 2;
@@ -130,7 +131,7 @@ NewtonMetres TorqueCurve::pull_out(RadiansPerSecond speed) const {
 NewtonMetres TorqueCurve::pull_in(RadiansPerSecond speed, KilogramMetres2 load_inertia) const {
   const double inertia = rotor_.inertia.value + load_inertia.value;
   if (!pull_in_) return {computed_pull_in(speed.value, inertia)};
-  // The same energy at the same torque: the rotor alone would start so much faster.
+  // At the same energy and torque the rotor alone would start faster by this factor.
   const double alone = speed.value * std::sqrt(inertia / rotor_.inertia.value);
   return std::min(NewtonMetres{up_to_the_last_point(*pull_in_, alone)}, pull_out(speed));
 }
@@ -144,7 +145,7 @@ double TorqueCurve::computed_pull_in(double speed, double inertia) const {
 
 RadiansPerSecond TorqueCurve::maximum_starting_speed(const Load& load) const {
   const auto starts = [&](double speed) { return pull_in({speed}, load.inertia) > load.friction_at({speed}); };
-  // Inertia always ends it.
+  // Inertia always makes an end.
   return {end_of(starts).value_or(beyond_any_motor)};
 }
 

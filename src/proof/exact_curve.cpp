@@ -15,7 +15,7 @@ double dot(const Point& a, const Point& b) {
   return sum;
 }
 
-// Three sums side by side: one would wait for each of its nine additions.
+// Three sums side by side: a single sum would wait for each of its nine additions.
 static_assert(axis_count % 3 == 0);
 double squared_distance(const Point& a, const Point& b) {
   std::array<double, 3> sums{};
@@ -26,7 +26,7 @@ double squared_distance(const Point& a, const Point& b) {
   return sums[0] + sums[1] + sums[2];
 }
 
-// An arc's radius, angle and their rates at s.
+// An arc's radius and angle at s, and their rates.
 struct Polar {
   double r, g, w;
   Complex direction;  // e^(iφ)
@@ -90,7 +90,7 @@ Derivatives ExactCurve::at(Axis axis, double s) const {
 double ExactCurve::turning_of_all() const {
   if (curve_.shape() == Curve::Shape::arc) return std::abs(curve_.arc_data().sweep);
   if (curve_.shape() == Curve::Shape::line) return 0;
-  // |P''| / |P'| by Simpson's rule of eight parts.
+  // The integral of |P''| / |P'| by Simpson's rule with eight parts.
   constexpr int parts = 8;
   double sum = 0;
   for (int i = 0; i <= parts; ++i) {
@@ -107,7 +107,7 @@ double ExactCurve::turning_of_all() const {
   return sum * length() / (3 * parts);
 }
 
-// A cubic's slope is within the convex hull of its Bézier points.
+// A cubic's slope lies within the convex hull of its Bézier points.
 double ExactCurve::fastest_of_all() const {
   double squares = 0;
   for (const Axis axis : all_axes) {
@@ -141,7 +141,7 @@ ExactCurve::Nearest ExactCurve::nearest(const Point& point, double from, double 
   return {.s = s, .distance = distance(point, place(s))};
 }
 
-// The best of a row of points, and a golden section about it.
+// Takes the best of a row of points, and a golden section around it.
 ExactCurve::Nearest ExactCurve::nearest_of_bent(const Point& point, double from, double to) const {
   constexpr double piece = 0.2;  // radians
   const double turns = turning_ * (to - from) / length();

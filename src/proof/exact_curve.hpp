@@ -1,6 +1,6 @@
-// ExactCurve: place and derivatives of a curve, from its data alone and by formulas of its own.
+// ExactCurve: place and derivatives of a curve, computed from its data alone and by formulas of its own.
 //
-// In the plane of an arc the place is c + r e^(iφ) with r' = g and φ' = w constant along s, and so
+// In the plane of an arc the place is c + r e^(iφ), where r' = g and φ' = w are constant along s. So
 //   p' = (g + i r w) e^(iφ),   p'' = (2 i g w − r w²) e^(iφ),   p''' = −(3 g w² + i r w³) e^(iφ).
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace passo::proof {
 
-// Of one axis, by s.
+// Derivatives of one axis by s.
 struct Derivatives {
   double first = 0;
   double second = 0;
@@ -25,16 +25,16 @@ class ExactCurve {
   bool is_line() const { return curve_.shape() == Curve::Shape::line; }
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
-  // By how many radians the direction turns over the whole curve, about; never too little for an arc.
+  // About the angle by which the direction turns over the whole curve, in radians. For an arc never too small.
   double turning() const { return turning_; }
 
   struct Nearest {
     double s = 0;
     double distance = 0;  // over all axes
   };
-  // Of the part from..to.
+  // The nearest place in the part from..to.
   Nearest nearest(const Point& point, double from, double to) const;
-  // No place of that part is nearer than this: a look that costs a tenth of the search.
+  // A lower bound of that distance, for a tenth of the search's cost.
   double nearest_at_best(const Point& point, double from, double to) const;
 
  private:
@@ -45,7 +45,7 @@ class ExactCurve {
 
   Curve curve_;
   double turning_;
-  double fastest_;  // |dP/ds| over all axes is never more
+  double fastest_;  // an upper bound of |dP/ds| over all axes
 };
 
 double distance(const Point& a, const Point& b);

@@ -12,9 +12,9 @@
 namespace passo {
 namespace {
 
-// Limits are kept to this, for the digits of a plan.
+// Limits are checked with this factor, because a plan has finitely many digits.
 constexpr double slack = 1.0005;
-// What rounding may leave: of an axis's velocity limit, of its acceleration limit, and of the place, mm.
+// What rounding may leave: shares of an axis's velocity and acceleration limits, and mm of the place.
 constexpr double velocity_rounding = 1e-6;
 constexpr double acceleration_rounding = 1e-3;
 constexpr double place_rounding = 1e-9;

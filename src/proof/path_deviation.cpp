@@ -6,14 +6,14 @@
 namespace passo::proof {
 namespace {
 
-// mm: as near as an exact path must be met. Programs round the ends of tangent arcs, and only so can they be passed.
+// mm: how near an exact path must be met. Programs round the ends of tangent arcs, which cannot be passed otherwise.
 constexpr double exact = 1e-3;
 constexpr int least_strides = 8;
 constexpr double turn_of_a_piece = 0.05;  // radians
 constexpr double most_pieces = 100'000;
-// What needs more than so many tolerances, and so many times what the best needs, is given up.
+// A piece is given up if it needs more than so many tolerances, and more than so many times what the best piece needs.
 constexpr double kept = 2;
-// But so many pieces beyond those: a detour that is left out is known by its own size.
+// But so many pieces beyond those are kept, so that the size of a detour that was left out is measured.
 constexpr std::size_t looked_ahead = 8;
 
 int pieces_of(const ExactCurve& curve, double share) {
@@ -69,7 +69,7 @@ bool PathDeviation::is_in_stretch(std::size_t piece) const {
   return piece < pieces_.size() && pieces_[piece].stretch == planned_stretch_;
 }
 
-// Both paths begin at their first points.
+// Both paths start at their first points.
 void PathDeviation::begin(const Point& place, Seconds time) {
   place_ = place;
   if (!is_in_stretch(0)) return;
@@ -80,10 +80,10 @@ void PathDeviation::begin(const Point& place, Seconds time) {
   most_ = kept * std::max(1.0, first.now.multiple);
 }
 
-// While the planned path's point makes its stride the other one stays on its piece, or comes to it from the one before;
-// at the stride's end they must be near.
+// While the planned path's point makes its stride, the other point stays on its piece or comes to it from the piece
+// before. At the stride's end they must be near.
 void PathDeviation::step(const Stride& stride) {
-  if (reached_ == 0) {  // nothing was programmed that this could be
+  if (reached_ == 0) {  // nothing was programmed that this motion could be
     proof_.deviation = {.value = INFINITY, .limit = exact, .time = stride.time, .line = 0};
     return;
   }
@@ -97,7 +97,7 @@ void PathDeviation::step(const Stride& stride) {
       if (there.multiple < piece.now.multiple) piece.now = there;
     }
     reached_ = std::max(reached_, i + 1);
-    before = piece.now;  // it may go on before the stride ends
+    before = piece.now;  // the point may go on before the stride ends
     stay(piece, *place_, stride.time);
     ahead = std::min(before.multiple, piece.now.multiple) > most_ ? ahead + 1 : 0;
   }
@@ -110,8 +110,8 @@ void PathDeviation::Worst::raise(double away, const Programmed& of, Seconds time
   finding = {.value = away, .limit = of.tolerance, .time = time, .line = of.line};
 }
 
-// Past the beginning of a piece, when the planned path's point is nearest to it; where that cannot be near enough to
-// count, at the stride's end.
+// Passes the start of a piece when the planned path's point is nearest to it. If even that cannot be near enough to
+// count, passes it at the stride's end.
 PathDeviation::Worst PathDeviation::passed(const Worst& before, const Piece& piece, const Stride& stride) const {
   Worst past = before;
   const double tolerance = piece.of->tolerance;
@@ -144,8 +144,8 @@ void PathDeviation::drop_front() {
   if (--chain_.front().pieces == 0) chain_.pop_front();
 }
 
-// What is left of the programmed path is passed with the planned path's point at its end; where that never came to the
-// stretch, all of it.
+// The planned path's point waits at its end while the rest of the programmed path is passed. If the planned path never
+// came to this stretch, all of the stretch is passed.
 void PathDeviation::end_stretch(Seconds time) {
   if (!is_in_stretch(0)) return;
   Worst best{.multiple = reached_ > 0 ? INFINITY : 0, .finding = {}};

@@ -1,15 +1,15 @@
-// PathDeviation: how far programmed and planned path are from each other, the worst place for both.
+// PathDeviation: the distance between programmed and planned path at the worst place for both.
 //
-// Two points go along the two paths, both from start to end and neither ever back: the least distance that they can
-// keep, a Fréchet distance (Alt and Godau 1995), each place measured in its tolerance. Nearest places alone would not
-// do: a path that turns, or goes round in dust finer than its tolerance, is near itself.
+// Two points go along the two paths from start to end, and never back. The result is the least distance that they can
+// keep, a Fréchet distance (Alt and Godau 1995), where each place is measured in units of its tolerance. Nearest places
+// alone are not enough: a path that turns, or circles in dust finer than its tolerance, is near itself.
 //
-// The planned path is walked in small pieces. For each piece of the programmed path the least is kept with which the
-// two points can be there now; pieces that need twice as much as the best one, and more than twice the tolerance, are
-// given up. Actions are in both paths: there the two points are together again.
+// The planned path is walked in small pieces. For each piece of the programmed path the least distance is kept with
+// which the two points can be there now. A piece is given up if it needs twice as much as the best one and more than
+// twice the tolerance. Actions are in both paths: there the two points are together again.
 //
-// A place's tolerance is the larger one of the junctions at both ends of its segment; where that is 0 the path must be
-// met, to rounding.
+// A place's tolerance is the larger of those at both junctions of its segment. Where that is 0 the path must be met,
+// except for rounding.
 #pragma once
 
 #include <cmath>
@@ -30,9 +30,9 @@ class PathDeviation {
 
   void programmed(const PathItem& item);
   void planned(const PlannedMove& move, Seconds time);
-  // An action of the planned motion, or its end: what was programmed before it has been played.
+  // An action of the planned motion, or its end: everything programmed before it must have been played.
   void rest(Seconds time);
-  // The end: whatever is still left of the programmed path was never played.
+  // The end: any rest of the programmed path was never played.
   void finish(Seconds time);
 
  private:
@@ -40,9 +40,9 @@ class PathDeviation {
     ExactCurve curve;
     double tolerance;
     std::uint32_t line;
-    int pieces;  // that are still kept
+    int pieces;  // the number of pieces kept
   };
-  // The worst so far of the best way to be at a place.
+  // The worst place so far on the best way to a place.
   struct Worst {
     double multiple = INFINITY;
     Finding finding;
@@ -54,8 +54,8 @@ class PathDeviation {
     double from;
     double to;
     Point begin;
-    std::uint64_t stretch;  // of the path between two actions
-    Worst now;              // with the planned path's point somewhere on it
+    std::uint64_t stretch;  // the part of the path between two actions
+    Worst now;              // while the planned path's point is somewhere on it
   };
   // A piece of the planned path.
   struct Stride {
@@ -78,12 +78,12 @@ class PathDeviation {
   MotionProof& proof_;
   std::deque<Programmed> chain_;
   std::deque<Piece> pieces_;
-  std::size_t reached_ = 0;  // so many of them, from the first one on
-  double most_ = 0;          // multiple that is kept
+  std::size_t reached_ = 0;  // the number of pieces reached, from the first one on
+  double most_ = 0;          // the greatest multiple that is kept
   std::uint64_t programmed_stretch_ = 0;
   std::uint64_t planned_stretch_ = 0;
   double last_tolerance_ = 0;
-  std::optional<Point> place_;  // of the planned path, at last
+  std::optional<Point> place_;  // the last place of the planned path
 };
 
 }  // namespace passo::proof

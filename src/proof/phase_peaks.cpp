@@ -39,7 +39,7 @@ void PhasePeaks::raise(Finding& finding, double value, double t) const {
   finding.line = line_;
 }
 
-// How much of its limit an acceleration is, as mm/s² of the constant limit.
+// The share of its limit that an acceleration takes, expressed as mm/s² of the constant limit.
 double PhasePeaks::severity(std::size_t i, const Motion& motion) const {
   const SpeedLimit& limit = limits_[i];
   const double value = std::abs(motion.acceleration);
@@ -84,7 +84,7 @@ void PhasePeaks::watch(const PlannedMove& move) {
   check_gap(distance(*place_, curve.place(move.to.value())));
 }
 
-// What the phase before left and what this one begins with.
+// Compares the end of the last phase with the start of this one.
 void PhasePeaks::join(const ExactCurve& curve, const Phase& phase) {
   const Way start = way_at(phase, 0);
   if (place_) check_gap(distance(*place_, curve.place(start.s)));
@@ -128,7 +128,7 @@ void PhasePeaks::look_at(const ExactCurve& curve, const Phase& phase) {
       const Way way = way_at(phase, t);
       see(i, motion_of(curve.at(proof_.axes[i].axis, way.s), way), t);
     }
-    // Under a falling limit the worst of a phase with jerk may be anywhere on a line as well.
+    // Under a falling limit the worst place of a phase with jerk may be anywhere, also on a line.
     if (!curve.is_line() || (limits_[i].falls() && phase.jerk.value() != 0)) look_at_curved(curve, phase, i);
   }
 }

@@ -1,9 +1,9 @@
-// PhasePeaks: how fast, how hard and how abruptly each axis moves, from the phases.
+// PhasePeaks: the highest speeds, accelerations and jumps of each axis, computed from the phases.
 //
 //   q̇ = q' ṡ      q̈ = q'' ṡ² + q' s̈      q⃛ = q''' ṡ³ + 3 q'' ṡ s̈ + q' s⃛
 //
-// On a line the largest of each is at an end of the phase, or where the speed turns. On a curve it is looked for at
-// many points, and between the neighbours of the best by golden section.
+// On a line the largest value is at an end of the phase, or where the speed turns. On a curve many points are searched,
+// and a golden section runs between the neighbours of the best one.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ namespace passo::proof {
 
 class PhasePeaks {
  public:
-  // Writes what it finds into `proof`, which has its axes and limits already.
+  // Writes its findings into `proof`, which already has its axes and limits.
   PhasePeaks(MotionProof& proof, const ProofOptions& options);
 
   void watch(const PlannedMove& move);
-  // An action, or the end: the machine rests there.
+  // An action, or the end: the machine rests.
   void rest(Seconds dwell);
 
   Seconds now() const { return now_; }
@@ -51,11 +51,11 @@ class PhasePeaks {
   double severity(std::size_t i, const Motion& motion) const;
 
   MotionProof& proof_;
-  Seconds now_{0};  // at the start of the phase in hand
+  Seconds now_{0};  // at the start of the present phase
   std::uint32_t line_ = 0;
   std::vector<SpeedLimit> limits_;  // by axis
-  std::vector<Motion> before_;      // by axis, at the end of the phase before
-  std::optional<Point> place_;      // there
+  std::vector<Motion> before_;      // by axis, at the end of the last phase
+  std::optional<Point> place_;      // the place at the end of the last phase
 };
 
 }  // namespace passo::proof

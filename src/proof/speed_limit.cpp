@@ -6,7 +6,7 @@
 namespace passo::proof {
 namespace {
 
-constexpr int values = 20'000;  // not the number of anyone else's table
+constexpr int values = 20'000;  // differs on purpose from the size of any other table
 
 }  // namespace
 

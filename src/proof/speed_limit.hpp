@@ -1,5 +1,5 @@
-// SpeedLimit: the acceleration that an axis may have at a speed, as the proof reads it: the constant, or a table of the
-// machine's own function with straight lines between its points. It knows nothing of the planner's curve.
+// SpeedLimit: the greatest acceleration of an axis at a speed, for the proof. It is a constant, or a table of the
+// machine's own function with straight lines between its points. It shares nothing with the planner's curve.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,12 @@ class SpeedLimit {
   explicit SpeedLimit(const ProvenAxis& axis);
 
   bool falls() const { return !table_.empty(); }
-  double constant() const { return constant_; }  // 0: there is none
+  double constant() const { return constant_; }  // 0: no limit
   double at(double speed) const;
 
  private:
   double constant_;
-  double step_ = 0;  // of the speed, from one value of the table to the next
+  double step_ = 0;  // speed between two values of the table
   std::vector<double> table_;
 };
 

@@ -45,14 +45,14 @@ void StepPeaks::watch(const BoardSegment& segment) {
   }
 }
 
-// After the last step comes rest.
+// After the last step the machine rests.
 void StepPeaks::finish() {
   for (std::size_t i = 0; i < kept; ++i) sample();
 }
 
 void StepPeaks::sample() {
   for (std::size_t m = 0; m < place_.size(); ++m) {
-    // Before the first sample there was rest.
+    // Before the first sample the machine rested.
     if (sampled_ == 0) counts_[m].fill(place_[m] >> 16);
     counts_[m][sampled_ % kept] = place_[m] >> 16;
     difference(m);

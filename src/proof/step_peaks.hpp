@@ -1,16 +1,16 @@
-// StepPeaks: velocity and acceleration of each axis from nothing but the steps that the board makes.
+// StepPeaks: velocity and acceleration of each axis, from nothing but the board's steps.
 //
-// Board segments are replayed from the definition in wire/board_segment.hpp, and the step counts read every
-// millisecond. Over a window of T = 10 ms the first difference of the place bounds the velocity, the second the
+// Board segments are replayed from the definition in wire/board_segment.hpp, and the step counts are read every
+// millisecond. Over a window of T = 10 ms the first difference of the place gives a mean velocity, the second a mean
 // acceleration:
 //
 //   (q(t) − q(t−T)) / T       (q(t) − 2 q(t−T) + q(t−2T)) / T²
 //
-// Where the limit falls with the speed, the one that counts is at the lowest speed that the window may hold: the slower
-// of its two halves, less what the constant limit changes in T.
+// Where the limit falls with the speed, the limit at the lowest possible speed of the window counts: the speed of the
+// slower half of the window, less what the constant limit can change in T.
 //
-// Neither can be beyond the limit but for rounding: a count is within a step of the true place (half a step of
-// rounding, and as much again for steps that wait for the event clock). That adds up to 2 steps/T and 4 steps/T².
+// Neither can exceed its limit except by rounding. A count is within a step of the true place: half a step of rounding,
+// and as much again for steps that wait for the event clock. That adds up to 2 steps/T and 4 steps/T².
 #pragma once
 
 #include <array>
@@ -40,13 +40,13 @@ class StepPeaks {
 
   MotionProof& proof_;
   std::vector<SpeedLimit> limits_;   // by motor
-  std::vector<double> step_;         // mm; 0: not looked at
+  std::vector<double> step_;         // mm; 0: not checked
   std::vector<std::int64_t> place_;  // 1/65536 step, by motor
   std::int64_t time_ = 32768;        // 1/65536 tick
   double tick_rate_;
   std::int64_t between_samples_;  // 1/65536 tick
   std::int64_t next_sample_ = 0;
-  std::vector<std::array<std::int64_t, kept>> counts_;  // of whole steps, a ring
+  std::vector<std::array<std::int64_t, kept>> counts_;  // whole steps; a ring for each motor
   std::size_t sampled_ = 0;
 };
 

@@ -8,16 +8,17 @@ namespace passo::proof {
 namespace {
 
 constexpr double turn_of_a_cell = 0.02;  // radians
-constexpr double fewest_cells = 64;      // of a curve that turns
-// On a line under falling limits: from rest to full speed; and of a short one, which is far from that.
+constexpr double fewest_cells = 64;      // in a curve that turns
+// On a line under falling limits: the cells from rest to full speed, and those of a short line, which stays far below
+// that.
 constexpr double cells_of_a_ramp = 200;
 constexpr double fewest_cells_of_line = 100;
 constexpr std::size_t window = 65536;  // cells
-constexpr double fastest = 1e12;       // x where nothing limits it
+constexpr double fastest = 1e12;       // x where there is no limit
 constexpr double strongest = 1e12;
-// A jump of the velocity by this share of an axis's limit is rounding.
+// A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
-// Where a kink may be passed at less than this share of the lowest velocity limit, the path rests.
+// The path rests where a kink may be passed only below this share of the lowest velocity limit.
 constexpr double as_good_as_rest = 1e-3;
 
 double square(double value) {
@@ -36,7 +37,7 @@ TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes) {
 void TimeBound::watch(const PlannedMove& move) {
   const Segment& segment = move.segment;
   if (!segment.curve.has_length() || move.phase_count == 0) return;
-  // Of a curve in parts the first counts for all.
+  // If a curve comes in parts, the first part counts for all of it.
   const bool begins = !inside_curve_ || (move.from() == Mm(0) && reached_ > Mm(0));
   if (begins) add_curve(segment);
   reached_ = move.to;
@@ -82,7 +83,7 @@ void TimeBound::add_curve(const Segment& segment) {
   if (cells_.size() >= 2 * window) settle(window);
 }
 
-// One is exact under constant limits; else so many that the speed changes little in each.
+// Under constant limits one cell is exact. Else as many as are needed so that the speed changes little in each.
 int TimeBound::cells_of_line(const ExactCurve& curve, double feed) const {
   if (!any_falls_) return 1;
   double top = feed;
@@ -124,7 +125,7 @@ TimeBound::Joint TimeBound::joint_at(const ExactCurve& curve, double s) const {
   return joint;
 }
 
-// Of x after the joint: so that no axis's velocity jumps by more than rounding.
+// The greatest x after the joint at which no axis's velocity jumps by more than rounding.
 double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
   double cap = fastest;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -179,7 +180,7 @@ double TimeBound::curvature_cap(const Row& first, const Row& second, double most
   return low;
 }
 
-// At the middle u = (next - x) / 2h and x is the mean of both, so that a limit reads |α next + β x| ≤ A.
+// At the middle u = (next - x) / 2h, and x is the mean of both ends. So a limit reads |α next + β x| ≤ A.
 TimeBound::Range TimeBound::next_of(const Cell& cell, double x) const {
   if (any_falls_) return next_under_falling(cell, x);
   Range range{.low = 0, .high = INFINITY};
@@ -201,7 +202,7 @@ TimeBound::Range TimeBound::next_of(const Cell& cell, double x) const {
   return range;
 }
 
-// The limit at the middle depends on the next x, hardly, so that a few rounds settle it.
+// The limit at the middle hardly depends on the next x, so a few rounds are enough.
 TimeBound::Range TimeBound::next_under_falling(const Cell& cell, double x) const {
   Range range{.low = 0, .high = INFINITY};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -228,7 +229,7 @@ TimeBound::Range TimeBound::next_under_falling(const Cell& cell, double x) const
   return range;
 }
 
-// On a line x changes by no more than this.
+// The greatest change of x on a line.
 double TimeBound::line_reach(const Cell& cell) const {
   double most = strongest;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -238,7 +239,7 @@ double TimeBound::line_reach(const Cell& cell) const {
   return 2 * most * cell.length;
 }
 
-// The largest x that leads to `exit` or less.
+// The largest x from which `exit` or less can be reached.
 double TimeBound::entry_for(const Cell& cell, double exit) const {
   if (cell.line) return std::min(cell.entry_cap, exit + line_reach(cell));
   const auto possible = [&](double x) {
@@ -260,7 +261,7 @@ double TimeBound::exit_for(const Cell& cell, double entry, double most) const {
   return std::max(std::min(most, next_of(cell, entry).high), 0.0);
 }
 
-// `last`: the largest x where the window ends.
+// `last` is the largest x at the end of the window.
 void TimeBound::plan_backwards(double last) {
   for (std::size_t i = cells_.size(); i-- > 0;) {
     Cell& cell = cells_[i];
@@ -271,14 +272,14 @@ void TimeBound::plan_backwards(double last) {
 
 double TimeBound::time_of_line(const Cell& cell, double entry, double exit, double reach) {
   const double acceleration = reach / (2 * cell.length);
-  // Both ends are below it, but for rounding.
+  // Both ends are below it, except for rounding.
   const double top = std::max({entry, exit, std::min(cell.exit_cap, (entry + exit + reach) / 2)});
   const double ramps = (2 * top - entry - exit) / (2 * acceleration);
   const double ramp_time = (2 * std::sqrt(top) - std::sqrt(entry) - std::sqrt(exit)) / acceleration;
   return ramp_time + std::max(cell.length - ramps, 0.0) / std::sqrt(top);
 }
 
-// The first so many cells are played.
+// Adds the time of the first `cells` cells, which are played.
 void TimeBound::settle(std::size_t cells) {
   const bool all = cells == cells_.size();
   if (cells_.empty()) return;

@@ -1,15 +1,16 @@
 // TimeBound: the shortest time in which the planned path could be played within velocity, acceleration and feed.
 //
-// With x = ṡ² and u = s̈ = dx/ds / 2 every limit |q' u + q'' x| ≤ A is a strip of the plane (x, u). The path is cut into
-// small cells, x runs straight in each, and the limits are asked at its middle. From the end of a stretch backwards:
-// the largest x at each node from which the rest can still be played (by bisection: is there an x at the next node
-// that keeps every limit?). Then forwards from rest, always as fast as allowed. A line is a single cell, exact: speed
-// up, go on, brake; where a limit falls with the speed, A is asked at the speed in the middle of each cell, and a line
-// is cut like a curve, finer to its ends. Pfeiffer and Johanni 1987; Pham and Pham 2018 (reachability).
+// With x = ṡ² and u = s̈ = dx/ds / 2 every limit |q' u + q'' x| ≤ A is a strip of the plane (x, u). The path is cut
+// into small cells. In each, x is a straight line and the limits are taken at the middle. Backwards from the end of a
+// stretch: the largest x at each node from which the rest can still be played. Bisection finds it: is there an x at the
+// next node that keeps every limit? Then forwards from rest, always as fast as allowed. A line is a single, exact cell:
+// speed up, go on, brake. Where a limit falls with the speed, A is taken at the speed in the middle of each cell, and a
+// line is cut like a curve, with shorter cells at its ends. Pfeiffer and Johanni 1987; Pham and Pham 2018
+// (reachability).
 //
-// Rest is where the program demands it: at actions, exact stops, the ends, and where the direction jumps by more than
-// rounding. Memory: a window of cells. What is behind the window is taken for as fast as its first cell allows, so
-// that the bound stays a bound, and the window is many braking distances long.
+// The path rests where the program demands it: at actions, exact stops and the ends, and where the direction jumps by
+// more than rounding. Memory: a window of cells, many braking distances long. Motion after the window is assumed to be
+// as fast as its first cell allows, so the result stays a lower bound of the time.
 #pragma once
 
 #include <array>
@@ -33,18 +34,18 @@ class TimeBound {
   Seconds time() const { return Seconds(time_); }
 
  private:
-  using Row = std::array<double, max_motors>;  // a number an axis
+  using Row = std::array<double, max_motors>;  // one number for each axis
   struct Cell {
     double length = 0;
-    double entry_cap = 0;    // of x: what velocity, feed and curvature allow where it begins and the cell before ends
-    double entry_scale = 1;  // x where it begins, divided by x where the cell before ends
+    double entry_cap = 0;  // limit of x by velocity, feed and curvature, at its start and at the end of the cell before
+    double entry_scale = 1;  // x at its start divided by x at the end of the cell before
     double exit_cap = 0;
     bool line = false;
-    Row first{};  // q' and q'' at its middle
+    Row first{};  // q' and q'' at the cell's middle
     Row second{};
-    double controllable = 0;  // the largest x where it begins from which the path can be played
+    double controllable = 0;  // the largest x at its start from which the path can be played
   };
-  struct Joint {  // the end of the curve before
+  struct Joint {  // the end of the last curve
     Row direction{};
     double steepness = 0;  // |q'|
     double cap = 0;
@@ -64,7 +65,7 @@ class TimeBound {
   double cap_at(const ExactCurve& curve, double s, double feed) const;
   double curvature_cap(const Row& first, const Row& second, double most) const;
   double kink_cap(const Joint& before, const Joint& after) const;
-  // The next x that the cell's limits allow after x.
+  // The range of the next x that the cell's limits allow after x.
   Range next_of(const Cell& cell, double x) const;
   Range next_under_falling(const Cell& cell, double x) const;
   int cells_of_line(const ExactCurve& curve, double feed) const;
@@ -78,10 +79,10 @@ class TimeBound {
   bool any_falls_ = false;
   std::vector<Cell> cells_;
   std::optional<Joint> joint_;
-  double x_ = 0;  // where the first cell begins
+  double x_ = 0;  // at the start of the first cell
   double time_ = 0;
-  bool inside_curve_ = false;  // a part of it has come, its end has not
-  Mm reached_{0};              // how much of it
+  bool inside_curve_ = false;  // a part of the curve has come, but not its end
+  Mm reached_{0};              // the length of the curve that has come
 };
 
 }  // namespace passo::proof

@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// With an end speed, the last step is at that speed, and so is the first from rest.
+// With an end speed, the last step runs at that speed. So does the first step from rest.
 double last_step(const JerkLimits& limits) {
   return limits.end_speed > 0 ? 1 : 0;
 }
@@ -42,7 +42,7 @@ void JerkPhases::add_way(double way, double speed) {
 
 void JerkPhases::add_change(const JerkState& from, double speed, const JerkLimits& limits) {
   const double a = from.acceleration;
-  // The speed that is left when the acceleration is taken back to nothing tells whether to speed up or to brake.
+  // The speed that remains after the acceleration went back to 0. It tells whether to speed up or to brake.
   const double straight = from.speed + a * std::abs(a) / (2 * limits.jerk);
   const double sign = speed >= straight ? 1 : -1;
   const double change = sign * (speed - from.speed);
@@ -57,7 +57,7 @@ void JerkPhases::add_change(const JerkState& from, double speed, const JerkLimit
 
   const ConstantJerk first{from.speed, a, jerk};
   add(first, rising);
-  const double before = speed - sign * top * falling / 2;  // the speed at which the last phase begins
+  const double before = speed - sign * top * falling / 2;  // the speed at the start of the last phase
   add({before - sign * top * std::max(holding, 0.0), sign * top, 0}, holding);
   add({before, sign * top, -jerk}, falling);
 }

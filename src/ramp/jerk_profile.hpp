@@ -1,10 +1,10 @@
-// JerkProfile: from a speed and an acceleration to the end speed, over a given way, as fast as the limits let it.
-// Private to ramp/. Steps and seconds.
+// JerkProfile: the fastest motion within limits from a speed and an acceleration to the end speed, over a given way.
+// Private to ramp/. In steps and seconds.
 //
-// Three parts: a head from the state to the crest speed, a stretch at the crest, and a tail from the crest to the end
-// speed. The tail is kept backwards, from the end on: a step that lies r before the end is r steps of a move from the
-// end speed upwards, and where the speed goes to nothing no digit is lost. The crest is the highest speed that leaves
-// room to come down again; the way grows with it, so that it is found by halving.
+// Three parts: a head from the start state to the crest speed, a stretch at the crest, and a tail from the crest to the
+// end speed. The tail is kept backwards: the place r before the end is the place r of a motion that speeds up from the
+// end speed. So no digit is lost where the speed goes to zero. The crest is the highest speed that leaves room to
+// brake. The way grows with the crest, so that bisection finds it.
 #pragma once
 
 #include <array>
@@ -26,12 +26,12 @@ struct JerkState {
   double acceleration = 0;
 };
 
-// Phases of constant jerk, one after another.
+// Phases of constant jerk, one after the other.
 class JerkPhases {
  public:
   // A stretch at constant speed.
   void add_way(double way, double speed);
-  // From `from` to `speed` without acceleration, as fast as the limits let it: up to three phases.
+  // Goes from `from` to `speed` with no acceleration at its end, as fast as the limits allow: up to three phases.
   void add_change(const JerkState& from, double speed, const JerkLimits& limits);
 
   double way() const { return way_; }
@@ -43,13 +43,13 @@ class JerkPhases {
   static constexpr std::size_t most = 4;
   struct Phase {
     ConstantJerk motion;
-    double start = 0;  // way
+    double start = 0;  // the way at the start of the phase
     double start_time = 0;
     double duration = 0;
   };
   struct Found {
     const Phase* phase = nullptr;
-    double time = 0;  // within it
+    double time = 0;  // since the start of the phase
   };
 
   void add(const ConstantJerk& motion, double duration);
@@ -64,12 +64,12 @@ class JerkPhases {
 class JerkProfile {
  public:
   JerkProfile() = default;
-  // From the middle of a move. `way` not below shortest(); what rounding lacks is ignored.
+  // From the middle of a move. `way` is at least shortest(); a lack by rounding is ignored.
   JerkProfile(const JerkState& from, double way, const JerkLimits& limits);
-  // From rest: the first step and the last at the end speed where that is not 0, a constant speed where there is
-  // nothing between.
+  // From rest. Where the end speed is not 0, the first step and the last run at it. A constant speed where no steps lie
+  // between.
   static JerkProfile from_rest(double way, const JerkLimits& limits);
-  // The way that the state needs to come to the end speed, with the last step at that.
+  // The least way from the state to the end speed, including a last step at that speed.
   static double shortest(const JerkState& from, const JerkLimits& limits);
 
   double way() const { return way_; }

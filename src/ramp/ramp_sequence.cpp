@@ -37,7 +37,7 @@ RampError because(std::string words) {
   return {std::move(words)};
 }
 
-// A table of a size that is known only now.
+// A table whose size is known only at run time.
 class TableOfAnySize {
  public:
   explicit TableOfAnySize(std::size_t size) : factors_(size) { make_ramp_table(factors_.data(), size); }
@@ -50,7 +50,7 @@ class TableOfAnySize {
   std::vector<std::uint16_t> factors_;
 };
 
-// The integer recursion has no way down; it is asked for none.
+// The integer recursion has no way down, and nobody asks this walk for one.
 class UpwardsOnly : public RecursiveRamp<> {
  public:
   using RecursiveRamp<>::RecursiveRamp;
@@ -89,8 +89,8 @@ class SCurveWalk final : public RampSequence::Walk {
   bool whole_ticks_;
 };
 
-// An interval that is not faster than `rate`, as the ramp counts; a rate that takes longer than it can count is as good
-// as the longest.
+// An interval in the ramp's ticks that is not faster than `rate`. Where the interval is too long for the ramp's type,
+// its longest value serves as well.
 template <class Interval>
 Interval interval_of(Hertz rate, const RampSetup& setup) {
   const double ticks = setup.clock.value() / rate.value();
@@ -116,7 +116,7 @@ Started walk(const Ramp& ramp, const RampRequest& request) {
         "lower the acceleration",
         request.setup.clock.value() / static_cast<double>(ramp.interval()), request.start.value()))};
   }
-  // Upwards only is a move with an end that is too far away to matter.
+  // Upwards only is a move whose target is too far away to matter.
   const std::int64_t target = request.whole_move ? request.steps : 2 * RampRequest::most_steps;
   walk->move().move_to(static_cast<std::int32_t>(target));
   return Started(std::move(walk));
@@ -124,7 +124,7 @@ Started walk(const Ramp& ramp, const RampRequest& request) {
 
 Started start_table(const RampRequest& request) {
   const double first = first_interval(request.setup);
-  // To the middle of a move; and what lies before the first index in the start/stop region is there too.
+  // Entries up to the middle of a move. Entries before the first index in the start/stop region are in the table too.
   const double share = request.start.value() / request.setup.clock.value() * first;
   const double before = std::min(share * share / 4, static_cast<double>(RampSequence::largest_table));
   const std::int64_t needed =

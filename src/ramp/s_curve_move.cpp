@@ -14,11 +14,11 @@ struct SCurveMove::State {
 
   JerkProfile profile;
   std::int64_t leg_end = 0;  // where the leg comes to rest
-  std::int64_t left = 0;     // steps to there
+  std::int64_t left = 0;     // steps to leg_end
   std::int64_t target = 0;
   bool up = true;
 
-  // Since the motor last stood still: of the profile's beginning, and of the last step.
+  // Times since the motor last stood still: of the profile's start, and of the last step.
   double start_time = 0;
   double time = 0;
   std::int64_t ticks = 0;
@@ -26,7 +26,7 @@ struct SCurveMove::State {
 
   double way_done() const { return profile.way() - static_cast<double>(left); }
   std::int64_t position() const { return up ? leg_end - left : leg_end + left; }
-  // At the last step. At both ends of a leg it stands still.
+  // The state at the last step. At both ends of a leg the motor stands still.
   JerkState now() const { return left == 0 || time == 0 ? JerkState{} : profile.state_at(way_done()); }
 
   void begin_leg();
@@ -43,7 +43,7 @@ void SCurveMove::State::begin_leg() {
   ticks = 0;
 }
 
-// From the last step to rest in `steps`; the clock runs on.
+// Plans from the state at the last step to rest in `steps`. The clock runs on.
 void SCurveMove::State::go_on(std::int64_t steps) {
   if (steps == left) return;
   profile = JerkProfile(now(), static_cast<double>(steps), limits);
@@ -104,7 +104,7 @@ void SCurveMove::move_to(Steps target) {
   if (state.left == 0) return;
   const std::int64_t here = state.position();
   const std::int64_t ahead = state.up ? target.count - here : here - target.count;
-  // The way to rest, to whole steps; what is under way is never longer than that by rounding alone.
+  // The way to rest, in whole steps. Only rounding can make it longer than the present leg.
   const double shortest = JerkProfile::shortest(state.now(), state.limits);
   const auto least = std::min(static_cast<std::int64_t>(std::ceil(shortest)), state.left);
   state.go_on(std::max(ahead, std::max<std::int64_t>(least, 1)));

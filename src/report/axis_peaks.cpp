@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// A stretch of time inside one phase.
+// A time interval inside one phase.
 struct Stretch {
   double begin = 0;
   double end = 0;
@@ -33,7 +33,7 @@ double highest_acceleration(const Phase& phase, Stretch time) {
   return std::max(std::abs(acceleration_at(phase, time.begin)), std::abs(acceleration_at(phase, time.end)));
 }
 
-// A stretch of s.
+// An interval of s.
 struct Way {
   double from = 0;
   double to = 0;
@@ -56,8 +56,8 @@ class ArcAxis {
     return -turning_ * (2 * growth_ * std::sin(angle_at(s)) + radius_at(s) * turning_ * std::cos(angle_at(s)));
   }
 
-  // What no axis of the plane exceeds: the lengths of the vectors of which slope, bend and the next derivative are one
-  // component.
+  // Upper bounds for any axis of the plane: the lengths of the vectors of which the slope, the bend and the next
+  // derivative are components.
   double most_slope(Way way) const { return std::hypot(growth_, largest_radius(way) * turning_); }
   double most_bend(Way way) const {
     return std::abs(turning_) * std::hypot(2 * growth_, largest_radius(way) * turning_);
@@ -65,7 +65,7 @@ class ArcAxis {
   double most_twist(Way way) const {
     return turning_ * turning_ * std::hypot(3 * growth_, largest_radius(way) * turning_);
   }
-  // Of a · slope + v² · bend.
+  // The largest |a · slope + v² · bend|.
   double most_pull(double a, double v, Way way) const {
     const double radius = largest_radius(way);
     const double inward = a * std::abs(growth_) + v * v * radius * turning_ * turning_;
@@ -110,9 +110,9 @@ class CubicAxis {
   double third_;
 };
 
-// The highest speed and acceleration of that axis in one phase, each to a thousandth. A stretch is halved until it
-// cannot hold more than what was already seen: beyond its middle a value changes by no more than the highest rate of
-// change allows. On most curves that is known after the first look.
+// The highest speed and acceleration of an axis in one phase, each to a thousandth. A stretch is halved until it cannot
+// hold more than the highest value seen: away from its middle a value changes at most by the highest rate of change. On
+// most curves the first look is enough.
 template <class CurvedAxis>
 class PeakSearch {
  public:
@@ -139,14 +139,15 @@ class PeakSearch {
   }
 
  private:
-  struct Look {  // at a stretch: the largest speed and acceleration in it, its way, and what is at its middle
+  struct Look {  // a look at one stretch: the largest speed and acceleration in it, its way, and the values at its
+                 // middle
     double v, a;
     Way way;
     double half, middle_s, middle_v, middle_a;
   };
   struct Found {
     double here;   // at the middle
-    double bound;  // anywhere in the stretch
+    double bound;  // upper bound in the whole stretch
   };
 
   Look look_at(Stretch time) const {
@@ -165,7 +166,7 @@ class PeakSearch {
     left_ = 10'000;
     const double duration = phase_.duration.value();
     if (cannot_raise(examine(look_at({0, duration})), peak)) return;
-    // The ends first: the highest acceleration of a ramp is at one of them.
+    // The ends come first, because the highest acceleration of a ramp is at one of them.
     for (const double end : {0.0, duration}) peak = std::max(peak, examine(look_at({end, end})).here);
     search({0, duration}, peak, examine, 30);
   }
@@ -186,7 +187,7 @@ class PeakSearch {
 
   const CurvedAxis& axis_;
   const Phase& phase_;
-  int left_ = 0;  // a limit on everything; ordinary curves need a few looks
+  int left_ = 0;  // a limit on all work; ordinary curves need only a few looks
 };
 
 template <class CurvedAxis>

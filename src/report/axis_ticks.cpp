@@ -10,7 +10,7 @@ namespace {
 
 std::vector<Tick> ticks_of_step(double low, double high, double step) {
   std::vector<Tick> all;
-  // A tick that is meant to stand at an end of the range is not lost to rounding.
+  // Rounding must not lose a tick at an end of the range.
   const double slack = step * 1e-6;
   const double first = std::ceil((low - slack) / step);
   const double last = std::floor((high + slack) / step);
@@ -39,7 +39,7 @@ std::string tick_label(double value, double step) {
 
 std::vector<Tick> ticks(double low, double high, double pixels, const std::function<double(const std::string&)>& room) {
   if (!(high > low) || !(pixels > 0)) return {};
-  constexpr double nearest = 12;  // pixels; no label is narrower
+  constexpr double nearest = 12;  // pixels; every label is at least this wide
   double step = round_step(nearest / pixels);
   for (int attempt = 0; attempt < 30; ++attempt) {
     std::vector<Tick> all = ticks_of_step(low, high, step);

@@ -1,4 +1,4 @@
-// Ticks of an axis: round numbers, as many as have room. Private to report/.
+// Ticks of an axis: round numbers, as many as there is room for. Private to report/.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@ double round_step(double least);
 // "12.5": as many decimals as `step` needs, and no "-0".
 std::string tick_label(double value, double step);
 
-// The ticks in low…high, at least as far apart that the widest label has room. `pixels` is what one unit measures,
-// `room(label)` the pixels that a label takes along the axis, with its margin.
+// The ticks in low…high, far enough apart that the widest label has room. One unit is `pixels` long, and `room(label)`
+// is the number of pixels that a label takes along the axis, with its margin.
 std::vector<Tick> ticks(double low, double high, double pixels, const std::function<double(const std::string&)>& room);
 
 }  // namespace passo

@@ -7,7 +7,7 @@
 #include <cairo.h>
 
 #ifdef __SANITIZE_ADDRESS__
-// fontconfig keeps its configuration until the process ends and does not call that a leak; LeakSanitizer does.
+// fontconfig keeps its configuration until the process ends. LeakSanitizer calls that a leak, so it is suppressed.
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's own name
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig\n";
@@ -36,7 +36,7 @@ cairo_surface_t* make_surface(const PictureOptions& options, OutputFile& file) {
   return surface;
 }
 
-// How many bytes the UTF-8 character at the beginning of `text` has; 0: it is none.
+// The number of bytes of the UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80) return byte(0) < 0x20 || byte(0) == 0x7f ? 0 : 1;
@@ -50,7 +50,7 @@ std::size_t character_length(std::string_view text) {
   return overlong || outside ? 0 : length;
 }
 
-// Names of files may hold any bytes; cairo would stop drawing at the first that is no character.
+// File names may hold any bytes. cairo would stop drawing at the first byte that is no character.
 std::string drawable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
@@ -77,7 +77,7 @@ Canvas::Canvas(const PictureOptions& options, OutputFile& file)
       context_(cairo_create(surface_.get())) {
   cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
-  // Letters keep their shape and distance at any scale.
+  // With this, letters keep their shape and distance at any scale.
   cairo_font_options_t* font_options = cairo_font_options_create();
   cairo_font_options_set_antialias(font_options, CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(font_options, CAIRO_HINT_STYLE_NONE);
@@ -188,7 +188,7 @@ Status<OutputError> Canvas::finish() {
   }
   cairo_surface_finish(surface_.get());
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface_.get());
-  // What the file met, its commit() tells in better words.
+  // If the file failed, its commit() explains that better.
   if (status == CAIRO_STATUS_SUCCESS || file_.failed()) return Unit{};
   return Failure{OutputError{std::string("cannot draw the picture: ") + cairo_status_to_string(status)}};
 }

@@ -1,7 +1,7 @@
-// Canvas: cairo's C interface in a few words of drawing. Private to report/.
+// Canvas: a few drawing operations over cairo's C interface. Private to report/.
 //
-// Coordinates are units of the picture, x to the right and y down from the upper left corner. Owns surface and
-// context; errors are kept by cairo and told by finish().
+// Coordinates are units of the picture, x to the right and y down from the upper left corner. A Canvas owns its surface
+// and context. cairo keeps errors, and finish() returns them.
 #pragma once
 
 #include <memory>
@@ -56,7 +56,7 @@ class Canvas {
 
   void fill(const Area& area, const Colour& colour);
   void fill(const std::vector<Spot>& polygon, const Colour& colour, double opacity = 1);
-  // From left to right: the map of speeds.
+  // Fills the area with the map of speeds, from left to right.
   void fill_with_speeds(const Area& area);
   void frame(const Area& area, const Pen& pen);
   void line(Spot from, Spot to, const Pen& pen);
@@ -65,16 +65,16 @@ class Canvas {
   void text(Spot place, const std::string& text, const Font& font, Align align = Align::left);
   double text_width(const std::string& text, const Font& font);
 
-  // A path with several beginnings, drawn by stroke().
+  // A path that may have several starts. stroke() draws it.
   void move_to(Spot spot);
   void line_to(Spot spot);
   void stroke(const Pen& pen);
 
-  // What is drawn between the two shows inside `area` only.
+  // Between these two calls drawing shows only inside `area`.
   void clip(const Area& area);
   void end_clip();
 
-  // Writes what is not written yet.
+  // Writes everything that was not written yet.
   Status<OutputError> finish();
 
  private:
@@ -88,7 +88,7 @@ class Canvas {
   PictureFormat format_;
   OutputFile& file_;
   std::unique_ptr<cairo_surface_t, Free> surface_;
-  std::unique_ptr<cairo_t, Free> context_;  // goes before its surface
+  std::unique_ptr<cairo_t, Free> context_;  // is destroyed before its surface
 };
 
 }  // namespace passo

@@ -18,13 +18,13 @@ const Font label{.size = 12};
 const Font heading{.size = 14, .colour = quiet_ink};
 constexpr double mark = 5;  // length of a tick
 
-// Where a value stands on its axis, from 0 to 1.
+// The place of a value on its axis, from 0 to 1.
 double share(const Chart::Axis& axis, double value) {
   if (axis.logarithmic) return std::log10(value / axis.begin) / std::log10(axis.end / axis.begin);
   return (value - axis.begin) / (axis.end - axis.begin);
 }
 
-// A tick for each power of ten on a logarithmic axis, as many as fit elsewhere.
+// On a logarithmic axis a tick for each power of ten; on others as many as fit.
 std::vector<Tick> ticks_of(const Chart::Axis& axis, double length,
                            const std::function<double(const std::string&)>& room) {
   if (!axis.logarithmic) return ticks(axis.begin, axis.end, length / (axis.end - axis.begin), room);
@@ -76,7 +76,7 @@ void Chart::draw_upper_scale(const std::string& title, double x_per_unit) {
   const double end = x_.end / x_per_unit;
   const double title_left = area_.right() - canvas_.text_width(title, heading);
   canvas_.text({area_.right(), area_.y - 34}, title, heading, Align::right);
-  // The left end belongs to the title of the other axis.
+  // The left end belongs to the other axis's title.
   const double free_left = area_.x + canvas_.text_width(y_.title, heading) + 24;
   for (const Tick& tick : ticks(0, end, area_.width / end, width)) {
     const double x = at(tick.value * x_per_unit, 0).x;
@@ -93,7 +93,7 @@ void Chart::draw_frame() {
 std::vector<Spot> Chart::spots(const Function& function, double end) const {
   std::vector<Spot> all;
   const double last = std::min(end, x_.end);
-  // As close as the eye asks for, and the very end: a curve may stop with a step there.
+  // Points are as close as the eye needs. The end itself is included, because a curve may stop there with a step.
   constexpr double distance = 2;
   const int count = std::max(1, static_cast<int>(std::ceil(area_.width * last / x_.end / distance)));
   for (int i = 0; i <= count; ++i) {

@@ -33,16 +33,16 @@ double distance(const ChordDrawing::Sample& sample) {
   return length(sample.curve - sample.chord);
 }
 
-// From one axis's values to the picture, growing to the right or up.
+// Converts values of one axis to the picture. Values grow to the right or upwards.
 struct Scale {
   double low = 0;
   double high = 1;
   double origin = 0;  // where `low` is drawn
-  double pixels = 1;  // of one unit; below 0 for up
+  double pixels = 1;  // for one unit; below 0 for upwards
   double operator()(double value) const { return origin + (value - low) * pixels; }
 };
 
-// How many times wider than it is the tube is drawn, so that it can be seen: a round number, or 1.
+// The factor by which the tube is widened so that it can be seen: a round number, or 1.
 double exaggeration_for(const ChordDrawing& drawing, double pixels_per_mm) {
   constexpr double half_width = 14;
   const double most = half_width / (drawing.tolerance.value() * pixels_per_mm);
@@ -51,7 +51,7 @@ double exaggeration_for(const ChordDrawing& drawing, double pixels_per_mm) {
   return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
 }
 
-// A view along one axis: which coordinate goes right and which goes up.
+// A view along one axis: the coordinate that points right and the one that points up.
 struct View {
   std::string name;
   double Vector3::*right;
@@ -76,7 +76,7 @@ Extent extent_of(const ChordDrawing& drawing, double Vector3::*axis) {
   return extent;
 }
 
-// At equal scale on both axes, the curve in the middle; what is left over shows more of the plane.
+// Both axes have the same scale, and the curve is in the middle. Room left over shows more of the plane.
 struct Frame {
   Area area;
   Scale right;
@@ -132,7 +132,7 @@ void draw_ends(Canvas& canvas, const ChordDrawing& drawing, const View& view, co
   for (std::size_t i = 1; i < drawing.ends.size(); ++i) {
     way += length(drawing.ends[i] - drawing.ends[i - 1]) * frame.right.pixels;
   }
-  // Points that touch each other tell nothing.
+  // Points that touch each other show nothing.
   const double apart = way / static_cast<double>(std::max<std::size_t>(1, drawing.ends.size() - 1));
   if (apart < 7 && drawing.ends.size() > 2) return;
   const double radius = std::min(3.6, apart / 5);
@@ -176,7 +176,7 @@ double farthest(const ChordDrawing& drawing) {
   return most;
 }
 
-// How far the chords are from the curve, along its length, under the line of the tolerance.
+// Draws the distance of the chords from the curve along its length, under the line of the tolerance.
 void draw_deviation(Canvas& canvas, const ChordDrawing& drawing, const Area& area) {
   const bool small = drawing.tolerance < Mm(0.5);
   const double unit = small ? 1000 : 1;

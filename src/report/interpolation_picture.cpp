@@ -29,7 +29,7 @@ constexpr double margin = 40;
 
 struct Shown {  // one pulse, or the start
   Place place;
-  int axes = 0;  // that stepped
+  int axes = 0;  // number of axes that stepped
   bool waited = false;
 };
 
@@ -47,7 +47,7 @@ std::vector<Shown> followed(const Method& method, const StepMove& move) {
   return all;
 }
 
-// Two axes of the move, on an area of the paper.
+// A view of two axes of the move, on an area of the paper.
 class View {
  public:
   View(const std::vector<Shown>& shown, const StepMove& move, std::size_t across, std::size_t up, const Area& area)
@@ -98,7 +98,7 @@ class View {
   Area frame_;
 };
 
-// A line at every step where there is room for it, else at the ticks.
+// A line at every step if there is room for it, else only at the ticks.
 void draw_grid(Canvas& canvas, const View& view) {
   const Pen pen{.colour = grid_colour, .width = 1};
   const Area& frame = view.frame();
@@ -114,7 +114,7 @@ void draw_grid(Canvas& canvas, const View& view) {
   canvas.frame(frame, {.colour = edge_colour, .width = 1});
 }
 
-// Whole steps, where `room` pixels are needed for each label.
+// Ticks at whole steps, where each label needs `room` pixels.
 std::vector<Tick> step_ticks(double low, double high, double scale, double room) {
   const double step = std::max(1.0, round_step(room / scale));
   std::vector<Tick> all;
@@ -223,7 +223,7 @@ const std::array<RuleLook, speed_rules> rule_looks = {{{"every pulse the same ti
                                                        {"\u221An for a pulse of n axes", {0.93, 0.55, 0.10}},
                                                        {"exact", {0.18, 0.55, 0.34}}}};
 
-using Lags = std::array<std::vector<Spot>, speed_rules>;  // x: time 0 … 1, y: steps ahead of the even point
+using Lags = std::array<std::vector<Spot>, speed_rules>;  // x: time 0 … 1, y: steps ahead of a point with even speed
 
 Lags lags(const StudiedMethod& studied, const StepMove& move) {
   double way = 0;
@@ -280,7 +280,7 @@ void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove&
 
 struct Panel {
   std::size_t method = 0;
-  std::size_t up = 1;  // the axis drawn upwards, over x
+  std::size_t up = 1;  // the axis that points up, where x points right
 };
 
 std::vector<Panel> panels(const StepMove& move, std::size_t methods) {
@@ -292,7 +292,7 @@ std::vector<Panel> panels(const StepMove& move, std::size_t methods) {
   return all;
 }
 
-// How the panels are laid out: so that a view of this shape becomes as large as can be.
+// The number of columns that makes views of this shape as large as possible.
 std::size_t best_columns(std::size_t count, double aspect, const Area& area) {
   std::size_t best = 1;
   double largest = 0;

@@ -15,8 +15,8 @@
 namespace passo {
 namespace {
 
-// The temporary names now in use, where a signal handler finds them: no lock, no heap. A file that finds no free place
-// is written all the same; it is only not removed when the program is interrupted.
+// The temporary names now in use, for a signal handler: no lock, no heap. A file that finds no free place is written
+// all the same. It is just not removed when the program is interrupted.
 constexpr std::size_t most_unfinished = 32;
 std::array<std::atomic<const char*>, most_unfinished> unfinished{};
 
@@ -49,15 +49,15 @@ std::string reason(int error) {
   }
 }
 
-// A name in the same directory, so that rename() stays inside one file system. Short, so that it fits where the name
-// itself does.
+// A name in the same directory, so that rename() stays inside one file system. It is short, so that it fits wherever
+// the name itself fits.
 std::string temporary_name(const std::string& path, unsigned attempt) {
   const std::size_t slash = path.rfind('/');
   const std::string directory = slash == std::string::npos ? "" : path.substr(0, slash + 1);
   return directory + ".passo-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
 }
 
-// The file that a symbolic link stands for, so that the link survives.
+// The target of a symbolic link, so that the link itself survives.
 std::string resolved(const std::string& path) {
   const std::unique_ptr<char, decltype(&::free)> real(::realpath(path.c_str(), nullptr), &::free);
   return real ? std::string(real.get()) : path;
@@ -68,7 +68,7 @@ std::string resolved(const std::string& path) {
 struct OutputFile::State {
   std::string shown;      // as the user named it
   std::string path;       // what it resolves to
-  std::string temporary;  // empty: written to directly
+  std::string temporary;  // empty: the file is written directly
   int descriptor = -1;
   int error = 0;  // errno of the first failure
   std::uint64_t size = 0;
@@ -84,7 +84,7 @@ struct OutputFile::State {
 
   OutputError failure(int number) const { return {"cannot write " + shown + ": " + reason(number)}; }
 
-  // 0, or errno.
+  // Returns 0, or errno.
   int open_directly() {
     descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     return descriptor < 0 ? errno : 0;
@@ -98,7 +98,7 @@ struct OutputFile::State {
       descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
       if (descriptor >= 0) {
         remember(temporary.c_str());
-        // A file that is replaced keeps its permissions; where that is refused, the usual ones do.
+        // A replaced file keeps its permissions. If that is refused, the usual ones apply.
         if (existing != nullptr) static_cast<void>(::fchmod(descriptor, existing->st_mode & 07777U));
         return 0;
       }
@@ -130,7 +130,7 @@ struct OutputFile::State {
     temporary.clear();
   }
 
-  // The temporary file, complete, becomes the file.
+  // Makes the complete temporary file the file itself.
   void publish() {
     if (descriptor > STDERR_FILENO && ::close(descriptor) != 0 && error == 0) error = errno;
     descriptor = -1;
@@ -164,7 +164,7 @@ Result<OutputFile, OutputError> OutputFile::open(const std::string& path) {
   } else if (exists && !S_ISREG(existing.st_mode)) {
     error = state->open_directly();
   } else if (exists && ::access(path.c_str(), W_OK) != 0) {
-    error = errno;  // rename() would replace a write-protected file without asking
+    error = errno;  // without this check rename() would replace a write-protected file
   } else {
     if (exists) state->path = resolved(path);
     error = state->open_temporary(exists ? &existing : nullptr);

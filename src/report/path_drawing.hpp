@@ -1,4 +1,5 @@
-// Drawing a recorded path through a projection: rapids below, feeds above in the colours of their speed. Private.
+// Draws a recorded path through a projection: rapids below, feeds above in the colours of their speed. Private to
+// report/.
 #pragma once
 
 #include "projection.hpp"
@@ -8,7 +9,7 @@
 namespace passo {
 
 Pen rapid_pen();
-// A dense path is drawn with a finer pen.
+// A dense path gets a finer pen.
 void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection);
 
 }  // namespace passo

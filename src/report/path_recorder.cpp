@@ -9,24 +9,24 @@ namespace passo {
 namespace {
 
 constexpr std::array<Axis, 3> space = {Axis::x, Axis::y, Axis::z};
-// So many steps of speed a picture can tell apart.
+// The number of speeds that a picture can show as different.
 constexpr double speed_steps = 32;
-constexpr std::uint64_t stretch = 64;  // moves, and vertices, that are kept or left out together
+constexpr std::uint64_t stretch = 64;  // moves or vertices that are kept or left out together
 
 double diagonal(const Box& box) {
   return std::hypot(box.high[Axis::x] - box.low[Axis::x], box.high[Axis::y] - box.low[Axis::y],
                     box.high[Axis::z] - box.low[Axis::z]);
 }
 
-// Chords that leave a circle of `radius` by no more than `tolerance`, or by a two-thousandth of the radius: no eye sees
-// it. `angle`: radians of the whole of it.
+// The number of chords that leave a circle of `radius` by at most `tolerance`, or by a two-thousandth of the radius,
+// which nobody sees. `angle` is the whole angle in radians.
 double chords_of(double radius, double angle, double tolerance) {
   if (!(radius > 0)) return 1;
   const double sagitta = std::min(std::max(tolerance, radius / 2000), radius);
   return angle / std::sqrt(8 * sagitta / radius);
 }
 
-// Of a part `length` of the curve. A cubic is looked at as an arc of its sharpest bend.
+// The number for a part `length` of the curve. A cubic counts as an arc of its sharpest bend.
 double chords_of(const Curve& curve, double length, double tolerance) {
   switch (curve.shape()) {
     case Curve::Shape::arc: {
@@ -87,7 +87,7 @@ void PathRecorder::record(const PlannedMove& move) {
   const bool continues = vertices_.size() > 1 && before.x == begin.x && before.y == begin.y && before.z == begin.z;
   if (continues) vertices_.pop_back();
   for (const Phase& phase : move) {
-    // The next one begins exactly where this one ends.
+    // The next piece begins exactly where this one ends.
     record(move, phase, &phase + 1 == move.end() ? move.to : (&phase + 1)->start);
   }
 }
@@ -100,7 +100,7 @@ void PathRecorder::record(const PlannedMove& move, const Phase& phase, Mm end) {
 
   double pieces = chords_of(curve, to - from, tolerance_);
   if (!move.segment.rapid) {
-    // Where the speed changes, but not finer than the path itself is kept.
+    // Cuts where the speed changes, but not finer than the path itself is kept.
     const double change = std::abs(phase.velocity_at(phase.duration).value() - phase.velocity.value());
     const double steps = change > 0 ? change / (fastest_feed_ / speed_steps) : 1;
     pieces = std::max(pieces, tolerance_ > 0 ? std::min(steps, (to - from) / tolerance_) : steps);
@@ -128,7 +128,7 @@ void PathRecorder::add(const Point& point, double speed, Kind kind) {
 }
 
 void PathRecorder::make_room() {
-  // A pixel of a large picture; a coarser polyline would not look like the path any more.
+  // About a pixel of a large picture. A coarser polyline would no longer look like the path.
   const double coarsest = diagonal(extents_) / 2000;
   double speed_step = fastest_feed_ / (speed_steps / 2);
   if (tolerance_ > 0) join_pieces(vertices_, tolerance_, speed_step);
@@ -136,7 +136,7 @@ void PathRecorder::make_room() {
     tolerance_ = std::max(2 * tolerance_, coarsest / 64);
     join_pieces(vertices_, tolerance_, speed_step);
   }
-  // Rather coarser colours than gaps.
+  // Coarser colours are better than gaps.
   for (int pass = 0; pass < 2 && vertices_.size() > most_vertices / 2; ++pass) {
     speed_step *= 2;
     join_pieces(vertices_, tolerance_, speed_step);

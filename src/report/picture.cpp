@@ -20,7 +20,7 @@ const Font label{.size = 12};
 const Font caption{.size = 14};
 constexpr double margin = 48;
 
-// "100.0": three or four digits that count, without an exponent.
+// "100.0": three or four significant digits, without an exponent.
 std::string length_text(double mm) {
   if (mm == 0) return "0";
   const int decimals = mm >= 1000 ? 0 : mm >= 10 ? 1 : mm >= 0.1 ? 2 : 4;
@@ -33,7 +33,7 @@ std::string size_text(const PathRecorder& path) {
   return fmt::format("X {} \u00D7 Y {} \u00D7 Z {} mm", size(Axis::x), size(Axis::y), size(Axis::z));
 }
 
-// Cut in its middle where it is wider than `room`: the beginning tells the job, the end its kind.
+// Cuts text out of its middle if it is wider than `room`: the start names the job, the end its kind.
 std::string shortened(Canvas& canvas, const std::string& text, const Font& font, double room) {
   std::string shown = text;
   for (std::size_t kept = text.size(); canvas.text_width(shown, font) > room && kept > 8;) {

@@ -16,9 +16,9 @@ const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Font label{.size = 12, .colour = ink};
 const Font heading{.size = 14, .colour = quiet_ink};
 constexpr double mark = 5;            // length of a tick
-constexpr double axis_name_gap = 28;  // from the axis, not counting the labels between
+constexpr double axis_name_gap = 28;  // from the axis, without the labels between
 
-// The axes' colours, as in most drawing programs.
+// The axes have the colours of most drawing programs.
 struct Arm {
   Axis axis;
   Colour colour;
@@ -53,7 +53,7 @@ Spot moved(Spot spot, double right, double down) {
   return {spot.x + right, spot.y + down};
 }
 
-// The three axes at each work zero that the view shows. An axis that points at the eye is a ring.
+// Draws the three axes at each work zero in the view. An axis that points at the eye is a ring.
 void draw_zeros(Canvas& canvas, const Scene& scene, const Projection& projection, const Box& shown) {
   constexpr double length = 26;
   for (const Point& zero : scene.path.origins()) {
@@ -77,7 +77,7 @@ void draw_zeros(Canvas& canvas, const Scene& scene, const Projection& projection
   }
 }
 
-// "20 mm" of the drawing, about a fifth of the view.
+// A scale bar ("20 mm"), about a fifth of the view.
 void draw_scale_bar(Canvas& canvas, Spot right_end, double scale, double view_width) {
   const double length = round_step(0.11 * view_width / scale);
   const Spot left_end = moved(right_end, -length * scale, 0);
@@ -94,7 +94,7 @@ void draw_scale_bar(Canvas& canvas, Spot right_end, double scale, double view_wi
   canvas.text(moved(left_end, length * scale / 2, -13), tick_label(length, length) + " mm", label, Align::centre);
 }
 
-// The frame of the top view is filled: what is beside the path on a wide or narrow view is shown too.
+// Widens the box so that it fills the frame of the top view: a wide or narrow view also shows what is beside the path.
 Box filled_box(const Box& box, const Projection& projection, const Area& area) {
   Box filled = box;
   widen(filled, Axis::x, area.width / projection.scale());
@@ -105,7 +105,7 @@ Box filled_box(const Box& box, const Projection& projection, const Area& area) {
 void draw_top_frame(Canvas& canvas, const Scene& scene, const Projection& projection, const Area& area) {
   const Box shown = filled_box(scene.box, projection, area);
   const double scale = projection.scale();
-  // The same for both axes, so that the grid is square.
+  // Both axes use the same room, so that the grid is square.
   const auto room = [&](const std::string& text) { return canvas.text_width(text, label) + 22; };
   for (const Tick& tick : axis_ticks(scene, shown, Axis::x, scale, room)) {
     const double x = projection.spot(scene.zero[Axis::x] + tick.value, 0, 0).x;
@@ -124,11 +124,11 @@ void draw_top_frame(Canvas& canvas, const Scene& scene, const Projection& projec
   canvas.text({area.x - mark - 4, area.y - 16}, "Y, mm", heading, Align::right);
 }
 
-// One edge of the isometric box with its ticks: the axis runs along it, the labels stand outside.
+// One edge of the isometric box with its ticks. The axis runs along the edge; labels stand outside.
 struct EdgeOfBox {
   Axis axis;
-  Point begin;   // where the axis is lowest
-  double out_x;  // the way out, a unit vector of the picture
+  Point begin;   // the end where the axis is lowest
+  double out_x;  // the direction outwards, a unit vector of the picture
   double out_y;
   Align align;
 };
@@ -161,7 +161,7 @@ void draw_edge(Canvas& canvas, const Scene& scene, const Projection& projection,
               std::string{letter_of(side.axis)} + ", mm", heading, side.align);
 }
 
-// As large as leaves room for the labels on the left, on the right and below, whose widths depend on the scale.
+// As large as possible, with room for the labels on the left, on the right and below. Their widths depend on the scale.
 Projection fitted_isometric(Canvas& canvas, const Scene& scene, const Area& area) {
   Projection projection = Projection::isometric();
   projection.fit(scene.box, area);
@@ -172,7 +172,7 @@ Projection fitted_isometric(Canvas& canvas, const Scene& scene, const Area& area
   return projection;
 }
 
-// What there is to say where there is nothing to show.
+// The text shown if nothing moved.
 void draw_no_motion(Canvas& canvas, const Area& area) {
   const Spot middle{area.x + area.width / 2, area.y + area.height / 2};
   canvas.text(middle, "The program moves nothing.", {.size = 18, .colour = quiet_ink}, Align::centre);
@@ -195,7 +195,7 @@ void draw_box(Canvas& canvas, const Scene& scene, const Projection& projection) 
     const double y = scene.zero[Axis::y] + tick.value;
     canvas.line(projection.spot(low[Axis::x], y, low[Axis::z]), projection.spot(high[Axis::x], y, low[Axis::z]), grid);
   }
-  // The walls behind the path: left, back, right.
+  // The walls behind the path: left, back and right.
   for (const auto& [from, to] : {std::pair{at(false, true, false), at(false, true, true)},
                                  {at(true, true, false), at(true, true, true)},
                                  {at(false, false, true), at(false, true, true)},
@@ -218,7 +218,7 @@ Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extent
   }
   const auto largest_span = [this] { return std::max({span(box, Axis::x), span(box, Axis::y), span(box, Axis::z)}); };
   double largest = largest_span();
-  // A work zero near the path belongs to the picture; one that is far away would make the path small.
+  // A work zero near the path is shown. One far away would make the path small.
   for (const Point& origin : path.origins()) {
     if (!inside(box, origin, largest / 3)) continue;
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
@@ -227,7 +227,7 @@ Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extent
     }
   }
   largest = largest_span();
-  constexpr double some = 40;  // mm, where nothing moves
+  constexpr double some = 40;  // mm, if nothing moves
   if (!(largest > 0)) largest = some;
   widen(box, Axis::x, largest / 4);
   widen(box, Axis::y, largest / 4);

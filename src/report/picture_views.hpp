@@ -7,13 +7,13 @@
 
 namespace passo {
 
-// What is shown: the path's box, never flat, and where its ticks count from.
+// What is shown: the path's box, which is never flat, and the zero of its ticks.
 struct Scene {
   explicit Scene(const PathRecorder& path);
 
   const PathRecorder& path;
   Box box;     // machine coordinates
-  Point zero;  // of the ticks: the work zero where there is one, else the machine's
+  Point zero;  // zero of the ticks: the work zero if there is one, else the machine's
   bool work_coordinates = false;
 };
 

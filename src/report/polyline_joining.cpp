@@ -19,7 +19,7 @@ Vector between(const Vertex& from, const Vertex& to) {
   return {double{to.x} - double{from.x}, double{to.y} - double{from.y}, double{to.z} - double{from.z}};
 }
 
-// How far `vertex` is from the piece from `begin` to `end`.
+// The distance of `vertex` from the piece from `begin` to `end`.
 double distance(const Vertex& vertex, const Vertex& begin, const Vertex& end) {
   const Vector piece = between(begin, end);
   const Vector arm = between(begin, vertex);
@@ -28,14 +28,14 @@ double distance(const Vertex& vertex, const Vertex& begin, const Vertex& end) {
   return Vector{arm.x - share * piece.x, arm.y - share * piece.y, arm.z - share * piece.z}.length();
 }
 
-// The pieces since the last vertex that was kept, as one.
+// The pieces since the last kept vertex, as one piece.
 class Run {
  public:
   Run(const std::vector<Vertex>& vertices, std::size_t anchor, double tolerance, double speed_step)
       : vertices_(vertices), anchor_(anchor), tolerance_(tolerance), speed_step_(speed_step) {}
 
   bool takes(std::size_t next) const {
-    // A bound on the work: a longer run is finished by the next joining.
+    // Limits the work; the next joining continues a longer run.
     constexpr std::size_t longest = 64;
     if (next - anchor_ > longest) return false;
     const Vertex& vertex = vertices_[next];

@@ -1,4 +1,4 @@
-// Joining neighbouring pieces of a recorded path that run nearly straight at nearly the same speed. Private to report/.
+// Joins neighbouring pieces of a recorded path that run nearly straight at nearly the same speed. Private to report/.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// No vertex that is left out was farther than `tolerance` from the piece that replaces it. Pieces of another kind or
-// speed than their neighbours stay, unless they are shorter than `tolerance`; speeds are alike within `speed_step`.
+// Every vertex that is left out is within `tolerance` of the piece that replaces it. Pieces whose kind or speed differs
+// from their neighbours' stay, unless they are shorter than `tolerance`. Speeds within `speed_step` count as equal.
 void join_pieces(std::vector<PathRecorder::Vertex>& vertices, double tolerance, double speed_step);
 
 }  // namespace passo

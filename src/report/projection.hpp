@@ -1,4 +1,4 @@
-// Projection: from a place of the path to a spot of the picture, at equal scale in all directions. Private to report/.
+// Projection: maps a place of the path to a spot of the picture, at equal scale in all directions. Private to report/.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace passo {
 
 class Projection {
  public:
-  // Seen from above: X to the right, Y up.
+  // Seen from above: X points right, Y up.
   static Projection top() { return {{1, 0}, {0, 1}, {0, 0}}; }
-  // Seen from the front, right, above, all axes equally foreshortened: X to the right and down, Y to the right and up.
+  // Seen from the front, the right and above, all axes equally foreshortened: X points right and down, Y right and up.
   //
   //            back
   //     left  /    \        Z
@@ -26,20 +26,20 @@ class Projection {
     return {{cosine, -0.5}, {cosine, 0.5}, {0, 1}};
   }
 
-  // Shows the whole box as large as `area` allows, in its middle.
+  // Shows the whole box in the middle of `area`, as large as possible.
   void fit(const Box& box, const Area& area);
 
   Spot spot(double x, double y, double z) const {
     return {left_ + scale_ * (x_.x * x + y_.x * y + z_.x * z), top_ - scale_ * (x_.y * x + y_.y * y + z_.y * z)};
   }
   Spot spot(const Point& point) const { return spot(point[Axis::x], point[Axis::y], point[Axis::z]); }
-  // Units of the picture for a millimetre along an axis.
+  // Units of the picture for one millimetre along an axis.
   double scale() const { return scale_; }
 
  private:
   Projection(Spot x, Spot y, Spot z) : x_(x), y_(y), z_(z) {}
 
-  // Where one millimetre of each axis leads, y up.
+  // The step in the picture for one millimetre of each axis, y up.
   Spot x_;
   Spot y_;
   Spot z_;

@@ -5,7 +5,7 @@
 namespace passo {
 namespace {
 
-// Every tenth of the map, from 0.8 down to 0.1.
+// Every tenth of the colour map, from 0.8 down to 0.1.
 constexpr std::array<std::array<int, 3>, 8> viridis = {{{122, 209, 81},
                                                         {68, 191, 112},
                                                         {34, 168, 132},

@@ -1,9 +1,9 @@
-// SpeedColours: what colour a speed has. Private to report/.
+// SpeedColours: the colour for each speed. Private to report/.
 //
-// Viridis (Smith and van der Walt, matplotlib, CC0): perceptually even, and readable by the colour-blind and in grey.
-// Run backwards, so that the full speed of most of a path is dark on white paper and where it slows down is bright; the
-// palest fifth is left out, for paper would swallow it, and the darkest tenth, which the eye takes for black. Speeds
-// are sorted into few classes, so that neighbouring pieces become one stroke.
+// Viridis (Smith and van der Walt, matplotlib, CC0) is perceptually even, and readable by the colour-blind and in grey.
+// It is used backwards: the full speed of most of a path is dark on white paper, and slow places are bright. Left out
+// are the palest fifth, which paper would swallow, and the darkest tenth, which looks black. Speeds are sorted into a
+// few classes, so that neighbouring pieces become one stroke.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class SpeedColours {
   explicit SpeedColours(MmPerSecond fastest) : fastest_(fastest.value()) {}
 
   std::size_t class_of(double speed) const;
-  // `share` 0…1 of the map.
+  // `share`, 0…1, is a place in the map.
   static Colour at(double share);
   static Colour of_class(std::size_t index) { return at((static_cast<double>(index) + 0.5) / classes); }
 

@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// The smallest box around all that was added.
+// The smallest box around everything that was added.
 class Extents {
  public:
   void add(const Point& low, const Point& high) {
@@ -40,7 +40,7 @@ class SummaryBuilder::Implementation {
     peaks_.watch(move);
     (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += move.to - move.from();
     add_extents(move, machine_minus_work);
-    if (move.from() > Mm(0)) return;  // a later part of a segment that is counted already
+    if (move.from() > Mm(0)) return;  // a later part of a segment that was counted already
     ++sum_.moves;
     if (segment.rapid) ++sum_.rapids;
     if (segment.curve.shape() == Curve::Shape::arc) ++sum_.arcs;
@@ -68,7 +68,7 @@ class SummaryBuilder::Implementation {
   }
 
  private:
-  // Of a segment that is not followed to its end, what is.
+  // For a segment that is not followed to its end, adds the part that was.
   void add_extents(const PlannedMove& move, const Point& machine_minus_work) {
     const Curve& whole = move.segment.curve;
     const bool is_part = move.from() > Mm(0) || move.to < whole.length();

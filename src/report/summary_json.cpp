@@ -101,7 +101,7 @@ std::string to_json(const RunSummary& summary) {
   add_holds(summary, json);
   if (summary.probes) add_probes(summary, *summary.probes, json);
   add_tails(summary, json);
-  // A program's name need not be UTF-8.
+  // The name of a program may not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -23,7 +23,7 @@ std::string counted(std::uint64_t number, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(number), noun, number == 1 ? "" : "s");
 }
 
-// Hours only where there are some, and always three digits after the point: one column, aligned at the point.
+// Hours appear only if there are some. Always three digits after the point, so that a column aligns at the point.
 std::string duration(Seconds time) {
   const auto milliseconds = std::llround(time.value() * 1000);
   const auto seconds = milliseconds / 1000;
@@ -36,13 +36,13 @@ std::string share(double part, double whole) {
   return whole > 0 ? fmt::format("{:5.1f} %", 100 * part / whole) : "";
 }
 
-// Three decimals without a "-0.000".
+// Three decimals, but never "-0.000".
 std::string place(double value) {
   const std::string text = fmt::format("{:.3f}", value);
   return text == "-0.000" ? "0.000" : text;
 }
 
-// What a file's name may hold does not reach the terminal.
+// Control characters in file names must not reach the terminal.
 std::string printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = ' ';

@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 4> switch_names = {"spindle", "spindle_re
 constexpr unsigned rpm_output = switch_names.size();
 constexpr unsigned rpm_bits = 16;
 
-// A power of ten of picoseconds as the format wants it: 1, 10 or 100 of a unit.
+// A power of ten of picoseconds in the format's form: 1, 10 or 100 of a unit.
 std::string timescale(std::uint64_t picoseconds) {
   constexpr std::array<const char*, 5> units = {" ps", " ns", " us", " ms", " s"};
   std::size_t unit = 0;
@@ -37,7 +37,7 @@ TraceVcd::Scale::Scale(Hertz clock) : ticks_a_second(static_cast<std::uint64_t>(
 
 std::uint64_t TraceVcd::Scale::units(std::uint64_t ticks) const {
   if (units_a_tick != 0) return ticks * units_a_tick;
-  // Long division in two digits of base 10^6, the last one rounded: no intermediate result over 64 bits.
+  // Long division with two digits of base 10^6, the last one rounded. No intermediate result exceeds 64 bits.
   const std::uint64_t seconds = ticks / ticks_a_second;
   const std::uint64_t micro = ticks % ticks_a_second * million;
   const std::uint64_t pico = (2 * million * (micro % ticks_a_second) + ticks_a_second) / (2 * ticks_a_second);
@@ -129,7 +129,7 @@ void TraceVcd::on_outputs(Ticks time, const BoardOutputs& outputs) {
   const unsigned changed = outputs_.switches ^ outputs.switches;
   if (changed == 0 && outputs.spindle_rpm == outputs_.spindle_rpm) return;
   const std::uint64_t at = scale_.units(static_cast<std::uint64_t>(time.count));
-  // With the step itself: the pulse goes on.
+  // If the step comes at the same time, its pulse stays high.
   if (at > rose_at_) close_pulse((at - rose_at_) / 2);
   put_time(at);
   for (unsigned i = 0; i < switch_names.size(); ++i) {

@@ -1,7 +1,7 @@
-// BoardModel: the board as the host knows it: each motor's fixed-point place and the board's time, to the last bit.
+// BoardModel: what the host knows of the board, to the last bit: each motor's fixed-point place, and the board's time.
 //
-// What Player does with a segment event by event is here one sum for each motor and one for the time, a tenth of the
-// work of making the segment otherwise. A test holds the two together.
+// Player plays a segment event by event. Here a segment is one sum for each motor and one for the time, a tenth of the
+// work of making the segment. A test compares the two.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ class BoardModel {
  public:
   explicit BoardModel(std::uint8_t motors) : motors_(motors) { position_.fill(whole_step / 2); }
 
-  // In 1/65536 tick, half a tick added; in 1/65536 step, half a step added.
+  // In 1/65536 tick, with half a tick added; in 1/65536 step, with half a step added.
   std::int64_t time() const { return time_; }
   std::int64_t position(unsigned motor) const { return position_[motor]; }
   void set_steps(unsigned motor, std::int64_t steps) {

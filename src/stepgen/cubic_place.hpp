@@ -1,8 +1,9 @@
-// CubicPlace: where one motor stands on a cubic, a polynomial of s, and the inverse.
+// CubicPlace: the place of one motor on a cubic, a polynomial of s, and the inverse of that.
 //
-// Between the roots of its derivative the polynomial goes one way. There it is what constant jerk does, with s for the
-// time, and is inverted as such (units/constant_jerk.hpp): Newton's method from where the last event leads to, inside
-// the bracket that the turning points give. One or two rounds find a crossing to 0.01 place; about 30 ns.
+// Between the roots of its derivative the polynomial is monotone. There it has the form of motion at constant jerk,
+// with s for the time, and is inverted as such (units/constant_jerk.hpp): by Newton's method from where the last event
+// leads to, inside the bracket that the turning points give. One or two rounds find a crossing to 0.01 place; this
+// takes about 30 ns.
 #pragma once
 
 #include <limits>
@@ -21,24 +22,24 @@ struct Parabola {
   double c = 0;
 
   double at(double s) const { return a + s * (b + s * c); }
-  // The first s >= from where it is above zero, or becomes so; infinity if it never is.
+  // The first s >= from at which it is above zero or becomes so. Infinity if there is none.
   double above_zero(double from) const;
 };
 
 class CubicPlace {
  public:
   CubicPlace() = default;
-  // For 0 <= s <= `end`.
+  // Valid for 0 <= s <= `end`.
   CubicPlace(const Curve& curve, const Motor& motor, double end);
 
   double at(double s) const { return base_ + s * (first_ + s * (second_ + s * third_)); }
   double slope(double s) const { return first_ + s * (2 * second_ + s * 3 * third_); }
-  // The same as a polynomial.
+  // The slope as a polynomial.
   Parabola slope() const { return {first_, 2 * second_, 3 * third_}; }
-  // Whether it goes up just behind `s`, on a turning point too.
+  // Whether the place rises just after `s`, also on a turning point.
   bool rises(double s) const { return at(next_end(s)) > at(s); }
 
-  // As MotorPath has them.
+  // As in MotorPath.
   double crossing(double target, double from) const;
   double turning_point(double from) const { return next_turn(from) + behind_turn_; }
   double travel(double distance, double from) const;
@@ -57,10 +58,10 @@ class CubicPlace {
   double second_ = 0;
   double third_ = 0;
   double end_ = 0;
-  // Where the slope is nothing, between 0 and the end; else infinity.
+  // Where the slope is 0, between 0 and the end; else infinity.
   double first_turn_ = infinity;
   double second_turn_ = infinity;
-  double behind_turn_ = 0;  // far enough behind one to be on the other side of it for certain, and no place further
+  double behind_turn_ = 0;  // far enough after a turn to be past it for certain, without a change of place
 };
 
 }  // namespace passo

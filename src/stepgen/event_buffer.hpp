@@ -1,7 +1,7 @@
-// EventBuffer: the events that are to become board segments, with their exact times and the exact place of each motor.
+// EventBuffer: the events that will become board segments, with their exact times and each motor's exact place.
 //
-// A stretch is a run of events with one master: events lie where the master's place crosses multiples of `grid`, so
-// that the master's increment is the grid itself, exactly, and its steps come at the exact times.
+// A stretch is a run of events with one master. Events lie where the master's place crosses multiples of `grid`. So the
+// master's increment is exactly the grid, and its steps come at the exact times.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace passo {
 struct Stretch {
   unsigned master = 0;
   int sign = 1;                    // direction of the master
-  std::int64_t grid = whole_step;  // place from event to event: 65536 / 2^k
+  std::int64_t grid = whole_step;  // place between two events: 65536 / 2^k
 };
 
 class EventBuffer {
@@ -24,7 +24,7 @@ class EventBuffer {
   EventBuffer() = default;
   EventBuffer(const EventBuffer& other) { *this = other; }
   EventBuffer& operator=(const EventBuffer& other) {
-    // Of a hundred kilobytes, those that mean something.
+    // Copies only the part in use, not all of the hundred kilobytes.
     const auto copy = [&](const auto& from, auto& to, std::size_t end) {
       std::copy(from.begin() + static_cast<std::ptrdiff_t>(other.first_),
                 from.begin() + static_cast<std::ptrdiff_t>(end),
@@ -41,10 +41,10 @@ class EventBuffer {
   bool empty() const { return first_ == last_; }
 
   std::int64_t time(std::size_t i) const { return time_[first_ + i]; }
-  // `i` = 0 is the event before the first one of the buffer.
+  // `i` = 0 is the event before the first one in the buffer.
   const double* places(unsigned motor) const { return &place_[motor][first_]; }
 
-  // Exact time in 1/65536 tick (half a tick added, as the board does) and the exact place of each motor.
+  // Adds an event: its exact time in 1/65536 tick (half a tick added, as the board does) and each motor's exact place.
   void push(std::int64_t time, const std::array<double, max_motors>& places, unsigned motors) {
     if (last_ == capacity) make_room();
     time_[last_] = time;
@@ -52,14 +52,14 @@ class EventBuffer {
     for (unsigned m = 0; m < motors; ++m) place_[m][last_] = places[m];
   }
   void drop(std::size_t events) { first_ += events; }
-  // Starts again, with `before` as the event before the first.
+  // Empties the buffer. `before` are the places at the event before the first.
   void restart(const std::array<double, max_motors>& before) {
     first_ = last_ = 0;
     for (unsigned m = 0; m < max_motors; ++m) place_[m][0] = before[m];
   }
 
  private:
-  static constexpr std::size_t capacity = 2048;  // twice what is needed at once, and so seldom moved
+  static constexpr std::size_t capacity = 2048;  // twice what is needed at once, so that events are seldom moved
 
   void make_room() {
     std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),

@@ -8,14 +8,16 @@ namespace passo {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A move's events stay between these multiples of the slow rate; outside, a new stretch divides more or less finely.
+// A move's events stay between these multiples of the slow rate. Outside of them, a new stretch divides steps more
+// finely or less.
 constexpr double rate_before_finer = 0.5;
 constexpr double rate_before_coarser = 4;
-// Where the grid is made finer: a share of the board's highest event rate, but not above what is fine enough anyway.
+// The slow rate, under which the grid is made finer: a share of the board's highest event rate, or
+// Exactness::least_rate if that is lower.
 constexpr double slow_share = 1.0 / 16;
 constexpr std::int64_t finest_grid = whole_step / 256;
 constexpr double turn_an_event = 0.25;  // radians
-// Another motor must be this much faster before it becomes the master.
+// Another motor must be faster by this factor before it becomes the master.
 constexpr double takeover = 1 + 1e-6;
 constexpr double smallest_distance = place_per_step / 256;
 
@@ -57,7 +59,7 @@ void EventStream::start_move(const PlannedMove& move) {
   in_move_ = true;
   here_ = end_;
   spot_ = path_.at(path_.end());
-  // The last part of a segment ends where the program says, to the last digit.
+  // The last part of a segment ends exactly where the program says.
   const bool whole = move.to >= curve.length();
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     end_[m] = whole ? place_of(options_.motors[m], curve.end()) : path_.place(m, spot_);
@@ -68,14 +70,14 @@ void EventStream::start_move(const PlannedMove& move) {
   if (in_stretch_) leads_until_ = path_.leads_until(stretch_.master, stretch_.sign, takeover, spot_.s);
 }
 
-// The square of how many places a second a motor of this slope goes one step from here: close to rest it is that which
-// counts, and it is the same on both sides of a stop.
+// The square of the rate at which a motor of this slope would move one step on from here. Close to a rest that rate is
+// what counts, and it is the same on both sides of a stop.
 double EventStream::rate_squared(double slope) const {
   const double speed = slope * moment_.speed;
   return speed * speed + 2 * std::fabs(moment_.acceleration) * slope * place_per_step;
 }
 
-// No motor is faster than the master, which still goes its way.
+// Whether no motor is faster than the master, and the master still moves in its direction.
 bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   const double slope = path_.slope(stretch_.master, spot) * stretch_.sign;
   if (slope <= 0) return false;
@@ -85,11 +87,11 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   return true;
 }
 
-// Where events come neither so slowly nor so fast that another division would be better.
+// The range of event rates in which no other division would be better.
 EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
   const double slow = slow_rate_ * static_cast<double>(grid);
-  // Where nothing is divided for its slowness, none fits that is finer than its path asks for.
+  // Where nothing is divided for slowness, a grid fits only if it is no finer than its path needs.
   const double before_coarser = slow == 0 ? -1 : squared(rate_before_coarser * slow);
   return {.above = grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
           .most = grid == whole_step ? infinity : before_coarser};
@@ -100,7 +102,7 @@ bool EventStream::rate_fits() const {
   return rates_.hold(rate) || (rate > rates_.most && stretch_.grid >= coarsest_grid(stretch_.master));
 }
 
-// A step, but on an arc of few steps so little that its direction hardly changes from event to event.
+// One step. On an arc of few steps less: so little that the direction hardly changes from event to event.
 std::int64_t EventStream::coarsest_grid(unsigned motor) const {
   std::int64_t grid = whole_step;
   const double most = path_.reach(motor, spot_) * turn_an_event;
@@ -108,15 +110,15 @@ std::int64_t EventStream::coarsest_grid(unsigned motor) const {
   return grid;
 }
 
-// The next line of the grid beyond `place`, in the direction of the master.
+// The next line of the grid after `place`, in the direction of the master.
 double EventStream::next_target(double place) const {
   const auto grid = static_cast<double>(stretch_.grid);
   const double along = stretch_.sign * place / grid;
   return stretch_.sign * (std::floor(along + 1e-6) + 1) * grid;
 }
 
-// The motor that is first some distance away from here: a step, or on an arc so small that motors turn back
-// before they have gone a step, less.
+// The motor that first moves a certain distance from here: one step, or less on an arc so small that motors turn back
+// within a step.
 EventStream::Fastest EventStream::fastest() const {
   Fastest best;
   for (double distance = place_per_step; distance >= smallest_distance; distance /= 4) {
@@ -141,7 +143,7 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   rates_ = fitting_rates(stretch_.grid);
   target_ = next_target(path_.place(master, spot_));
   if (path_.crossing(master, target_, spot_) == infinity) {
-    // It turns back before the next line: what comes first is on the way back.
+    // The master turns back before the next line. The first crossing is on the way back.
     const double turn = path_.turning_point(master, spot_.s);
     if (!(turn < path_.end())) return Start::nothing_moves;
     go_to(turn);
@@ -153,8 +155,8 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   return Start::done;
 }
 
-// Where one stretch ends and the next begins, the path may have gone on from the last event. A step that fell due on
-// the way gets an event here, at the border.
+// The path may have gone on from the last event to the border between two stretches. A step that fell due on this way
+// gets an event here, at the border.
 bool EventStream::push_border(EventBuffer& events) {
   double most = 0;
   bool due = false;
@@ -172,9 +174,9 @@ bool EventStream::push_border(EventBuffer& events) {
   return true;
 }
 
-// All motors are `here_`.
+// Adds an event at which all motors are at `here_`.
 void EventStream::push(std::int64_t time, EventBuffer& events) {
-  // Two events are never closer than the board can play them: where masters change, the new one may have to wait.
+  // Two events are never too close for the board: where the master changes, the new one may have to wait.
   last_event_ = std::max(time, last_event_ + shortest_interval_);
   events.push(last_event_, here_, options_.motor_count);
 }
@@ -185,7 +187,7 @@ void EventStream::go_to(double s) {
   for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, spot_);
 }
 
-// Going down, the step is the crossing itself: from here on the place lies below the line.
+// Going down, the step is the crossing itself: after it the place is below the line.
 double EventStream::behind_line(double target) const {
   return stretch_.sign < 0 ? target - 0.5 : target;
 }
@@ -202,8 +204,8 @@ void EventStream::push_master(double target, const MotorPath::Spot& spot, EventB
   in_stretch_ = rate_fits();
 }
 
-// What the loop of fill() does with a line, event by event, as long as its stretch and its phase last: the motors go in
-// proportion and none turns back, so that little is left to do. False when there is nothing of the kind.
+// Does for a line what the loop of fill() does, event by event, while stretch and phase last. The motors move in
+// proportion and none turns back, so little work is left. Returns false if there is nothing of the kind to do.
 bool EventStream::fill_line(EventBuffer& events, std::size_t enough) {
   const double end = std::min(path_.end(), clock_.phase_end());
   const MotorPath::Line master = path_.line(stretch_.master);
@@ -248,12 +250,12 @@ EventStream::Stop EventStream::fill(EventBuffer& events, std::size_t enough) {
     }
     if (path_.is_straight() && fill_line(events, enough)) continue;
     const double s = path_.crossing(stretch_.master, target_, spot_);
-    if (s == infinity) {  // turns back before: choose again
+    if (s == infinity) {  // the master turns back first: choose again
       in_stretch_ = false;
       continue;
     }
     if (s > path_.end()) return finish_move();
-    // On a curve another motor may have become the faster one on the way.
+    // On a curve another motor may have become the fastest on the way.
     const MotorPath::Spot spot = path_.at(s);
     const bool leads = s <= leads_until_ || master_leads(spot);
     if (!leads && !events.empty()) {

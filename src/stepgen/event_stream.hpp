@@ -1,11 +1,11 @@
-// EventStream: planned moves -> exact events. Chooses the master and how finely its steps are divided, and inverts
+// EventStream: planned moves -> exact events. It chooses the master and how finely its steps are divided, and inverts
 // the phases at each line of the grid.
 //
-// The master is the motor that moves fastest. Its events come at the lowest power-of-two multiple of its step rate that
-// stays above a sixteenth of the board's highest rate or 10 kHz, so that on a slow move the other motors are never late
-// by more than one short event. A stretch goes on from move to move as long as its master leads and its rate fits, so
-// that many short moves make segments as long as one long move does. With fitting and replay about 17 ns an event on a
-// line, 70 ns on a cubic, 100 ns on an arc; 10 ns more with jerk.
+// The master is the motor that moves fastest. Its events come at the lowest power-of-two multiple of its step rate
+// above a sixteenth of the board's highest rate or 10 kHz. So on a slow move the other motors are late by at most one
+// short event. A stretch goes on from move to move while its master leads and its rate fits: many short moves make
+// segments as long as one long move does. With fitting and replay about 17 ns an event on a line, 70 ns on a cubic, 100
+// ns on an arc; 10 ns more with jerk.
 #pragma once
 
 #include <array>
@@ -31,26 +31,27 @@ class EventStream {
     rest,         // the move is used up and ends at rest
   };
 
-  // Begins the next move; only after move_end, rest or at the start. The move must live until it is used up.
+  // Begins the next move; only after move_end, rest or at the start. `move` must stay alive until it is used up.
   void start_move(const PlannedMove& move);
   bool in_move() const { return in_move_; }
-  // The move at hand, a copy of it, now lives there.
+  // Call when a copy of the present move has taken its place in memory.
   void move_lives_in(const PlannedMove& move) {
     path_.curve_lives_in(move.segment.curve);
     clock_.move_lives_in(move);
   }
-  // Adds events of the current move, until there are `enough`.
+  // Adds events of the present move, until there are `enough`.
   Stop fill(EventBuffer& events, std::size_t enough);
-  // The next event chooses its master anew. Events that still wait are of the stretch before.
+  // The next event chooses its master anew. Waiting events belong to the stretch before.
   void end_stretch() { in_stretch_ = false; }
-  // Below this rate of events, or the board's if that is lower, the grid is made finer. 0: never.
+  // The grid is made finer below this rate of events, or below a sixteenth of the board's highest if that is lower. 0:
+  // never.
   void divide_below(Hertz rate) { slow_rate_ = std::min(rate.value(), slowest_share_); }
   void wait(Seconds time) { advance(time.value()); }
   // Between moves, as now() has it.
   void go_back_to(std::int64_t time);
 
   const Stretch& stretch() const { return stretch_; }
-  // The exact time now (end of the last move), in 1/65536 tick with half a tick added.
+  // The exact time at the end of the last move, in 1/65536 tick with half a tick added.
   std::int64_t now() const { return fixed_time(0); }
   // The exact place of a motor at the end of the last move.
   double place_at_end(unsigned motor) const { return end_[motor]; }
@@ -61,10 +62,10 @@ class EventStream {
 
   struct Fastest {
     unsigned motor = 0;
-    double slope = 0;  // |d place / ds| on the way
+    double slope = 0;  // the largest |d place / ds| on the way
   };
 
-  // Squares, as rate_squared() gives them.
+  // Squares, in the unit of rate_squared().
   struct FittingRates {
     double above = 0;
     double most = 0;
@@ -92,26 +93,26 @@ class EventStream {
   StepOptions options_;
   double tick_rate_;
   std::int64_t shortest_interval_;
-  double slowest_share_;  // of the board's highest rate
-  double slow_rate_;      // events a second under which the grid is made finer
+  double slowest_share_;  // a share of the board's highest rate
+  double slow_rate_;      // events a second; below this the grid is made finer
 
-  // Time of the start of the current move: whole ticks and the rest, so that nothing is lost over hours.
+  // Start time of the present move: whole ticks, and the rest. So nothing is lost over hours.
   std::int64_t ticks_ = 0;
   double fraction_ = 0;
 
   MotorPath path_;
   PhaseClock clock_;
   bool in_move_ = false;
-  MotorPath::Spot spot_;  // where on the curve we are
+  MotorPath::Spot spot_;  // the present place on the curve
   PhaseClock::Moment moment_;
   std::array<double, max_motors> here_{};  // exact places at spot_
   std::array<double, max_motors> at_last_event_{};
-  std::array<double, max_motors> end_{};  // and at the end of the move at hand, or of the last one
+  std::array<double, max_motors> end_{};  // at the end of the present move, or of the last one
 
   bool in_stretch_ = false;
   Stretch stretch_;
-  FittingRates rates_;      // of its grid
-  double leads_until_ = 0;  // s, as far as is known beforehand
+  FittingRates rates_;      // for its grid
+  double leads_until_ = 0;  // the place s up to which the master is known to lead
   double target_ = 0;       // the master's next line of the grid
   std::int64_t last_event_ = INT64_MIN / 2;
 };

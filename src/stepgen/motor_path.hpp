@@ -1,7 +1,7 @@
-// MotorPath: where every motor stands as a function of s, for one curve or a part of it. Places: place.hpp.
+// MotorPath: the place of every motor as a function of s, for a curve or a part of one. place.hpp defines places.
 //
-// A motor goes straight, in proportion to s; or round, as an axis of an arc's plane; or along a cubic. A crossing costs
-// about 5 ns straight, 50 ns round and 30 ns on a cubic.
+// A motor moves straight, in proportion to s; or round, as an axis of an arc's plane; or along a cubic. Finding a
+// crossing takes about 5 ns straight, 50 ns round and 30 ns on a cubic.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@ namespace passo {
 
 class MotorPath {
  public:
-  // Begins a curve, which is followed as far as `end`. It must live until the next one begins.
+  // Begins a curve, which is followed up to `end`. `curve` must stay alive until the next one begins.
   void start(const Curve& curve, double end, const StepOptions& options);
   void curve_lives_in(const Curve& curve) { curve_ = &curve; }
 
-  // A place on the curve with what all motors need of it, computed once: on an arc, where it stands on its circle.
+  // A place on the curve, with values that all motors need, computed once: on an arc, the place on its circle.
   struct Spot {
     double s = 0;
     double cosine = 1;
@@ -46,13 +46,13 @@ class MotorPath {
     }
     return term.scale;
   }
-  // Whether the motor counts up from here on, on a turning point too.
+  // Whether the motor counts up from here on, also on a turning point.
   bool rises(unsigned motor, const Spot& spot) const {
     return terms_[motor].way == Way::cubic ? cubics_[motor].rises(spot.s) : slope(motor, spot) > 0;
   }
 
-  // The first s >= from where the motor's place, going on in the direction it has at `from`, reaches `target`.
-  // Infinity if it turns back before, or stands still. May lie beyond the end.
+  // The first s >= from at which the motor reaches `target`, moving in its direction at `from`. Infinity if it turns
+  // back before, or stands still. The result may lie beyond the end.
   double crossing(unsigned motor, double target, const Spot& from) const {
     const Term& term = terms_[motor];
     switch (term.way) {
@@ -62,19 +62,19 @@ class MotorPath {
     }
     return term.scale == 0 ? infinity : std::max(from.s, (target - term.base) / term.scale);
   }
-  // Just behind the first place after `from` where the motor turns back; infinity if it never does.
+  // Just after the first place after `from` where the motor turns back. Infinity if it never does.
   double turning_point(unsigned motor, double from) const;
-  // How much s it takes until the motor is `distance` away from where it is at `from`, turning back or not: what "fast"
-  // means also where a motor turns back and its slope is nothing. Infinity if it never gets there.
+  // The change of s until the motor is `distance` away from its place at `from`, whether it turns back or not. This
+  // measures how fast a motor is, also where it turns back and its slope is 0. Infinity if it never gets that far.
   double travel(unsigned motor, double distance, double from) const;
-  // How far on from `from` all others are no faster than `master`, which counts in direction `sign`, but for the factor
-  // `takeover`. Only `from` on an arc, where that is to be looked at from place to place.
+  // The place up to which no other motor is faster than `master` by the factor `takeover`; the master counts in
+  // direction `sign`. On an arc only `from` itself, because there this is checked from place to place.
   double leads_until(unsigned master, int sign, double takeover, double from) const;
-  // The radius on which the motor turns at `spot`, in places; infinity where it goes straight.
+  // The radius on which the motor turns at `spot`, in places. Infinity where it moves straight.
   double reach(unsigned motor, const Spot& spot) const;
   bool is_turning(unsigned motor) const { return terms_[motor].way != Way::straight; }
 
-  // Of a motor that goes straight.
+  // For a motor that moves straight.
   struct Line {
     double base = 0;  // place at s = 0
     double slope = 0;
@@ -92,9 +92,9 @@ class MotorPath {
   struct Term {
     Way way = Way::straight;
     bool on_cosine = false;  // the first axis of the plane
-    double base = 0;         // place at s = 0, or of the centre
+    double base = 0;         // place at s = 0, or the place of the centre
     double scale = 0;        // slope, or places a millimetre of radius
-    double angle = 0;        // at s = 0, as the argument of a sine for both axes
+    double angle = 0;        // at s = 0; the argument of a sine for both axes
   };
 
   void start_arc(const Curve::ArcData& arc, double length);
@@ -114,14 +114,14 @@ class MotorPath {
 
   unsigned motors_ = 0;
   std::array<Term, max_motors> terms_;
-  std::array<CubicPlace, max_motors> cubics_;  // of those that go along one
+  std::array<CubicPlace, max_motors> cubics_;  // for motors that move along a cubic
   const Curve* curve_ = nullptr;
   double end_ = 0;
-  // Of an arc; without one nothing turns.
+  // For an arc; other curves do not turn.
   double angle_ = 0;   // at s = 0
   double turn_ = 0;    // radians a millimetre of s
   double radius_ = 0;  // at s = 0
-  double growth_ = 0;  // of the radius, a millimetre of s
+  double growth_ = 0;  // of the radius, for each millimetre of s
 };
 
 }  // namespace passo

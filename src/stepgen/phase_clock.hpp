@@ -1,8 +1,8 @@
-// PhaseClock: when the path is at s. The phases of one move, inverted; s only grows from call to call.
+// PhaseClock: the time at which the path is at s. It inverts the phases of one move; s only grows from call to call.
 //
-// Times are from the start of the move, so that no error adds up from step to step. How a phase inverts:
-// units/constant_jerk.hpp; with jerk the search begins where the last event leads to, and takes one or two rounds.
-// About 5 ns an event at constant speed, 10 ns at constant acceleration, 30 ns with jerk.
+// Times count from the start of the move, so that no error adds up from step to step. units/constant_jerk.hpp inverts a
+// phase. With jerk the search begins where the last event leads to, and takes one or two rounds. About 5 ns an event at
+// constant speed, 10 ns at constant acceleration, 30 ns with jerk.
 #pragma once
 
 #include "passo/trajectory/phase.hpp"
@@ -18,10 +18,10 @@ class PhaseClock {
     double acceleration = 0;  // mm/s²
   };
 
-  // The move must live until the clock is started for the next one.
+  // `move` must stay alive until the clock is started for the next one.
   void start(const PlannedMove& move);
   void move_lives_in(const PlannedMove& move) { move_ = &move; }
-  // `s` not less than at the last call.
+  // `s` must not be less than at the last call.
   Moment at(double s) {
     while (s > end_ && phase_ + 1 < move_->phase_count) begin_phase(phase_ + 1, phase_start_ + duration_);
     const double way = s - start_;
@@ -30,9 +30,9 @@ class PhaseClock {
             .speed = motion_.speed_after(time_),
             .acceleration = motion_.acceleration_after(time_)};
   }
-  // Where on the path the phase of the last call ends.
+  // The place at which the phase of the last call ends.
   double phase_end() const { return end_; }
-  // Of the whole move.
+  // The duration of the whole move.
   double duration() const;
   bool ends_at_rest() const { return move_->ends_at_rest(); }
 
@@ -41,14 +41,14 @@ class PhaseClock {
   void begin_phase(std::size_t phase, double time);
 
   const PlannedMove* move_ = nullptr;
-  // The phase at hand.
+  // The present phase.
   std::size_t phase_ = 0;
   ConstantJerk motion_;
   double phase_start_ = 0;  // seconds from the start of the move
   double start_ = 0;        // s
   double end_ = 0;
   double duration_ = 0;
-  double time_ = 0;  // within it, at the last call
+  double time_ = 0;  // within the phase, at the last call
 };
 
 }  // namespace passo

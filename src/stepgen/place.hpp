@@ -1,5 +1,5 @@
-// Places are in the board's own units: 1/65536 of a step with half a step added, so that a motor's step count is the
-// whole part of place/65536 and a step happens where the place crosses a multiple of 65536.
+// Places are in the board's own units: 1/65536 of a step, with half a step added. So a motor's step count is the whole
+// part of place/65536, and a step happens where the place crosses a multiple of 65536.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// Units of place a step.
+// Units of place in one step.
 inline constexpr double place_per_step = 65536.0;
 
 inline double place_of(const Motor& motor, const Point& point) {

@@ -10,10 +10,10 @@ namespace {
 
 // An interval must fit the board's timer.
 constexpr std::int64_t longest_interval = 65535 * whole_tick;
-// Where the error of the fit is zero, as a part of the segment: the zeros of T3 with its first one at the start.
+// Where the error of the fit is zero, as shares of the segment: the zeros of T3, with the first zero at the start.
 constexpr double first_node = 0.464;
 constexpr double second_node = 0.928;
-// A motor that moves less than this in an event stands still (1/65536 step).
+// A motor that moves less than this in one event stands still (in 1/65536 step).
 constexpr double still = 1e-4;
 
 std::int64_t floor_to_int(double x) {
@@ -27,7 +27,7 @@ std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-// Going down mirrors a fixed-point place by complement: the fraction that is left is what was gone.
+// Going down mirrors a fixed-point place by its complement: the fraction left becomes the fraction done.
 std::int64_t along(int sign, std::int64_t position) {
   return sign > 0 ? position : ~position;
 }
@@ -68,7 +68,7 @@ bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, cons
 }
 
 SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::int64_t now, unsigned most) {
-  // One event is always met exactly, as long as it is neither too near nor too far.
+  // A single event is always met exactly, unless it is too near or too far.
   const std::int64_t first = events.time(0) - now;
   if (first > longest_interval) return {};
   const Timing single{.interval = static_cast<std::uint32_t>(std::max(first, shortest_interval_)), .events = 1};
@@ -82,7 +82,7 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
     double change = std::round(2 * (slope2 - slope1) / (m2 - m1));
     if (std::fabs(change) > fine_change) change = std::round(change / coarse_change) * coarse_change;
     if (std::fabs(change) > largest_change) continue;
-    // With the change rounded, the interval still brings the far node where it belongs.
+    // After the change is rounded, the interval still places the far node where it belongs.
     const double interval = std::round(slope2 - change * (m2 - 1) / 2);
     if (interval < 1 || interval > static_cast<double>(longest_interval)) continue;
     const Timing timing{
@@ -97,7 +97,7 @@ SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std
   const double ideal = stretch.sign > 0 ? first_target : -first_target;
   const std::int64_t step = std::llround(ideal) - along(stretch.sign, position);
   const std::int64_t increment = std::clamp<std::int64_t>(step, 0, whole_step);
-  // Where a stretch begins between two lines of its grid, one event by itself brings the master onto the grid.
+  // Where a stretch begins between two lines of its grid, a first segment of one event brings the master onto the grid.
   return {.sign = stretch.sign, .increment = increment, .events = step == stretch.grid ? events : 1};
 }
 
@@ -109,16 +109,16 @@ SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place
   return {.sign = sign, .increment = std::min<std::int64_t>(missing, whole_step), .events = 1};
 }
 
-// The longest stretch of events that one increment can serve, when the straight guess fails. It should end where the
-// motor ought to be: an increment that is pushed to a bound leaves it ahead or behind, and the next segment pays for
-// that with a short one.
+// The longest run of events that one increment can serve, if the straight guess fails. It should end at the motor's
+// proper place. An increment at a bound would leave the motor ahead or behind, and a short next segment would be the
+// price.
 //
-// Whether a quotient would be beyond a bound is asked by a product: few of them are needed.
+// Products test whether a quotient is beyond a bound: few quotients are needed.
 SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned count) const {
   std::int64_t low = 0;
   std::int64_t high = whole_step;
   Advance pushed{.increment = std::clamp<std::int64_t>(ideal_[1] - place, 0, whole_step), .events = 1};
-  unsigned straight = 0;  // events
+  unsigned straight = 0;  // number of events
   for (unsigned k = 1; k <= count; ++k) {
     const std::int64_t due = (ideal_[k] >> 16 << 16) - place;                         // not late
     const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1 - place;  // not more than one event early
@@ -131,7 +131,7 @@ SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned
     pushed = {.increment = is_low ? low : high, .events = k};
     if (!is_low && !is_high) straight = k;
   }
-  // Far behind or ahead of it, there is none: what can be done is done.
+  // Far behind or ahead of its place no increment fits, and the best possible one is used.
   if (straight == 0) return pushed;
   return {.increment = ceil_divide(ideal_[straight] - place, straight), .events = straight};
 }
@@ -144,7 +144,7 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   if (first > count) return settle(position, places[count], count);
   const int sign = places[first] > places[first - 1] ? 1 : -1;
   for (unsigned k = 1; k <= count; ++k) {
-    if (sign * (places[k] - places[k - 1]) <= -still) {  // turns back here: the rest is for the next segment
+    if (sign * (places[k] - places[k - 1]) <= -still) {  // turns back here: the rest is left to the next segment
       count = k - 1;
       break;
     }
@@ -154,7 +154,7 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   ideal_[count + 1] = goes_on ? floor_to_int(sign * places[count + 1]) : ideal_[count];
 
   const std::int64_t start = along(sign, position);
-  // Rounded up: a step that falls exactly on an event is not missed for want of a few 65536ths.
+  // Rounded up, so that a step exactly at an event is not missed by a few 65536ths.
   const std::int64_t straight = std::clamp<std::int64_t>(ceil_divide(ideal_[count] - start, count), 0, whole_step);
   std::int64_t place = start;
   bool holds = true;
@@ -180,7 +180,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
   advances[stretch.master] =
       advance_master(stretch, board.position(stretch.master), events.places(stretch.master)[1], count);
   count = advances[stretch.master].events;
-  // A motor may shorten the segment, and then the motors before it may take another increment: until all agree.
+  // One motor may shorten the segment, and earlier motors may then need another increment. So repeat until all agree.
   for (bool agreed = false; !agreed;) {
     agreed = true;
     for (unsigned m = 0; m < motors_; ++m) {
@@ -202,7 +202,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
     set_increment(segment, m, sign, advances[m].increment);
   }
-  // Next to a rest it is two at most, and then soon many.
+  // Next to a rest a segment has at most two events, and soon after many.
   if (timing.events > 2) guess_ = timing.events;
   return count;
 }

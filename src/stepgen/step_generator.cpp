@@ -77,7 +77,7 @@ class StepGenerator::Implementation {
   }
 
  private:
-  // Turns waiting events into one segment. False when none is left, or when too few are left to be sure.
+  // Makes one segment of waiting events. Returns false if there are none, or too few to be sure.
   bool fit(BoardItem& item) {
     if (events_.empty() || (more_ && !enough())) return false;
     const unsigned used = fitter_.fit(events_, stream_.stretch(), board_, last_);
@@ -86,7 +86,7 @@ class StepGenerator::Implementation {
     return send(last_, item);
   }
 
-  // Events for the longest segment and one behind it, or all that may be waited for.
+  // Enough means: events for the longest segment and one more, or all that may be waited for.
   bool enough() const { return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_; }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
@@ -95,7 +95,7 @@ class StepGenerator::Implementation {
     return true;
   }
 
-  // Events without steps, to bridge a time that no interval can hold. Leaves a remainder that one interval can.
+  // Adds events without steps, for a time that no interval can hold. The time left fits one interval.
   bool wait_until(std::int64_t time, BoardItem& item) {
     constexpr std::int64_t idle = 32768 * whole_tick;
     constexpr int longest_idle = 255;
@@ -115,7 +115,7 @@ class StepGenerator::Implementation {
     return last_;
   }
 
-  // At rest: brings every motor to the very place of the programmed end, and the board's time to that of the path.
+  // At rest: brings every motor to the exact place of the programmed end, and the board's time to that of the path.
   bool come_to_rest(BoardItem& item) {
     std::array<std::int64_t, max_motors> missing{};
     bool moves = false;
@@ -139,7 +139,7 @@ class StepGenerator::Implementation {
     return send(segment, item);
   }
 
-  // Pulls motion until there are events to play, a rest to come to or an action to pass on. False at the end.
+  // Pulls motion until there are events to play, a rest to come to, or an action to pass on. Returns false at the end.
   bool go_on() {
     if (!stream_.in_move()) {
       if (!motion_->next(motion_item_)) return finish();
@@ -173,7 +173,7 @@ class StepGenerator::Implementation {
     stream_.end_stretch();
     stream_.wait(action.dwell);
     more_ = false;
-    play_ = rest_ = rests_ = true;  // an action comes at rest, whatever rounding has left of the speed
+    play_ = rest_ = rests_ = true;  // an action comes at rest, even if rounding left some speed
     action_ = action;
   }
 
@@ -199,11 +199,11 @@ class StepGenerator::Implementation {
   Exactness exactness_;
 
   bool play_ = false;  // events wait to be played
-  bool more_ = false;  // and more of the same stretch may follow
-  bool rest_ = false;  // after them, come to rest
-  bool rests_ = true;  // at the end of all that was pulled
+  bool more_ = false;  // more events of the same stretch may follow
+  bool rest_ = false;  // after the events, come to rest
+  bool rests_ = true;  // all motion pulled so far ends at rest
   bool finished_ = false;
-  std::optional<Action> action_;  // and then, pass this on
+  std::optional<Action> action_;  // pass this on after the rest
 };
 
 StepGenerator::StepGenerator(Source<MotionItem>& motion, const StepOptions& options)

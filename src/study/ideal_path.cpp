@@ -7,7 +7,7 @@ namespace {
 
 constexpr double full_turn = 6.283185307179586;
 
-// Angle from a to b about the centre, in −π … π, counterclockwise positive.
+// The angle from a to b about the centre, in −π … π, counterclockwise positive.
 double angle_between(const Place& a, const Place& b, const Place& centre) {
   const auto ax = static_cast<double>(a[0] - centre[0]);
   const auto ay = static_cast<double>(a[1] - centre[1]);
@@ -80,7 +80,7 @@ double IdealPath::distance(const Place& place) const {
     return std::abs(std::hypot(static_cast<double>(place[0] - centre[0]), static_cast<double>(place[1] - centre[1])) -
                     radius_);
   }
-  // From the foot on the line, axis by axis: the difference of squares would lose the small ones.
+  // The distance is summed from the foot on the line, axis by axis: a difference of squares would lose small values.
   const double share = line_progress(place);
   double square = 0;
   for (std::size_t axis = 0; axis < move_.axes(); ++axis) {

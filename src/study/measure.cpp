@@ -9,17 +9,17 @@
 namespace passo {
 namespace {
 
-// How often the watch hears of it: every so many pulses.
+// The number of pulses between two calls of `watch`.
 constexpr std::int64_t pulses_between_looks = 1 << 18;
 
-// Fastest and slowest step, and the lag, under one rule. Times run from 0 to 1 over the move.
+// The fastest and slowest step, and the lag, under one rule. Times run from 0 to 1 over the move.
 class EvennessBuilder {
  public:
   void add(double time, double way, double progress) {
     lag_ = std::max(lag_, std::abs(progress - time));
     if (way == 0) return;
     const double speed = way / (time - before_);
-    // The exact rule gives an axis that does not move along the path no time at all; such a step says nothing.
+    // The exact rule gives no time to an axis that does not move along the path. Such a step has no speed.
     if (time > before_) {
       fastest_ = std::max(fastest_, speed);
       slowest_ = std::min(slowest_, speed);

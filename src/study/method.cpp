@@ -15,7 +15,7 @@
 namespace passo {
 namespace {
 
-// What a student wants to see of each interpolator beside its pulses: names, and values.
+// What a student wants to see of each interpolator beside its pulses: the names and values of its variables.
 using Names = std::vector<std::string>;
 using Values = std::vector<std::int64_t>;
 
@@ -64,7 +64,7 @@ void values_of(const SlopeBlocks<>& line, std::size_t, Values& values) {
   values.push_back(line.blocks());
 }
 
-// Point comparison, and all arcs.
+// For point comparison, and for all arcs.
 template <class Interpolator>
 Names names_of(const Interpolator&, std::size_t) {
   return {"deviation"};

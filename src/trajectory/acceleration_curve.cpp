@@ -11,11 +11,11 @@ struct Corner {
   double acceleration = 0;
 };
 
-// A line of the hull is left out where those kept are not lower than by this share.
+// A line of the hull is left out if the kept lines are lower than it by less than this share.
 constexpr double share_lost = 2e-4;
 
-// Between two samples a falling function is at least what it is at the second one: the low corners of the stairs, from
-// the last one that is above `most`.
+// Between two samples a falling function is at least as high as at the second sample. Returns the low corners of these
+// stairs, beginning at the last one that is above `most`.
 std::vector<Corner> low_corners(std::span<const AccelerationCurve::Sample> samples, double most) {
   std::vector<Corner> corners;
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
@@ -65,7 +65,7 @@ AccelerationCurve AccelerationCurve::below(std::span<const Sample> samples, MmPe
   return curve;
 }
 
-// A line of the hull that is the highest up to w.
+// Adds a line of the hull, which is the highest one up to w.
 void AccelerationCurve::add(const Line& line, double w) {
   if (!lines_.empty()) {
     const Line& before = lines_.back();

@@ -9,45 +9,46 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The most that the path turns in a cell, in radians. What is taken off the limits grows with its square: on an arc
-// it is about (3/4) turn², on a cubic as much again for the change of its bend.
+// The greatest turn of the path in one cell, in radians. The slack taken off the limits grows with its square: on an
+// arc it is about (3/4) turn², on a cubic about twice that, because the bend changes too.
 constexpr double turn_a_cell_of_arc = 0.04;
-// Where the feed is beyond an axis's velocity: what that allows goes up and down as the arc turns, and the least of a
-// cell counts in all of it.
+// For an arc where the feed exceeds an axis's velocity. The speed that the axis allows goes up and down as the arc
+// turns, and the least speed in a cell counts for all of the cell.
 constexpr double turn_a_cell_of_fast_arc = 0.01;
 constexpr double turn_a_cell_of_cubic = 0.025;
-// Of the limit of an axis: what is taken off for what it may do between the ends of a cell.
+// The greatest share of an axis's limit that is taken off for what happens between the ends of a cell.
 constexpr double most_slack = 0.5;
 constexpr double cheap_slack = 0.02;  // for accelerations along the path that few cells need
 
-// The switch from speeding up to braking is at the end of some cell. At its ends, where an arc is slow, a cell is no
-// longer than this part of the way that braking from full speed takes; from there they grow, to this or to a part of
-// the arc, whichever is longer.
+// The switch from speeding up to braking comes at the end of some cell. At the ends of an arc, where motion is slow, a
+// cell is no longer than this share of the braking way from full speed. From there the cells grow to this size, or to a
+// share of the arc if that is longer.
 constexpr double braking_share = 1.0 / 64;
 constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
-// About half a cell is lost where an arc's speed is highest between two slow ends.
+// About half a cell is lost where an arc is fastest between two slow ends.
 constexpr double least_cells_of_arc = 32;
 
-// Where limits fall with the speed: by what part of the top speed it changes in a cell, at most.
+// Where limits fall with the speed: the greatest change of speed in a cell, as a share of the top speed.
 constexpr double speed_share = 1.0 / 64;
 constexpr double most_graded = 10'000;  // cells of a segment
 
-// A feed that is below a limit's shoulder by this is planned as if the limit were constant; the override raises it no
-// further.
+// A feed below a limit's shoulder by this factor is planned as if the limit were constant. The override does not raise
+// the speed further.
 constexpr double room_for_override = 2;
 
 double squared(double value) {
   return value * value;
 }
 
-// Lowers `top`, along the path, to what an axis can follow that goes so large a part of it. No limit is 0 or less. The
-// product is cheaper than the quotient, and where it is less that would be no less than `top`.
+// Lowers `top`, a value along the path, to what an axis with that limit can follow where it moves by `part` of the way.
+// A limit of 0 or less does not limit. Where the product is below the limit, the quotient would not be below `top`; the
+// product is cheaper.
 void lower(double& top, double limit, double part) {
   if (limit > 0 && !(top * part < limit)) top = std::min(top, limit / part);
 }
 
-// Member by member: a cell that is put together elsewhere and copied in one go waits for its bytes to be written.
+// Writes member by member. A cell built elsewhere and copied at once would have to wait until its bytes are written.
 void fill(const Segment& segment, double from, double to, Cell& cell) {
   cell.start = from;
   cell.end = to;
@@ -95,7 +96,7 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
   const double top = std::min(segment.speed.value(), top_speed(moving_, steepest));
   const double strongest_here = top_acceleration(moving_, steepest);
   const double braking = top * top / (2 * strongest_here);
-  // On a short line all limits may be constant at every speed that it can be passed at.
+  // On a short line all limits may be constant up to the highest speed that the motion can reach there.
   const double reached = std::sqrt(entry_squared + 2 * strongest_here * length);
   const bool line = curve.shape() == Curve::Shape::line;
   straight_ = line;
@@ -109,7 +110,7 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
     const double by_turn = length * turn / curve.turning(steepest);
     longest_ =
         std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
-    // Turning takes all of the acceleration at a speed from which braking takes but a radius.
+    // At some speed turning takes all of the acceleration. Braking from that speed takes about one radius.
     const double slowing = std::min(braking, 1 / curve.curvature());
     shortest_ = std::clamp(slowing * braking_share, longest_ / 64, longest_);
   } else {
@@ -149,8 +150,8 @@ void CellCutter::cut(const Segment& segment, double from, double to, bool straig
   cut_curve(segment, limited_, place_at(segment.curve, limited_, from), place_at(segment.curve, limited_, to), place);
 }
 
-// From rest the speed grows with the root of s: so do the cells, and each end of the segment may be a rest. At least
-// two: between two rests one would have no speed.
+// From rest the speed grows with the root of s, so the cells grow likewise. Each end of the segment may be a rest. At
+// least two cells: a single one between two rests would have no speed.
 double CellCutter::graded(double size, double left) const {
   const double near_start = grade_ * (grade_ + 2 * std::sqrt(at_.s));
   const double root = std::sqrt(left);
@@ -158,7 +159,7 @@ double CellCutter::graded(double size, double left) const {
   return std::min({size, near_start, near_end, at_.s == 0 ? left / 2 : left});
 }
 
-// The largest speed, and the largest acceleration, along a path of this slope that every axis can follow.
+// The next two: the largest speed and the largest acceleration along a path of this slope that every axis can follow.
 double CellCutter::top_speed(const Axes& axes, const Point& slope) {
   double top = fastest;
   for (const AxisLimits& axis : axes) lower(top, axis.velocity, std::abs(slope.values[axis.axis]));
@@ -179,8 +180,8 @@ double CellCutter::flat_top(const Axes& axes, const Point& slope) {
   return top;
 }
 
-// With n the part of the bend that is at right angles to the slope, the sum of n (q' a + q'' v²) over the axes is n²
-// v², whatever a is, and at most the sum of |n| times the limits.
+// Let n be the part of the bend at right angles to the slope. The sum of n (q' a + q'' v²) over the axes is n² v²,
+// whatever a is. It is at most the sum of |n| times the limits, which bounds v.
 double CellCutter::top_of_turning(const Axes& axes, const Point& slope, const Point& bend) {
   double slope_squared = 0;
   double common = 0;
@@ -207,8 +208,8 @@ CellCutter::Place CellCutter::place_at(const Curve& curve, const Axes& axes, dou
   return {.s = s, .slope = slope, .bend = bend, .turning = top_of_turning(axes, slope, bend)};
 }
 
-// On an arc each derivative turns the one before, so that its size is that of the slope in the plane times the turn a
-// millimetre.
+// On an arc each derivative is the one before, turned. So its size is that of the slope in the plane, times the turn
+// for each millimetre.
 CellCutter::Bend CellCutter::bend_of_arc(const Curve& curve, const Place& in, const Place& out) {
   const Curve::ArcData& arc = curve.arc_data();
   const double turn = std::abs(arc.sweep) / curve.length().value();
@@ -219,7 +220,7 @@ CellCutter::Bend CellCutter::bend_of_arc(const Curve& curve, const Place& in, co
   return {.third = around * turn * turn, .fourth = around * turn * turn * turn};
 }
 
-// Of a cubic the third derivative is constant.
+// A cubic's third derivative is constant.
 CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, std::size_t axis) {
   switch (curve.shape()) {
     case Curve::Shape::cubic: return {.third = 6 * std::abs(curve.cubic_data().third.values[axis])};
@@ -233,7 +234,7 @@ CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, std
   return {};
 }
 
-// A line, or what is left of one.
+// Cuts one cell of a line, or of the rest of a line.
 void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double from, double to,
                               const CellPlace& place) {
   Cell& cell = place.cell;
@@ -244,8 +245,9 @@ void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double f
   cell.straight = true;
 }
 
-// Turning may hide an axis's acceleration along its slope: as much again is reckoned with, and more where that takes
-// little off the limits, up to what some axis alone keeps below.
+// Turning may hide an axis's acceleration along its slope. So the acceleration along the path may be twice what the
+// slope alone allows. It may be more where that takes little off the limits, up to a value below which some axis keeps
+// it anyway.
 CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, const Place& out,
                                              const CellBounds& bounds, double slope_strength) {
   const double h = out.s - in.s;
@@ -275,8 +277,8 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
   return {.most = strength, .is_kept = is_kept()};
 }
 
-// Between the ends the demand f(s) = q' a + q'' v² has f'' = q'''' v² + 5 a q''', since (v²)' = 2a. It leaves the
-// larger of its end values by at most h²/8 times the largest |f''|: that much is taken off the limit.
+// Between the ends the demand f(s) = q' a + q'' v² has f'' = q'''' v² + 5 a q''', since (v²)' = 2a. So f exceeds the
+// larger of its end values by at most h²/8 times the largest |f''|. That much is taken off the limit.
 void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                            const CellPlace& place) {
   Cell& cell = place.cell;
@@ -296,7 +298,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
     lower(slope_strength, axis.acceleration, std::min(std::abs(in.slope.values[i]), std::abs(out.slope.values[i])));
   }
   cell.top_squared = top * top;
-  // Between the ends v² is between theirs.
+  // Between the ends, v² lies between its values at the ends.
   double top_squared = std::min(top * top, std::max(in.turning, out.turning));
   const double fastest_squared = std::min(top_squared, squared(room_for_override) * cell.feed_squared);
   const Strength own_strength = strength_on(
@@ -309,7 +311,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   for (const AxisLimits& axis : axes) {
     const Bend bend = bend_on(curve, of_arc, axis.axis);
     if (!(axis.acceleration > 0) || slack_of(bend) <= most_slack * axis.acceleration) continue;
-    // Too coarse for it: slower.
+    // The cell is too coarse for this speed: go slower.
     top_squared = most_slack * axis.acceleration / (eighth * (bend.fourth + 5 * bend.third / (2 * h)));
     strength = std::min(strength, top_squared / (2 * h));
     cell.top_squared = std::min(cell.top_squared, top_squared);
@@ -341,7 +343,8 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
                                            .slack_of_fall = eighth * bending};
   }
   if (!own_strength.is_kept) {
-    // It may hide more, where the turning of all axes that go along is undone by speeding up: not beyond this.
+    // Where speeding up cancels the turning of all axes that move, the demands may hide even more acceleration. This is
+    // its limit.
     const double half = 1 / (2 * h);
     place.demands[cell.demand_count++] = {
         .entry_x = -half, .entry_y = half, .exit_x = -half, .exit_y = half, .limit = strength};

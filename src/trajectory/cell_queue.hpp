@@ -1,5 +1,5 @@
-// CellQueue: the cells that the planner has in hand, with their demands, in a ring that grows up to a fixed size.
-// Private to trajectory/.
+// CellQueue: the cells that the planner holds, with their demands, in a ring that grows up to a fixed size. Private to
+// trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -16,16 +16,16 @@ class CellQueue {
   struct Entry {
     Cell cell;
     bool begins_at_rest = false;
-    double top_squared = 0;    // of the cell, with the override of the feed
-    double entry_cap = 0;      // squared: by the tops on both sides, 0 at a rest
-    double entry_if_rest = 0;  // how fast it may be entered if the path came to rest behind the queue
-    double entry_if_open = 0;  // the same if the path went straight on there for ever
-    // Of a cell that is decided: how it is left, if it is entered like this. Below 0: it was changed since.
+    double top_squared = 0;    // limit in the cell, with the override of the feed
+    double entry_cap = 0;      // limit at the entry, squared: by the tops on both sides, 0 at a rest
+    double entry_if_rest = 0;  // the greatest entry, squared, if the path came to rest after the queue
+    double entry_if_open = 0;  // the same if the path went straight on for ever
+    // Of a decided cell: its exit if it is entered like this. Below 0: the cell was changed since.
     double decided_entry = -1;
     double decided_exit = 0;
   };
 
-  // `axes`: the most demands a cell makes; the limits of `falling_axes` of them fall with the speed.
+  // `axes` is the most demands of a cell; `falling_axes` of them have limits that fall with the speed.
   CellQueue(std::size_t capacity, std::size_t axes, std::size_t falling_axes)
       : capacity_(capacity), axes_(axes), falling_axes_(falling_axes) {
     resize(std::min(capacity, first_capacity) + 1);
@@ -33,7 +33,7 @@ class CellQueue {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  // To push(); there is always room for push_front().
+  // Concerns push() only: push_front() always has room.
   bool full() const { return size_ >= capacity_; }
   Entry& operator[](std::size_t i) { return entries_[slot(i)]; }
   const Entry& operator[](std::size_t i) const { return entries_[slot(i)]; }
@@ -51,7 +51,7 @@ class CellQueue {
     return {falling_.data() + at * falling_axes_, entries_[at].cell.falling_count};
   }
 
-  // Where one more cell, or one before all others, is to be cut to, and the first one anew. Until the next call.
+  // Storage for one more cell, for one before all others, and for the first cell cut anew. Valid until the next call.
   CellPlace push() {
     assert(!full());
     if (size_ + 1 >= entries_.size()) grow();

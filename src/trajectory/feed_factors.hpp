@@ -1,4 +1,4 @@
-// FeedFactors: what multiplies the programmed feeds in mid-run. Private to trajectory/.
+// FeedFactors: factors on the programmed feeds, changed in mid-run. Private to trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -8,24 +8,24 @@
 
 namespace passo {
 
-// Below it a feed is none, and the motion stands.
+// Below this factor there is no feed, and the motion stands still.
 inline constexpr double least_feed_factor = 0.01;
 
 struct FeedFactors {
   double override = 1;
   double adaptive = 1;
-  double spindle = 1;                                    // of feeds that follow it
-  double top = std::numeric_limits<double>::infinity();  // mm/s: of all speeds, rapids included
+  double spindle = 1;                                    // factor of feeds that follow the spindle
+  double top = std::numeric_limits<double>::infinity();  // mm/s: limits all speeds, rapids included
 
-  // What was chosen for feeds; a slow spindle does not make the motion stand.
+  // The factor that was chosen for feeds. The spindle is left out: a slow spindle does not make the motion stand still.
   double chosen(const Heeds& heeds) const {
     return (heeds.feed_override ? override : 1) * (heeds.adaptive_feed ? adaptive : 1);
   }
-  // As it is planned with: where nothing moves, what follows is planned for the slowest feed.
+  // The factor to plan with. Where the motion stands still, the rest is planned for the slowest feed.
   double planned(const Heeds& heeds, SpindleLock lock) const {
     return std::max(chosen(heeds) * (lock != SpindleLock::none ? spindle : 1), least_feed_factor);
   }
-  // mm/s
+  // The programmed or rapid speed with the factors, in mm/s.
   double speed_on(const Segment& segment) const {
     const double factor = segment.rapid ? 1 : planned(segment.heeds, segment.lock);
     return std::min(segment.speed.value() * factor, top);
@@ -33,11 +33,11 @@ struct FeedFactors {
   friend bool operator==(const FeedFactors&, const FeedFactors&) = default;
 };
 
-// What was asked for in mid-run; any(): something that may keep the motion from going on.
+// What was asked for in mid-run. any() tells whether something may keep the motion from going on.
 struct MidRunWishes {
   FeedFactors feeds;
-  bool hold = false;  // where the program heeds it
-  bool stop = false;  // wherever it is
+  bool hold = false;  // stops where the program heeds a hold
+  bool stop = false;  // stops anywhere
 
   bool any() const {
     const double least = std::min({feeds.override, feeds.adaptive, feeds.override * feeds.adaptive});

@@ -9,12 +9,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double cells_a_ramp = 10;      // while the acceleration goes from 0 to its limit
+constexpr double cells_a_ramp = 10;      // while the acceleration rises from 0 to its limit
 constexpr double usual_rise = 0.02;      // seconds
-constexpr double cells_a_braking = 128;  // at least this fine against the time that braking takes
+constexpr double cells_a_braking = 128;  // cells in the time that braking takes, at least
 constexpr double turn_a_cell = 0.1;      // radians
-constexpr double most_cells = 20'000;    // of a segment
-constexpr double fewest_from_rest = 8;   // of a segment that begins or ends at rest
+constexpr double most_cells = 20'000;    // in one segment
+constexpr double fewest_from_rest = 8;   // cells of a segment that begins or ends at rest
 
 double limit_or_infinity(double limit) {
   return limit > 0 ? limit : infinity;
@@ -37,7 +37,7 @@ std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits) {
   return axes;
 }
 
-// Where the limit falls it is the highest of the lines, and each of them gives a speed up to which it is enough.
+// Where the limit falls, it is the highest of the lines. Each line gives a speed up to which it allows the turn.
 double LimitedAxis::turning_cap(double slope, double bend, double share) const {
   const double constant = bend > 0 ? share * acceleration / bend : infinity;
   if (!falls_at(slope * slope * constant)) return constant;
@@ -78,7 +78,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   entry_ = std::min(cut.entry_squared, top_ * top_);
   exit_ = std::min(cut.exit_squared, top_ * top_);
   const double rise = acceleration_ / jerk_;
-  // A slow feed is reached before the acceleration is at its limit; finer than what is usual it need not be.
+  // A slow feed is reached before the acceleration is at its limit. Cells need not be finer than the usual ones.
   const double rise_to_top = std::max(std::min(rise, std::sqrt(top_ / jerk_)), std::min(rise, usual_rise));
   tick_ = std::max(rise_to_top / cells_a_ramp, top_ / acceleration_ / cells_a_braking);
   const double left = length_ - from_;
@@ -88,7 +88,7 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   shortest_ = left / most_cells;
   if (entry_ == 0 || exit_ == 0) {
     longest_ = std::min(longest_, left / fewest_from_rest);
-    // The way of two ticks from rest.
+    // The way that two ticks from rest cover.
     const double way = std::min(8.0 / 6 * jerk_ * tick_, 2 * acceleration_) * tick_ * tick_;
     shortest_ = std::max(shortest_, way);
   }

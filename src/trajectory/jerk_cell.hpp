@@ -1,11 +1,11 @@
-// JerkCell: a short stretch of a segment for the jerk-limited profile, and the shape of each axis over it. Private to
+// JerkCell: a short part of a segment for the jerk-limited profile, and the shape of each axis over it. Private to
 // trajectory/.
 //
-// With q(s) the place of an axis and v, a, j speed, acceleration and jerk along the path, the axis moves with
+// Let q(s) be the place of an axis, and v, a, j speed, acceleration and jerk along the path. The axis moves with
 //
 //     velocity q' v      acceleration q' a + q'' v²      jerk q' j + 3 q'' v a + q''' v³
 //
-// Cells are so short that about ten of them are passed while the acceleration rises from nothing to its limit.
+// Cells are so short that about ten of them pass while the acceleration rises from 0 to its limit.
 #pragma once
 
 #include <algorithm>
@@ -16,28 +16,29 @@
 
 namespace passo {
 
-// An axis that has any limit; what has none is infinity.
+// An axis with at least one limit. A limit that it lacks is infinity.
 struct LimitedAxis {
   std::size_t index = 0;
   double velocity = 0;
   double acceleration = 0;
   double jerk = 0;
-  const AccelerationCurve* falling = nullptr;  // below `acceleration` from its shoulder on; most axes have none
+  const AccelerationCurve* falling = nullptr;  // below `acceleration` from its shoulder on; null for most axes
 
-  // At this square of its speed.
+  // The limit at this square of the axis's speed.
   double acceleration_at(double w) const {
     return falls_at(w) ? std::min(acceleration, line_at(w).at(w)) : acceleration;
   }
   bool falls_at(double w) const { return falling != nullptr && w > falling->shoulder(); }
-  // It keeps to the curve at any speed. Only of an axis that falls.
+  // The line of the curve that is the highest at w. A line keeps to the curve at any speed. Only for an axis that
+  // falls.
   const AccelerationCurve::Line& line_at(double w) const { return falling->lines()[falling->line_at(w)]; }
-  // The largest square of a speed along the path at which bending alone asks for no more than this share of it.
+  // The square of the highest speed along the path at which bending alone takes no more than this share of the limit.
   double turning_cap(double slope, double bend, double share) const;
 };
-// They refer to the limits.
+// The result refers to `limits`, which must outlive it.
 std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits);
 
-// The derivatives of an axis's place by s where a cell begins and where it ends.
+// The derivatives of an axis's place by s, at the start and at the end of a cell.
 struct AxisShape {
   double slope_in = 0;
   double slope_out = 0;
@@ -47,17 +48,17 @@ struct AxisShape {
   double third_out = 0;
 };
 
-// A change of the path's second derivative where segments join is passed so slowly that no axis's acceleration jumps
-// by more than this part of its limit.
+// The path's second derivative may change where segments join. Such a joint is passed so slowly that no axis's
+// acceleration jumps by more than this share of its limit.
 inline constexpr double unseen_jump = 2e-4;
 
 struct JerkCell {
   double start = 0;         // s on the segment's curve
   double length = 0;        // mm, above 0
-  double top_squared = 0;   // by the feed and the axes' velocities
-  double acceleration = 0;  // of a straight cell: what the axes allow along the path
+  double top_squared = 0;   // the limit by the feed and the axes' velocities
+  double acceleration = 0;  // straight cells: what the axes allow along the path
   double jerk = 0;
-  bool straight = false;  // on a line, and no axis's acceleration falls
+  bool straight = false;  // on a line, and the acceleration of no axis falls
   bool ends_segment = false;
 };
 
@@ -65,8 +66,7 @@ class JerkCutter {
  public:
   explicit JerkCutter(const std::vector<LimitedAxis>& axes) : axes_(axes) {}
 
-  // What is cut of a segment, and at which speeds it may be entered and left at most: cells are shorter where it is
-  // slow.
+  // The part of a segment to cut, and the highest speeds at its start and end. Cells are shorter where motion is slow.
   struct Cut {
     double from = 0;  // s
     double entry_squared = 0;
@@ -74,10 +74,10 @@ class JerkCutter {
     double feed = 0;  // mm/s
   };
   void begin(const Segment& segment, const Cut& cut);
-  // Next cell; `shapes` takes one for each axis.
+  // Writes the next cell; `shapes` takes one entry for each axis. Returns false at the end.
   bool next(JerkCell& cell, AxisShape* shapes);
 
-  // The square of the speed at which a joint may be passed, for the cut.
+  // The square of the highest speed at which a joint may be passed, for Cut.
   double joint_cap(const Segment& before, const Segment& after) const;
 
  private:
@@ -95,7 +95,7 @@ class JerkCutter {
   double from_ = 0;
   double at_ = 0;
   double length_ = 0;
-  double speed_ = 0;  // programmed
+  double speed_ = 0;  // the programmed one
   double top_ = 0;
   double acceleration_ = 0;
   double jerk_ = 0;
@@ -103,7 +103,7 @@ class JerkCutter {
   double exit_ = 0;
   double shortest_ = 0;
   double longest_ = 0;
-  double tick_ = 0;  // about the time a cell takes
+  double tick_ = 0;  // about the time for one cell
   bool straight_ = false;
   Derivatives here_;
 };

@@ -10,14 +10,14 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int most_steps = 12;
-constexpr double first_target = 0.02;  // price times slack, in parts of the mean time of a cell
+constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
 constexpr double last_target = 1e-4;
-constexpr double target_falls = 0.2;     // by this factor from step to step, at best
-constexpr double short_of_limit = 0.95;  // a step goes no nearer to where a slack or a price is nothing
-constexpr double least_share = 1e-3;     // of a step: where it goes no farther, there is no way
-constexpr double passable = 0.05;        // of a limit beyond it: the check decides
-constexpr double outer_part = 0.65;  // of x at the node, for the mean speed of half a cell; the rest is the middle's
-constexpr double least_slack = 0.3;  // of the limit, at the start
+constexpr double target_falls = 0.2;     // the factor from step to step, at best
+constexpr double short_of_limit = 0.95;  // a step goes at most this part of the way to a slack or price of 0
+constexpr double least_share = 1e-3;     // of a step; if no more is possible, there is no solution
+constexpr double passable = 0.05;        // a limit may be exceeded by this share; the check decides
+constexpr double outer_part = 0.65;  // weight of x at the node in the mean speed of half a cell; the rest: the middle
+constexpr double least_slack = 0.3;  // slack at the start, as a share of the limit
 
 double times(const std::array<double, 4>& factors, const double* values) {
   return factors[0] * values[0] + factors[1] * values[1] + factors[2] * values[2] + factors[3] * values[3];
@@ -29,7 +29,7 @@ std::array<double, 4> sum(const std::array<double, 4>& a, double factor_a, const
           a[3] * factor_a + b[3] * factor_b};
 }
 
-struct Forms {  // of a cell, in x0, a0, x1, a1
+struct Forms {  // linear forms of a cell, in x0, a0, x1, a1
   explicit Forms(double h)
       : middle_x{0.5, h / 4, 0.5, -h / 4},
         middle_a{-1 / h, -0.5, 1 / h, -0.5},
@@ -64,7 +64,7 @@ void JerkLift::add_straight_rows(const JerkCell& cell, double share, bool is_fir
   }
 }
 
-// Where the limit may fall, with the line of it that is the highest at the speed there is: |force| + fall w <= at rest.
+// Where the limit falls, the row uses the line that is the highest at the present speed: |force| + fall w <= at rest.
 void JerkLift::add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place) {
   rows_.push_back(row);
   if (!axis.falls_at(place.weight * place.cap)) return;
@@ -86,7 +86,7 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
     add_straight_rows(own, share, is_first);
     return;
   }
-  // The jerk is the same all over half a cell.
+  // The jerk is the same in all of half a cell.
   const double* const at = &at_[at_.size() - 4];
   const double middle = std::max(times(forms.middle_x, at), std::min(at[0], at[2]) / 4);
   const double first = outer_part * at[0] + (1 - outer_part) * middle;
@@ -138,7 +138,7 @@ void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t las
   }
 }
 
-// What is left of each limit.
+// Computes what is left of each limit.
 void JerkLift::measure(bool first_time) {
   const auto put = [first_time](Side& side, double left, double limit) {
     if (first_time) side.slack = std::max(left, least_slack * limit);
@@ -167,9 +167,9 @@ void JerkLift::measure(bool first_time) {
   }
 }
 
-// What a cell adds to the system.
+// What one cell adds to the system.
 struct JerkLift::Block {
-  Four first{};  // products with x0, and so on
+  Four first{};  // products with x0, with a0, and so on
   Four second{};
   Four third{};
   Four fourth{};
@@ -195,7 +195,7 @@ void JerkLift::add_to_system(std::size_t at, const Block& block) {
   }
 }
 
-// The integral of 1/v by Simpson's rule.
+// Adds the time of a cell: the integral of 1/v by Simpson's rule.
 void JerkLift::add_time(std::size_t c, Block& block) const {
   const double* const at = &at_[2 * c];
   const Cell& cell = cells_[c];
@@ -219,8 +219,8 @@ double JerkLift::time() const {
   return sum;
 }
 
-// The step's system. Where a side has slack s, price p and gradient g, and the product of both is to be t, it adds
-// p/s g g' on the left and (t + p * missing) / s g on the right.
+// Builds the system of one step. A side has slack s, price p and gradient g, and the product of slack and price is to
+// become t. It adds p/s g g' to the left side and (t + p * missing) / s g to the right side.
 void JerkLift::assemble(double target) {
   system_.assign(at_.size() + 4, Four{});
   step_.assign(at_.size() + 4, 0.0);
@@ -248,7 +248,7 @@ void JerkLift::assemble(double target) {
   }
 }
 
-// Of what moves: all but the first and the last two.
+// Solves for the numbers that move: all but the first two and the last two.
 void JerkLift::solve() {
   const std::size_t end = at_.size() - 2;
   for (std::size_t i = std::max<std::size_t>(end, 5) - 3; i < end; ++i) {
@@ -272,9 +272,9 @@ void JerkLift::solve() {
   }
 }
 
-// How far the step may be gone.
+// The share of the step that may be made.
 double JerkLift::look_along() {
-  double back = 0;  // 1 / the way to where the first slack is nothing
+  double back = 0;  // 1 / the distance at which the first slack becomes 0
   const auto put = [&back](Side& side, double change) {
     side.change = change - side.missing;
     back = std::max(back, -side.change * side.by_slack);
@@ -317,7 +317,7 @@ void JerkLift::for_each_side(const Visit& visit) {
 void JerkLift::go(double share, double target) {
   double back = 0;
   for_each_side([&](Side& side) {
-    // `missing` is no longer needed: the price's change.
+    // From here on `missing` is not needed; it holds the change of the price.
     side.missing = (target - side.price * side.change) * side.by_slack - side.price;
     if (-side.missing > back * side.price) back = -side.missing / side.price;
   });

@@ -1,4 +1,5 @@
-// JerkProfile: from planned squares of speeds to phases of constant jerk, and what these ask of each axis.
+// JerkProfile: makes phases of constant jerk of the planned squares of speeds, and measures what the phases ask of each
+// axis.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,22 +11,22 @@
 namespace passo {
 namespace {
 
-constexpr double most_growth = 3;  // of x within a cell where more cannot be played
+constexpr double most_growth = 3;  // of x within one cell, where a steeper growth cannot be played
 constexpr double most_above_cap = 4;
 constexpr double least_share = 0.2;
-// Of a limit, for what is between the places that are looked at in a bend: five of a cell, and where that is near the
-// limit, more, with a parabola through each three.
+// Shares of a limit, less the demand that may lie between the places looked at in a bend. Five places of a cell are
+// looked at. If a demand is near the limit, more places are, with a parabola through each three.
 constexpr double looked_at = 0.99;
 constexpr double looked_at_closely = 0.96;
 constexpr int close_parts = 4;
 constexpr double unseen_change = 1e-6;
-constexpr double weak = 100;       // mm/s², for axes without a limit
-constexpr double accepted = 1;     // of a limit
-constexpr double no_speed = 1e-9;  // of that beside it: rounding
+constexpr double weak = 100;       // mm/s², where axes have no limit
+constexpr double accepted = 1;     // times a limit
+constexpr double no_speed = 1e-9;  // times the speed beside it: rounding
 constexpr int most_slowings = 40;
-constexpr double beyond = 0.9999;  // slowed by so much more, against rounding
+constexpr double beyond = 0.9999;  // slowed a little more, against rounding
 
-// To value / limit, which is mostly less: a product tells it sooner.
+// Raises `worst` to value / limit. The quotient is mostly below `worst`, and a product tells that sooner.
 void raise_to(double& worst, double value, double limit) {
   if (value > worst * limit) worst = value / limit;
 }
@@ -47,7 +48,8 @@ JerkProfile::State JerkProfile::planned_state(std::size_t node) const {
           .acceleration = before + (after - before) * share};
 }
 
-// From one state to the other over the cell's length: h = (v0 + v1) t - (a1 - a0) t²/3 with t half the time.
+// The two phases from one state to the other over the cell's length: h = (v0 + v1) t - (a1 - a0) t²/3 with t half the
+// time.
 JerkProfile::Pair JerkProfile::pair_of(std::size_t i) const {
   const State from = state(i);
   const State to = state(i + 1);
@@ -71,7 +73,7 @@ double JerkProfile::highest(const State& from, double jerk, double time) {
   return turns ? from.speed - from.acceleration * from.acceleration / (2 * jerk) : from.speed;
 }
 
-// Whether phases exist, and do not run back, at whatever speed.
+// Whether the phases exist and never run backwards, at any speed.
 bool JerkProfile::is_possible(const Pair& pair, const State& from) {
   const auto lowest = [](const State& at, double jerk, double time) {
     const bool turns = at.acceleration < 0 && at.acceleration + jerk * time > 0;
@@ -88,14 +90,15 @@ JerkProfile::Inside JerkProfile::inside(const State& from, double jerk, double t
           .way = time * (from.speed + time * (from.acceleration / 2 + time * jerk / 6))};
 }
 
-// The largest multiples of the limits.
+// The largest demands in a cell, as multiples of the limits.
 JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const Pair pair = pair_of(i);
   const State from = state(i);
   if (!is_possible(pair, from)) return {2, 2};
   const State to = state(i + 1);
   const JerkCell& cell = cells_[i];
-  // Straight pieces are rounded above the low place between them: where a jump is to stay unseen, too much.
+  // Rounding off the corner between straight pieces lifts the speed at a low place. Where a jump must stay unseen, that
+  // may be too much.
   if (from.speed * from.speed > most_above_cap * passing_cap_[i]) return {2, 0};
   const double top =
       std::max({to.speed, highest(from, pair.first, pair.half), highest(pair.middle, pair.second, pair.half)});
@@ -117,7 +120,8 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   return worst;
 }
 
-// Half the time of a cell that is not straight, in so many parts. `way`: from the cell's start to that of the half.
+// Looks at half the time of a cell that is not straight, in `parts` parts. `way` is the distance from the cell's start
+// to the start of that half.
 void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, double time, double way, int parts,
                                Excess& worst) const {
   const double length = cells_[i].length;
@@ -155,7 +159,8 @@ void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, d
   }
 }
 
-// Around every place beyond its limits: less jerk is planned with, then less speed; wider and more the longer it takes.
+// Around every place beyond a limit, lowers first the planned jerk, then the speed. Later rounds reach wider and lower
+// more.
 bool JerkProfile::lower_where_exceeded(int round) {
   const std::size_t n = cells_.size();
   exceeded_.clear();
@@ -184,9 +189,10 @@ bool JerkProfile::lower_where_exceeded(int round) {
   return !exceeded_.empty();
 }
 
-// Where repairs run out: between rests all is played more slowly. With x times f, every speed is times the root of f,
-// every acceleration times f and every jerk times the root of f³; so limits can always be kept. Only a cell that cannot
-// be played at any speed needs another shape of the stretch: even speed, with two cells at each end to reach it.
+// The last resort, when repairs do not help: all motion between two rests is slowed. With x times f, every speed is
+// times the root of f, every acceleration times f and every jerk times the root of f³. So limits can always be kept.
+// Only a cell that cannot be played at any speed needs another shape: even speed, with two cells at each end to reach
+// it.
 void JerkProfile::slow_down() {
   const std::size_t n = cells_.size();
   for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
@@ -214,14 +220,14 @@ void JerkProfile::level(std::size_t begin, std::size_t end) {
   if (end > begin + 1) std::fill(at(begin + 1), at(end), *std::min_element(at(begin + 1), at(end)));
 }
 
-// Too much change within one cell, at whatever speed.
+// Limits the change of speed within one cell that is too steep at any speed.
 void JerkProfile::flatten(std::size_t i) {
   const double most = most_growth * std::min(x_[i], x_[i + 1]);
   cap_[i] = std::min(cap_[i], most);
   cap_[i + 1] = std::min(cap_[i + 1], most);
 }
 
-// A cell's phases follow from four nodes.
+// The phases of a cell follow from four nodes; compares these with the checked ones.
 bool JerkProfile::is_as_checked(std::size_t i) const {
   const std::size_t from = i > 0 ? i - 1 : 0;
   const std::size_t to = std::min(i + 2, cells_.size());
@@ -253,7 +259,7 @@ void JerkProfile::add_phases(std::size_t i, PlannedMove& move) const {
             .jerk = MmPerSecond3(pair.second)});
 }
 
-// Without jerk; what goes on as the phase before did makes that longer.
+// Adds a phase without jerk. If the phase before has the same acceleration, it is made longer instead.
 void JerkProfile::add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const {
   Phase phase{.duration = Seconds(0),
               .start = Mm(cell.start),

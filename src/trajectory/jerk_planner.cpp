@@ -7,19 +7,19 @@
 namespace passo {
 namespace {
 
-// Seconds, between two places from which braking is tried.
+// Seconds between two places from which braking is tried.
 constexpr double between_trials = 0.003;
 
-// Of the longest time of a move: a part that is smaller is not cut off.
+// A share of the longest time of a move. A smaller part is not cut off.
 constexpr double smallest_part = 0.02;
 
-// Of the time to rest: by so much sooner it must be to be worth another change.
+// A share of the time to rest. Another change must be sooner by this factor to be worth it.
 constexpr double worth = 0.98;
 
-// Parts of the speed wanted, from which a plan that goes on is looked for.
+// Shares of the wanted speed. From each of them a plan that goes on is tried.
 constexpr std::array<double, 6> tried_speeds = {1, 0.9, 0.75, 0.55, 0.35, 0.15};
 
-// A plan that goes on must see so many times the way that braking takes.
+// A plan that goes on must see this many times the braking way.
 constexpr double sight = 1.5;
 
 }  // namespace
@@ -50,7 +50,7 @@ void JerkPlanner::drop_to_action() {
   window_->begin_at({}, wishes_.feeds);
 }
 
-// Whether what is wished keeps the motion from going on where it is.
+// Whether the wishes keep the motion from going on from its present place.
 bool JerkPlanner::stands() {
   const Segment* segment = path_.at(0);
   return segment == nullptr ? wishes_.stands_before(path_.action()) : wishes_.stands_on(*segment);
@@ -93,7 +93,7 @@ bool JerkPlanner::produce(PlannedMove& move) {
   return true;
 }
 
-// Those on one segment, as many as a move has room for. Whether the segment ends there.
+// Takes as many pieces on one segment as a move has room for. Returns whether the segment ends there.
 bool JerkPlanner::take_pieces(const SpeedChange& change, std::size_t& given, PlannedMove& move) {
   const std::vector<SpeedChange::Piece>& pieces = change.pieces();
   const std::size_t segment = pieces[given].segment;
@@ -109,12 +109,12 @@ bool JerkPlanner::take_pieces(const SpeedChange& change, std::size_t& given, Pla
   return ends;
 }
 
-// What would come if nothing changed.
+// The motion that comes if nothing changes: how far it was looked at.
 struct JerkPlanner::Outlook {
-  bool behind_rest = false;  // of the move that was too long
-  std::size_t pieces = 0;    // of the change, given or looked at
-  std::size_t cells = 0;     // of the window, looked at
-  std::size_t segment = 0;   // of the path, where that lies
+  bool behind_rest = false;  // the rest of a move that was too long is passed
+  std::size_t pieces = 0;    // pieces of the change, given or looked at
+  std::size_t cells = 0;     // cells of the window, looked at
+  std::size_t segment = 0;   // segment of the path where that place lies
 };
 
 bool JerkPlanner::look_ahead(Outlook& outlook, PlannedMove& move) {
@@ -131,8 +131,8 @@ bool JerkPlanner::look_ahead(Outlook& outlook, PlannedMove& move) {
   return window_->look_at(outlook.cells, outlook.segment, move);
 }
 
-// The shortest way to rest is a SpeedChange. Where there is none, all goes on as planned to where there is one, or to
-// rest.
+// The shortest way to rest is a SpeedChange. If none is possible, the motion goes on as planned to a place where one
+// is, or to rest.
 void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
   plan.clear();
   Outlook outlook{.pieces = given_pieces_};
@@ -162,7 +162,7 @@ void JerkPlanner::braking_plan(std::vector<PlannedMove>& plan) {
   }
 }
 
-// In parts no longer than other moves are.
+// Appends the move in parts no longer than other moves.
 void JerkPlanner::append(const PlannedMove& move, std::vector<PlannedMove>& plan) const {
   std::optional<PlannedMove> rest = move;
   while (rest) {
@@ -171,7 +171,7 @@ void JerkPlanner::append(const PlannedMove& move, std::vector<PlannedMove>& plan
   }
 }
 
-// To the longest time that a move may take. What is left, if any.
+// Shortens the move to the longest time allowed. Returns the rest, if any.
 std::optional<PlannedMove> JerkPlanner::shorten(PlannedMove& move, Seconds longest) {
   if (move.duration() <= longest * (1 + smallest_part)) return {};
   const Seconds small = longest * smallest_part;
@@ -219,7 +219,8 @@ void JerkPlanner::take_note(const PlannedMove& move) {
   ++passed_segments_;
 }
 
-// At rest the plan begins anew; in motion a change leads to what is wanted, as soon as there is one.
+// Adapts to the wishes. At rest the plan begins anew. In motion a change leads to the wanted speed, as soon as one is
+// possible.
 void JerkPlanner::adapt(bool stands) {
   if (stands) {
     unsuited_ = true;
@@ -251,7 +252,7 @@ void JerkPlanner::stop_sooner() {
   given_pieces_ = passed_segments_ = 0;
 }
 
-// Over to a plan with the feeds of now. False where none was found: what was planned goes on.
+// Goes over to a plan with the present feeds. Returns false if none was found: then the old plan goes on.
 bool JerkPlanner::go_over() {
   const Segment& segment = *path_.at(0);
   const double feed = wishes_.feeds.speed_on(segment);

@@ -1,8 +1,8 @@
-// JerkPlanner: what Planner does where an axis has a limit of jerk: the acceleration changes continuously, and goes on
+// JerkPlanner: does Planner's work where an axis has a limit of jerk. The acceleration changes continuously, also
 // through joints of segments. Private to trajectory/.
 //
-// In mid-run the motion leaves its plan (JerkWindow) by a SpeedChange, to rest for a hold, else to a speed from which a
-// new plan goes on; what is planned stays until both are found. At rest everything may change.
+// A change in mid-run leads off the plan (JerkWindow) by a SpeedChange. For a hold the change leads to rest, else to a
+// speed from which a new plan goes on. The old plan stays until both are found. At rest everything may change.
 #pragma once
 
 #include <limits>
@@ -24,12 +24,12 @@ class JerkPlanner final : public Source<MotionItem> {
   JerkPlanner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued);
 
   [[nodiscard]] bool next(MotionItem& item) override;
-  // As Planner's.
+  // As in Planner.
   void braking_plan(std::vector<PlannedMove>& plan);
-  // At rest: what is left of the path up to the next action is dropped.
+  // At rest: drops the rest of the path up to the next action.
   void drop_to_action();
 
-  // As Planner's.
+  // As in Planner.
   void limit_moves_to(Seconds duration) { longest_move_ = duration; }
   void wish(const MidRunWishes& wishes);
 
@@ -52,17 +52,17 @@ class JerkPlanner final : public Source<MotionItem> {
   std::size_t most_queued_;
   std::unique_ptr<JerkWindow> window_;
 
-  PathState now_;  // at the end of what was given
+  PathState now_;  // at the end of the last move given
   OutputState outputs_;
-  std::optional<PlannedMove> rest_;    // of a move that was too long
-  std::optional<SpeedChange> change_;  // on the way to the window's start
-  std::size_t given_pieces_ = 0;       // of it
-  std::size_t passed_segments_ = 0;    // since it began
+  std::optional<PlannedMove> rest_;    // the rest of a move that was too long
+  std::optional<SpeedChange> change_;  // leads to the window's start
+  std::size_t given_pieces_ = 0;       // pieces of the change
+  std::size_t passed_segments_ = 0;    // segments passed since the change began
 
   Seconds longest_move_{std::numeric_limits<double>::infinity()};
   MidRunWishes wishes_;
-  FeedFactors fastest_;    // that is planned was planned with
-  bool unsuited_ = false;  // the plan, to what is wished
+  FeedFactors fastest_;    // the fastest feeds with which any of the present plan was made
+  bool unsuited_ = false;  // the plan does not suit the wishes
 };
 
 }  // namespace passo

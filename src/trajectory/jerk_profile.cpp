@@ -9,15 +9,15 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Parts of the limits that are planned with; the rest is for what straight pieces do not see, and for raising: a plan
-// that keeps away from the limits takes fewer repairs, and what is raised becomes no slower.
+// Shares of the limits to plan with. The rest is for what straight pieces do not see, and for raising. A plan with some
+// distance from the limits needs fewer repairs, and the raised motion is no slower.
 constexpr double planned_jerk = 0.86;
 constexpr double planned_acceleration = 0.96;
-constexpr double constant_speed_jerk = 0.84;  // of the jerk, for the bends of the path alone
+constexpr double constant_speed_jerk = 0.84;  // share of the jerk limit, for the path's bends alone
 constexpr double most_unevenness = 2.5;
 constexpr int rounds_a_refinement = 10;
 constexpr double least_left =
-    0.01;  // of the square of a speed; a rest where the path does not rest would last for ever
+    0.01;  // share of the square of a speed; a rest where the path does not rest would last for ever
 constexpr std::size_t most_undecided = 600;  // cells in which a calm place is looked for
 
 }  // namespace
@@ -68,7 +68,7 @@ double JerkProfile::duration(std::size_t i) const {
   return sum > 0 ? 2 * cells_[i].length / sum : 0;
 }
 
-// What the axes leave for the jerk along the path: |q' j + 3 q'' v a + q''' v³| <= J.
+// Narrows `range` to the jerk along the path that the axes leave: |q' j + 3 q'' v a + q''' v³| <= J.
 void JerkProfile::widen(Range& range, std::size_t cell, bool at_end, double v, double a) const {
   const JerkCell& own = cells_[cell];
   const double share = share_[at_end ? cell + 1 : cell];
@@ -98,8 +98,8 @@ JerkProfile::Range JerkProfile::jerk_range(std::size_t node, double v, double a)
   return range;
 }
 
-// The largest slope (forwards) or, negative, the steepest fall (backwards) of a cell for which every axis has the
-// acceleration; `near` is x where the step begins.
+// The largest slope of a cell for which every axis has the acceleration. Backwards: the steepest fall, with its sign
+// turned. `near` is x where the step begins.
 double JerkProfile::most_acceleration(std::size_t i, bool backwards, double near) const {
   const JerkCell& cell = cells_[i];
   if (cell.straight) return cell.acceleration * planned_acceleration;
@@ -123,7 +123,7 @@ double JerkProfile::most_acceleration(std::size_t i, bool backwards, double near
   return most;
 }
 
-// The same under limits that fall with the speed, with the line of each that is the highest at `near`.
+// The same under limits that fall with the speed, with the line of each limit that is the highest at `near`.
 double JerkProfile::most_under_falling(std::size_t i, bool backwards, double near) const {
   double most = infinity;
   const AxisShape* shape = shapes(i);
@@ -133,7 +133,7 @@ double JerkProfile::most_under_falling(std::size_t i, bool backwards, double nea
     const double near_bend = backwards ? shape->bend_out : shape->bend_in;
     const double far_slope = backwards ? -shape->slope_in : shape->slope_out;
     const double far_bend = backwards ? shape->bend_in : shape->bend_out;
-    // Where x is `near` + `way` times the slope sought.
+    // Limits the slope where x is `near` + `way` times the slope.
     const auto meet = [&](double slope, double bend, double way) {
       const double weight = slope * slope;
       if (!axes_[k].falls_at(weight * near)) return;
@@ -152,8 +152,8 @@ double JerkProfile::most_under_falling(std::size_t i, bool backwards, double nea
   return most;
 }
 
-// Across cell i, the acceleration rising as it may. Whether the profile is as high as its cap there, and no slope of
-// it counts behind.
+// Steps across cell i, with the acceleration rising as fast as it may. Returns whether the profile is at its cap there,
+// and its slope does not matter beyond.
 bool JerkProfile::step(std::size_t i, bool backwards, March& march) const {
   const std::size_t near = backwards ? i + 1 : i;
   const std::size_t far = backwards ? i : i + 1;
@@ -215,7 +215,8 @@ void JerkProfile::go_forwards() {
   }
 }
 
-// Lowers x_ to what braking allows; the last node from which on nothing to come matters. Only all of the window tells.
+// Lowers x_ to what braking allows. Returns the last node that does not depend on motion still to come. Only a pass
+// over the whole window tells.
 std::size_t JerkProfile::go_backwards(bool closed) {
   const std::size_t n = cells_.size();
   const std::size_t first = frozen_ > 0 ? 1 : 0;
@@ -238,7 +239,7 @@ std::size_t JerkProfile::go_backwards(bool closed) {
   return decided;
 }
 
-// By how much the slope may drop at a node.
+// The greatest drop of the slope at a node.
 double JerkProfile::drop_at(std::size_t node) const {
   const double v = std::sqrt(x_[node]);
   const double time = (duration(node - 1) + duration(node)) / 2;
@@ -248,7 +249,7 @@ double JerkProfile::drop_at(std::size_t node) const {
   return std::max(-low, 0.0) * time;
 }
 
-// It follows from three nodes: where those are as they were, it is as it was.
+// A drop follows from three nodes. It stays the same where those are unchanged.
 void JerkProfile::find_drops(std::size_t from) {
   const auto is_same = [this](std::size_t k) { return x_[k] == uncut_[k]; };
   for (std::size_t i = from; i < cells_.size(); ++i) {
@@ -268,7 +269,7 @@ void JerkProfile::cut_corners() {
   while (begin < n) {
     std::size_t end = begin + 1;
     while (end < n && x_[end] > 0) ++end;
-    // Between rests: y = x + G, G's slope growing by the drops.
+    // Between rests: y = x + G, where the slope of G grows by the drops.
     y[begin] = x_[begin];
     double steep = 0;
     double sum = 0;
@@ -299,7 +300,7 @@ void JerkProfile::cut_corners() {
       }
     }
     begin = end;
-    if (begin < n) hull_.pop_back();  // the rest begins the next
+    if (begin < n) hull_.pop_back();  // this rest is also the start of the next part
   }
 }
 
@@ -324,7 +325,7 @@ void JerkProfile::prepare() {
   find_passing_caps();
 }
 
-// In two halves.
+// Splits a cell in two halves.
 void JerkProfile::split(std::size_t i) {
   const auto at = [](auto& list, std::size_t k) { return list.begin() + static_cast<std::ptrdiff_t>(k); };
   JerkCell second = cells_[i];
@@ -351,7 +352,7 @@ void JerkProfile::split(std::size_t i) {
   entry_share_.insert(at(entry_share_, i + 1), planned_jerk);
 }
 
-// From rest there is no plan to fall back on: finer cells make one.
+// From rest there is no plan to fall back on. Finer cells make one possible.
 void JerkProfile::refine() {
   for (std::size_t k = exceeded_.size(); k-- > 0;) {
     const std::size_t i = exceeded_[k];
@@ -364,8 +365,8 @@ void JerkProfile::refine() {
   prepare();
 }
 
-// Where a long cell meets a short one, the acceleration cannot change evenly: all of the change would be in the short
-// one, and the finer that is cut, the more jerk it takes.
+// The acceleration cannot change evenly where a long cell meets a short one. All of the change would fall into the
+// short cell, and the finer that is cut, the more jerk it needs.
 void JerkProfile::even_out() {
   const auto is_long = [this](std::size_t i) {
     const double length = cells_[i].length / most_unevenness;
@@ -386,7 +387,7 @@ std::size_t JerkProfile::plan(bool closed) {
   kept_.assign(x_.begin(), x_.end());
   std::size_t decided = 0;
   bool good = false;
-  bool new_cells = true;  // cut since `decided` was counted
+  bool new_cells = true;  // cells were cut since `decided` was counted
   for (int round = 0; round < most_repairs_ && !good; ++round) {
     if (frozen_ > 0) {
       cap_[0] = std::max(cap_[0], kept_[0]);
@@ -415,8 +416,8 @@ std::size_t JerkProfile::plan(bool closed) {
     raise(n);
     return n;
   }
-  // The last chord whose both ends are decided, and preferably where nothing was repaired: what is given there will
-  // not be regretted.
+  // Find the last chord whose both ends are decided, preferably where nothing was repaired: motion given there needs no
+  // repair later.
   std::size_t last = 0;
   std::size_t calm = 0;
   for (std::size_t k = 0; k + 1 < hull_.size() && hull_[k + 1] <= decided; ++k) {
@@ -445,7 +446,7 @@ bool JerkProfile::is_calm(std::size_t node) const {
   return true;
 }
 
-// There is a plan from before, to rest at the end of what was known then: a part of it is played.
+// Goes on with the last good plan, which ends at rest at the end of the path known then. Part of it is played.
 std::size_t JerkProfile::go_on_as_planned() {
   x_.assign(kept_.begin(), kept_.end());
   is_raised_ = false;

@@ -1,25 +1,25 @@
-// JerkProfile: how fast each cell of a window of the path is entered, so that no axis exceeds its jerk either. Private
+// JerkProfile: the entry speed of each cell of a window of the path, so that no axis exceeds its jerk either. Private
 // to trajectory/.
 //
-// Over the way s the square x = v² of the speed is a chain of straight pieces, one a cell; the slope of a piece is
-// twice the acceleration, and where two meet the acceleration changes by jerk times the time from the middle of one to
-// the middle of the other.
+// Over the way s the square x = v² of the speed is a chain of straight pieces, one for each cell. The slope of a piece
+// is twice the acceleration. Where two pieces meet, the acceleration changes by jerk times the time from the middle of
+// one piece to the middle of the other.
 //
-//   x  cap ____  /chord\ ____    forwards:  from every place, the acceleration rises no faster than the jerk lets it;
-//        \ /F  \/       \B  /    backwards: the same for braking. The smaller of the two has convex corners nowhere
-//         v               \v      sharper than the jerk allows: at the lowest places it passes without acceleration.
-//   ----------------------- s    Concave corners are cut: with the most that a slope may drop at each node added up,
-//                                the profile below them is a convex hull, found in linear time (chords).
+//   x  cap ____  /chord\ ____    Forwards: from every place, the acceleration rises no faster than the jerk allows.
+//        \ /F  \/       \B  /    Backwards: the same for braking. The smaller of the two has no convex corner sharper
+//         v               \v      than the jerk allows: it passes its lowest places without acceleration.
+//   ----------------------- s    Concave corners are cut. Add up the greatest drops of the slope at each node: the
+//                                profile below them is then a convex hull, found in linear time (chords).
 //
-// What is decided of that is then raised (JerkLift, jerk_raise.cpp): the acceleration may go on falling into a bend and
-// rise out of it, which the caps, those of a constant speed, do not see.
+// The decided part of that is then raised (JerkLift, jerk_raise.cpp). The acceleration may fall while the motion enters
+// a bend and rise while it leaves. The caps, which assume a constant speed, do not see that.
 //
-// What remains is checked against every axis on the very phases that are given, and where a limit is exceeded the
-// speed is lowered and the window planned again. Where that does not help, the plan before goes on, which was checked
-// and ends at rest; from rest the window is slowed as a whole. So no plan is given that was not found good.
+// The phases are then checked against every axis, just as they will be given. Where a limit is exceeded, the speed is
+// lowered and the window planned again. Where that does not help, the last plan goes on, which was checked and ends at
+// rest. From rest the window is slowed as a whole. So no plan is given that was not found good.
 //
-// The window ends at rest or is planned as if it did. A place where braking does not limit the speed, from which the
-// profile goes on unchanged whatever comes, decides all before it.
+// The window ends at rest, or is planned as if it did. At some place braking does not limit the speed, and the profile
+// goes on unchanged whatever comes. Such a place decides all cells before it.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ namespace passo {
 
 class JerkProfile {
  public:
-  // `most_repairs`: of a plan, before it is slowed as a whole.
+  // `most_repairs` of a plan are tried before it is slowed as a whole.
   explicit JerkProfile(const std::vector<LimitedAxis>& axes, int most_repairs = 80)
       : axes_(axes),
         any_falls_(std::ranges::any_of(axes, [](const LimitedAxis& axis) { return axis.falling != nullptr; })),
@@ -45,36 +45,36 @@ class JerkProfile {
   std::size_t size() const { return cells_.size(); }
   const JerkCell& cell(std::size_t i) const { return cells_[i]; }
 
-  // An empty one begins at that speed, without acceleration.
+  // Makes an empty profile begin at that speed, without acceleration.
   void begin_in_motion(double speed);
-  // One more cell; `at_rest`: it begins at rest.
+  // Adds a cell. `at_rest` means that it begins at rest.
   void push(const JerkCell& cell, const AxisShape* shapes, bool at_rest);
-  // The square of the speed at which the last cell may be entered at most.
+  // The square of the highest speed at which the last cell may be entered.
   double last_cap() const { return entry_cap_.back(); }
-  // Plans all cells to rest at the end. Returns how many at the front are decided: all where the window is `closed`
-  // (the path does rest there).
+  // Plans all cells to rest at the end. Returns how many cells at the front are decided. All are if the window is
+  // `closed` (the path does rest at its end).
   std::size_t plan(bool closed);
-  // The phases of a decided cell, two at most.
+  // Adds the phases of a decided cell, at most two.
   void add_phases(std::size_t i, PlannedMove& move) const;
-  // Forgets cells at the front that have been given.
+  // Forgets the first `count` cells, which have been given.
   void drop(std::size_t count);
 
-  // How many at the front have a plan to rest at their end.
+  // The number of cells at the front that have a plan to rest at their end.
   std::size_t planned() const { return planned_; }
 
-  // Whether the last plan() could not do better than go on with the plan before.
+  // Whether the last plan() found nothing better than to go on with the plan before.
   bool fell_back() const { return fell_back_; }
 
  private:
-  static constexpr double planned_velocity = 0.9999;  // of the limit
+  static constexpr double planned_velocity = 0.9999;  // a share of the limit
 
   struct Range {
     double low, high;
   };
   using State = NodeState;
-  struct Pair {  // of phases of a cell, each of half the time
+  struct Pair {  // the two phases of a cell, each of half the time
     double half = 0;
-    double first = 0;  // jerk
+    double first = 0;  // the jerk of the first phase
     double second = 0;
     State middle;
   };
@@ -91,7 +91,7 @@ class JerkProfile {
   struct March {
     double x = 0;
     double slope = 0;  // of the cell before
-    double half = 0;   // half its time
+    double half = 0;   // half the time of the cell before
     bool operator==(const March&) const = default;
   };
   bool step(std::size_t i, bool backwards, March& march) const;
@@ -104,20 +104,20 @@ class JerkProfile {
   State planned_state(std::size_t node) const;
   Pair pair_of(std::size_t i) const;
   void add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const;
-  struct Excess {      // multiples of the limits
-    double force = 0;  // of speed and acceleration
+  struct Excess {      // as multiples of the limits
+    double force = 0;  // speed and acceleration
     double jolt = 0;
   };
   Excess excess(std::size_t i) const;
   void look_at_half(std::size_t i, const State& start, double jerk, double time, double way, int parts,
                     Excess& worst) const;
-  struct Inside {  // a phase
+  struct Inside {  // a place inside a phase
     State state;
-    double way = 0;  // from its start
+    double way = 0;  // from the start of the phase
   };
   static Inside inside(const State& from, double jerk, double time);
   static bool is_possible(const Pair& pair, const State& from);
-  static double highest(const State& from, double jerk, double time);  // speed of a phase, but for its end
+  static double highest(const State& from, double jerk, double time);  // speed within a phase, without its end
   bool lower_where_exceeded(int round);
   void slow_down();
   void level(std::size_t begin, std::size_t end);
@@ -133,7 +133,7 @@ class JerkProfile {
   void raise(std::size_t last);
   void find_fixed(std::size_t last);
   void raise_between(std::size_t first, std::size_t last);
-  struct Stretch {  // nodes
+  struct Stretch {  // from node to node
     std::size_t first = 0;
     std::size_t last = 0;
   };
@@ -145,16 +145,16 @@ class JerkProfile {
   int most_repairs_;
   std::vector<JerkCell> cells_;
   std::vector<AxisShape> shapes_;
-  std::vector<double> entry_cap_;    // of each cell
-  std::vector<double> entry_share_;  // of the jerk, planned with where it begins
-  // Of the nodes: one more than cells.
+  std::vector<double> entry_cap_;    // for each cell
+  std::vector<double> entry_share_;  // share of the jerk to plan with, where the cell begins
+  // For each node: one more than cells.
   std::vector<double> cap_;
   std::vector<double> share_;
   std::vector<March> forwards_;
   std::vector<March> backwards_;
-  std::vector<double> raised_;  // x_ and the drops added up
+  std::vector<double> raised_;  // x_ plus the sum of the drops
   std::vector<double> uncut_;   // x_ before its corners were cut
-  // The nodes at which a repair lowered something: only from there on the plan is made anew.
+  // The nodes at which a repair lowered something. The plan is made anew only from there on.
   struct Changed {
     bool all = true;
     std::size_t from = 0;
@@ -162,28 +162,28 @@ class JerkProfile {
   };
   Changed changed_;
   std::vector<double> x_;
-  std::vector<double> checked_;  // x_ when the limits were last checked
+  std::vector<double> checked_;  // x_ at the last check of the limits
   std::vector<std::size_t> exceeded_;
   std::vector<double> drops_;
   std::vector<double> place_;
   static constexpr std::size_t cannot_brake = static_cast<std::size_t>(-1);
   std::vector<std::size_t> hull_;
-  std::size_t frozen_ = 0;   // cells at the front whose x are fixed
-  State start_;              // of the front, given
+  std::size_t frozen_ = 0;   // cells at the front whose x is fixed
+  State start_;              // state at the front, given before
   std::size_t planned_ = 0;  // cells for which x_ is a plan to rest
   std::vector<double> kept_;
   bool fell_back_ = false;
 
-  // What is raised above x_: from there on the states are what is played.
+  // Motion raised above x_. Where it exists, the states are played.
   JerkLift lift_;
-  std::vector<double> passing_cap_;  // of the nodes
-  std::vector<bool> jumps_;          // the bend, and limits the speed
+  std::vector<double> passing_cap_;  // for each node
+  std::vector<bool> jumps_;          // the bend jumps at the node and limits the speed
   std::vector<bool> fixed_;
-  std::vector<double> lift_share_;  // of the limits, in each cell
+  std::vector<double> lift_share_;  // share of the limits, for each cell
   std::vector<double> lift_cap_;
   std::vector<State> states_;
   std::vector<State> unraised_;
-  std::vector<Stretch> again_;  // raised once more
+  std::vector<Stretch> again_;  // stretches to raise once more
   bool is_raised_ = false;
 };
 

@@ -1,9 +1,9 @@
-// JerkProfile: what is decided is raised to nearly the fastest (JerkLift), and checked on its phases like any plan.
+// JerkProfile: raises the decided part to nearly the fastest motion (JerkLift). Its phases are checked like any plan's.
 //
-// Where a limit is exceeded, that cell is raised again with a smaller share of the limits, and what lies around it;
-// what still exceeds one after some rounds is played as it was planned. Nodes where nothing can be gained stay as they
-// are: beside rests, where the bend jumps, at the highest speed there may be, and at both ends of what is raised, so
-// that what comes behind it is still what was planned.
+// A cell that exceeds a limit is raised again with a smaller share of the limits, together with the cells around it.
+// Cells that still exceed one after some rounds are played as planned. Nodes stay as they are where nothing can be
+// gained: beside rests, where the bend jumps, at the highest possible speed. Both ends of the raised part stay too, so
+// that the plan after it remains valid.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +13,8 @@
 namespace passo {
 namespace {
 
-// Parts of the limits to which is raised: in bends demands are larger between the places that JerkLift looks at.
+// Shares of the limits up to which motion is raised. In bends, demands are larger between the places that JerkLift
+// looks at.
 constexpr double share_in_bends = 0.985;
 constexpr double share_of_straights = 0.998;
 constexpr double least_lowering = 0.995;
@@ -24,12 +25,12 @@ constexpr double lower_cap = 0.9995;
 constexpr double at_cap = 1 - 1e-6;
 constexpr int rounds_of_raising = 7;
 constexpr int rounds_nearby = 3;
-constexpr std::size_t nearby = 14;  // cells raised again on both sides of one
+constexpr std::size_t nearby = 14;  // cells on both sides of one that are raised again with it
 constexpr std::size_t fewest_to_raise = 5;
 
 }  // namespace
 
-// By feed and velocity, and where the bend jumps: what no acceleration changes.
+// Caps by feed, velocity and jumps of the bend: no acceleration changes them.
 void JerkProfile::find_passing_caps() {
   const std::size_t n = cells_.size();
   passing_cap_.assign(n + 1, std::numeric_limits<double>::infinity());
@@ -64,7 +65,7 @@ void JerkProfile::find_fixed(std::size_t last) {
   }
 }
 
-// What is planned, up to that node.
+// Raises the planned motion up to that node.
 void JerkProfile::raise(std::size_t last) {
   if (last < fewest_to_raise) return;
   find_fixed(last);
@@ -87,7 +88,7 @@ void JerkProfile::raise(std::size_t last) {
   }
 }
 
-// Two nodes that are fixed, and none between.
+// Raises all nodes between two fixed ones.
 void JerkProfile::raise_between(std::size_t first, std::size_t last) {
   const JerkLift::Stretch stretch{.cells = cells_, .shapes = shapes_, .share = lift_share_, .cap = lift_cap_};
   if (!lift_.raise(stretch, first, last, states_)) return;
@@ -97,7 +98,7 @@ void JerkProfile::raise_between(std::size_t first, std::size_t last) {
     for (const Stretch& raised : again_) find_raised_too_far(raised);
     if (exceeded_.empty()) return;
     if (round == rounds_of_raising) break;
-    if (round == rounds_nearby) {  // anew, with what is known of the limits now
+    if (round == rounds_nearby) {  // begin anew, with the limits as known now
       put_back(first, last);
       if (!lift_.raise(stretch, first, last, states_)) return;
       again_.assign(1, {first, last});
@@ -110,14 +111,14 @@ void JerkProfile::raise_between(std::size_t first, std::size_t last) {
       while (k < exceeded_.size() && exceeded_[k] <= around.last + beside) around.last = exceeded_[k++];
       around.last = std::min(around.last + 1 + beside, last);
       again_.push_back(around);
-      // Where there is no way, what exceeds a limit is found again, and more is raised with it.
+      // If no solution is found, the next round finds the excess again and raises more cells with it.
       static_cast<void>(lift_.raise(stretch, around.first, around.last, states_));
     }
   }
   put_back(first, last);
 }
 
-// As it was planned.
+// Restores the planned motion.
 void JerkProfile::put_back(std::size_t first, std::size_t last) {
   const auto at = [](std::vector<State>& states, std::size_t k) {
     return states.begin() + static_cast<std::ptrdiff_t>(k);
@@ -132,7 +133,7 @@ void JerkProfile::find_raised_too_far(const Stretch& raised) {
     if (most <= 1) continue;
     exceeded_.push_back(i);
     lift_share_[i] *= std::clamp(safely / most, most_lowering, least_lowering);
-    if (worst.force > 1) lift_cap_[i] *= lower_cap;  // it may be the speed
+    if (worst.force > 1) lift_cap_[i] *= lower_cap;  // the speed may be the reason
   }
 }
 

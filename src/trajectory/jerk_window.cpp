@@ -7,11 +7,11 @@
 namespace passo {
 namespace {
 
-// Cells. What is raised at once ends as it was planned, so that short windows cost time.
+// In cells. Each raised part ends as it was planned, so short windows cost time.
 constexpr std::size_t first_window = 2400;
 constexpr std::size_t fewest_queued = 400;
 constexpr std::size_t phases_a_cell = 2;
-constexpr std::size_t fewest_in_motion = 32;  // cells from which a start in motion is planned
+constexpr std::size_t fewest_in_motion = 32;  // cells needed to plan a start in motion
 
 }  // namespace
 
@@ -53,7 +53,7 @@ bool JerkWindow::next(PlannedMove& move) {
   return true;
 }
 
-// Whether the segment ends there.
+// Adds a cell's phases. Returns whether the segment ends there.
 bool JerkWindow::add_cell(std::size_t i, PlannedMove& move) const {
   profile_.add_phases(i, move);
   const JerkCell& cell = profile_.cell(i);
@@ -82,7 +82,7 @@ void JerkWindow::look_ahead() {
   if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
 }
 
-// One more cell. A segment is cut when the one after it is known.
+// Pulls one more cell. A segment is cut only when the next segment is known.
 void JerkWindow::pull() {
   if (cutting_ && cutter_.next(cell_, shapes_.data())) {
     profile_.push(cell_, shapes_.data(), begins_at_rest_);

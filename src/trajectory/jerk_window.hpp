@@ -1,7 +1,7 @@
-// JerkWindow: the cells of the path ahead, as many as are needed, and the plan over them. Private to trajectory/.
+// JerkWindow: as many cells of the path ahead as are needed, and the plan over them. Private to trajectory/.
 //
-// Begins at any place of the path, at rest or at a speed without acceleration, and gives phases from there on to the
-// next rest that is an action or the end.
+// The window begins at any place of the path, at rest or at a speed without acceleration. It gives phases from there to
+// the next rest that is an action or the path's end.
 #pragma once
 
 #include <cstddef>
@@ -17,28 +17,29 @@ namespace passo {
 
 class JerkWindow {
  public:
-  // Both outlive it.
+  // `axes` and `path` must outlive the window.
   JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, std::size_t most_queued);
 
-  // From that place of that segment of the path on.
+  // A place on a segment of the path.
   struct Start {
     std::size_t segment = 0;
     double s = 0;
     double speed = 0;
   };
   void begin_at(const Start& start, const FeedFactors& feeds);
-  // Of cells to come.
+  // Sets the feeds of cells still to be cut.
   void set_feeds(const FeedFactors& feeds) { feeds_ = feeds; }
-  // Whether it can go on from a start in motion, with a rest in sight: not nearer than `way`.
+  // Whether a plan from a start in motion is found, with at least `way` of the path in sight (less where it rests
+  // before).
   [[nodiscard]] bool can_go_on(double way);
 
-  // The next phases of the first segment of the path. False at rest at the end of the stretch.
+  // Gives the next phases, all on the first segment of the path. Returns false at rest at the end of the stretch.
   [[nodiscard]] bool next(PlannedMove& move);
-  // What it would give next, if nothing changes: cell `ahead` of those to come, the plan to rest behind what is decided
-  // included, which lies on segment `segment` of the path. Both go one on, where it ends there. False at rest at the
-  // end.
+  // Shows what comes next if nothing changes: cell number `ahead` from here, which lies on segment `segment` of the
+  // path. The plan to rest after the decided cells is included. Both numbers advance: `segment` where a segment ends.
+  // Returns false at rest at the end.
   [[nodiscard]] bool look_at(std::size_t& ahead, std::size_t& segment, PlannedMove& move) const;
-  // The first segment of the path is gone.
+  // Call when the first segment of the path has been removed.
   void segment_passed() { --cut_; }
 
  private:
@@ -56,12 +57,12 @@ class JerkWindow {
   std::size_t cut_ = 0;  // segments of the path whose cells are all in the profile
   bool started_ = false;
   bool cutting_ = false;
-  bool begins_at_rest_ = true;  // the next cell
-  double estimate_ = 0;         // squared: how fast the next cell may be entered
+  bool begins_at_rest_ = true;  // concerns the next cell
+  double estimate_ = 0;         // squared: the highest entry speed of the next cell
   double length_ = 0;           // of all cells since the start
   bool closed_ = false;
   std::size_t decided_ = 0;  // cells at the front that nothing to come can change
-  std::size_t given_ = 0;    // of them
+  std::size_t given_ = 0;    // of the decided cells
   JerkCell cell_;
   std::vector<AxisShape> shapes_;
 };

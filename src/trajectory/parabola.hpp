@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// The most that the parabola through three values, at even distances, is away from 0 between them.
+// The greatest distance from 0, between three values at even distances, of the parabola through them.
 inline double highest_through(const std::array<double, 3>& values) {
   const auto [first, second, third] = values;
   const double most = std::max({std::abs(first), std::abs(second), std::abs(third)});

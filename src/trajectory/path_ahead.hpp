@@ -1,4 +1,4 @@
-// PathAhead: the segments that were pulled and are not played yet, up to the next action or the end. Private to
+// PathAhead: the segments that were pulled and not played yet, up to the next action or the path's end. Private to
 // trajectory/.
 #pragma once
 
@@ -16,17 +16,18 @@ class PathAhead {
  public:
   explicit PathAhead(Source<PathItem>& path) : path_(path) {}
 
-  // The segment so many behind the first, pulled where it has to be; nullptr where an action or the end comes before.
+  // The segment number i from the first, which is 0; pulls it if needed. nullptr if an action or the end comes before
+  // it.
   const Segment* at(std::size_t i) {
     while (segments_.size() <= i && !ended_) pull();
     return i < segments_.size() ? &segments_[i] : nullptr;
   }
-  // The first is played.
+  // Removes the first segment after it was played.
   void pop() { segments_.pop_front(); }
 
-  // What ends the segments, as far as it was pulled; nothing at the end of the path.
+  // The action that ends the segments, as far as pulled. nullptr at the end of the path.
   const Action* action() const { return action_ ? &*action_ : nullptr; }
-  // What is behind the last segment, when all are played; nothing at the end of the path.
+  // Takes the action after the last segment, when all segments are played. Nothing at the end of the path.
   std::optional<Action> take_action() {
     if (action_) ended_ = false;
     return std::exchange(action_, std::nullopt);

@@ -19,16 +19,16 @@
 namespace passo {
 namespace {
 
-// Of squares of speeds, relative: less is what arithmetic makes of equal ones.
+// A relative difference of squares of speeds. Smaller ones are rounding.
 constexpr double rounding = 1e-9;
 
-// Of the longest time of a move: phases are not cut into shorter ones, but the move gets shorter by it.
+// A share of the longest time of a move. Phases are not cut into smaller parts; the move may be shorter by this.
 constexpr double smallest_part = 0.02;
 
-// A rest of a cell that is shorter, in mm, is rounding.
+// In mm. A shorter rest of a cell is rounding.
 constexpr double smallest_rest = 1e-9;
 
-// In mm: a hold leaves no less of a cell, so that what is left can be halved.
+// In mm. A hold leaves at least this much of a cell, so that the rest can be halved.
 constexpr double smallest_cell = 1e-6;
 
 double squared(double value) {
@@ -135,21 +135,21 @@ class Planner::Implementation {
   }
 
  private:
-  // Whether what is wished keeps the motion from going on where it is.
+  // Whether the wishes keep the motion from going on from its present place.
   bool stands() {
     while (segments_.empty() && !closed_) pull();
     return segments_.empty() ? wishes_.stands_before(action_ ? &*action_ : nullptr)
                              : wishes_.stands_on(segments_.front());
   }
 
-  // After braking.
+  // Goes on after braking.
   void go_on() {
     decided_ = 0;
     if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
   }
 
-  // Each pass over the queue is paid for by as many new cells as it found undecided, which makes planning amortised
-  // linear.
+  // A pass over the queue comes only after as many new cells as the queue held. So planning takes amortised linear
+  // time.
   void look_ahead() {
     const std::size_t wanted = std::max<std::size_t>(2 * cells_.size(), first_window);
     while (!closed_ && !cells_.full() && cells_.size() < wanted) pull();
@@ -157,7 +157,7 @@ class Planner::Implementation {
     decide_forwards();
   }
 
-  // One more cell, or the end of the stretch.
+  // Pulls one more cell, or the end of the stretch.
   void pull() {
     if (cutting_) {
       append();
@@ -208,7 +208,7 @@ class Planner::Implementation {
     if (entry.cell.falling_count == 0) return largest_entry(cells_.demands(i), entry.entry_cap, most);
     return largest_entry(cells_.demands(i), cells_.falling(i), entry.entry_cap, most);
   }
-  // As fast as may be; where the entry is too fast for that (the override was lowered), as slow as can be.
+  // The fastest exit. If the entry is too fast for it (the override was lowered), the slowest possible exit.
   double exit_from(std::size_t i, double entry, double exit_most) const {
     if (exit_most == 0) return 0;  // whatever came before left room for it
     const CellQueue::Entry& queued = cells_[i];
@@ -222,24 +222,24 @@ class Planner::Implementation {
     return too_fast ? entry - change : std::min(most, entry + change);
   }
 
-  // What is behind the queue lies between a stop at once and nothing that slows it. Both are carried back; from where
-  // a cap makes them equal they stay equal, and whatever comes later changes nothing before.
+  // The path after the queue lies between two cases: a stop at once, and nothing that slows. Both are carried back.
+  // Where a cap makes them equal they stay equal, and later cells change nothing before that place.
   void plan_backwards() {
     double if_rest = 0;
     double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
     for (std::size_t i = cells_.size(); i-- > 0;) {
       const bool equal = if_rest == if_open;
       if (!equal) if_open = entry_to(i, if_open);
-      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after the other: its choice of lines is kept
+      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after if_open: its choice of lines is the one kept
       if (equal) if_open = if_rest;
       cells_[i].entry_if_open = if_open;
     }
   }
 
-  // A cell's exit is decided where both agree, or where accelerating as it may does not even reach the lower one.
+  // A cell's exit is decided where both cases agree, or where accelerating does not even reach the lower one.
   void decide_forwards() {
-    // A queue that is full and holds hardly more than the braking distance is played to its middle as if the path came
-    // to rest at its end: slower, and safe, and still linear.
+    // A full queue may hold hardly more than the braking distance. Its first half is then played as if the path came to
+    // rest at its end: slower, but safe and still linear.
     const std::size_t at_least = cells_.full() ? cells_.size() / 2 : 0;
     double entry = speed_squared_;
     for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
@@ -261,7 +261,7 @@ class Planner::Implementation {
     return *move;
   }
 
-  // How far into the first cell the path goes now, and the square of its speed there.
+  // The way into the first cell that the path goes now, and the square of the speed after it.
   struct Ride {
     double way = 0;
     double exit = 0;
@@ -274,7 +274,7 @@ class Planner::Implementation {
       const Cell& cell = cells_[0].cell;
       const bool as_decided = cells_[0].decided_entry == speed_squared_;
       const double exit = as_decided ? cells_[0].decided_exit : planned_exit(0, speed_squared_);
-      // The feed was lowered: down to it at once, and not where the cell ends.
+      // The feed was lowered: slow down at once, not only at the cell's end.
       const double too_fast = speed_squared_ - cells_[0].top_squared;
       const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
       if (too_fast > rounding * speed_squared_ && slowing > smallest_cell && slowing + smallest_cell < cell.length) {
@@ -297,7 +297,7 @@ class Planner::Implementation {
     }
   }
 
-  // In a hold: as slow as can be, and from rest on nothing but the hold itself.
+  // Brakes in a hold as hard as possible. From rest on it gives nothing but the hold itself.
   void brake(MotionItem& item) {
     if (speed_squared_ == 0) {
       item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
@@ -312,13 +312,13 @@ class Planner::Implementation {
     }
   }
 
-  // Of cell i, entered with this speed.
+  // The exit of cell i, entered with this speed.
   double planned_exit(std::size_t i, double entry) const {
     return exit_from(i, entry, i + 1 < cells_.size() ? cells_[i + 1].entry_if_rest : 0);
   }
 
-  // To rest within cell i where that can be, or through it as slow as can be. Never faster than without the hold:
-  // where the path rests anyway, rounding leaves no speed.
+  // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
+  // the path rests anyway, rounding leaves no speed.
   Ride shortest_ride(std::size_t i, double entry) const {
     const Cell& cell = cells_[i].cell;
     const double deceleration =
@@ -332,7 +332,7 @@ class Planner::Implementation {
     return {cell.length, std::min(least, planned_exit(i, entry))};
   }
 
-  // Takes what the move now does off the queue. Whether the move is complete: at the end of its segment or of its time.
+  // Removes the move's way from the queue. Returns whether the move is complete: at the end of its segment or time.
   bool go(const Ride& ride, PlannedMove& move) {
     const Segment& segment = segments_.front();
     const double segment_end = segment.curve.length().value();
@@ -342,7 +342,7 @@ class Planner::Implementation {
     speed_squared_ = ride.exit;
     const bool shortened = shorten(move);
     if (move.to.value() < cell_end - smallest_rest) {
-      // How the rest of the cell is left, is as decided as it was for the whole.
+      // The exit of the rest of the cell is decided as it was for the whole.
       cut_front_again(segment, move.to.value(), cell_end, ride.exit);
       return true;
     }
@@ -354,14 +354,14 @@ class Planner::Implementation {
     return shortened || ended;
   }
 
-  // The first cell from the place where the path is now, to be left as it was.
+  // Cuts the first cell again from the present place of the path. Its exit stays.
   void cut_front_again(const Segment& segment, double from, double to, double exit) {
     const CellPlace front = cells_.front_again();
     cutter_.cut(segment, from, to, front.cell.straight, front);
     allow(speed_squared_, exit, front);
   }
 
-  // A curved cell either speeds up or brakes: from a rest in the last one of a stretch it takes two to the next rest.
+  // A curved cell either speeds up or brakes. From a rest in a stretch's last cell to the next rest it takes two cells.
   void halve_front() {
     const double start = cells_[0].cell.start;
     const double end = cells_[0].cell.end;
@@ -380,8 +380,8 @@ class Planner::Implementation {
     set_caps(1);
   }
 
-  // In the middle of a cell an axis may demand more than is asked for at the ends of one, which leaves room for what is
-  // between. What was to be done from here on may be done still.
+  // The demands at the ends of a cell leave room for what lies between them. So in the middle of a cell an axis may
+  // demand more. What the motion was to do from here on must stay allowed.
   static void allow(double entry, double exit, const CellPlace& place) {
     for (std::size_t k = 0; k < place.cell.demand_count; ++k) {
       AxisDemand& demand = place.demands[k];
@@ -390,7 +390,7 @@ class Planner::Implementation {
     }
   }
 
-  // To the longest time that a move may take.
+  // Shortens the move to the longest time allowed. Returns whether it did.
   bool shorten(PlannedMove& move) {
     Seconds left = longest_move_ * (1 - smallest_part);
     for (std::size_t i = 0; i < move.phase_count; ++i) {
@@ -422,14 +422,14 @@ class Planner::Implementation {
   const std::size_t most_queued_;
   CellCutter cutter_;
 
-  Window<Segment> segments_;  // whose cells are in the queue, or are being cut
+  Window<Segment> segments_;  // those whose cells are in the queue or being cut
   CellQueue cells_;
   bool cutting_ = false;
   bool at_rest_ = true;         // the next cell begins at rest
-  double reached_squared_ = 0;  // the square of the speed at which it may begin at most
-  std::size_t decided_ = 0;     // cells at the head whose exit speed nothing to come can change
-  double speed_squared_ = 0;    // at the head's start
-  bool closed_ = false;         // an action or the program's end follows the queue: it ends at rest
+  double reached_squared_ = 0;  // the square of the highest speed at which it may begin
+  std::size_t decided_ = 0;     // cells at the head whose exit speed no later cell can change
+  double speed_squared_ = 0;    // at the start of the head
+  bool closed_ = false;         // an action or the program's end follows the queue, which ends at rest
   std::optional<Action> action_;
   PathItem pulled_;
   MidRunWishes wishes_;

@@ -1,4 +1,4 @@
-// Where a path has to rest between two of its segments. Private to trajectory/.
+// Where a path must rest between two of its segments. Private to trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// Where the directions of two segments differ by more, the path has a corner, and only rest takes it round.
+// If the directions of two segments differ by more, the path has a corner, and the motion must rest there.
 inline constexpr double tangent_tolerance = 1e-6;
 
 inline bool rests_between(const Segment& before, const Segment& after) {

@@ -11,20 +11,20 @@ namespace passo {
 namespace {
 
 constexpr int most_trials = 30;
-constexpr double weakest = 0.02;       // of what the limits allow where it begins: less is not worth it
-constexpr double looked_at = 0.99;     // of the limits, on curves: places between those looked at have the rest
-constexpr double rounding = 1e-6;      // of a limit
+constexpr double weakest = 0.02;       // share of what the limits allow at the start; a weaker change is not worth it
+constexpr double looked_at = 0.99;     // share of the limits on curves; the rest is for places between those looked at
+constexpr double rounding = 1e-6;      // share of a limit
 constexpr double turn_a_look = 0.02;   // radians
-constexpr int fewest_looks = 12;       // a piece
+constexpr int fewest_looks = 12;       // in a piece
 constexpr int fewest_of_falling = 24;  // where limits fall with the speed
 constexpr int most_looks = 200;
-constexpr double smallest_way = 1e-11;  // mm, that is a phase
-constexpr double smallest_rest = 0.02;  // mm, of a segment behind the end of a change,
-constexpr double smallest_part = 0.2;   // or this part of it: what is left is cut like a segment
+constexpr double smallest_way = 1e-11;  // mm; a shorter phase is left out
+constexpr double smallest_rest = 0.02;  // mm of a segment after the end of a change, at least
+constexpr double smallest_part = 0.2;   // or this share of the segment; the rest is cut like a segment
 constexpr double smallest_time = 1e-13;
-constexpr double most_unseen_jump = 4;  // of what is unseen: as the profile accepts it
+constexpr double most_unseen_jump = 4;  // times the unseen jump, as the profile accepts it
 
-// When the phase is at s, in its time.
+// The time within the phase at which the motion is at s.
 double time_at(const Phase& phase, double s) {
   double low = 0;
   double high = phase.duration.value();
@@ -40,7 +40,7 @@ double time_at(const Phase& phase, double s) {
   return time;
 }
 
-// What is left of the phase behind that time.
+// The part of the phase after that time.
 Phase rest_of(const Phase& phase, double time, double start) {
   const Seconds t(time);
   return {.duration = phase.duration - t,
@@ -62,7 +62,7 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
     if (!change.shape(state, request.exit, strength)) return std::nullopt;
     const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
-    Demand worst{.force = 1.03, .jolt = 1.03};  // another strength ends elsewhere
+    Demand worst{.force = 1.03, .jolt = 1.03};  // the change laid with another strength ends at another place
     if (laid == Laid::whole) {
       worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
@@ -106,7 +106,8 @@ void SpeedChange::add(double duration, double jerk) {
   duration_ += duration;
 }
 
-// With p the strongest braking: down to -p, there, and back to 0. False where the speed cannot but fall below 0.
+// The acceleration goes to -p, stays there and goes back to 0, where p is the strongest braking. Returns false where
+// the speed must fall below 0.
 bool SpeedChange::shape(const PathState& state, double exit, const Strength& strength) {
   const double v = state.speed;
   const double a = state.acceleration;
@@ -125,7 +126,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   exit_ = exit;
   const double sharpest_peak = std::sqrt(j * (v - exit) + a * a / 2);
   const double p = std::min(sharpest_peak, strength.acceleration);
-  const bool too_strong = a < -p;  // already
+  const bool too_strong = a < -p;  // braking is already too strong
   const double to_peak = std::abs(a + p) / j;
   const double lost = too_strong ? (a * a - p * p) / (2 * j) : (p * p - a * a) / (2 * j);
   add(to_peak, too_strong ? j : -j);
@@ -135,11 +136,11 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   return true;
 }
 
-// Cuts the phases where segments end.
+// Lays the phases on the path: cuts them where segments end.
 SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
   pieces_.clear();
   segment_ = state.segment;
-  double base = -state.s;  // where the segment begins, counted as the phases are
+  double base = -state.s;  // the segment's start, counted as the phases are
   const Segment* segment = path.at(segment_);
   double end = base + segment->curve.length().value();
   for (Phase phase : phases_) {
@@ -173,7 +174,7 @@ SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request)
     const Segment& segment = *path.at(piece.segment);
     look_over(piece, segment, request, worst);
     if (!piece.ends_segment) continue;
-    // What the profile passes slowly, since the path's bend jumps there, is passed slowly here too.
+    // The profile passes a place slowly where the path's bend jumps. So does the change.
     const Segment& after = *path.at(piece.segment + 1);
     const Point jump = after.curve.second_derivative(Mm(0)) - segment.curve.second_derivative(segment.curve.length());
     const double speed = piece.phase.velocity_at(piece.phase.duration).value();
@@ -190,7 +191,7 @@ void SpeedChange::look_over(const Piece& piece, const Segment& segment, const Re
   const double time = phase.duration.value();
   const double way = phase.position_at(phase.duration).value() - phase.start.value();
   const bool falls = std::ranges::any_of(request.axes, [](const LimitedAxis& axis) { return axis.falling != nullptr; });
-  int count = 1;  // on a line all of it is at most where it ends or turns
+  int count = 1;  // on a line the demand is greatest at an end or where the phase turns
   if (falls || segment.curve.shape() != Curve::Shape::line) {
     const double by_turn = std::ceil(way * segment.curve.curvature() / turn_a_look);
     count = static_cast<int>(std::clamp<double>(by_turn, falls ? fewest_of_falling : fewest_looks, most_looks));
@@ -201,7 +202,7 @@ void SpeedChange::look_over(const Piece& piece, const Segment& segment, const Re
     worst.raise(looks[k % looks.size()]);
     if (k >= 2) worst.raise_between(looks, k % looks.size());
   }
-  // Fastest where it stops speeding up.
+  // The speed is highest where it stops rising.
   const double turn = phase.jerk.value() < 0 ? phase.acceleration.value() / -phase.jerk.value() : -1;
   const bool turns = turn > 0 && turn < time;
   if (turns) worst.raise(look_at(piece, segment, request.axes, turn));
@@ -218,7 +219,7 @@ void SpeedChange::Excess::raise(const Look& look) {
   }
 }
 
-// By parabolas through the last three looks, of which `newest` is the newest.
+// Adds the demand between looks: by parabolas through the last three looks, of which `newest` is the newest.
 void SpeedChange::Excess::raise_between(const std::array<Look, 3>& looks, std::size_t newest) {
   for (std::size_t k = 0; k < looks[newest].count; ++k) {
     const Demand& first = looks[(newest + 1) % looks.size()].axes[k];

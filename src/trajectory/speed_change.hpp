@@ -1,13 +1,12 @@
-// SpeedChange: from a speed and an acceleration to another speed without acceleration, on the path and within the
-// limits of every axis, jerk included. Private to trajectory/.
+// SpeedChange: a motion from a speed and an acceleration to another speed without acceleration, on the path and within
+// the limits of every axis, jerk included. Private to trajectory/.
 //
-//   acceleration  __                 up to three phases: to the strongest, there, and back to none. For a hold the
-//   speed
-//                   \        /       it leads to is 0.
+//   acceleration  __                 up to three phases: to the strongest value, at it, and back to 0.
+//                   \        /       For a hold the change leads to speed 0.
 //                    \______/
 //
-// What the axes allow changes along the path: strength and jerk of the change are lowered until no place of it asks
-// for too much. A change that passes a rest of the path is none.
+// The limits along the path change from place to place. So the strength and jerk of the change are lowered until no
+// place asks for too much. A change may not pass a rest of the path.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@
 
 namespace passo {
 
-// How the motion goes on from a place of a segment of the path.
+// The state of the motion at a place on a segment of the path.
 struct PathState {
   double s = 0;
   double speed = 0;
@@ -33,25 +32,25 @@ struct PathState {
 class SpeedChange {
  public:
   struct Piece {
-    std::size_t segment = 0;  // of the path when the change began
+    std::size_t segment = 0;  // counted in the path at the start of the change
     bool ends_segment = false;
     Phase phase;
   };
 
   struct Request {
     const std::vector<LimitedAxis>& axes;
-    FeedFactors feeds;  // on the feeds that are kept to
-    double exit = 0;    // speed; above what it would be if the acceleration just went to nothing: that
+    FeedFactors feeds;  // the change keeps to these feeds
+    double exit = 0;    // the wanted speed; at most the speed that remains when the acceleration just goes to 0
   };
-  // The change from `state` on; nothing where the limits do not allow it.
+  // Plans the change from `state` on. Returns nothing where the limits do not allow one.
   static std::optional<SpeedChange> plan(PathAhead& path, const PathState& state, const Request& request);
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   double exit() const { return exit_; }
   double duration() const { return duration_; }
-  // Of the speed it leads to, about.
+  // About the way to brake from the speed at its end.
   double braking_way() const { return braking_way_; }
-  // Where it ends.
+  // The place where it ends.
   std::size_t segment() const { return segment_; }
   double s() const { return s_; }
 
@@ -60,12 +59,12 @@ class SpeedChange {
     double acceleration = 0;
     double jerk = 0;
   };
-  struct Demand {  // multiples of the limits
+  struct Demand {  // as multiples of the limits
     double speed = 0;
     double force = 0;
     double jolt = 0;
   };
-  struct Look {  // at an instant
+  struct Look {  // at one instant
     std::array<Demand, axis_count> axes{};
     std::size_t count = 0;
   };
@@ -79,17 +78,17 @@ class SpeedChange {
   void add(double duration, double jerk);
   enum class Laid : std::uint8_t {
     whole,
-    blocked,      // the path ends or rests before it does
-    near_an_end,  // of a segment, so near that what is left of that is nothing to go on in
+    blocked,      // the path ends or rests before the change ends
+    near_an_end,  // the change ends so near a segment's end that the rest of the segment is too short to go on in
   };
   Laid lay(PathAhead& path, const PathState& state);
   Demand excess(PathAhead& path, const Request& request) const;
   static void look_over(const Piece& piece, const Segment& segment, const Request& request, Excess& worst);
   static Look look_at(const Piece& piece, const Segment& segment, const std::vector<LimitedAxis>& axes, double time);
 
-  std::vector<Phase> phases_;  // starts counted from the beginning of the change
-  std::vector<Piece> pieces_;  // the same, cut where segments end
-  double speed_ = 0;           // while it is shaped
+  std::vector<Phase> phases_;  // starts count from the start of the change
+  std::vector<Piece> pieces_;  // the same phases, cut where segments end
+  double speed_ = 0;           // while the phases are being shaped
   double acceleration_ = 0;
   double way_ = 0;
   double exit_ = 0;

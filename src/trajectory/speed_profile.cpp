@@ -9,14 +9,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A stretch of constant acceleration from one speed to another over `distance`. The time follows from way and speeds,
-// not from speed and acceleration: a difference of two nearly equal speeds has few good digits, their sum has all, and
-// so the phase ends where it should however short it is.
+// Adds motion of constant acceleration from one speed to another over `distance`. The time follows from way and speeds,
+// not from speed and acceleration. A difference of two nearly equal speeds has few good digits, while their sum has
+// all. So the phase ends where it should, however short it is.
 void add_stretch(double start, double distance, double from, double to, double limit, PlannedMove& move) {
   if (!(distance > 0)) return;
   const double duration = 2 * distance / (from + to);
   const double acceleration = std::clamp((to - from) / duration, -limit, limit);
-  // At rest the speed is exactly 0: the same product is subtracted there.
+  // The speed at rest is exactly 0, because the end of the phase subtracts this same product.
   if (to == 0) from = -(duration * acceleration);
   move.add({.duration = Seconds(duration),
             .start = Mm(start),
@@ -37,7 +37,7 @@ void add_phases(const SpeedProfile& profile, PlannedMove& move) {
   const double speeding = std::clamp((peak - profile.entry_squared) / twice, 0.0, length);
   double braking = std::clamp((peak - profile.exit_squared) / twice, 0.0, length - speeding);
   double cruising = length - speeding - braking;
-  if (crest <= profile.top_squared) {  // no cruising: the two meet, whatever rounding says
+  if (crest <= profile.top_squared) {  // no cruising: the two phases meet, whatever rounding says
     braking = length - speeding;
     cruising = 0;
   }

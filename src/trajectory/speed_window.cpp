@@ -10,12 +10,12 @@
 namespace passo {
 namespace {
 
-// Of squares of speeds and of limits, relative: less is what arithmetic makes of equal ones.
+// A relative difference of squares of speeds, or of limits. Smaller ones are rounding.
 constexpr double rounding = 1e-9;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Not set to anything before it is needed: most of those that there is room for are not.
+// Has no initial values: most corners that there is room for are never used.
 struct Corner {
   double x;
   double y;
@@ -52,7 +52,7 @@ class Region {
       from = to;
       excess_from = excess;
     }
-    // The origin meets every demand: something is always left.
+    // The origin meets every demand, so something is always left.
     std::copy_n(kept.begin(), count, corners_.begin());
     count_ = count;
   }
@@ -68,14 +68,14 @@ class Region {
   std::size_t count_ = 4;
 };
 
-// What the demands leave of x for a given y. Most of them leave everything, which is seen without a division: what is
-// larger than a rounded product is, divided by one factor, not less than the other.
+// The range of x that the demands allow for a given y. Most demands allow everything, which shows without a division: a
+// number above a rounded product, divided by one factor, is not below the other factor.
 struct Interval {
   double low = 0;
   double high = 0;
-  bool shrinks = false;  // whether a larger y makes the upper end less
+  bool shrinks = false;  // a larger y lowers the upper end
 
-  // |p x + q y| <= limit; with p = 0 nothing is left where that does not hold.
+  // Keeps |p x + q y| <= limit. With p = 0 nothing is left where that does not hold.
   void meet(double p, double q, double limit, double y) {
     const double toward = std::copysign(1.0, p);
     const double steep = toward * p;
@@ -87,7 +87,7 @@ struct Interval {
     high = up / steep;
     shrinks = shift > 0;
   }
-  // p x + q y <= limit
+  // Keeps p x + q y <= limit.
   void keep(double p, double q, double limit, double y) {
     const double bound = limit - q * y;
     if (p == 0) {
@@ -101,7 +101,7 @@ struct Interval {
   }
 };
 
-// Each cut adds a corner at most; a demand makes four.
+// Each cut adds at most one corner, and a demand makes four cuts.
 constexpr std::size_t corners_of_stripes = 4 + 4 * most_demands_of_cell;
 
 template <class AnyRegion>
@@ -114,7 +114,7 @@ void cut_stripes(std::span<const AxisDemand> demands, AnyRegion& region) {
   }
 }
 
-// Of x up to `most` for this y.
+// The range of x up to `most` for this y.
 inline Interval entries(std::span<const AxisDemand> demands, double y, double most) {
   Interval left{.high = most};
   for (const AxisDemand& demand : demands) {
@@ -123,8 +123,8 @@ inline Interval entries(std::span<const AxisDemand> demands, double y, double mo
   }
   return left;
 }
-// Of y up to `most` for this x: what does not depend on y is as it is. The x that the backward pass found meets the
-// demands but for rounding, which one that hardly depends on y would make a wide gap of.
+// The range of y up to `most` for this x. Demands without y are skipped. The x of the backward pass meets the demands
+// but for rounding, and a demand that hardly depends on y would make a wide gap of that rounding.
 inline Interval exits(std::span<const AxisDemand> demands, double x, double most) {
   Interval left{.high = most};
   for (const AxisDemand& demand : demands) {
@@ -135,7 +135,7 @@ inline Interval exits(std::span<const AxisDemand> demands, double x, double most
   return left;
 }
 
-// The line of each curve in use.
+// The line in use of each curve.
 using Lines = std::array<std::uint32_t, axis_count>;
 
 Lines lines_at(std::span<const FallingDemand> falling, double entry, double exit) {
@@ -158,7 +158,7 @@ double limit_of(const FallingDemand& falling, std::uint32_t number) {
   return std::max(line.at_rest - falling.slack - line.fall * falling.slack_of_fall, line.at_rest / 2);
 }
 
-// Calls keep(p, q, limit), for p x + q y <= limit, with each of the demands that the lines make.
+// Calls keep(p, q, limit), which stands for p x + q y <= limit, for each demand that the lines make.
 template <class Keep>
 void for_each_demand(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const Lines& lines,
                      const Keep& keep) {
@@ -189,7 +189,7 @@ double largest_entry_with(std::span<const AxisDemand> demands, std::span<const F
   return region.largest_x();
 }
 
-// What the lines leave of the exit for a given entry.
+// The range of the exit that the lines allow for a given entry.
 Interval exits_with(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const Lines& lines,
                     double entry, Interval exits) {
   for_each_demand(demands, falling, lines,
@@ -197,14 +197,14 @@ Interval exits_with(std::span<const AxisDemand> demands, std::span<const Falling
   return exits;
 }
 
-// A step of the iteration is Newton's: two are nearly always enough.
+// Each step of the iteration is one of Newton's method. Two are nearly always enough.
 constexpr int most_rounds = 5;
 
 }  // namespace
 
 double largest_entry(std::span<const AxisDemand> demands, double entry_most, double exit_most) {
-  // Mostly what is left by braking as hard as can be: the best point lies on y = Y. The upper end of x is concave in y,
-  // so that it is the best of all where it does not fall there.
+  // Mostly the best point is that of the hardest braking, on y = Y. The upper end of x is concave in y, so it is the
+  // maximum where it does not fall there.
   const Interval at_most = entries(demands, exit_most, entry_most);
   if (at_most.low <= at_most.high && !at_most.shrinks) return at_most.high;
 
@@ -217,7 +217,7 @@ double largest_exit(std::span<const AxisDemand> demands, double entry, double ex
   const Interval left = exits(demands, entry, exit_most);
   const double at_most = std::max(0.0, left.high);
   if (left.low <= left.high + rounding * entry) return at_most;
-  // Too fast for that. On the edge of what is possible rounding may leave nothing at all; then what is slower is right.
+  // The entry is too fast. At the edge of what is possible rounding may leave nothing; the slower exit is then right.
   const double least = least_exit(demands, entry);
   return least > left.high + rounding * entry ? least : at_most;
 }
@@ -274,7 +274,7 @@ double largest_exit(std::span<const AxisDemand> demands, std::span<const Falling
   if (best >= 0 && best <= exit_most) return best;
   if (best >= 0 && possible.low <= exit_most + rounding * entry) return exit_most;
 
-  // Braking as hard as can be, or harder than can be. Where the top was lowered it may not be reached at once.
+  // Braking as hard as possible, or harder. A top that was lowered may not be reached at once.
   const Interval any = exits(demands, entry, infinity);
   const Interval fresh = exits_with(demands, falling, lines_at(falling, entry, exit_most), entry, any);
   const Interval kept = exits_with(demands, falling, kept_lines(falling), entry, any);
@@ -282,8 +282,8 @@ double largest_exit(std::span<const AxisDemand> demands, std::span<const Falling
   Interval better = is_fresh_better ? fresh : kept;
   const bool has_way = better.low <= better.high;
   const bool above_top = entry > top;
-  // Above a top that was lowered, on the edge of what is possible: the lines of this speed are right, and rounding may
-  // leave nothing at all; then what is slower is right.
+  // Above a lowered top, at the edge of what is possible, the lines of this speed are right. Rounding may leave
+  // nothing; the slower exit is then right.
   if (!has_way && above_top) better = exits_with(demands, falling, lines_at(falling, entry, entry), entry, any);
   const double least = std::min(better.low, better.high);
   const bool too_fast = least > exit_most + rounding * entry && (has_way || above_top);

@@ -1,14 +1,14 @@
-// How fast a cell may be entered and left: two linear programs in the squares x, y of the speeds at its ends.
-// Private to trajectory/.
+// The entry and exit speeds of a cell: two linear programs in the squares x, y of the speeds at its ends. Private to
+// trajectory/.
 //
-//     y ^      exit demands          All demands |p x + q y| <= limit are stripes about the origin: what they leave
-//       |.    .                      of the rectangle [0, X] x [0, Y] is convex and has the origin in it. Backwards:
-//     Y +-.--+-------+               the largest x in it. Forwards: the largest y for a given x. (Pham and Pham 2018)
+//     y ^      exit demands          Each demand |p x + q y| <= limit is a stripe about the origin. What the stripes
+//       |.    .                      leave of the rectangle [0, X] x [0, Y] is convex and holds the origin. Backwards:
+//     Y +-.--+-------+               find the largest x in it. Forwards: the largest y for a given x. (Pham, Pham 2018)
 //       |  . |########.
 //       |   .|#########.  entry demands
 //       +----+----------.---> x
 //
-// About 20 ns with three axes where braking decides, 200 ns where the corner of the region does.
+// About 20 ns with three axes where braking decides, 200 ns where a corner of the region does.
 #pragma once
 
 #include <span>
@@ -17,27 +17,28 @@
 
 namespace passo {
 
-// The largest x <= X with a y <= Y that meet all demands.
+// The largest x <= X for which some y <= Y meets all demands.
 double largest_entry(std::span<const AxisDemand> demands, double entry_most, double exit_most);
 
-// The largest y <= Y for this x, which is at most largest_entry(); for a larger x, the smallest y there is.
+// The largest y <= Y for this x, which is at most largest_entry(). For a larger x, the smallest possible y.
 double largest_exit(std::span<const AxisDemand> demands, double entry, double exit_most);
 
-// The smallest y: braking as hard as may be.
+// The smallest possible y: the hardest braking.
 double least_exit(std::span<const AxisDemand> demands, double entry);
 
-// A deceleration from this x to rest that all demands allow wherever in the cell of this length the rest is; 0 or less:
-// none is sure to be allowed.
+// A deceleration from this x to rest that all demands allow, wherever in the cell of this length the rest is. 0 or
+// less: no such deceleration is certain.
 double sure_deceleration(std::span<const AxisDemand> demands, double length, double entry);
 
-// The same with limits that fall with the speed, by iteration: with the line of each curve that is the highest at the
-// speed found before, a linear program as above. Each line keeps to its curve, so each solution is possible.
+// The same where limits fall with the speed, by iteration. Each step is a linear program as above, with the line of
+// each curve that is the highest at the last speed found. Each line keeps to its curve, so each solution is possible.
 //
-// Backwards, the lines of the best solution are kept in the demands: with them the forward pass always finds a way.
+// Backwards, the demands keep the lines of the best solution. With these lines the forward pass always finds a
+// solution.
 double largest_entry(std::span<const AxisDemand> demands, std::span<FallingDemand> falling, double entry_most,
                      double exit_most);
 
-// `top`: of the cell. As far as the limits decide the answer does not depend on `exit_most`.
+// `top` is that of the cell. Where the limits decide, the answer does not depend on `exit_most`.
 double largest_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry,
                     double exit_most, double top);
 double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double entry);

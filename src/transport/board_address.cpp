@@ -49,7 +49,7 @@ Result<BoardAddress, std::string> parse_board_address(std::string_view text) {
   host = host.substr(0, colon);
   const bool bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
   if (bracketed) host = host.substr(1, host.size() - 2);
-  // An address with colons of its own could not be told from its port.
+  // Without brackets an address with colons could not be told from its port.
   if (host.empty() || (!bracketed && host.find_first_of(":[]") != std::string_view::npos)) return refuse(text);
   address.place = host;
   return address;

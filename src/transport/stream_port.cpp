@@ -20,7 +20,7 @@ namespace passo {
 namespace {
 
 constexpr std::size_t most_at_once = 4096;
-// As long as a line that takes nothing is waited for, before it counts as broken.
+// The longest wait for a line that accepts nothing, before it counts as broken.
 constexpr Seconds longest_write{2};
 constexpr Seconds between_attempts{0.2};
 
@@ -38,7 +38,7 @@ std::string reason() {
   return std::strerror(errno);
 }
 
-// Eight bits as they are, no control of flow. Without hang-up at the end: closing the line does not reset an Arduino.
+// Eight raw bits, without flow control. No hang-up at the end: closing the line does not reset an Arduino.
 bool set_raw(int descriptor, speed_t speed) {
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) return false;
@@ -95,7 +95,7 @@ Result<int, std::string> connect_tcp(const BoardAddress& address) {
   }
   freeaddrinfo(found);
   if (descriptor < 0) return Failure{name + ": " + reason()};
-  // Frames are small and wait for nobody.
+  // Frames are small and must not wait for more data.
   const int on = 1;
   setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
@@ -144,7 +144,7 @@ bool StreamPort::run(Seconds most) {
   arrived_.resize(before + most_at_once);
   const ssize_t got = read(descriptor_, arrived_.data() + before, most_at_once);
   arrived_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-  // Readable, and nothing to read: the other side has closed.
+  // The line is readable but has no data: the other side has closed.
   if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) broken_ = true;
   return got > 0;
 }

@@ -1,4 +1,4 @@
-// Counts every allocation of a test program. In one file of it only: it replaces operator new.
+// Counts every allocation of a test program. Include it in only one file of the program: it replaces operator new.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@ namespace passo::test {
 inline std::size_t allocations = 0;
 }  // namespace passo::test
 
-// Not inlined, since g++ takes new and free in one function for a mistake.
+// Not inlined, because g++ takes new and free in one function for a mistake.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++passo::test::allocations;
   if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;

@@ -1,4 +1,4 @@
-// The program itself, as a user starts it: what it prints, what it leaves behind, and how it exits.
+// The program as a user starts it: its output, the files it leaves, and its exit code.
 //
 // A test program that uses it defines PASSO_PROGRAM.
 #pragma once
@@ -31,7 +31,7 @@ inline std::string read(const fs::path& path) {
   return text.str();
 }
 
-// A directory of its own for each test, gone afterwards.
+// Each test has a directory of its own, which is removed afterwards.
 class CommandLine : public testing::Test {
  protected:
   CommandLine() { fs::create_directories(dir_); }
@@ -47,7 +47,7 @@ class CommandLine : public testing::Test {
     const int status = std::system(command.c_str());
     return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(path("out")), .err = read(path("err"))};
   }
-  // Files that are there beside the program and the captured output.
+  // Files beside the program and the captured output.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(dir_)) {

@@ -16,7 +16,7 @@ inline MachineDescription example_machine(const std::string& name) {
   return machine.value_or(MachineDescription());
 }
 
-// Full acceleration after 20 ms.
+// Adds limits of jerk with which full acceleration takes 20 ms.
 inline MachineDescription with_jerk_limits(MachineDescription machine) {
   for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
   return machine;

@@ -1,4 +1,5 @@
-// Whole frames among any bytes, found by the words of docs/wire.md and not by the Decoder: at each place by itself.
+// Finds whole frames among any bytes, at each place separately. It follows the words of docs/wire.md, without the
+// Decoder.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace passo::test {
 
-// The remainder of the division, a bit at a time.
+// The remainder of the division, computed bit by bit.
 inline unsigned frame_crc(std::span<const std::uint8_t> bytes) {
   unsigned remainder = 0xffff;
   for (const std::uint8_t byte : bytes) {
@@ -22,7 +23,7 @@ inline unsigned frame_crc(std::span<const std::uint8_t> bytes) {
   return remainder;
 }
 
-// Does one begin with the first of these?
+// Whether a frame begins with the first of these bytes.
 inline bool begins_with_frame(std::span<const std::uint8_t> bytes, std::uint8_t motors) {
   if (bytes.size() < frame_overhead || bytes[0] != sync_byte) return false;
   const std::size_t payload = payload_size(bytes[2], motors);

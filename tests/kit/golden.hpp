@@ -1,4 +1,4 @@
-// Golden files: what a text must be, to the byte. PASSO_UPDATE_GOLDEN=1 writes them anew; nothing else does.
+// Golden files hold what a text must be, byte for byte. Only PASSO_UPDATE_GOLDEN=1 rewrites them.
 #pragma once
 
 #include <cstdlib>
@@ -10,7 +10,7 @@
 
 namespace passo::test {
 
-// `path` below the checkout.
+// `path` is relative to the checkout.
 inline void expect_golden(const std::string& path, const std::string& text) {
   const std::string full = std::string(PASSO_SOURCE_DIR "/") + path;
   if (std::getenv("PASSO_UPDATE_GOLDEN") != nullptr) {

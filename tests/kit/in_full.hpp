@@ -1,6 +1,6 @@
-// How many of their trials tests make.
+// The number of trials that tests make.
 //
-// PASSO_IN_FULL=N: tests that take minutes are run, with one in N of their trials; 1: with all of them.
+// PASSO_IN_FULL=N runs the tests that take minutes, with one in N of their trials. 1 means all trials.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace passo::test {
 
-// 0: they are not run.
+// 0 means that they do not run.
 inline std::uint64_t in_full() {
   const char* const text = std::getenv("PASSO_IN_FULL");
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;
@@ -25,7 +25,7 @@ class InFull : public Test {
   }
 };
 
-// Under sanitizers a trial takes ten times as long: one in so many is made.
+// Under sanitizers a trial takes ten times as long, so only one in this many is made.
 #ifdef PASSO_SANITIZED
 inline constexpr int one_in = 8;
 #else

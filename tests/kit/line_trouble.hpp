@@ -1,4 +1,4 @@
-// RandomTrouble: what a bad line does to what goes over it.
+// RandomTrouble: spoils data as a bad line does.
 #pragma once
 
 #include <array>
@@ -55,11 +55,11 @@ class RandomTrouble {
 
   std::mt19937_64 random_;
   double rate_;
-  std::array<Bytes, 2> late_;  // swapped with what comes next
+  std::array<Bytes, 2> late_;  // to be swapped with what comes next
 };
 
-// The frame with another payload and a right CRC; nothing where it is neither an item nor announces some. `which`: of
-// the bits of the payload, one is another.
+// The frame with another payload and a right CRC. Nothing if it is neither an item nor a replace. `which` chooses the
+// bit of the payload that changes.
 inline std::optional<Bytes> forged(const Bytes& bytes, std::uint8_t which) {
   constexpr std::uint8_t motors = 3;
   Decoder decoder;

@@ -1,5 +1,5 @@
-// A program run as a job under the eyes of the referee, by itself or with a hand at the controls: holds, resumes and
-// overrides at random instants.
+// Runs a program as a job under the eyes of the referee, either undisturbed or with holds, resumes and overrides at
+// random instants.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace passo::test {
 
-// Watches a job, filters what the proof does not know, and looks at each hold.
+// Watches a job, filters out what the proof does not know, and checks each hold.
 class Watch {
  public:
   Watch(Job& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
@@ -45,7 +45,7 @@ class Watch {
   bool rests_ = true;
 };
 
-// Of all runs together.
+// The sum over all runs.
 struct Acts {
   int holds = 0;
   int rests = 0;
@@ -53,12 +53,12 @@ struct Acts {
   void print() const { std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides); }
 };
 
-// Of one run.
+// For one run.
 struct Meddling {
   Random& random;
   Acts& acts;
   double highest_override = 1;
-  int chances = 10'000;  // then it is left alone: a slow program rests at every millimetre else
+  int chances = 10'000;  // afterwards it is left alone, because a slow program would rest at every millimetre
 
   // One act in mid-run, or none.
   void act(MotionDrive& drive) {
@@ -96,7 +96,7 @@ struct RunOptions {
 struct Ending {
   std::vector<MotorCounts> motors;
   MotionProof proof;
-  Point place;  // where the program ends
+  Point place;  // the place where the program ends
 };
 
 inline Ending run(const std::string& program, const MachineDescription& machine, const RunOptions& options = {}) {

@@ -1,4 +1,4 @@
-// MemoryStore: a journal's place in memory. It may be made to fail.
+// MemoryStore: stores a journal in memory. It can be told to fail.
 #pragma once
 
 #include <string>

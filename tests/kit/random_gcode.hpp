@@ -1,5 +1,5 @@
-// Random programs as text, and random machines: what the whole street is hunted with. Each program is without an error,
-// is short, and has what programs have: lines, arcs, helices, curves, dust, dense runs, cycles, modes, units, feeds.
+// Random programs as text, and random machines, for tests of the whole street. Each program is short, has no error, and
+// has what programs have: lines, arcs, helices, curves, dust, dense runs, cycles, modes, units, feeds.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,8 @@
 
 namespace passo::test {
 
-// Whose torque falls from some speed on: at rest no less than the acceleration of the axis, at full speed some of it.
+// A motor whose torque falls from some speed on. At rest it gives at least the axis's acceleration, at full speed some
+// of it.
 inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
   const Rotor rotor{.inertia = {1e-5}};
   const double at_rest = axis.acceleration.value() * random.between(1, 1.5);
@@ -36,7 +37,7 @@ inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
   return {.curve = *curve, .share = 1, .radians_per_unit = 1};
 }
 
-// From two to five axes, from sluggish to nimble, with or without limits of jerk, some with a motor's torque.
+// Two to five axes, sluggish or nimble, with or without limits of jerk, some with a motor's torque.
 inline MachineDescription random_machine(Random& random) {
   static constexpr std::array order = {Axis::x, Axis::y, Axis::z, Axis::a, Axis::c};
   MachineDescription machine;
@@ -132,7 +133,7 @@ class RandomGcode {
     for (int i = 0; i < lines; ++i) line(random_.chance(0.2) ? "G0" : "G1");
   }
 
-  // Full turns, helices and spirals among them.
+  // Includes full turns, helices and spirals.
   void arc() {
     const double radius = size_ * std::exp(random_.between(-2, 0.5));
     const double from = random_.between(-std::numbers::pi, std::numbers::pi);
@@ -157,7 +158,7 @@ class RandomGcode {
     place_[Axis::y] += way();
     say("G5 I{:.4f} J{:.4f} P{:.4f} Q{:.4f} X{:.4f} Y{:.4f}", i, j, p, q, place_[Axis::x], place_[Axis::y]);
   }
-  // As CAM writes them.
+  // Chords as CAM writes them.
   void chords() {
     const int count = static_cast<int>(random_.between(3, 60));
     const double step = std::exp(random_.between(-5, -1));
@@ -222,8 +223,8 @@ inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Calls with each number from PASSO_SEED on, PASSO_RUNS of them (fewer under sanitizers), its job and its generator, up
-// to the first failure. Each job depends on its number alone.
+// Calls `try_one` with PASSO_RUNS numbers (fewer under sanitizers) from PASSO_SEED on, each with its job and its
+// generator, up to the first failure. Each job depends on its number alone.
 template <class Try>
 void for_each_job(int runs_otherwise, const Try& try_one) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);

@@ -1,5 +1,5 @@
-// require(): what a fuzzer holds to be true of every input. Ends the program where it is not, so that the fuzzer keeps
-// the input.
+// require(): states what a fuzzer holds to be true for every input. Ends the program if it is not true, so that the
+// fuzzer keeps the input.
 #pragma once
 
 #include <cstdio>

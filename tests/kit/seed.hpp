@@ -1,5 +1,5 @@
 // The seed of a random test: PASSO_SEED, or always the same, so that a run can be repeated and CI does not depend on
-// luck. Printed either way. Longer hunts set PASSO_SEED from outside.
+// luck. The seed is always printed. Longer runs set PASSO_SEED from outside.
 #pragma once
 
 #include <cstdint>

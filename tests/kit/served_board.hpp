@@ -1,4 +1,4 @@
-// A virtual board in the network for each test that wants one: `passo board serve`.
+// Starts `passo board serve`, a virtual board in the network, for each test that wants one.
 #pragma once
 
 #include <csignal>
@@ -13,7 +13,7 @@ class ServedBoard : public CommandLine {
  protected:
   ~ServedBoard() override { end_server(); }
 
-  // Starts one, in the place of the one before; its address.
+  // Starts a board in place of the last one and returns its address.
   std::string serve(const std::string& clock = "16000000", const std::string& machine = "") {
     end_server();
     const std::string said = path("said");

@@ -1,5 +1,5 @@
-// Motion as a smoother and a planner with jerk give it, for tests: a chain of cubics with continuous second derivative,
-// phases of constant jerk along all of it, and both cut into moves.
+// Motion as a smoother and a planner with jerk make it, for tests: a chain of cubics with continuous second derivative,
+// phases of constant jerk along it, and both cut into moves.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@
 
 namespace passo::test {
 
-// The natural cubic spline through `points`; its parameter is the length of the chords.
+// The natural cubic spline through `points`. Its parameter is the length of the chords.
 inline std::vector<Curve> spline_through(const std::vector<Point>& points) {
   const std::size_t n = points.size();
   std::vector<double> length;
   for (std::size_t i = 0; i + 1 < n; ++i) length.push_back(Curve::line(points[i], points[i + 1]).length().value());
   std::vector<Point> tangents(n);
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    // For each point below·m[i-1] + middle·m[i] + above·m[i+1] = right, eliminated from the start and put in from the
-    // end.
+    // For each point the equation is below·m[i-1] + middle·m[i] + above·m[i+1] = right. Elimination goes from the
+    // start, substitution from the end.
     std::vector<double> factor(n);
     std::vector<double> rest(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -45,11 +45,11 @@ inline std::vector<Curve> spline_through(const std::vector<Point>& points) {
   return curves;
 }
 
-// Phases in a row from rest, their starts counted from the start of the first.
+// Consecutive phases from rest. Their starts count from the start of the first.
 class PhaseChain {
  public:
-  // From the speed so far to `speed` in `duration`. `share` of it, at both ends, goes into changing the acceleration:
-  // 0 is constant acceleration, 1/2 constant jerk throughout.
+  // Changes from the present speed to `speed` in `duration`. At both ends `share` of the duration is used to change the
+  // acceleration: 0 is constant acceleration, 1/2 constant jerk throughout.
   void change_speed(double speed, double duration, double share) {
     const double acceleration = (speed - speed_) / (duration * (1 - share));
     const double ramp = share * duration;
@@ -94,7 +94,7 @@ class PhaseChain {
   double top_ = 0;
 };
 
-// Cuts the phases at each of `cuts`, which rise.
+// Cuts the phases at each of `cuts`, which ascend.
 inline std::vector<Phase> cut_at(const std::vector<double>& cuts, const std::vector<Phase>& phases) {
   constexpr double nothing = 1e-9;  // mm
   std::vector<Phase> pieces;
@@ -123,8 +123,8 @@ inline std::vector<Phase> cut_at(const std::vector<double>& cuts, const std::vec
   return pieces;
 }
 
-// The phases along all curves as moves: each of one curve, of no more than `part` of it, and of as many phases as a
-// move holds.
+// The phases along all curves as moves. Each move is on one curve, covers at most `part` of it, and has at most as many
+// phases as a move holds.
 inline std::vector<MotionItem> moves_along(const std::vector<Curve>& curves, const std::vector<Phase>& phases,
                                            double part) {
   std::vector<double> cuts;
@@ -140,7 +140,7 @@ inline std::vector<MotionItem> moves_along(const std::vector<Curve>& curves, con
 
   std::vector<MotionItem> items;
   std::size_t curve = 0;
-  double part_end = 0;  // of the move at hand
+  double part_end = 0;  // of the present move
   for (const Phase& phase : cut_at(cuts, phases)) {
     const double middle = phase.position_at(phase.duration / 2).value();
     auto* move = items.empty() ? nullptr : &std::get<PlannedMove>(items.back());

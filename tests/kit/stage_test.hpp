@@ -1,4 +1,5 @@
-// Tests feed a stage from a list, compare its text with a golden file (golden.hpp), and draw from seeded randomness.
+// Helpers for tests of a stage: feed it from a list, compare its text with a golden file (golden.hpp), draw seeded
+// random numbers.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +42,7 @@ std::vector<T> drain(Source<T>& source) {
 class Random {
  public:
   explicit Random(std::uint64_t more = 0) : seed_(test::seed() + more), engine_(seed_) {}
-  // For one of many: without a word.
+  // A generator for one trial of many; prints nothing.
   static Random of(std::uint64_t seed) { return Random(std::mt19937_64(seed), seed); }
 
   std::uint64_t seed() const { return seed_; }

@@ -1,5 +1,5 @@
-// StepLog: every step of a run, and what must be true of it where a line is troubled: the machine goes the same way,
-// and within its limits.
+// StepLog: every step of a run, and what must hold for it on a troubled line: the machine goes the same way and within
+// its limits.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace passo::test {
 
-// Every step of a run as the machine made it.
+// Every step of a run, as the machine made it.
 class StepLog final : public MachineObserver {
  public:
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override {
@@ -34,18 +34,18 @@ class StepLog final : public MachineObserver {
   struct Step {
     std::int64_t tick = 0;
     bool down = false;
-    std::array<std::int64_t, motors> place{};  // of all motors behind it
+    std::array<std::int64_t, motors> place{};  // of all motors after the step
   };
   std::array<std::int64_t, motors> place{};
   using Steps = std::array<std::vector<Step>, motors>;
   Steps steps;
 };
 
-// The same steps in the same order as without trouble, each with the other motors where they were then. A motor that
-// turns just where a step is due makes it forth and back, within an event or two, or not: so many of these at most may
-// one of the two runs have and the other not.
+// Expects the same steps in the same order as without trouble, with each other motor where it was then. A motor that
+// turns back just where a step is due may make that step and undo it within an event or two, or leave it out. So one
+// run may have at most `most_touches` such pairs that the other lacks.
 inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& reference, int most_touches = 0) {
-  constexpr std::int64_t beside = 3;  // steps of another motor: both come to rest at times
+  constexpr std::int64_t beside = 3;  // steps of another motor: at times both come to rest
   int touches = 0;
   const auto is_touch = [](const std::vector<StepLog::Step>& steps, std::size_t i) {
     return i + 1 < steps.size() && steps[i].down != steps[i + 1].down;
@@ -75,7 +75,7 @@ inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& ref
   }
 }
 
-// Where a motor is at times that only go on.
+// The place of a motor at times that only grow.
 class PlaceAt {
  public:
   PlaceAt(const std::vector<StepLog::Step>& steps, unsigned motor) : steps_(steps), motor_(motor) {}
@@ -90,8 +90,8 @@ class PlaceAt {
   std::size_t next_ = 0;
 };
 
-// Places at equal times apart: where the acceleration is bounded, so is the second difference of three, and where the
-// jerk is, the third one of four.
+// Compares places at equal time distances. A bounded acceleration bounds the second difference of three places, and a
+// bounded jerk the third difference of four.
 template <std::size_t count>
 void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned motor,
                               const std::array<int, count>& factors, double window, double most) {
@@ -107,12 +107,12 @@ void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned 
   }
 }
 
-// `slack`, in steps: for they are whole ones (less than 2), and events are not exact: 4 times the part of an interval
-// by which they may be off (decision 0031: 4 in a tail at the most; less has been enough for most).
+// `slack` is in steps. Steps are whole (less than 2), and events are not exact: 4 times the share of an interval by
+// which they may be off (decision 0031: 4 in a tail at most; less has been enough in most cases).
 inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 4) {
   constexpr double apart = 0.008;  // seconds
-  // For the jerk. A jump of the acceleration by its limit shows the better the shorter it is, and the steps that are
-  // whole the less.
+  // For the jerk. With a shorter time a jump of the acceleration by its limit shows better, but whole steps disturb
+  // more; a longer time is the reverse.
   constexpr double apart_of_four = 0.009;
   const double clock = machine.board.clock.value();
   for (unsigned m = 0; m < machine.axes.size(); ++m) {
@@ -122,8 +122,8 @@ inline void expect_within_limits(const MachineDescription& machine, const StepLo
     expect_small_differences<3>(run[m], m, {1, -2, 1}, clock * apart, bend * 1.02 + slack);
     if (axis.jerk.value() == 0) continue;
     const double jolt = axis.jerk.value() * steps * apart_of_four * apart_of_four * apart_of_four;
-    // Whole steps make 4 of that. Of eight places an event is a quarter of its interval off at the most, and a whole
-    // one in a tail where places are few.
+    // Whole steps make 4 of that. With eight places, an event is at most a quarter of its interval off, and a whole
+    // interval in a tail where places are few.
     const bool few_places = machine.board.held_items < 100;
     expect_small_differences<4>(run[m], m, {-1, 3, -3, 1}, clock * apart_of_four, jolt * 1.02 + (few_places ? 12 : 6));
   }

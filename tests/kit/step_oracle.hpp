@@ -1,5 +1,6 @@
-// What the steps ought to be, computed from the phases in long double by bisection, and what a list of board segments
-// plays, computed from the definition in board_segment.hpp. Shares no code with the step generator or the player.
+// The steps as they should be, computed from the phases in long double by bisection; and the steps that a list of board
+// segments plays, computed from the definition in board_segment.hpp. Shares no code with the step generator or the
+// player.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +26,9 @@ struct ExactStep {
 struct PlayedStep {
   std::int64_t tick = 0;
   int direction = 0;
-  bool of_master = false;     // the motor that sets the event clock of its segment
-  bool held_back = false;     // its event, or the one before, came as soon as the board allows
-  std::int64_t interval = 0;  // the longer of the intervals before and after its event, ticks
+  bool of_master = false;     // of the motor that sets the event clock of its segment
+  bool held_back = false;     // its event, or the one before, came as early as the board allows
+  std::int64_t interval = 0;  // the longer of the two intervals beside its event, ticks
 };
 
 struct Playback {
@@ -49,7 +50,7 @@ inline Cubic cubic_of(const Motor& motor, const Curve& curve) {
   return {data.first[motor.axis], data.second[motor.axis], data.third[motor.axis]};
 }
 
-// A motor's step count is the whole part of this.
+// A motor's step count is the whole part of this place.
 inline long double exact_place(const Motor& motor, const Curve& curve, long double s) {
   const long double scale = motor.steps_per_unit;
   const long double length = curve.length().value();
@@ -62,7 +63,7 @@ inline long double exact_place(const Motor& motor, const Curve& curve, long doub
     if (motor.axis == arc.second) return (arc.second_center + radius * std::sin(angle)) * scale + 0.5L;
   }
   const long double start = curve.start()[motor.axis];
-  if (curve.shape() == Curve::Shape::cubic && s < length) {  // its end is the end that was given
+  if (curve.shape() == Curve::Shape::cubic && s < length) {  // its end is exactly the given end
     const auto [first, second, third] = cubic_of(motor, curve);
     return (start + s * (first + s * (second + s * third))) * scale + 0.5L;
   }
@@ -77,7 +78,7 @@ inline long double bisect(auto&& below, long double low, long double high) {
   return (low + high) / 2;
 }
 
-// Seconds from the start of the move until the path has come to s.
+// Seconds from the start of the move until the path reaches s.
 inline long double exact_time(const PlannedMove& move, long double s) {
   long double time = 0;
   for (std::size_t i = 0; i < move.phase_count; ++i) {
@@ -96,7 +97,7 @@ inline long double exact_time(const PlannedMove& move, long double s) {
   return time;
 }
 
-// Where an axis of an arc's plane turns back: the sign of its slope changes, at most once from sample to sample.
+// The places where an axis of an arc's plane turns back. The sign of its slope changes at most once between samples.
 inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& curve) {
   const Curve::ArcData& arc = curve.arc_data();
   const long double length = curve.length().value();
@@ -120,7 +121,7 @@ inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& cu
   return turns;
 }
 
-// Where the slope of a cubic changes its sign: on either side of where the slope itself turns, by bisection.
+// The places where the slope of a cubic changes its sign, by bisection on either side of the slope's own turning point.
 inline std::vector<long double> turns_on_cubic(const Motor& motor, const Curve& curve) {
   const auto [first, second, third] = cubic_of(motor, curve);
   const auto slope = [&, a = first, b = second, c = third](long double s) { return a + s * (2 * b + s * 3 * c); };
@@ -135,7 +136,7 @@ inline std::vector<long double> turns_on_cubic(const Motor& motor, const Curve& 
   return turns;
 }
 
-// Places of s between which the motor does not turn back, over the part of its curve that a move covers.
+// Values of s between which the motor does not turn back, over the part of its curve that a move covers.
 inline std::vector<long double> monotone_pieces(const Motor& motor, const PlannedMove& move) {
   const Curve& curve = move.segment.curve;
   const Curve::ArcData& arc = curve.arc_data();
@@ -177,7 +178,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const bool rises = exact_place(motor, curve, pieces[i + 1]) > exact_place(motor, curve, pieces[i]);
       const std::int64_t last = whole_place(exact_place(motor, curve, pieces[i + 1]));
-      // The count runs on from move to move: a line on which two moves meet is crossed once.
+      // The count continues from move to move: a line on which two moves meet is crossed only once.
       for (; rises ? *count < last : *count > last; *count += rises ? 1 : -1) {
         const auto line = static_cast<long double>(rises ? *count + 1 : *count);
         const long double s = bisect([&](long double at) { return (exact_place(motor, curve, at) < line) == rises; },
@@ -190,7 +191,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
   return steps;
 }
 
-// Where the path crosses a line and comes back before the next event, the board may leave out the step there and back.
+// If the path crosses a line and comes back before the next event, the board may leave out both steps.
 inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
                             const std::vector<std::int64_t>& event_ticks) {
   const auto event_after = [&](const ExactStep& step) {
@@ -200,7 +201,7 @@ inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
   return there.direction != back.direction && event_after(back) - event_after(there) <= 1;
 }
 
-// The signed increment as board_segment.hpp's table has it.
+// The signed increment as in board_segment.hpp's table.
 inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   const bool flip = (segment.flips >> m & 1U) != 0;
   const bool down = (segment.directions >> m & 1U) != 0;
@@ -218,9 +219,9 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     unsigned motor;
     std::size_t index;
   };
-  std::vector<Pending> pending;  // steps whose following interval is not known yet
-  // Events without any motion only bridge a time that is too long for one interval: the interval goes on. At an action
-  // the machine rests, and it ends.
+  std::vector<Pending> pending;  // steps whose next interval is not known yet
+  // Events without any motion only bridge a time that is too long for one interval, so the interval goes on. At an
+  // action the machine rests, and the interval ends.
   std::int64_t last_motion = 0;  // ticks
   const auto end_interval = [&](std::int64_t tick) {
     for (const Pending& p : pending) {
@@ -239,8 +240,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       continue;
     }
     ++result.segments;
-    // The master moves by a power of two and by more than any other motor. Two that move alike cannot be told apart
-    // here.
+    // The master moves by a power of two, and more than any other motor. Two motors that move alike cannot be told
+    // apart here.
     std::int64_t most = 0;
     unsigned alike = 0;
     for (unsigned m = 0; m < options.motor_count; ++m) {
@@ -288,7 +289,7 @@ inline std::vector<BoardItem> generate(const std::vector<MotionItem>& items, con
   return test::drain(generator);
 }
 
-// Every step of every motor: as many as there ought to be, in the right direction, in time.
+// Checks every step of every motor: the right number of steps, in the right direction, at the right time.
 inline void expect_exact(const std::vector<MotionItem>& items, const StepOptions& options) {
   const std::vector<BoardItem> board = generate(items, options);
   const Playback played = play(board, options);

@@ -7,7 +7,7 @@ TEST(Window, keeps_its_numbers_while_it_grows_and_moves_on) {
   Window<std::uint64_t> window;
   for (std::uint64_t number = 0; number < 1000; ++number) {
     window.append() = number * number;
-    if (number % 3 == 0) window.drop_front();  // two are kept of three: it grows several times
+    if (number % 3 == 0) window.drop_front();  // two of three are kept, so the window grows several times
     ASSERT_EQ(window.end(), number + 1);
     ASSERT_EQ(window.first(), number / 3 + 1);
     for (std::uint64_t kept = window.first(); kept < window.end(); ++kept) ASSERT_EQ(window[kept], kept * kept);

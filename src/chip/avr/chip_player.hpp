@@ -1,11 +1,12 @@
-// ChipPlayer: what Player is on the host. Makes events of segments ahead of time, for the step timer's interrupt.
+// ChipPlayer: does on the chip what Player does on the host. It makes events of segments ahead of time, for the step
+// timer's interrupt.
 //
-// The main loop calls refill() again and again. Events are made until the ring is full or two milliseconds are ahead,
-// whichever is less: what is in the ring will be played, so a slow motion must not have seconds in it. A segment counts
-// as begun once it is loaded.
+// The main loop calls refill() again and again. Events are made until the ring is full or two milliseconds ahead,
+// whichever comes first. All that is in the ring will be played, so a slow motion must not have seconds in it. A
+// segment counts as begun when it is loaded.
 //
-// Invariant: same steps at the same ticks as Player's, from the first event after a rest on. There is one, and all of
-// it is static: what lies at a fixed address costs half of what lies behind a pointer.
+// Invariant: from the first event after a rest on, it makes the same steps at the same ticks as Player. There is only
+// one, and all of it is static: data at a fixed address costs half as much as data behind a pointer.
 #pragma once
 
 #include "event_ring.hpp"
@@ -33,7 +34,7 @@ class ChipPlayer {
  public:
   explicit ChipPlayer(uint8_t /*motors*/) {}
 
-  // At once, whatever it played is broken off. Motors without pins stand still: the board refuses a host with more.
+  // Breaks off at once whatever it played. Motors without pins stand still: the board refuses a host with more motors.
   static void restart(uint8_t motors) {
     halt();
     slow_end_ = 0;
@@ -55,32 +56,32 @@ class ChipPlayer {
     begun_ = finished_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
     for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
-    // The host before may have driven more motors.
+    // The last host may have driven more motors.
     for (uint16_t& increment : expansion.increments) increment = 0;
     expansion.time = 0x8000;
   }
 
-  // No further event is played; motors stand where the pins say.
+  // Stops at once: no further event is played, and motors stand where the pins say.
   static void halt() {
     Timsk1::write(0);
     running = 0;
     line_is_watched = 0;
     directions_ = MotorOutputs::directions();
   }
-  // Once, before anything moves.
+  // Call once, before anything moves.
   static void prepare() {
     prepare_ring();
-    // Free running at the full clock: the interrupt tells when to come back.
+    // The timer runs free at the full clock. The interrupt sets the time of the next event.
     Tccr1a::write(0);
     Tccr1b::write(1);
     fetch_entry(0);
   }
 
-  // Can take the next item.
+  // Whether it can take the next item.
   static bool ready() {
     return left_ == 0 && static_cast<uint8_t>(begun_ - finished_) < most_begun && !OutputActions::full();
   }
-  // Nothing is played and nothing waits to be.
+  // True when nothing is played and nothing waits to be played.
   static bool done() { return left_ == 0 && rests(); }
 
   using Segment = SegmentFor<pins.motors>;
@@ -95,7 +96,7 @@ class ChipPlayer {
     directions_ = segment.directions;
     if (running == 0 && waiting() == 0) start_clock();
     left_ = segment.events;
-    // At its slowest, about: at its start or, if it slows down, at its end.
+    // The slowest interval, about: at the start, or at the end of a segment that slows down.
     uint32_t slowest = segment.interval;
     if (segment.change > fine_change) {
       slowest = largest_interval;
@@ -112,7 +113,7 @@ class ChipPlayer {
     SerialLine::breathe();
     remember(segment);
   }
-  // An item that takes no time: it is finished with the event before it.
+  // Takes an item that needs no time. It is finished with the event before it.
   static void pass(const BoardOutputs& outputs) {
     SerialLine::breathe();
     OutputActions::put(outputs, rests);
@@ -131,19 +132,19 @@ class ChipPlayer {
     for (uint8_t m = 0; m < motors(); ++m) item.increments[m] = segment.increments[m];
   }
 
-  // The oldest item that it has is done.
+  // Whether the oldest item is done.
   static bool finished() {
     over_ = finished_ != begun_ && left_of_oldest() <= 0;
     return over_;
   }
-  // Its steps have been told, and what they leave of fractions is in `at_start_`.
+  // Forgets the oldest item after its steps were counted. Its fractions are in `at_start_`.
   static void forget() {
     if (items_[finished_ & items_mask].events == 0) OutputActions::forget();
     over_ = false;
     ++finished_;
     if (step_port_count > 1) SerialLine::breathe();
   }
-  // Of the oldest item: the events played, and the steps that a motor has made in them, down or up.
+  // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
   static uint8_t played() {
     const uint8_t events = items_[finished_ & items_mask].events;
     if (over_) return events;
@@ -156,14 +157,14 @@ class ChipPlayer {
     const uint8_t events = over_ ? item.events : played();
     uint16_t accumulator = at_start_[motor];
     int16_t steps = carries(accumulator, item.increments[motor], events);
-    if (over_) at_start_[motor] = accumulator;  // told once, and then forgotten
+    if (over_) at_start_[motor] = accumulator;  // reported once, then forgotten
     SerialLine::breathe();
     if ((item.flips & bit) != 0) steps = static_cast<int16_t>(events - steps);
     return (item.directions & bit) != 0 ? static_cast<int16_t>(-steps) : steps;
   }
 
-  // Makes the additions of `increment` to `accumulator`; how many overflow. A 16 by 8 bit product, for which LLVM calls
-  // one of 32 bits.
+  // Adds `increment` to `accumulator` `events` times and returns the number of overflows. It is a 16 by 8 bit product,
+  // for which LLVM would call one of 32 bits.
   static uint8_t carries(uint16_t& accumulator, uint16_t increment, uint8_t events) {
     uint8_t count;
     asm volatile(
@@ -182,7 +183,7 @@ class ChipPlayer {
     return count;
   }
 
-  // Some events, and a start of the timer where it stands still.
+  // Makes some events, and starts the timer if it stands still.
   static void refill() {
     if (captured()) note_capture();
     for (uint8_t pieces = most_pieces; pieces != 0 && left_ != 0 && make_events(); --pieces) {
@@ -191,58 +192,59 @@ class ChipPlayer {
     if (running == 0 && waiting() != 0 && halted == 0) start();
   }
 
-  // What it has is made, and another segment can come.
+  // True if all events of the segment are made and another can come.
   static bool wants_more() { return left_ == 0; }
-  // The interrupt could come to the end of the ring if all else came first.
+  // True if the interrupt could reach the end of the ring before the other work of the loop is done.
   static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
-  // What is watched has changed, at an event at which the interrupt looked. Until watch() all that is told of the
-  // oldest item, and whether it is finished, is told as it was then.
+  // True if the watched input has changed, at an event at which the interrupt looked. Until watch() is called again,
+  // everything reported of the oldest item is as it was at that event.
   static bool captured() { return watching_ && armed == 0; }
   static bool watches() { return watching_; }
-  // For the next change of the pins that are watched.
+  // Waits for the next change of the watched pins.
   static void watch(bool on) {
     armed = on ? 1 : 0;
     watching_ = on;
     noted_ = false;
   }
 
-  // The ring ran dry though there was something to play: the machine stood still for a moment.
+  // Whether the ring ran dry while there was something to play, so that the machine stood still for a moment.
   static bool slipped() { return slipped_; }
 
  private:
   static constexpr uint8_t items_mask = 3;
   static constexpr uint8_t most_begun = 4;
-  // Made at a time, or most_at_once: many, because of the way in and out; but the line is not looked at meanwhile,
-  // unless the interrupt comes so often that it sees every byte.
+  // Events are made a few at a time, or most_at_once. Many save the way in and out, but the line is not read meanwhile.
+  // So many are made only when the interrupt comes so often that it sees every byte.
   static constexpr uint8_t few_at_once = 8;
   static constexpr uint8_t most_pieces = 8;
-  // A motion from rest begins with some events of nothing: they give the time to fill the ring, and the interrupt looks
-  // after the line meanwhile.
+  // A motion from rest begins with some empty events. They give time to fill the ring, and the interrupt reads the line
+  // meanwhile.
   static constexpr uint16_t blank_ticks = often - 50;
   static constexpr uint8_t blank_events = 6000 / blank_ticks;
-  static constexpr uint16_t start_ticks = 1500;  // about what it takes to write them
-  // An alarm nearer than this may be missed.
+  static constexpr uint16_t start_ticks = 1500;  // about the time that it takes to write them
+  // The interrupt may miss an alarm that is nearer than this.
   static constexpr uint16_t least_lead = 150;
 
-  // What it has begun and not finished.
+  // An item that was begun and is not finished.
   struct Item {
-    uint16_t end;  // `made_` with its last event
+    uint16_t end;  // the value of `made_` with its last event
     uint8_t events;
     uint8_t directions;
     uint8_t flips;
     uint16_t increments[pins.motors];
   };
 
-  // On the Uno one loop less is worth more than a motor less.
+  // On the Uno a loop less is worth more than a motor less.
   static uint8_t motors() { return pins.motors > 3 ? expansion.motors : pins.motors; }
-  // Events of the oldest item, and of none before it, that are not played yet.
+  // Events of the oldest item that are not played yet.
   static int16_t left_of_oldest() {
     uint16_t played = static_cast<uint16_t>(made_ - waiting());
-    if (captured()) note_capture();  // after that look: it may change at any time
+    if (captured()) note_capture();  // after the look at waiting(), because a capture may come at any time
     if (noted_) played = captured_at_;
     return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
   }
-  // Which event it was, told by the entry; in time, before the interrupt has been round the ring once more.
+  // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
+  // round the ring once more.
   [[gnu::noinline]] static void note_capture() {
     if (noted_) return;
     const uint8_t now = fetched_entry();
@@ -273,7 +275,7 @@ class ChipPlayer {
       SerialLine::breathe();
     }
     flagged_byte(head_) = flag_special | flag_stop;
-    slow_end_ = static_cast<uint16_t>(made_ + 1);  // until then the interrupt does not come
+    slow_end_ = static_cast<uint16_t>(made_ + 1);  // the interrupt does not come before that
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
     gap_ = start_ticks + blank_ticks;
@@ -281,7 +283,7 @@ class ChipPlayer {
     start();
   }
 
-  // How many events two milliseconds have, in powers of two: 32,768 ticks.
+  // The number of events in two milliseconds (32,768 ticks), as a power of two.
   static uint8_t most_ahead() {
     uint8_t high = static_cast<uint8_t>(expansion.interval >> 24);
     uint8_t most = most_events;
@@ -290,38 +292,38 @@ class ChipPlayer {
     return most < 2 ? uint8_t{2} : most;
   }
 
-  // The interrupt comes so often that it sees every byte off the line.
+  // True if the interrupt comes so often that it sees every byte off the line.
   [[gnu::noinline]] static bool is_watched(uint8_t ahead) {
     return running != 0 && static_cast<int16_t>(made_ - ahead - slow_end_) >= 0;
   }
 
-  // False where there was nothing to do.
+  // Returns false if there was nothing to do.
   static bool make_events() {
-    const bool plays = running != 0;  // told first: it may stop at any moment
+    const bool plays = running != 0;  // read first, because it may change at any moment
     const uint8_t ahead = waiting();
     const uint8_t most = most_ahead_;
     if (ahead >= most) return false;
-    // Worth the way only if there is room for many, or if few are ahead.
+    // Worth the work only if there is room for many, or if few are ahead.
     const uint8_t room = static_cast<uint8_t>(most - ahead);
     if (room < least_room_ && room < left_) return false;
     if (line_is_watched == 0) {
       line_is_watched = is_watched(ahead);
-      if (running == 0) line_is_watched = 0;  // it has stopped in between
+      if (running == 0) line_is_watched = 0;  // the interrupt stopped in between
     }
-    // What is being made counts only when it is done. At the highest rate an event takes 45 cycles to make, the
-    // interrupt's included, and 114 to play: twice as many as are ahead, less a few for the way, will be done before
-    // the interrupt stops and no longer looks after the line.
+    // Events count only when all of them are made. At the highest rate an event takes 45 cycles to make, the
+    // interrupt's included, and 114 to play. So twice as many events as are ahead, less a few for the way, will be
+    // ready before the interrupt stops and no longer reads the line.
     uint8_t at_once = most_at_once;
     if (ahead < (most_at_once + few_at_once) / 2) at_once = static_cast<uint8_t>(2 * ahead - few_at_once);
     if (ahead < few_at_once) at_once = few_at_once;
     if (line_is_watched == 0) at_once = few_at_once;
     uint8_t count = left_ < at_once ? left_ : at_once;
-    const uint8_t behind_this = static_cast<uint8_t>(ring_mask - head_);  // entries, up to the ring's end
+    const uint8_t behind_this = static_cast<uint8_t>(ring_mask - head_);  // entries from here to the ring's end
     if (count > behind_this) count = static_cast<uint8_t>(behind_this + 1);
     if (count > room) count = room;
     if ((turns_ != 0 || OutputActions::riding() != 0) && !queue_turn()) return false;
 
-    // The interrupt may come to the end of the ring while these are made.
+    // The interrupt may reach the end of the ring while these events are made.
     if (plays || ahead == 0) gap_ = static_cast<uint16_t>(expansion.interval >> 16);
     const uint8_t first = head_;
     const uint8_t behind = static_cast<uint8_t>((first + count) & ring_mask);
@@ -334,7 +336,7 @@ class ChipPlayer {
     made_ = static_cast<uint16_t>(made_ + count);
     head_ = behind;
     const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(flag_special | flag_stop));
-    // From here on the interrupt may come to it.
+    // From here on the interrupt may reach this entry.
     flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | flag_special) : plain;
     if (turning_) OutputActions::taken();
     turning_ = false;
@@ -378,14 +380,15 @@ class ChipPlayer {
     set_fetched_toggles(static_cast<uint8_t>(toggles & ~flag_special));
   }
 
-  // Where the interrupt stopped before an event that now is late: that one and all behind it come later still.
+  // Call when the interrupt stopped before an event that is late now. This event and all after it then come later
+  // still.
   static void catch_up(uint8_t first) {
     const uint16_t due = time_of(first);
     const uint16_t ahead = static_cast<uint16_t>(due - now());
-    // A fraction may have made it one tick longer.
-    if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // in time after all
+    // A fraction may have made the interval one tick longer.
+    if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // still in time
     if (!fresh_) slipped_ = true;
-    // Nobody looks after the line until it goes on.
+    // Nobody reads the line until the motion goes on.
     if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
     for (uint8_t i = first; i != head_; i = static_cast<uint8_t>((i + 1) & ring_mask)) {
@@ -395,28 +398,28 @@ class ChipPlayer {
     expansion.time += static_cast<uint32_t>(later) << 16;
   }
 
-  static inline uint8_t head_ = 0;        // entry behind the last event
+  static inline uint8_t head_ = 0;        // the entry after the last event
   static inline uint8_t most_ahead_ = 0;  // how many events may be in the ring, at the rate of the loaded segment
-  static inline uint8_t least_room_ = 0;  // for which it is worth the way to make some
+  static inline uint8_t least_room_ = 0;  // room in the ring for which it is worth making some
   static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
-  static inline uint8_t turns_ = 0;       // motors to turn round before its first event
-  static inline bool turning_ = false;    // they are in the queue of turns, the event is not flagged yet
+  static inline uint8_t turns_ = 0;       // motors that reverse before its first event
+  static inline bool turning_ = false;    // the reversals are in the queue of turns, but the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
-  static inline bool fresh_ = false;  // the clock was set for what is in the ring
+  static inline bool fresh_ = false;  // the clock was set for the events in the ring
   static inline uint16_t gap_ = 0;    // whole ticks before the event at which the interrupt stopped
-  static inline bool noted_ = false;  // a capture, with its event in `captured_at_`
+  static inline bool noted_ = false;  // a capture was noted, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
   static inline bool watching_ = false;
   static inline bool slipped_ = false;
-  static inline uint16_t slow_end_ = 0;  // `made_` after the last events that were not fast
-  static inline uint16_t made_ = 0;      // events, ever
-  static inline uint8_t begun_ = 0;      // items, ever
+  static inline uint16_t slow_end_ = 0;  // `made_` after the last slow events
+  static inline uint16_t made_ = 0;      // events ever made
+  static inline uint8_t begun_ = 0;      // items ever begun
   static inline uint8_t finished_ = 0;
   static inline bool over_ = false;  // the oldest item is known to be done
 
   static inline Item items_[most_begun];
-  static inline uint16_t at_start_[pins.motors] = {};  // the accumulators before the oldest item
+  static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
 };
 
 }  // namespace passo::chip

@@ -1,11 +1,11 @@
-// EventRing: the events of the near future, made in the main loop, played by the step timer's interrupt.
+// EventRing: the events of the near future. The main loop makes them, and the step timer's interrupt plays them.
 //
-// An entry is when (the timer's count) and what (the bits to turn over in each of the step ports). How entries lie in
-// RAM is what suits the board's interrupt, so that it comes from one to the next without an instruction that changes
-// the flags, and need not save them.
+// An entry has a time (the timer's count) and the bits to toggle in each of the step ports. Its layout in RAM depends
+// on the board's interrupt: it must come from one entry to the next without an instruction that changes the flags, so
+// that it need not save them.
 //
-// Invariant: the entry behind the last event has both flags set, in the first step port's byte: there the interrupt
-// stops. One flag alone: the interrupt has to turn over direction pins, out of `turns`, before that event.
+// Invariant: the entry after the last event has both flags set, in the first step port's byte, and there the interrupt
+// stops. One flag alone means that the interrupt must toggle direction pins, taken from `turns`, before that event.
 #pragma once
 
 #include <stdint.h>
@@ -23,13 +23,13 @@ namespace passo::chip {
 inline constexpr uint8_t ring_mask = ring_entries - 1;
 inline constexpr uint8_t step_port_count = pins.ports();
 
-// A byte for each of the step ports.
+// One byte for each step port.
 struct PortBits {
   uint8_t on[step_port_count];
 };
 
-// How the outputs are to be: their two ports as a whole, and the PWM of the spindle, whose pin is not connected to it
-// where the duty is 0: even that would be a pulse of one count.
+// A state of the outputs: their two ports as a whole, and the PWM of the spindle. At duty 0 the spindle's pin is not
+// connected to the PWM, which would still make a pulse of one count.
 struct Action {
   uint8_t first_port;
   uint8_t second_port;
@@ -38,14 +38,14 @@ struct Action {
 };
 inline constexpr uint8_t action_count = 4;
 inline constexpr uint8_t safe_action = (actions_address & 0xff) + sizeof(Action) * action_count;
-// Of a turn's first byte.
+// The bits of a turn's first byte that toggle directions.
 inline constexpr uint8_t turning_bits = pins.directions_on(pins.step_ports[0]);
 static_assert((turning_bits & action_bits) == 0);
 static_assert((actions_address & 0xff & ~action_bits) == 0 && (safe_action & ~action_bits) == 0);
 static_assert(actions_address >> 8 == turns_address >> 8, "turns and actions are on one page");
 static_assert(first_free_address >= actions_address + sizeof(Action) * (action_count + 1));
 
-// The byte of an entry with the flags: the first step port's, or one of their own.
+// The byte of an entry that has the flags: the first step port's, or a byte for the flags alone.
 inline volatile uint8_t& flagged_byte(uint8_t index) {
   return *reinterpret_cast<volatile uint8_t*>(toggles_address(index));
 }

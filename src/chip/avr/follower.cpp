@@ -1,6 +1,6 @@
 // The firmware `follower` for an Arduino Uno or Mega: Follower on the chip's pins. No interrupt; one loop.
 //
-// PASSO_FOLLOWER_PINS says which board (a FollowerPins), PASSO_FOLLOWER_DRIVE how the motors are driven (a Drive).
+// PASSO_FOLLOWER_PINS names the board (a FollowerPins), and PASSO_FOLLOWER_DRIVE how the motors are driven (a Drive).
 #include "passo/firmware/follower.hpp"
 
 #include "passo/chip/follower_pins.hpp"
@@ -37,7 +37,8 @@ bool level(Pin pin) {
   }
 }
 
-// A motor's windings on one port: the table again, in the port's own bits. In RAM, where it is read in two cycles.
+// A motor's windings on one port: the winding table in the port's own bits. It is in RAM, where reading takes two
+// cycles.
 template <uint8_t axis, char port>
 struct PortTable {
   uint8_t bits[8] = {};
@@ -71,7 +72,7 @@ void prepare_ports() {
   }
 }
 
-// Timer 0 reaches its compare value every millisecond; its flag is looked at, not served.
+// Timer 0 reaches its compare value every millisecond. The flag is polled; there is no interrupt.
 constexpr uint16_t tifr0 = 0x35;
 constexpr uint16_t tccr0a = 0x44;
 constexpr uint16_t tccr0b = 0x45;
@@ -127,15 +128,15 @@ struct Hardware {
     return true;
   }
 
-  // After a reset all pins float and all latches are low: outputs begin low.
+  // After a reset all pins float and all latches are low, so outputs begin low.
   static void prepare() {
-    data_register(ucsr0b) = 0;  // old boot loaders leave the serial line on, and D0 and D1 with it
+    data_register(ucsr0b) = 0;  // old boot loaders leave the serial line on, and with it D0 and D1
     prepare_ports();
-    // A watchdog that bites after a quarter of a second: then all pins float. The two writes belong together.
+    // The watchdog resets after a quarter of a second; then all pins float. The two writes must follow each other.
     data_register(mcusr) = 0;
     data_register(wdtcsr) = 0x18;
     data_register(wdtcsr) = 0x0c;
-    data_register(tccr0a) = 2;   // count to OCR0A, and again
+    data_register(tccr0a) = 2;   // count to OCR0A, then begin again
     data_register(ocr0a) = 249;  // 16 MHz / 64 / 250
     data_register(tccr0b) = 3;   // divided by 64
   }

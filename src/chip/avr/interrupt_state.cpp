@@ -1,4 +1,4 @@
-// Where what the step timer's interrupt and the main loop share lies in memory.
+// The memory that the step timer's interrupt and the main loop share.
 #include "event_ring.hpp"
 #include "step_interrupt.hpp"
 

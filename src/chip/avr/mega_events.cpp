@@ -1,5 +1,5 @@
 // The two pieces that decide how fast the Mega steps: the interrupt that plays an event, and the expander that makes
-// events. As uno_events.cpp, but for four step ports. Cycles are in the margin. docs/boards.md has what they add up to.
+// events. Like uno_events.cpp, but for four step ports. Cycles are in the margin; docs/boards.md has their sums.
 #include "event_ring.hpp"
 #include "registers.hpp"
 #include "step_interrupt.hpp"
@@ -7,11 +7,11 @@
 namespace passo::chip {
 namespace {
 
-constexpr uint8_t toggle_f = 0x0f;  // PINF, PINA, PINC by their numbers for `out`
+constexpr uint8_t toggle_f = 0x0f;  // the numbers of PINF, PINA, PINC for `out`
 constexpr uint8_t toggle_a = 0x00;
 constexpr uint8_t toggle_c = 0x06;
 constexpr uint16_t toggle_l = 0x109;
-// A pulse is 16 cycles long by itself.
+// A pulse takes 16 cycles without padding.
 constexpr uint8_t padding = pins.shortest_pulse > 16 ? pins.shortest_pulse - 16 : 0;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
@@ -24,8 +24,8 @@ constexpr uint8_t page(uint16_t address) {
 
 extern "C" {
 
-// No instruction of the plain way changes a flag, so there is nothing to save but Z. All ports' bytes are at hand
-// before the first is written: the edges of one event come within four cycles, always in the same order.
+// No instruction of the plain way changes a flag, so only Z must be saved. All ports' bytes are loaded before the first
+// is written. So the edges of one event come within four cycles, always in the same order.
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {
   asm volatile(
       R"(
@@ -213,10 +213,10 @@ static_assert(pins.flag_special == 1 << 4 && pins.flag_stop == 1 << 3);
 static_assert(pins.step_ports[0] == 'F' && pins.step_ports[1] == 'L' && pins.step_ports[2] == 'A' &&
               pins.step_ports[3] == 'C');
 
-// All that six motors need does not fit into the registers. So the events are made in passes, one for the times and one
-// for each step port, each along its own page of the ring.
+// The registers cannot hold all that six motors need. So events are made in passes, one for the times and one for each
+// step port, each along its own page of the ring.
 //
-// In a pass: X the next byte, r30 the flips, r28 how many are left of r29.
+// In a pass X is the next byte, r30 the flips, and r28 how many are left of r29.
 asm(R"(
   .macro passo_all event            ; single ones until four at a time are left
       rjmp 2f

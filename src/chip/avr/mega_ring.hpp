@@ -1,5 +1,5 @@
-// The Mega's event ring: four step ports. Each byte of an entry lies in a page of its own, at the entry's number, so
-// that number is all that the interrupt has to keep, and at the end it wraps by itself.
+// The Mega's event ring, for four step ports. Each byte of an entry lies in a page of its own, at the entry's number.
+// So the interrupt has to keep only that number, which wraps at the end by itself.
 #pragma once
 
 #include <stdint.h>
@@ -15,23 +15,23 @@ inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr About about = {
     .firmware = 100, .highest_event_rate = 110'000, .baud = 500'000, .name = "mega ramps 1.4"};
 
-// Pages at the start of RAM, before everything that the linker places: times, high and low bytes, and what to turn over
-// on each of the step ports, in their order in the pin map.
+// Pages at the start of RAM, before everything that the linker places: the times' high and low bytes, then the bits to
+// toggle on each step port, in the pin map's order.
 inline constexpr uint16_t times_high_address = 0x200;
 inline constexpr uint16_t times_low_address = 0x300;
 inline constexpr uint16_t first_toggles_address = 0x400;
 inline constexpr uint16_t ring_entries = 256;
-inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate: what is there will be played
-inline constexpr uint8_t most_at_once = 100;  // made
-// In the list of items; from 100 on the host fits motion finely.
+inline constexpr uint8_t most_events = 220;   // two milliseconds at the highest rate; all of them will be played
+inline constexpr uint8_t most_at_once = 100;  // made in one call
+// In the list of items. From 100 on the host fits motion finely.
 inline constexpr uint8_t queue_capacity = 100;
 
-// As on the Uno; a turn has a byte for each step port.
+// As on the Uno. A turn has a byte for each step port.
 inline constexpr uint16_t received_address = 0x800;
 inline constexpr uint16_t turns_address = 0x900;
 inline constexpr uint8_t turns_mask = 0x3f;
-// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, the UART holds two,
-// and the interrupt takes them all.
+// If events come at fewer ticks than this, the interrupt sees every byte: a byte takes 320 cycles, the UART holds two,
+// and the interrupt takes all of them.
 inline constexpr uint16_t often = 500;
 
 inline constexpr uint16_t actions_address = 0x940;
@@ -52,7 +52,7 @@ inline uint16_t toggles_address(uint8_t index) {
   return first_toggles_address + index;
 }
 
-// An event at which nothing happens.
+// Makes the event do nothing.
 inline void clear_toggles(uint8_t index) {
   for (uint16_t port = 0; port != 0x400; port += 0x100) {
     *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + port) = 0;
@@ -60,7 +60,7 @@ inline void clear_toggles(uint8_t index) {
 }
 
 inline void prepare_ring() {}
-// The expander leaves out the ports of motors that the host does not know. A byte of each of those ports.
+// The expander skips the ports of motors that the host does not know. Clears a byte of each of those ports.
 inline void forget_toggles(uint8_t index) {
   for (uint16_t port = 0x100; port != 0x400; port += 0x100) {
     *reinterpret_cast<volatile uint8_t*>(toggles_address(index) + port) = 0;
@@ -70,18 +70,18 @@ inline void forget_toggles(uint8_t index) {
 inline uint8_t entry_of(uint16_t number) {
   return static_cast<uint8_t>(number);
 }
-// The entry that the interrupt comes to next, or the one behind the last event.
+// The entry that the interrupt plays next, or the one after the last event.
 inline uint8_t fetched_entry() {
   uint8_t number;
   asm volatile("mov %0, r2" : "=r"(number));
   return number;
 }
-// Puts an entry into the interrupt's registers. Only while it does not run.
+// Puts an entry into the interrupt's registers. Only while the interrupt does not run.
 inline void fetch_entry(uint8_t index) {
   const uint8_t toggles = *reinterpret_cast<volatile uint8_t*>(toggles_address(index));
   asm volatile("mov r2, %0\n\tmov r5, %1" ::"r"(index), "r"(toggles));
 }
-// What it turns over there, without flags.
+// Sets the bits to toggle there, without flags.
 inline void set_fetched_toggles(uint8_t toggles) {
   asm volatile("mov r5, %0" ::"r"(toggles));
 }

@@ -1,4 +1,5 @@
-// What of the Mega's wiring is the chip's: which timer makes the spindle's PWM, which flags tell that a switch moved.
+// The parts of the Mega's wiring that depend on the chip: the timer for the spindle's PWM, and the flags that tell that
+// a switch moved.
 #pragma once
 
 #include "registers.hpp"
@@ -6,7 +7,7 @@
 
 namespace passo::chip {
 
-// The ports of an action, its duty and its control register.
+// The ports of an action, and the PWM's duty and control registers.
 inline constexpr char output_ports[] = {'H', 'B'};
 using SpindleDuty = Ocr4cl;
 using SpindleControl = Tccr4a;
@@ -14,7 +15,7 @@ inline constexpr uint8_t spindle_connected = 1 << 3 | 1 << 0;
 inline constexpr uint8_t spindle_disconnected = 1 << 0;
 
 // PWM of 7.8 kHz at the spindle's pin, off at first: timer 4, eight bits, output C. The high byte goes through a
-// register that nothing else of this timer writes, and stays 0.
+// register that nothing else of this timer writes, so it stays 0.
 inline void prepare_spindle() {
   Ocr4ch::write(0);
   SpindleDuty::write(0);
@@ -22,7 +23,7 @@ inline void prepare_spindle() {
   Tccr4b::write(1 << 3 | 1 << 1);
 }
 
-// What is to stop the motors while `watched` is captured.
+// Sets the pins that stop the motors while `watched` is captured.
 inline void stop_on(uint16_t watched) {
   stop_low_b = stops_beside<'B'>(watched);
   stop_low_d = stops_beside<'D'>(watched);
@@ -30,22 +31,22 @@ inline void stop_on(uint16_t watched) {
   stop_low_j = stops_beside<'J'>(watched);
 }
 
-// The interrupt looks at these flags before every step. No interrupt of their own is enabled. Pins of ports D and E
-// have flags of their own, INT2 to INT5; those of B and J one for the port.
+// The interrupt reads these flags before every step; they have no interrupt of their own. Pins of ports D and E have a
+// flag each, INT2 to INT5. Pins of B and J share one for the port.
 inline void watch_switches() {
   constexpr uint8_t b = pins.stops_on('B');
   constexpr uint8_t j = pins.stops_on('J');
   stop_on(input_probe);
   Eicra::write(1 << 6 | 1 << 4);  // any change of INT3 and INT2
-  Eicrb::write(1 << 2 | 1 << 0);  // of INT5 and INT4
+  Eicrb::write(1 << 2 | 1 << 0);  // any change of INT5 and INT4
   Pcmsk0::write(static_cast<uint8_t>(b | pins.probe.mask()));
   Pcmsk1::write(static_cast<uint8_t>(j << 1));
   Pcifr::write(7);
   Eifr::write(0xff);
 }
 static_assert(pins.spindle_pwm == Pin{'H', 5} && pins.probe.port == 'B');
-// The interrupt compares PCIFR with EIFR: equal only where both are 0. So no bit may be used in both; PCIFR has 0
-// and 1.
+// The interrupt compares PCIFR with EIFR: they are equal only if both are 0, because no bit is used in both. PCIFR has
+// 0 and 1.
 static_assert((pins.stops_on('D') & ~0x0c) == 0 && (pins.stops_on('E') & ~0x30) == 0);
 static_assert(pins.stops_on('K') == 0 && pins.stops_on('A') == 0 && pins.stops_on('H') == 0);
 

@@ -1,4 +1,4 @@
-// The firmware `motion`: a Board on the chip. One loop; the step timer is the only interrupt.
+// The firmware `motion`: a Board on the chip. One loop; the step timer has the only interrupt.
 #include "chip_player.hpp"
 #include "keypad_wiring.hpp"
 #include "output_actions.hpp"
@@ -22,7 +22,7 @@ constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate)
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
-  void outputs(const BoardOutputs&) {}  // the player has switched them, at their event
+  void outputs(const BoardOutputs&) {}  // the player has switched them already, at their event
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() { return line.room(); }
   void enable() { Wiring::enable_motors(true); }
@@ -51,7 +51,7 @@ BoardIdentity identity() {
 Board<Hardware, queue_capacity, ChipPlayer, pins.motors> board(hardware, identity());
 InputReader reader;
 
-// Where the pin map has a keypad.
+// Stands for the keypad if the pin map has none.
 struct NoKeypad {
   void begin() {}
   void tick() {}
@@ -71,14 +71,14 @@ struct Manual<map, true> {
 };
 constinit auto manual = Manual<pins>::make();
 
-// A second without a turn of the loop resets the chip. Changing the watchdog takes two writes, one after the other.
+// A second without a turn of the loop resets the chip. To change the watchdog, two writes must follow each other.
 void start_watchdog() {
   asm volatile("wdr");
   Wdtcsr::write(1 << 4 | 1 << 3);
   Wdtcsr::write(1 << 3 | 6);
 }
 
-// All at once, and nothing again until a host says hello.
+// Stops everything at once. Nothing moves again until a host says hello.
 [[gnu::noinline]] void stop_at_once() {
   const bool pressed = (Wiring::inputs() & input_emergency_stop) != 0;
   ChipPlayer::halt();
@@ -89,7 +89,7 @@ void start_watchdog() {
   halted = 0;
 }
 
-// For the next change. One that has come already, where it bounces, nobody will be told of but by looking.
+// Watches for the next change. A change that came already (a bounce) is found only by looking.
 [[gnu::noinline]] void watch_input() {
   const uint16_t watched = board.watched();
   const bool closed = (reader.inputs() & watched) != 0;
@@ -99,7 +99,7 @@ void start_watchdog() {
   if (((Wiring::inputs() & watched) != 0) != closed && !ChipPlayer::captured()) ChipPlayer::watch(false);
 }
 
-// Another input, at rest.
+// Another input is watched; called at rest.
 [[gnu::noinline]] void Hardware::watch() {
   SerialLine::breathe();
   ChipPlayer::watch(false);
@@ -109,7 +109,7 @@ void start_watchdog() {
   SerialLine::breathe();
 }
 
-// Whether the timer has overflowed since this was asked last.
+// Whether the timer has overflowed since the last call.
 bool take_tick() {
   if (SpindleCounter::exists()) return SpindleCounter::take_tick();
   const bool tick = (Tifr1::read() & timer_overflow) != 0;
@@ -124,18 +124,18 @@ bool take_tick() {
   const uint16_t watched = board.watched();
   const bool changed = ChipPlayer::captured();
   const uint16_t before = reader.inputs();
-  // Amid motion it is the interrupt that tells that what is watched has changed, and where.
+  // During motion the interrupt reports changes of the watched input, and where.
   if (changed || (running != 0 && ChipPlayer::watches())) {
     raw &= static_cast<uint16_t>(~watched);
     raw |= (changed ? ~before : before) & watched;
   }
   const uint16_t on = reader.look(raw, tick);
-  // Amid motion the interrupt has stopped already; at rest nobody else looks.
+  // During motion the interrupt has stopped already. At rest nobody else looks.
   if ((on & board.stopping()) != 0 && !board.idle()) return stop_at_once();
   if ((on & input_emergency_stop) != 0) return stop_at_once();
   uint16_t told = on & InputReader::pressed_by_people;
   told |= (reader.inputs() ^ before) & watched;
-  if (changed) board.settle();  // what was finished before that is let go of
+  if (changed) board.settle();  // releases the items finished before that
   SerialLine::breathe();
   if (told != 0 || tick) board.set_inputs(reader.inputs(), told);
   if (tick) manual.tick();
@@ -144,12 +144,12 @@ bool take_tick() {
   if (!ChipPlayer::watches()) watch_input();
 }
 
-// The way of one byte, by itself: a loop around it would keep addresses in registers that are the interrupt's.
+// Takes one byte, in a function of its own: a loop around this would keep addresses in the interrupt's registers.
 [[gnu::noinline]] void receive() {
   board.receive(hardware.line.take());
 }
 
-// Once around the loop. Events come first: nothing else here may take longer than what is ahead of the interrupt.
+// One turn of the loop. Events come first: nothing else here may take longer than the events ahead of the interrupt.
 [[gnu::noinline]] void turn() {
   static uint8_t patience = 0;
   static uint8_t turns = 0;
@@ -165,15 +165,15 @@ bool take_tick() {
   manual.feed();
   ChipPlayer::refill();
   line.poll();
-  // What the interrupt has seen at once, and before an item is let go of in which it captured; the rest in its
-  // time.
+  // Inputs that the interrupt has seen are handled at once, and before the item with the capture is released. Others
+  // can wait.
   if (halted != 0 || ChipPlayer::captured() || (++turns & 63) == 0) look_at_inputs();
   SerialLine::breathe();
   board.settle();
   line.poll();
   ChipPlayer::refill();
   line.poll();
-  // A credit tells what those before it told: while there is more urgent work it can wait.
+  // A credit repeats what earlier ones told, so it can wait while there is more urgent work.
   if (!board.owes_report() || !line.can_send()) return;
   const bool can_wait = board.owed() < 3;
   if (can_wait && (line.has_byte() || ChipPlayer::is_short()) && (++patience & 7) != 0) return;

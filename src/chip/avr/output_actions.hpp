@@ -1,9 +1,9 @@
-// OutputActions: what the outputs are to be switched to, each with the event behind which that is to happen. The step
-// timer's interrupt does it there: an action rides on the queue of turns, or waits at the end of the ring.
+// OutputActions: states to which the outputs will be switched, each after a certain event. The step timer's interrupt
+// switches them: an action rides on the queue of turns, or waits at the end of the ring.
 //
-// Invariant: an action says what the ports are to be, not what is to change. So it may be done twice, by the interrupt
-// and by the main loop that has not seen it, and never out of order: one that is put while nothing plays is done at
-// once.
+// Invariant: an action is the state of the ports, not a change of it. So the interrupt and the main loop, which may not
+// have seen the interrupt's work, may both do the same action. Actions never come out of order: an action that is put
+// while nothing plays is done at once.
 #pragma once
 
 #include "event_ring.hpp"
@@ -15,7 +15,7 @@ namespace passo::chip {
 
 class OutputActions {
  public:
-  // None waits. What happens at a stop goes on from how the ports are now.
+  // Drops all waiting actions. The action at a stop starts from the present state of the ports.
   static void clear() {
     action_at_end = 0;
     riding_ = 0;
@@ -24,7 +24,7 @@ class OutputActions {
   }
   static bool full() { return waiting_ == action_count; }
 
-  // Behind all events made so far. `rests`: there is none to come.
+  // Adds an action after all events made so far. `rests` tells whether none is to come.
   static void put(const BoardOutputs& outputs, bool (*rests)()) {
     const uint8_t place = static_cast<uint8_t>(actions_address + sizeof(Action) * next_);
     next_ = static_cast<uint8_t>((next_ + 1) % action_count);
@@ -37,19 +37,19 @@ class OutputActions {
       taken();
     }
   }
-  // It is done.
+  // The oldest action is done.
   static void forget() { --waiting_; }
 
-  // Low byte of the address of the action that the next event takes with it; 0: none.
+  // Low byte of the address of the action that rides on the next event; 0: none.
   static uint8_t riding() { return riding_; }
-  // The event has it.
+  // Called when the event has the action.
   static void taken() {
     riding_ = 0;
     action_at_end = 0;
   }
 
   static void act(uint8_t place) { Wiring::act(*at(place)); }
-  // All off.
+  // Switches all outputs off.
   static void make_safe() { act(safe_action); }
 
  private:

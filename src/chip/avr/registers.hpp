@@ -7,7 +7,7 @@
 
 namespace passo::chip {
 
-// What `in`, `out`, `sbic` reach has this much less as its number there.
+// `in`, `out` and `sbic` use numbers that are lower than the addresses by this.
 inline constexpr uint8_t io_base = 0x20;
 
 template <uint16_t address>
@@ -17,8 +17,8 @@ struct Register {
   static void write(uint8_t value) { *reinterpret_cast<volatile uint8_t*>(address) = value; }
 };
 
-// PINx at `address`, then DDRx and PORTx. Single bits are turned over by a one in PINx: no neighbour is written, also
-// not when the interrupt comes between.
+// PINx at `address`, then DDRx and PORTx. A one written to PINx toggles a single bit: no neighbour changes, even if the
+// interrupt comes between.
 template <uint16_t address>
 struct Port {
   static uint8_t pins() { return Register<address>::read(); }
@@ -30,7 +30,7 @@ struct Port {
 };
 
 using Tifr1 = Register<0x36>;
-using Tifr4 = Register<0x39>;  // of the ATmega2560 only, as all of timers 4 and 5
+using Tifr4 = Register<0x39>;  // only in the ATmega2560, like all of timers 4 and 5
 using Pcifr = Register<0x3b>;
 using Eifr = Register<0x3c>;
 using Gpior0 = Register<0x3e>;

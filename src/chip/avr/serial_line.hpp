@@ -1,4 +1,4 @@
-// SerialLine: the UART, polled. Bytes that came wait in a ring that the expander fills too; bytes to go wait in
+// SerialLine: the UART, polled. Received bytes wait in a ring that the expander fills too. Bytes to send wait in
 // another.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace passo::chip {
 
 class SerialLine {
  public:
-  // `baud` divides 2 MHz: 500,000 and 1,000,000 do; 115,200 is off by 2 %, which is what the Uno always was.
+  // 2 MHz should be a multiple of `baud`: 500,000 and 1,000,000 fit. 115,200 is off by 2 %, as always on the Uno.
   static void open(uint32_t clock, uint32_t baud) {
     const uint16_t divider = static_cast<uint16_t>((clock / 4 / baud - 1) / 2);
     Ubrr0h::write(static_cast<uint8_t>(divider >> 8));
@@ -20,12 +20,12 @@ class SerialLine {
     Ucsr0c::write(1 << 2 | 1 << 1);  // 8N1
   }
 
-  // Saves what came. Every 640 cycles at 500 kbaud, the interrupt's included: the UART itself holds two bytes. So this
-  // stands between any two pieces of work, and has to cost nothing when nothing came.
+  // Saves received bytes. Must be called every 640 cycles at 500 kbaud, the interrupt's included: the UART itself holds
+  // two bytes. So it stands between any two pieces of work, and must cost nothing when nothing came.
   [[gnu::always_inline]] static void breathe() {
     if (line_is_watched == 0 && (Ucsr0a::read() & byte_received) != 0) fetch();
   }
-  // Sends on.
+  // Sends the next bytes.
   static void poll() {
     breathe();
     if (sent_ != to_send_ && (Ucsr0a::read() & may_send) != 0) {
@@ -42,7 +42,7 @@ class SerialLine {
   }
 
   static uint8_t room() { return static_cast<uint8_t>((sent_ - to_send_ - 1) & out_mask); }
-  // There is room for one of the board's frames.
+  // Whether there is room for any frame of the board.
   static bool can_send() { return room() >= longest; }
   static void send(uint8_t byte) {
     breathe();
@@ -51,9 +51,9 @@ class SerialLine {
   }
 
  private:
-  // The interrupt fetches bytes too, so it must not come between the look and the end. It may not be held back either:
-  // that would be late for its edge. So wait, if need be, until it has come and gone: the low bytes of the timer and of
-  // its alarm tell whether it is due soon.
+  // The interrupt fetches bytes too, so it must not come between the look and the end. It must not be held back either:
+  // its edge would be late. So this waits, if need be, until the interrupt has come and gone. The low bytes of the
+  // timer and of its alarm tell whether it is due soon.
   [[gnu::noinline, gnu::used]] static void fetch() asm("passo_fetch") {
     asm volatile(
         R"(
@@ -78,7 +78,7 @@ class SerialLine {
   }
 
   static constexpr uint8_t out_mask = 63;
-  // About, or a status.
+  // The longest frame: an about, or a status.
   static constexpr uint8_t longest = frame_overhead + (pins.motors < 4 ? 26 : status_size + 4 * pins.motors);
   static_assert(longest <= out_mask);
 

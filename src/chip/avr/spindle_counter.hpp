@@ -1,9 +1,8 @@
-// SpindleCounter: an encoder at the spindle, counted by a timer: no pulse costs the program anything, however many
-// come.
+// SpindleCounter: an encoder at the spindle, counted by a timer. Pulses cost the program nothing, however many come.
 //
-// The index sets the flag of another timer's capture, which waits to be seen. Where nothing is played that takes a few
-// microseconds; amid motion the count at the index may be told some thousand cycles too late. Timer 1, whose alarms
-// are the steps', tells the time.
+// The index sets the capture flag of another timer, which is polled. While nothing is played, the flag is seen within a
+// few microseconds; during motion the count at the index may be read some thousand cycles too late. Timer 1, whose
+// alarms make the steps, tells the time.
 #pragma once
 
 #include "event_ring.hpp"
@@ -18,7 +17,7 @@ class SpindleCounter {
  public:
   static constexpr bool exists() { return pins.encoder.exists(); }
 
-  // Timer 5 counts rising edges; the index is a falling one, four times the same.
+  // Timer 5 counts rising edges. Timer 4 captures the index: a falling edge that reads the same four times.
   static void prepare() {
     if (!exists()) return;
     Tccr5a::write(0);
@@ -27,13 +26,13 @@ class SpindleCounter {
     Tifr4::write(input_captured);
   }
 
-  // Again and again: before 65,536 pulses, or ticks.
+  // Must be called before 65,536 pulses or ticks have passed.
   [[gnu::always_inline]] static void look() {
     if (!exists()) return;
     if ((Tifr4::read() & input_captured) != 0) note_index();
     if ((Tifr1::read() & timer_overflow) != 0) note_overflow();
   }
-  // Timer 1 has overflowed since this was asked last: its flag is cleared here.
+  // Whether timer 1 has overflowed since the last call. This class clears the timer's flag.
   static bool take_tick() {
     const bool tick = ticked_;
     ticked_ = false;
@@ -45,7 +44,7 @@ class SpindleCounter {
     SerialLine::breathe();
     const uint16_t time = time_now();
     take_pulses();
-    // One that has not been noted belongs to a time behind it only.
+    // An overflow that is not noted yet counts only if the time is after it.
     const bool overflowed = (Tifr1::read() & timer_overflow) != 0 && time < 0x8000;
     const uint16_t overflows = static_cast<uint16_t>(overflows_ + (overflowed ? 1 : 0));
     return {.count = count_,
@@ -76,7 +75,7 @@ class SpindleCounter {
     const uint8_t low = Tcnt5l::read();
     return static_cast<uint16_t>(low | Tcnt5h::read() << 8);
   }
-  // The interrupt writes its alarm by way of the same byte that a reader of the count needs: it must not come between.
+  // The interrupt writes its alarm through the same byte that reading the count needs, so it must not come between.
   static uint16_t time_now() {
     constexpr uint16_t without_interrupt = 40;  // cycles from one reading to the next
     for (;;) {

@@ -1,8 +1,9 @@
-// What the step timer's interrupt and the main loop share, and the two pieces of assembly.
+// The data that the step timer's interrupt and the main loop share, and the two pieces of assembly.
 //
-// Registers r2 to r5 are the interrupt's for the whole program. clang cannot be told so: it takes them last, the
-// program is written so that it never has to, and check_program.sh looks for it in the finished program.
-//   Uno    r3:r2  the next entry of the ring   r4  scratch           r5  what to turn over at the next event
+// Registers r2 to r5 belong to the interrupt for the whole program. clang cannot be told so. It takes these registers
+// last, the program is written so that it never needs them, and check_program.sh looks for them in the finished
+// program.
+//   Uno    r3:r2  the next entry of the ring   r4  scratch           r5  the bits to toggle at the next event
 //   Mega      r2  the next entry of the ring   r3, r4, r6  scratch   r5  the same, on the first step port
 // With windings (winding_events.cpp) both are C++, and there are no such registers.
 #pragma once
@@ -13,21 +14,21 @@
 namespace passo::chip {
 
 extern "C" {
-// The segment that is being made into events; the expander's registers between two calls. Same order as in `expand`.
+// The segment of which events are made: the expander's registers between two calls, in the order of `expand`.
 struct Expansion {
   uint16_t accumulators[pins.motors];
   uint16_t increments[pins.motors];
-  uint32_t time;      // 16.16 ticks, modulo 2^16: of the event made last
+  uint32_t time;      // 16.16 ticks, modulo 2^16: the time of the last event made
   uint32_t interval;  // to the next one
   int32_t change;
 #ifdef PASSO_WINDINGS
   uint8_t flips;
   uint8_t directions;
 #else
-  PortBits flips;  // as bits of the step ports
+  PortBits flips;  // in the bits of the step ports
 #endif
-  uint16_t address;  // of the entry to be written next
-  uint8_t motors;    // that the host knows of
+  uint16_t address;  // the entry to write next
+  uint8_t motors;    // as many as the host knows of
 #ifdef PASSO_WINDINGS
   uint8_t places[pins.motors];  // in each motor's WindingTable
   uint8_t held[pins.motors];    // the place whose windings have current, or windings_off
@@ -36,14 +37,14 @@ struct Expansion {
 extern Expansion expansion;
 
 extern volatile uint8_t running;          // the interrupt plays
-extern volatile uint8_t line_is_watched;  // by the interrupt, which comes often: the main loop need not look
+extern volatile uint8_t line_is_watched;  // the interrupt comes so often that it reads the line; the main loop need not
 extern volatile uint8_t turns_tail;       // low byte of the address of the next turn
-extern volatile uint8_t action_at_end;    // low byte of the address of what to do at the end of the ring; 0: nothing
-extern volatile uint8_t received_head;    // low byte of the address where the next byte off the line goes
-extern volatile uint8_t armed;            // what is watched has not changed yet
-extern volatile uint16_t captured_entry;  // the ring's register when it did
-extern volatile uint8_t halted;           // by a pin
-// What is watched, on one port: the address of its PINx, its pins, and their levels as long as nothing has changed.
+extern volatile uint8_t action_at_end;    // low byte of the address of the action at the end of the ring; 0: none
+extern volatile uint8_t received_head;    // low byte of the address for the next received byte
+extern volatile uint8_t armed;            // the watched input has not changed yet
+extern volatile uint16_t captured_entry;  // the ring's register when it changed
+extern volatile uint8_t halted;           // a pin stopped the motion
+// The watched pins of one port: the address of its PINx, the pins, and their levels until they change.
 extern volatile uint16_t watch_port;
 extern volatile uint8_t watch_pins;
 extern volatile uint8_t watch_quiet;
@@ -58,8 +59,8 @@ extern volatile uint8_t stop_low_b;
 extern volatile uint8_t stop_low_c;
 #endif
 
-// Makes the next `events` events (at least one) of the segment and puts them into the ring. The first keeps both flags
-// set, so that the interrupt does not run into what is not finished. Reads the line between events.
+// Makes the next `events` events (at least one) of the segment and puts them into the ring. The first one keeps both
+// flags set, so that the interrupt does not run into unfinished ones. Reads the line between events.
 void expand(uint8_t events);
 }
 

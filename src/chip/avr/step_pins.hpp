@@ -1,7 +1,7 @@
-// StepPins: what of the player's work is for motors with step and direction pins. A step is a byte written to PINx
-// twice; directions are turned over by the interrupt, out of the queue of turns.
+// StepPins: the part of the player for motors with step and direction pins. A step is a byte written to PINx twice. The
+// interrupt toggles direction pins, taken from the queue of turns.
 //
-// WindingPins (winding_pins.hpp) is the same for motors whose windings the board switches itself.
+// WindingPins (winding_pins.hpp) is the counterpart for motors whose windings the board switches itself.
 #pragma once
 
 #include "event_ring.hpp"
@@ -16,7 +16,7 @@ class StepPins {
  public:
   static constexpr uint8_t turn_bytes = step_port_count;
 
-  // How the pins are now: a turn that was queued may not have been made.
+  // Reads the pins, because a queued turn may not have been made.
   static uint8_t directions() {
     uint8_t down = 0;
     for (uint8_t m = 0; m < pins.motors; ++m) {

@@ -1,4 +1,4 @@
-// Which pins of a port belong to which of the board's inputs, out of its pin map.
+// The pins of a port that belong to each of the board's inputs, taken from its pin map.
 #pragma once
 
 #include "registers.hpp"
@@ -13,7 +13,7 @@ template <char port>
   return static_cast<uint8_t>(~*reinterpret_cast<volatile uint8_t*>(port_registers(port)));
 }
 
-// Of a limit switch, which may have two pins.
+// The pins of a limit switch, which may have two.
 template <char port>
 [[gnu::always_inline]] inline uint8_t pins_of(uint16_t limit) {
   uint8_t mask = 0;
@@ -25,8 +25,8 @@ template <char port>
   return mask;
 }
 
-// The pins that stop the motors while `watched` is captured. Where that is a limit switch an axis is being homed, and
-// others may be on their switches still: what is closed is no event.
+// The pins that stop the motors while `watched` is captured. If that is a limit switch, an axis is being homed, and
+// other axes may still be on their switches. So closed switches do not count.
 template <char port>
 [[gnu::noinline]] uint8_t stops_beside(uint16_t watched) {
   constexpr uint8_t stops = pins.stops_on(port);
@@ -41,7 +41,7 @@ constexpr bool has_its_pins_on_one_port(uint8_t limit) {
 }
 static_assert(has_its_pins_on_one_port(0) && has_its_pins_on_one_port(1) && has_its_pins_on_one_port(2));
 
-// What the interrupt is to notice: that it closes, or opens. Only while nothing is armed.
+// Chooses what the interrupt waits for: that the input closes, or opens. Only while nothing is armed.
 [[gnu::noinline]] inline void choose_watch(uint16_t watched, bool closed) {
   uint16_t port = port_registers(pins.probe.port);
   uint8_t mask = (watched & input_probe) != 0 ? pins.probe.mask() : uint8_t{0};
@@ -51,7 +51,7 @@ static_assert(has_its_pins_on_one_port(0) && has_its_pins_on_one_port(1) && has_
     port = port_registers(pins.limits[i].port);
     mask = static_cast<uint8_t>(mask | pins.limits[i].mask());
   }
-  // Where it is closed, the pins that close it.
+  // If it is closed: the pins that close it.
   const uint8_t high = *reinterpret_cast<volatile uint8_t*>(port);
   if (closed) mask = static_cast<uint8_t>(mask & ~high);
   watch_port = port;

@@ -1,5 +1,5 @@
 // The two pieces that decide how fast the Uno steps: the interrupt that plays an event, and the expander that makes
-// one. Cycles are in the margin. docs/boards.md has what they add up to.
+// one. Cycles are in the margin; docs/boards.md has their sums.
 #include "event_ring.hpp"
 #include "registers.hpp"
 #include "step_interrupt.hpp"
@@ -8,7 +8,7 @@ namespace passo::chip {
 namespace {
 
 constexpr uint8_t toggle_port = 0x09;  // PIND
-// A pulse is 19 cycles long by itself.
+// A pulse takes 19 cycles without padding.
 constexpr uint8_t padding = pins.shortest_pulse > 19 ? pins.shortest_pulse - 19 : 0;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
@@ -18,7 +18,7 @@ constexpr uint8_t io(uint16_t address) {
 
 extern "C" {
 
-// No instruction of the plain way changes a flag, so there is nothing to save but Z.
+// No instruction of the plain way changes a flag, so only Z must be saved.
 [[gnu::naked, gnu::used, gnu::section(".vectors")]] void step_interrupt() {
   asm volatile(
       R"(
@@ -177,8 +177,8 @@ extern "C" {
 }
 static_assert(pins.flag_special == 1 << 1 && pins.flag_stop == 1 << 0 && pins.step_ports[0] == 'D');
 
-// Registers: r7:r6 r9:r8 r11:r10 accumulators, r13:r12 r15:r14 r17:r16 increments, r21…r18 time, r25…r22 interval,
-// r29 r28 r1 r0 change, X the entry, r30 the toggles, r31 the flips. How many are left is in GPIOR2.
+// Registers: r7:r6 r9:r8 r11:r10 accumulators, r13:r12 r15:r14 r17:r16 increments, r21…r18 time, r25…r22 interval, r29
+// r28 r1 r0 change, X the entry, r30 the bits to toggle, r31 the flips. GPIOR2 has the number of events left.
 asm(R"(
   .macro passo_motor low, high, low_increment, high_increment
       add \low, \low_increment      ; 1

@@ -1,5 +1,5 @@
-// The Uno's event ring: one step port, so an entry is four bytes. It ends with the high byte of the next entry's
-// address, which takes the interrupt from one page to the next, and from the end to the start.
+// The Uno's event ring. There is one step port, so an entry has four bytes. It ends with the high byte of the next
+// entry's address. This takes the interrupt from one page to the next, and from the end to the start.
 #pragma once
 
 #include <stdint.h>
@@ -15,7 +15,7 @@ inline constexpr uint8_t flag_stop = pins.flag_stop;
 inline constexpr About about = {
     .firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"};
 
-// Lies at the start of RAM, before everything that the linker places.
+// The ring lies at the start of RAM, before everything that the linker places.
 struct EventEntry {
   uint8_t time_high;
   uint8_t time_low;
@@ -25,32 +25,32 @@ struct EventEntry {
 
 inline constexpr uint16_t ring_address = 0x100;
 inline constexpr uint8_t ring_entries = 128;
-inline constexpr uint8_t most_events = 126;   // in the ring: what is there will be played
-inline constexpr uint8_t most_at_once = 100;  // made
-// In the list of items. More would take from the stack (check_program.sh).
+inline constexpr uint8_t most_events = 126;   // in the ring; all of them will be played
+inline constexpr uint8_t most_at_once = 100;  // made in one call
+// In the list of items. More would take memory from the stack (check_program.sh).
 inline constexpr uint8_t queue_capacity = 31;
 
-// Bytes off the line, put there by whoever finds one: the interrupt, or the main loop. A page: the index is the low
-// byte of the address and wraps by itself. All that the host may have under way fits.
+// Received bytes. The interrupt or the main loop puts them here, whichever finds one. The ring is a page: its index is
+// the low byte of the address and wraps by itself. All bytes that the host may have under way fit.
 inline constexpr uint16_t received_address = 0x300;
 
-// Direction bits to turn over, one for each flagged event that waits.
+// Direction bits to toggle, one byte for each flagged event that waits.
 inline constexpr uint16_t turns_address = 0x400;
 inline constexpr uint8_t turns_mask = 0x07;
 
-// Below so many ticks from event to event the interrupt sees every byte: a byte takes 320 cycles, and the interrupt
+// If events come at fewer ticks than this, the interrupt sees every byte: a byte takes 320 cycles, and the interrupt
 // takes one.
 inline constexpr uint16_t often = 300;
 
-// What the outputs are switched to, and behind them what they are switched to by a stop. Where such an action lies is
-// told beside the directions of the turn on which it rides: by the low byte of its address, in bits that turn nothing.
+// Actions of the outputs, and after them the action at a stop. The low byte of an action's address is told beside the
+// directions of the turn on which it rides, in bits that turn nothing.
 inline constexpr uint16_t actions_address = 0x408;
 inline constexpr uint8_t action_bits = 0x1c;
 
-// From here on the linker places its own (CMakeLists.txt says so to it).
+// The linker places its own data from here on (CMakeLists.txt tells it so).
 inline constexpr uint16_t first_free_address = 0x41c;
 
-// Where the expander is to write it.
+// The address to which the expander writes the entry.
 inline uint16_t entry_address(uint8_t index) {
   return ring_address + sizeof(EventEntry) * index;
 }
@@ -67,7 +67,7 @@ inline uint16_t toggles_address(uint8_t index) {
   return static_cast<uint16_t>(entry_address(index) + 2);
 }
 
-// An event at which nothing happens.
+// Makes the event do nothing.
 inline void clear_toggles(uint8_t index) {
   entry(index).toggles = 0;
 }
@@ -77,25 +77,25 @@ inline void prepare_ring() {
     entry(i).next_page = static_cast<uint8_t>(entry_address((i + 1) & (ring_entries - 1)) >> 8);
   }
 }
-// No event turns anything over on a port of motors that the host does not know.
+// No event toggles a bit on a port of motors that the host does not know.
 inline void forget_toggles(uint8_t /*index*/) {}
 
-// r3:r2 is behind the bytes of the entry that the interrupt has fetched, so at the next one.
+// r3:r2 points after the bytes of the entry that the interrupt has fetched, so at the next entry.
 inline uint8_t entry_of(uint16_t next) {
   return static_cast<uint8_t>(((next - ring_address) / sizeof(EventEntry) - 1) & (ring_entries - 1));
 }
-// The entry that the interrupt has in its registers, or the one behind the last event.
+// The entry that the interrupt has in its registers, or the one after the last event.
 inline uint8_t fetched_entry() {
   uint16_t next;
   asm volatile("movw %0, r2" : "=r"(next));
   return entry_of(next);
 }
-// Puts an entry into the interrupt's registers. Only while it does not run.
+// Puts an entry into the interrupt's registers. Only while the interrupt does not run.
 inline void fetch_entry(uint8_t index) {
   const uint16_t next = entry_address((index + 1) & (ring_entries - 1));
   asm volatile("movw r2, %0\n\tmov r5, %1" ::"r"(next), "r"(entry(index).toggles));
 }
-// What it turns over there, without flags.
+// Sets the bits to toggle there, without flags.
 inline void set_fetched_toggles(uint8_t toggles) {
   asm volatile("mov r5, %0" ::"r"(toggles));
 }

@@ -1,4 +1,5 @@
-// What of the Uno's wiring is the chip's: which timer makes the spindle's PWM, which flags tell that a switch moved.
+// The parts of the Uno's wiring that depend on the chip: the timer for the spindle's PWM, and the flags that tell that
+// a switch moved.
 #pragma once
 
 #include "registers.hpp"
@@ -6,7 +7,7 @@
 
 namespace passo::chip {
 
-// The ports of an action, its duty and its control register.
+// The ports of an action, and the PWM's duty and control registers.
 inline constexpr char output_ports[] = {pins.switched_on('B') != 0 ? 'B' : 'C', 'C'};
 using SpindleDuty = Ocr2a;
 using SpindleControl = Tccr2a;
@@ -20,13 +21,13 @@ inline void prepare_spindle() {
   Tccr2b::write(1 << 1);
 }
 
-// What is to stop the motors while `watched` is captured.
+// Sets the pins that stop the motors while `watched` is captured.
 inline void stop_on(uint16_t watched) {
   stop_low_b = stops_beside<'B'>(watched);
   stop_low_c = stops_beside<'C'>(watched);
 }
 
-// The interrupt looks at these flags before every step. No interrupt of their own is enabled.
+// The interrupt reads these flags before every step; they have no interrupt of their own.
 inline void watch_switches() {
   constexpr uint8_t b = pins.stops_on('B');
   constexpr uint8_t c = pins.stops_on('C');

@@ -1,6 +1,6 @@
-// What uno_events.cpp and mega_events.cpp are, for boards that switch windings themselves: the interrupt that plays an
-// event, and the expander that makes one. Motors without drivers turn slowly, so both are C++, for any pin map.
-// docs/boards.md has what they add up to.
+// Does the work of uno_events.cpp and mega_events.cpp for boards that switch windings themselves: the interrupt that
+// plays an event, and the expander that makes one. Motors without drivers turn slowly, so both are in C++, for any pin
+// map. docs/boards.md has the sums of their cycles.
 #include "event_ring.hpp"
 #include "registers.hpp"
 #include "serial_line.hpp"
@@ -21,7 +21,7 @@ constexpr uint8_t vectors_before = 11;
   return *reinterpret_cast<volatile uint8_t*>(port_registers(port) + which);
 }
 
-// A switch of a machine has moved since it was last looked at.
+// Whether a switch of the machine has moved since the last look.
 [[gnu::always_inline]] inline bool switch_moved() {
 #ifdef __AVR_ATmega2560__
   return (Pcifr::read() | Eifr::read()) != 0;
@@ -59,7 +59,8 @@ constexpr uint8_t vectors_before = 11;
 [[gnu::always_inline]] inline void act(uint8_t place) {
   Wiring::act(*reinterpret_cast<const volatile Action*>((actions_address & 0xff00) | place));
 }
-// False where no further step may come out. Flags first, pins then, so that no change is missed.
+// Returns false if no further step may be made. The flags are cleared before the pins are read, so that no change is
+// missed.
 [[gnu::always_inline]] inline bool look_at_switches(uint8_t entry) {
   forget_moves();
   if (must_stop()) {
@@ -69,13 +70,13 @@ constexpr uint8_t vectors_before = 11;
     return false;
   }
   if (armed != 0 && watched_changed()) {
-    armed = 0;  // the first change counts
+    armed = 0;  // only the first change counts
     captured_entry = entry;
   }
   return true;
 }
 
-// All bytes are at hand before the first is written: a motor's windings may lie on two ports.
+// All bytes are loaded before the first is written: a motor's windings may lie on two ports.
 [[gnu::always_inline]] inline void turn_windings_over(uint8_t entry) {
   PortBits toggles;
 #pragma clang loop unroll(full)
@@ -84,7 +85,7 @@ constexpr uint8_t vectors_before = 11;
   for (uint8_t p = 0; p < step_port_count; ++p) register_of(pins.step_ports[p], 0) = toggles.on[p];
 }
 
-// Of one step of a motor.
+// Adds the bits that one step of a motor changes.
 template <uint8_t motor, uint8_t p = 0>
 [[gnu::always_inline]] inline void change_windings(PortBits& toggles, uint8_t from, uint8_t to) {
   if constexpr (p < step_port_count) {
@@ -129,14 +130,14 @@ volatile uint8_t next_entry;
   )" ::[before] "n"(vectors_before));
 }
 
-// Nothing in it calls a function: that would cost the saving of twelve registers.
+// It calls no function: a call would cost the saving of twelve registers.
 [[gnu::signal, gnu::used]] void play_event() asm("passo_play_event");
 void play_event() {
   uint8_t entry = next_entry;
   if (switch_moved() && !look_at_switches(entry)) return;
   turn_windings_over(entry);
 
-  // A byte off the line does not wait for the main loop.
+  // A byte on the line does not wait for the main loop.
   while ((Ucsr0a::read() & byte_received) != 0) {
     const uint8_t head = received_head;
     *reinterpret_cast<volatile uint8_t*>((received_address & 0xff00) | head) = Udr0::read();

@@ -1,8 +1,8 @@
-// WindingPins: what StepPins is, for motors whose windings the board switches itself. There are no directions to turn
-// over: the expander makes of each step the bits of windings that change.
+// WindingPins: the counterpart of StepPins for motors whose windings the board switches itself. There are no direction
+// pins to toggle: the expander turns each step into the bits of the windings that change.
 //
-// Invariant: where the ring is empty, expansion.held says what current each motor has. A motor has none before its
-// first step, and its place in the table goes on from where it was.
+// Invariant: while the ring is empty, expansion.held tells the current of each motor. A motor has no current before its
+// first step. Its place in the table goes on from where it was.
 #pragma once
 
 #include "event_ring.hpp"
@@ -13,7 +13,7 @@
 
 namespace passo::chip {
 
-// A motor's table, in the bits of one port.
+// A motor's winding table, in the bits of one port.
 struct WindingBits {
   uint8_t at[windings_off + 1] = {};
 
@@ -30,7 +30,7 @@ class WindingPins {
  public:
   static constexpr uint8_t turn_bytes = 1;
 
-  // What was in the ring and not played has moved nothing: so places are those that the pins show.
+  // Events in the ring that were not played have moved nothing. So the places are read from the pins.
   static uint8_t directions() {
     find_places<0>();
     return 0;
@@ -43,7 +43,7 @@ class WindingPins {
   static void queue(volatile uint8_t* turn, uint8_t /*motors*/) { *turn = 0; }
   static void make(const volatile uint8_t* /*turn*/) {}
 
-  // All off; each motor stays at its place. Only while the interrupt does not play.
+  // Switches all windings off; each motor stays at its place. Only while the interrupt does not play.
   static void release() {
     clear_windings<0>();
     for (uint8_t& held : expansion.held) held = windings_off;
@@ -66,7 +66,7 @@ class WindingPins {
       find_places<motor + 1>();
     }
   }
-  // Its last place is the likeliest.
+  // Looks at the motor's last place first, because it is the likeliest.
   template <uint8_t motor>
   [[gnu::noinline]] static void find_place() {
     constexpr uint8_t mask = winding_table(pins.motor[motor].drive).mask;

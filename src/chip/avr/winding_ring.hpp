@@ -1,5 +1,5 @@
-// The event ring of boards that switch windings themselves, for both chips. Nothing here has to be as fast as with step
-// pins: one layout, any number of step ports, no registers of the interrupt's own.
+// The event ring of boards that switch windings themselves, for both chips. It need not be as fast as with step pins:
+// one layout, any number of step ports, and no registers of the interrupt's own.
 #pragma once
 
 #include <stdint.h>
@@ -14,7 +14,7 @@
 
 namespace passo::chip {
 
-// PASSO_WINDINGS says how each motor is driven: their Drives, in order.
+// PASSO_WINDINGS tells how each motor is driven: a list of their Drives, in order.
 using enum Drive;
 #ifdef __AVR_ATmega2560__
 inline constexpr PinMap<4> pins = driven(mega_windings, {PASSO_WINDINGS});
@@ -29,12 +29,12 @@ inline constexpr uint8_t queue_capacity = 38;
 inline constexpr uint16_t ram_address = 0x100;
 #endif
 
-inline constexpr uint8_t windings_off = 8;  // in the place of a place: no current
+inline constexpr uint8_t windings_off = 8;  // takes the place of a motor's place: no current
 inline constexpr uint8_t flag_special = 2;
 inline constexpr uint8_t flag_stop = 1;
 
-// At the start of RAM, before everything that the linker places: bytes off the line, a page; then rows of the ring,
-// each with a byte of every entry: times, high and low, flags, and what to turn over on each of the step ports.
+// The ring is at the start of RAM, before everything that the linker places: a page for received bytes, then rows with
+// one byte of every entry each. The rows are times (high and low), flags, and the bits to toggle on each step port.
 inline constexpr uint16_t received_address = ram_address;
 inline constexpr uint16_t ring_address = ram_address + 0x100;
 inline constexpr uint8_t ring_entries = 64;
@@ -42,20 +42,20 @@ inline constexpr uint8_t most_events = 62;
 inline constexpr uint8_t flags_row = 2;
 inline constexpr uint8_t toggles_row = 3;
 
-// As on the other boards. A turn is only what an action rides on.
+// As on the other boards. A turn only carries an action.
 inline constexpr uint16_t actions_address = ring_address + ring_entries * (toggles_row + pins.ports());
 inline constexpr uint8_t action_bits = (actions_address & 0xff) | 0x1c;
 inline constexpr uint16_t turns_address = actions_address + 0x20;
 inline constexpr uint8_t turns_mask = 0x07;
-// The interrupt takes all bytes off the line that there are.
+// The interrupt takes all received bytes.
 inline constexpr uint16_t often = 500;
-inline constexpr uint8_t most_at_once = 8;  // the expander looks at the line at every event
+inline constexpr uint8_t most_at_once = 8;  // the expander reads the line at every event
 inline constexpr uint16_t first_free_address = turns_address + turns_mask + 1;
 
 inline uint16_t entry_address(uint8_t index) {
   return index;
 }
-// Rows do not cross pages: only the low byte is computed.
+// Rows do not cross pages, so only the low byte is computed.
 [[gnu::always_inline]] inline volatile uint8_t* ring_byte(uint8_t row, uint8_t index) {
   const uint16_t start = static_cast<uint16_t>(ring_address + ring_entries * row);
   return reinterpret_cast<volatile uint8_t*>((start & 0xff00) | static_cast<uint8_t>((start & 0xff) + index));
@@ -76,7 +76,7 @@ inline void clear_toggles(uint8_t index) {
 inline void prepare_ring() {}
 inline void forget_toggles(uint8_t /*index*/) {}
 
-extern "C" volatile uint8_t next_entry;  // that the interrupt comes to, or the one behind the last event
+extern "C" volatile uint8_t next_entry;  // the entry that the interrupt plays next, or the one after the last event
 
 inline uint8_t entry_of(uint16_t number) {
   return static_cast<uint8_t>(number);

@@ -1,4 +1,4 @@
-// Wiring: the pins beside the motors', out of the board's pin map: switches in, and what is switched.
+// Wiring: all pins except the motors', taken from the board's pin map: switches, and switched outputs.
 #pragma once
 
 #include "event_ring.hpp"
@@ -20,7 +20,7 @@ namespace passo::chip {
 
 struct PortPlan {
   char port = 0;
-  uint8_t inputs = 0;  // with pull-ups
+  uint8_t inputs = 0;  // these pins have pull-ups
   uint8_t outputs = 0;
 };
 struct PortPlans {
@@ -48,7 +48,7 @@ class Wiring {
     for (const MotorPins& motor : pins.motor) set(motor.enable, !on);
   }
 
-  // To switch the outputs to this, all else on their ports as it is.
+  // The action that switches the outputs to this and keeps everything else on their ports.
   static Action action_of(const BoardOutputs& outputs) {
     const bool turns = pins.spindle_pwm.exists() && (outputs.switches & spindle_on) != 0;
     const uint8_t duty = turns ? duty_of(outputs.spindle_rpm) : uint8_t{0};
@@ -57,7 +57,7 @@ class Wiring {
             .duty = duty,
             .control = duty != 0 ? spindle_connected : spindle_disconnected};
   }
-  // Only while the interrupt does not play: it does the same.
+  // Only while the interrupt does not play, because the interrupt does the same.
   [[gnu::always_inline]] static void act(const volatile Action& action) {
     port_register(output_ports[0], 2) = action.first_port;
     port_register(output_ports[1], 2) = action.second_port;
@@ -85,7 +85,7 @@ class Wiring {
   [[gnu::always_inline]] static bool closed(Pin pin) {
     return pin.exists() && (port_register(pin.port, 0) & pin.mask()) == 0;
   }
-  // A one in PINx turns the pin over: no neighbour is written, also not when the interrupt comes between.
+  // A one written to PINx toggles the pin: no neighbour changes, even if the interrupt comes between.
   [[gnu::always_inline]] static void set(Pin pin, bool high) {
     if (!pin.exists()) return;
     const uint8_t now = port_register(pin.port, 2);
@@ -93,7 +93,7 @@ class Wiring {
   }
 
  private:
-  // The speed at full duty.
+  // The spindle's speed at full duty.
   static constexpr uint32_t full_rpm = 24'000;
 
   static void prepare_ports() {

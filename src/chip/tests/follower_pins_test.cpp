@@ -30,7 +30,7 @@ TEST(FollowerPins, refuse_a_keypad_on_two_ports) {
   EXPECT_FALSE(pins.keypad_on_one_port());
 }
 
-// The data sheets' register summaries.
+// Addresses from the register summaries of the data sheets.
 TEST(Pin, knows_where_the_registers_of_its_port_are) {
   EXPECT_EQ(port_registers('B'), 0x23);
   EXPECT_EQ(port_registers('C'), 0x26);

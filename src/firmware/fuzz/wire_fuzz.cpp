@@ -1,6 +1,6 @@
-// Any bytes off the wire: the board loses no place for items, turns no motor that is not there, and comes to rest. The
-// first byte of the input chooses: bytes as they are, or contents of frames that get a right CRC, so that they are
-// listened to.
+// Any bytes off the wire: the board loses no place for items, turns no motor that does not exist, and comes to rest.
+// The first byte of the input chooses: the bytes are either raw, or contents of frames that get a correct CRC, so that
+// the board accepts them.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -23,7 +23,7 @@ void require(bool condition, const char* what) {
   std::abort();
 }
 
-// Hears how much room there is, when it is asked for.
+// Receives the board's answer about its free places.
 struct Host {
   void step(std::uint8_t stepped, std::uint8_t) { require(stepped >> motors == 0, "a motor that is not there"); }
   void outputs(const BoardOutputs&) {}
@@ -42,13 +42,13 @@ class Bench {
   void take(std::uint8_t byte) {
     board_.receive(byte);
     if (board_.owes_report()) board_.report();
-    // Time goes on while bytes come.
+    // Time passes while bytes come.
     if (byte % 4 == 0) play(byte);
   }
   void come_to_rest() {
     play(most_events);
     require(board_.idle(), "does not come to rest");
-    // A replacement that was begun and never completed keeps its places until another begins, or a hello.
+    // A replacement that was begun but never completed keeps its places until the next one begins, or a hello.
     std::uint8_t frame[largest_frame];
     const std::uint8_t size = encode(Hello{.motors = motors}, 0, frame);
     for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
@@ -99,7 +99,7 @@ std::uint8_t bytes_of(const WireFrame& frame, std::uint8_t* bytes) {
   return encoder.finish();
 }
 
-// With the right sums for what follows it: else hardly ever anything would be replaced.
+// Gives the replace the right sums for what follows it. With random sums hardly anything would be replaced.
 WireFrame announced(const std::vector<WireFrame>& frames, std::size_t at, std::uint8_t hello) {
   WireFrame frame = frames[at];
   Replace replace;
@@ -117,7 +117,7 @@ WireFrame announced(const std::vector<WireFrame>& frames, std::size_t at, std::u
 }
 
 // Type, sequence number and payload, one frame after the other. The last byte of a replacement's sums chooses whether
-// they are as they are or right.
+// they stay or are made right.
 void check_frames(const std::uint8_t* data, std::size_t size) {
   Bench bench;
   const std::vector<WireFrame> frames = frames_in(data, size);

@@ -1,4 +1,4 @@
-// A board with four places and a log in the place of motors.
+// A board with four places, and a log instead of motors.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace passo {
 
-// Writes down what the board does, with the ticks since the start.
+// Logs what the board does, with the ticks since the start.
 struct Bench {
   void step(std::uint8_t stepped, std::uint8_t directions) {
     log.push_back(std::to_string(now) + " step " + std::to_string(stepped) + " down " + std::to_string(directions));

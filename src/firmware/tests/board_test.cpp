@@ -156,7 +156,7 @@ TEST_F(BoardTest, refuses_a_segment_without_events_or_for_a_motor_that_is_not_th
   EXPECT_TRUE(board_.idle());
 }
 
-// 100 ticks at a rate that gives 101: one less is the host's rounding.
+// 100 ticks at a rate that gives 101: the host's rounding may take one less.
 TEST(SlowBoard, refuses_a_segment_that_is_faster_than_it_states_at_its_start_or_its_end) {
   Bench bench;
   Board<Bench, capacity> board(
@@ -194,7 +194,7 @@ TEST(SlowBoard, refuses_a_segment_that_is_faster_than_it_states_at_its_start_or_
   EXPECT_TRUE(refused({.events = 513, .interval = shortest + 4, .change = fine_change}));
   EXPECT_TRUE(refused({.events = most_events, .interval = shortest + 4, .change = largest_change}));
   EXPECT_FALSE(refused({.events = 2, .interval = shortest + 4, .change = largest_change}));
-  // Beyond 32 bits intervals would begin again at the shortest.
+  // Beyond 32 bits, intervals would start again at the shortest.
   EXPECT_FALSE(refused({.events = 9, .interval = largest_interval - 8 * tick, .change = tick}));
   EXPECT_TRUE(refused({.events = 9, .interval = largest_interval - 8 * tick + 1, .change = tick}));
 }
@@ -217,7 +217,7 @@ TEST_F(BoardTest, starts_fractions_afresh_with_each_hello) {
     bench_.log.clear();
     send(half, std::uint8_t{3}, std::uint8_t{1});
     play_to_the_end();
-    EXPECT_EQ(bench_.log.size(), 1U);  // from one half, half a step makes a whole one
+    EXPECT_EQ(bench_.log.size(), 1U);  // starting at one half, half a step makes a whole one
   }
 }
 

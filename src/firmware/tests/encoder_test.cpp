@@ -1,4 +1,5 @@
-// A board with an encoder tells where the spindle is and how far the motion is then; one without tells its status.
+// A board with an encoder reports the places of spindle and motion at the same time. A board without one reports its
+// status.
 #include "board_bench.hpp"
 
 namespace passo {

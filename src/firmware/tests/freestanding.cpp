@@ -1,4 +1,4 @@
-// Compiled without a standard library, as for a chip: the portable modules include nothing that is not there.
+// Compiled without a standard library, as for a chip: checks that the portable modules include nothing else.
 #include "passo/firmware/board.hpp"
 #include "passo/firmware/manual_mode.hpp"
 

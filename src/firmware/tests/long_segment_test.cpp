@@ -3,7 +3,7 @@
 namespace passo {
 namespace {
 
-// The player counts no further than 255: it gets such a segment in parts, and nobody may see where they meet.
+// The player counts only up to 255, so it gets such a segment in parts. The joints of the parts must not show.
 class LongSegmentTest : public BoardTest {
  protected:
   static constexpr std::uint16_t events = 600;

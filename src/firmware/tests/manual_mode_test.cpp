@@ -18,7 +18,7 @@ static_assert(!can_ramp({.start_stop = 200, .highest = 4'000, .acceleration = 16
               "longer intervals than a segment has");
 static_assert(!can_ramp({.start_stop = 400, .highest = 400, .acceleration = 16'000}, clock_rate));
 
-// The person in front of it.
+// The person at the keypad.
 struct Keys {
   static uint8_t rows() {
     unsigned down = 0;
@@ -38,7 +38,7 @@ struct Keys {
   static inline std::string lit;
 };
 
-// What comes out of the board, in ticks.
+// The board's output, in ticks.
 struct Log {
   void step(std::uint8_t stepped, std::uint8_t directions) {
     for (unsigned m = 0; m < 4; ++m) {
@@ -123,7 +123,7 @@ class ManualModeTest : public testing::Test {
   std::int64_t tick_ = 65'536;
 };
 
-// Accelerations between stretches of `steps` steps, each as the times of the steps say it.
+// Accelerations between stretches of `steps` steps, computed from the times of the steps.
 double largest_acceleration(const std::vector<std::int64_t>& times, std::size_t steps) {
   double largest = 0;
   for (std::size_t i = 2 * steps; i < times.size(); ++i) {
@@ -138,9 +138,8 @@ double largest_acceleration(const std::vector<std::int64_t>& times, std::size_t 
   return largest;
 }
 
-// From rest to rest: no step sooner after another than the start-stop speed and the acceleration allow. The oracle
-// knows times only, and they are whole ticks: from one step to the next that is half the acceleration at the highest
-// speed.
+// From rest to rest: no step follows another sooner than the start-stop speed and the acceleration allow. The oracle
+// knows only times, in whole ticks. From one step to the next, a tick is half of the acceleration at the highest speed.
 void expect_within_ramp(const std::vector<std::int64_t>& times) {
   ASSERT_GT(times.size(), 2U);
   const auto speed = [&](std::size_t step) {

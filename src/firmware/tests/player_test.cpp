@@ -66,7 +66,7 @@ TEST(Player, a_third_of_a_step_an_event_steps_at_every_third_with_the_first_one_
   EXPECT_THAT(play(player, segment).stepped, testing::ElementsAre(0, 1, 0, 0, 1, 0, 0, 1, 0));
 }
 
-// The definition in board_segment.hpp: a position that never wraps, with a step where its whole part changes.
+// The definition in board_segment.hpp: a position that never wraps, and a step where its whole part changes.
 TEST(Player, steps_where_the_whole_part_of_the_position_changes) {
   const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));

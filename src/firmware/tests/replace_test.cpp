@@ -1,4 +1,4 @@
-// Replacing what a board holds, and telling of it.
+// Replacing the items that a board holds, and reporting it.
 #include "board_bench.hpp"
 
 namespace passo {
@@ -10,7 +10,7 @@ class ReplaceTest : public BoardTest {
     std::uint8_t events = 1;
     std::uint32_t ticks = 10;
   };
-  // The items are still to be sent.
+  // The items must still be sent.
   void send_replace(std::uint16_t number, std::uint16_t after, const std::vector<Planned>& items) {
     Announcement announcement(number, after, 3);
     std::uint8_t frame[largest_frame];
@@ -68,7 +68,7 @@ TEST_F(ReplaceTest, says_too_late_where_the_item_behind_has_begun_and_plays_the_
   EXPECT_EQ(bench_.log.size(), 3U);
   EXPECT_EQ(status().executed, 2);
   EXPECT_EQ(status().free, capacity);
-  // At rest it goes on behind the tail's last item.
+  // At rest the motion goes on after the tail's last item.
   send_replace(5, 2, {{.ticks = 20}});
   send_segment(6, 1, 20);
   play_to_the_end();
@@ -127,7 +127,7 @@ TEST_F(ReplaceTest, changes_nothing_where_an_item_is_another_than_was_sent) {
   send_segment(2, 1, 100);
   send_replace(3, 1, {{.ticks = 20}, {.ticks = 30}});
   send_segment(4, 1, 20);
-  send_segment(5, 1, 31);  // as if its CRC had been deceived
+  send_segment(5, 1, 31);  // as if the segment had deceived the CRC
   EXPECT_EQ(last_error().reason, WireError::wrong_sums);
   EXPECT_EQ(last_error().expected, 6);
   play_to_the_end();
@@ -219,7 +219,7 @@ TEST_F(ReplaceTest, tells_session_positions_and_the_event_within_an_item_on_requ
   EXPECT_EQ(status().event, 0);
   EXPECT_EQ(status().positions[0], 200);
   EXPECT_EQ(status().positions[2], -87);
-  // Asking and coming back changes nothing; a hello begins a new session, and positions go on.
+  // Asking and returning changes nothing. A hello begins a new session, and positions count on.
   send(Hello{.motors = 3}, std::uint8_t{0});
   EXPECT_EQ(status().session, 0);
   EXPECT_EQ(status().positions[0], 200);

@@ -1,4 +1,4 @@
-// What a board captures: its probe, or the limit switch that a host has named.
+// The captures of a board: its probe, or the limit switch that a host has named.
 #include "board_bench.hpp"
 
 namespace passo {
@@ -73,7 +73,7 @@ TEST_F(WatchTest, a_hello_ends_it) {
   EXPECT_EQ(board_.watched(), input_probe);
 }
 
-// What is on its way was sent under the watch before.
+// Motion on its way was sent under the old watch.
 TEST_F(WatchTest, changes_at_rest_only) {
   greet();
   send_segment(1, 20);

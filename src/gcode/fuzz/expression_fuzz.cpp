@@ -1,5 +1,5 @@
-// Any bytes as an expression: refused, or a finite value or a reason; and every rule of the arithmetic that can be
-// asked without knowing the value.
+// Any bytes as an expression: they are refused, or have a finite value, or a reason for none. Also checks every law of
+// arithmetic that holds without knowing the value.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -15,7 +15,7 @@ namespace {
 
 using test::require;
 
-// #1 … #9 and some names have a value, others none.
+// #1 … #9 and some names have a value; others have none.
 class SomeParameters final : public ParameterValues {
  public:
   bool numbered(std::int64_t number, double& value) const override {
@@ -30,7 +30,7 @@ class SomeParameters final : public ParameterValues {
 
 class Evaluator {
  public:
-  // The value of `X[text]`; none where it is refused or has none.
+  // The value of `X[text]`. Returns false if the text is refused or has no value.
   bool value(const std::string& text, double& value) {
     const std::string line = "X[" + text + "]";
     Diagnostics diagnostics;
@@ -53,7 +53,7 @@ class Evaluator {
     value = *found;
     return true;
   }
-  // The last one was one word from end to end: the text may stand in brackets elsewhere.
+  // Whether the last text was one word from end to end. Such a text may stand in brackets elsewhere.
   bool alone() const { return alone_; }
   std::string printed() const { return print(block_, symbols_); }
   SymbolTable& symbols() { return symbols_; }
@@ -80,7 +80,7 @@ void check_expression(const std::string& text) {
   double again = 0;
   require(evaluator.reparsed(evaluator.printed(), again) && again == value, "printed, it has another value", text);
 
-  // Brackets may nest deeper than is allowed; where they do not, the laws hold.
+  // Extra brackets may nest too deep and be refused. Where they are accepted the laws hold.
   double other = 0;
   if (evaluator.value("[" + text + "]", other)) require(other == value, "[x] is not x", text);
   if (evaluator.value("-[" + text + "]", other)) require(other == -value, "-x is not minus x", text);

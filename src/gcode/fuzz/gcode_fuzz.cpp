@@ -1,4 +1,4 @@
-// Any bytes as a program: no crash, every place inside its line, parse(print(b)) == b, values finite or refused.
+// Any bytes as a program: no crash, every place inside its line, parse(print(b)) == b, every value finite or refused.
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ namespace {
 
 using test::require;
 
-// Some parameters exist, some do not.
+// Some parameters exist, others do not.
 class SomeParameters final : public ParameterValues {
  public:
   bool numbered(std::int64_t number, double& value) const override {

@@ -1,4 +1,4 @@
-// What is wrong, where exactly, and the cure: one line a case, as code, column and length.
+// The error, its exact place, and the correction. One line for each case, with code, column and length.
 #include "parsed_line.hpp"
 
 namespace passo {

@@ -22,7 +22,7 @@ double value(const std::string& expression) {
   return result ? *result : std::nan("");
 }
 
-// What cannot be computed, and the columns to point at.
+// The error of an expression that cannot be computed, and the columns to point at.
 std::string failure(const std::string& expression, Kind kind, double operand) {
   ParsedLine line("X[" + expression + "]");
   EXPECT_TRUE(line.good) << expression;
@@ -185,12 +185,13 @@ TEST(Expressions, may_be_long_where_they_are_not_deep) {
   EXPECT_EQ(line.value(), 5001);
 }
 
-// The oracle: a flat list of values and operators, worked off tier by tier from the left. Brackets are lists again.
+// The oracle: a flat list of values and operators, worked off precedence by precedence from the left. Brackets are
+// lists again.
 class RandomExpression {
  public:
   explicit RandomExpression(std::uint64_t seed) : random_(seed) {}
 
-  // Text without the outer brackets, and its value; not a number where the oracle gives up.
+  // Text without the outer brackets, and its value; NaN where the oracle gives up.
   std::pair<std::string, double> make(int depth) {
     std::vector<double> values;
     std::vector<std::string> operators;

@@ -1,4 +1,4 @@
-// ParsedLine: one line through the parser, for the tests: what came out, what was wrong, what its expressions give.
+// ParsedLine: one line through the parser, for the tests: its result, its error, and the values of its expressions.
 #pragma once
 
 #include <cstdint>
@@ -40,14 +40,14 @@ class ParsedLine {
   }
 
   const Diagnostic& fault() const { return diagnostics.all().at(0); }
-  // "code column length", the short form of what is wrong.
+  // "code column length", a short form of the error.
   std::string fault_at() const {
     if (good) return "good";
     return fault().code + " " + std::to_string(fault().place.column) + " " + std::to_string(fault().place.length);
   }
   Evaluation evaluation(const Expression& expression) const { return evaluate(block, expression, parameters); }
   double value(const Expression& expression) const { return evaluation(expression).value(); }
-  // Of the n-th word.
+  // The value of word n.
   double value(std::size_t n = 0) const { return value(block.words.at(n).value); }
   std::string printed() const { return print(block, symbols); }
 

@@ -26,7 +26,7 @@ TEST(Print, has_one_spelling_for_all_that_mean_the_same) {
   EXPECT_EQ(printed(" % "), "%");
 }
 
-// Lines by the grammar, in odd spellings.
+// Random lines by the grammar, in odd spellings.
 class RandomLine {
  public:
   explicit RandomLine(std::uint64_t seed) : random_(seed) {}
@@ -160,7 +160,7 @@ std::vector<std::string> printed_program(const std::string& text, SymbolTable& s
   return lines;
 }
 
-// Line ends of all kinds, '%' around it, nothing kept from one line to the next.
+// Line ends of all kinds, and '%' around the program. Nothing is kept from one line to the next.
 TEST(Print, of_a_random_program_is_a_program_that_prints_the_same) {
   RandomLine random(test::seed() + 1);
   const std::string ends[] = {"\n", "\r\n", "\r"};

@@ -31,7 +31,7 @@ Lines lines_of(const std::string& text) {
   return lines;
 }
 
-// A file that is gone after the test.
+// A file that is removed after the test.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view content) {
@@ -94,7 +94,7 @@ TEST(Reader, gives_the_same_lines_from_a_file_as_from_memory_wherever_its_buffer
 }
 
 TEST(Reader, a_line_end_of_two_bytes_may_straddle_the_buffer) {
-  // The buffer is 256 KiB; every place of the CR around its end is tried.
+  // The buffer is 256 KiB. The CR is tried at every place around its end.
   for (std::size_t before = 256 * 1024 - 4; before < 256 * 1024 + 4; ++before) {
     std::string text;
     while (text.size() + 1000 < before) text += std::string(999, 'a') + "\n";

@@ -125,7 +125,7 @@ TEST(Names, are_compared_without_case_and_blanks) {
   EXPECT_EQ(symbols.intern("fEEdrAte\t"), name);
   EXPECT_EQ(symbols.name(name), "feedrate");
   EXPECT_NE(symbols.intern("feedrate2"), name);
-  EXPECT_EQ(symbols.size(), 3U);  // with the one that is none
+  EXPECT_EQ(symbols.size(), 3U);  // includes the empty symbol
 }
 
 TEST(Names, stay_where_they_are_while_the_table_grows) {

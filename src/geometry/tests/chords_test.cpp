@@ -29,8 +29,8 @@ std::size_t pieces_of(const C& curve) {
   return pieces;
 }
 
-// The fewest chords that any choice of end points gives, by the shortest way through all of them that are possible: for
-// each piece the ends are one of `grid` places on it.
+// The fewest chords that any choice of end points gives: the shortest way through all possible chords. The ends are
+// restricted to `grid` places on each piece.
 template <class C>
 std::size_t fewest(const C& curve, const test::Oracle& oracle, double tolerance, double widest) {
   constexpr std::size_t grid = 120;
@@ -106,7 +106,7 @@ TEST_F(RandomChords, are_nearly_as_few_as_the_shortest_way_through_all_possible_
     SCOPED_TRACE(testing::Message() << "PASSO_SEED=" << seed_ << " curve " << n << ", " << drawn.kind);
     std::visit(
         [&](const auto& curve) {
-          // A tolerance at which a piece needs some ten chords: the deviation goes with the square.
+          // A tolerance for which a piece needs about ten chords: the deviation grows with the square of the chord.
           const ParameterRange range = curve.range();
           Real size = 0;
           for (int k = 0; k <= 20; ++k) {
@@ -114,12 +114,12 @@ TEST_F(RandomChords, are_nearly_as_few_as_the_shortest_way_through_all_possible_
             size = std::max(size, test::apart(drawn.oracle(u), drawn.oracle(range.low)));
           }
           const double tolerance = static_cast<double>(size) * (drawn.kind == "helix" ? 0.05 : 0.002) + 1e-6;
-          // Arcs and ellipses are not cut more coarsely than by half turns; the others have no such rule.
+          // Arcs and ellipses are cut into half turns at most. The other curves have no such rule.
           double widest = range.high - range.low;
           while (!std::isfinite(curve.deviation(range.low, range.low + widest).value())) widest *= 0.99;
           const std::size_t count = cut(curve, tolerance).size();
           const std::size_t best = fewest(curve, drawn.oracle, tolerance, widest);
-          // On a grid the best ends are missed by a little, so that we may even need less.
+          // The grid misses the best ends by a little, so our count may even be lower.
           EXPECT_LE(count, best + best / 10 + pieces_of(curve) + 1) << tolerance;
           cut_sum[static_cast<std::size_t>(n % test::CurveDrawer::kinds)] += count;
           fewest_sum[static_cast<std::size_t>(n % test::CurveDrawer::kinds)] += best;
@@ -167,7 +167,7 @@ TEST(Chords, of_a_circle_are_the_fewest_equal_ones_that_the_sagitta_allows) {
     for (std::size_t i = 1; i < all.size(); ++i) {
       EXPECT_NEAR(length(all[i].end - all[i - 1].end), 2 * radius * std::sin(std::numbers::pi / (sides + 1)), 1e-11);
     }
-    // The reference's form of it, from the chord's length.
+    // The reference's formula, from the chord's length.
     const double chord = length(all[1].end - all[0].end);
     EXPECT_NEAR(all[1].deviation.value(), radius - std::sqrt(radius * radius - chord * chord / 4), 1e-11);
   }
@@ -196,7 +196,7 @@ TEST(Chords, of_a_circle_as_an_arc_as_an_ellipse_and_as_a_nurbs_are_the_same) {
     const std::vector<Chord> of_ellipse = cut(ellipse, tolerance);
     ASSERT_EQ(of_arc.size(), of_ellipse.size());
     for (std::size_t i = 0; i < of_arc.size(); ++i) EXPECT_LT(length(of_arc[i].end - of_ellipse[i].end), 1e-12);
-    // Four pieces, each with a chord that is not full, and three in a hundred for the search.
+    // Four pieces, each with one chord that is not full, and three per cent for the search.
     const std::size_t of_spline = cut(spline, tolerance).size();
     EXPECT_GE(of_spline, of_arc.size());
     EXPECT_LE(static_cast<double>(of_spline), static_cast<double>(of_arc.size()) * 1.03 + 4);
@@ -223,7 +223,7 @@ TEST(Chords, of_a_curve_that_is_a_point_are_one_of_no_length_at_most) {
   EXPECT_EQ(cut(*CurveInSpace::of(Curve::line(Point{}, Point{})), 0.01).size(), 0U);
 }
 
-// x goes out and back on one line: the middle of the interval says nothing of how far.
+// x goes out and back on one line: the middle of the interval does not show how far.
 TEST(Chords, follow_a_straight_curve_that_turns_back) {
   const CubicBezier there_and_back = *CubicBezier::create({Vector3{0, 0, 0}, {10, 0, 0}, {10, 0, 0}, {0, 0, 0}});
   double farthest = 0;

@@ -21,7 +21,7 @@ Point point_of(double x, double y, double z) {
   return point;
 }
 
-// An arc as the test made it up: the oracle walks it in polar form, with its own numbers.
+// An arc as the test made it up. The oracle walks it in polar form, with its own numbers.
 struct Drawn {
   Axis first = Axis::x;
   Axis second = Axis::y;
@@ -74,7 +74,7 @@ class RandomArcs : public testing::Test {
     drawn.start_angle = between(-3.14, 3.14);
     const double size = between(0, 1) < 0.7 ? between(0.001, 6.28) : between(6.29, 40);
     drawn.sweep = between(0, 1) < 0.5 ? size : -size;
-    // A slight spiral, as programs that round their numbers ask for: much less outward than around.
+    // A slight spiral, as programs with rounded numbers ask for: it moves much less outward than around.
     const double growth = spiral ? between(-0.03, 0.03) : 0;
     drawn.end_radius = drawn.start_radius * Real(1 + growth * std::min(1.0, size));
     for (const Axis axis : all_axes) {
@@ -172,7 +172,7 @@ TEST_F(RandomArcs, tangents_agree_with_differences_and_stay_under_the_steepest) 
     const Curve curve = drawn.curve();
     const Real length = curve.length().value();
     const Real step = 1e-6L;
-    // Even a long double difference has rounding noise, on a short arc most.
+    // Even a difference of long doubles has rounding noise, most on a short arc.
     const double noise = 1e-9 + 1e-10 / static_cast<double>(length);
     const Point steepest = curve.steepest();
     Point found;
@@ -190,7 +190,7 @@ TEST_F(RandomArcs, tangents_agree_with_differences_and_stay_under_the_steepest) 
     }
     for (const Axis axis : all_axes) {
       ASSERT_LE(found[axis], steepest[axis] * (1 + 1e-9) + noise) << letter_of(axis);
-      // Not a loose bound either: on a true arc the steepest place is met, in a spiral nearly.
+      // The bound is not loose either: a true arc reaches its steepest place, a spiral nearly does.
       ASSERT_GE(found[axis] * (spiral ? 1.1 : 1 + 1e-3) + (spiral ? 0.1 : 1e-6), steepest[axis]) << letter_of(axis);
     }
   }
@@ -253,7 +253,7 @@ TEST(CurveTurning, is_the_angle_in_the_plane_and_stays_bounded_where_another_axi
   EXPECT_NEAR(
       Curve::cubic(point_of(0, 0, 0), point_of(1, 0, 0), point_of(2, 0.2, 0), point_of(1, 0.2, 0), Mm(2)).turning(),
       0.2, 1e-12);
-  // From rest over 100 degrees to rest, in a way of a thousandth of a millimetre.
+  // From rest over 100 degrees to rest, within a thousandth of a millimetre.
   Point end = point_of(0.001, 0, 0);
   end[Axis::a] = 100;
   EXPECT_NEAR(Curve::cubic(Point(), point_of(1, 0, 0), end, point_of(1, 0, 0), Mm(0.001)).turning(), 4, 1e-9);
@@ -277,7 +277,7 @@ TEST_F(RandomArcs, a_length_is_the_sum_of_its_chords) {
   }
 }
 
-// The polynomial by hand: at(s), and what its derivatives say, against differences in long double.
+// The polynomial by hand: at(s) and its derivatives, compared with differences in long double.
 class RandomCubics : public testing::Test {
  protected:
   Curve draw() {
@@ -310,7 +310,7 @@ TEST_F(RandomCubics, meet_their_ends_and_the_slopes_there) {
   }
 }
 
-// Of a cubic and of a spiral, against differences of the second one.
+// The third derivative of a cubic and of a spiral, compared with differences of the second one.
 TEST_F(RandomCubics, and_spirals_have_the_third_derivative_of_their_bend) {
   for (int n = 0; n < 1000; ++n) {
     const Point start = point_of(3 + value_(random_) / 5, 0, value_(random_));

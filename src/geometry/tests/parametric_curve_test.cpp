@@ -1,4 +1,4 @@
-// Points and derivatives of all curves against their oracles; what is refused, and in which words.
+// Points and derivatives of all curves, compared with their oracles; and what is refused, in which words.
 #include "drawn_curves.hpp"
 #include "kit/seed.hpp"
 
@@ -44,7 +44,7 @@ TEST_F(RandomCurves, have_the_derivatives_of_their_formula) {
           for (double low = range.low; low < range.high; low = curve.next_break(low)) {
             const Real length = curve.next_break(low) - Real(low);
             const Real u = static_cast<double>(low + length * drawer_.between(0.1, 0.9));
-            // Richardson's difference, good to the fourth power of the step.
+            // Richardson's difference, exact to the fourth power of the step.
             const Real h = length * 1e-3L / (drawn.kind == "helix" ? 10 : 1);
             const auto at = [&](int k) { return drawn.oracle(u + k * h); };
             const auto mixed = [](Real a, const Place& p, Real b, const Place& q, Real c, const Place& r, Real d,
@@ -69,7 +69,7 @@ TEST_F(RandomCurves, have_the_derivatives_of_their_formula) {
   }
 }
 
-// What a chord costs is known beforehand: never too little, and never much too much.
+// A chord's deviation is known beforehand: never too small, and never much too large.
 TEST_F(RandomCurves, bound_the_deviation_of_any_chord_from_above_and_closely_where_it_is_short) {
   for (int n = 0; n < 2100; ++n) {
     const test::DrawnCurve drawn = drawer_.draw(n);
@@ -90,8 +90,8 @@ TEST_F(RandomCurves, bound_the_deviation_of_any_chord_from_above_and_closely_whe
           if (std::isfinite(bound)) {
             ASSERT_LE(bound, farthest * 1.6L + 1e-10L);
           }
-          // Not as close: round the tip of a slim ellipse, for what reaches beyond the chord; on an arc whose radius
-          // grows, most of which is along the chord.
+          // The bound is less close around the tip of a slim ellipse, because of the reach beyond the chord; and on an
+          // arc whose radius grows, where most of the growth is along the chord.
           if (to - from < whole * 0.02 && drawn.kind != "helix" && drawn.kind != "ellipse" && drawn.kind != "arc") {
             ASSERT_LE(bound, farthest * 1.05L + 1e-10L);
           }

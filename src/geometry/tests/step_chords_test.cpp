@@ -55,7 +55,7 @@ TEST(RandomStepChords, add_up_to_the_rounded_end_and_stay_within_half_a_step) {
   }
 }
 
-// A relief of ten thousand chords that each end at a third of a step: cut lengths rounded one by one would lose it all.
+// A relief of ten thousand chords that each end at a third of a step. Rounding their lengths one by one would lose all.
 TEST(StepChords, lose_nothing_of_chords_that_are_shorter_than_a_step) {
   class Thirds final : public Source<Chord> {
    public:

@@ -1,4 +1,4 @@
-// Arcs: what each method promises, on random arcs and at the corners of their range.
+// Arcs: what each method promises, tested on random arcs and at the limits of their range.
 #include <cmath>
 #include <random>
 
@@ -25,7 +25,7 @@ Place<2> end_of(const ArcPoints& arc) {
   return {arc.end[0], arc.end[1]};
 }
 
-// How far round, in the sense of travel, from the start: 0 … 2π.
+// The angle from the start in the sense of travel: 0 … 2π.
 long double angle(const Place<2>& place, const ArcPoints& arc) {
   const long double from = std::atan2(static_cast<long double>(arc.start[1]), static_cast<long double>(arc.start[0]));
   const long double to = std::atan2(static_cast<long double>(place[1]), static_cast<long double>(place[0]));
@@ -36,7 +36,7 @@ long double angle(const Place<2>& place, const ArcPoints& arc) {
 
 class RandomArcs : public testing::Test {
  protected:
-  // Start anywhere, end on the same circle rounded to steps (or, one in eight, a full circle).
+  // An arc that starts anywhere and ends on the same circle, rounded to steps. One in eight is a full circle.
   ArcPoints arc() {
     for (;;) {
       const double size = std::exp(std::uniform_real_distribution(0.0, 4.0)(random_));
@@ -55,8 +55,8 @@ class RandomArcs : public testing::Test {
     }
   }
 
-  // The largest distance from the circle, less what the rounded end itself lies off it. Ends exactly, and never turns
-  // back.
+  // The largest distance from the circle, less the distance of the rounded end itself. Checks that the arc ends exactly
+  // and never turns back.
   template <class Make>
   long double worst(Make make, bool diagonals) {
     long double most = 0;
@@ -100,8 +100,7 @@ TEST_F(RandomArcs, dda_keeps_within_two_and_a_half_steps_with_either_load) {
   EXPECT_LE(worst([](const ArcPoints& arc) { return DdaArc<>(arc, DdaLoad::half); }, true), 2.5L);
 }
 
-// Which quadrants an arc walks through is told by the sum of its pulses: a full circle makes 8 R of them, one axis
-// each.
+// The number of pulses tells which quadrants an arc passes: a full circle has 8 R pulses of one axis each.
 TEST(Arcs, a_full_circle_from_any_point_steps_all_the_way_round) {
   for (const bool clockwise : {false, true}) {
     for (std::int32_t x = -13; x <= 13; ++x) {
@@ -121,7 +120,7 @@ TEST(Arcs, a_full_circle_from_any_point_steps_all_the_way_round) {
 }
 
 TEST(Arcs, every_pair_of_lattice_points_of_a_circle_is_met_in_both_senses) {
-  // 65² = 4225 has many: 16² + 63², 25² + 60², 33² + 56², 39² + 52², 0² + 65².
+  // 65² = 4225 is a sum of two squares in many ways: 16² + 63², 25² + 60², 33² + 56², 39² + 52², 0² + 65².
   std::vector<std::array<std::int32_t, 2>> points;
   for (std::int32_t x = -65; x <= 65; ++x) {
     for (std::int32_t y = -65; y <= 65; ++y) {
@@ -137,7 +136,7 @@ TEST(Arcs, every_pair_of_lattice_points_of_a_circle_is_met_in_both_senses) {
         if (from == to) sweep = 2 * std::acos(-1.0L);
         const auto walked = places<2>(MidpointArc<>(arc), start_of(arc));
         ASSERT_EQ(walked.back(), end_of(arc));
-        // The longer axis steps in each pulse: between sweep·R/√2 and sweep·R pulses.
+        // The longer axis steps in each pulse, so there are between sweep·R/√2 and sweep·R pulses.
         ASSERT_GE(static_cast<long double>(walked.size()), sweep * 65 / std::sqrt(2.0L) - 2);
         ASSERT_LE(static_cast<long double>(walked.size()), sweep * 65 + 2);
         ASSERT_EQ(places<2>(PointComparisonArc<>(arc), start_of(arc)).back(), end_of(arc));

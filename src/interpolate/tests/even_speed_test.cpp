@@ -38,7 +38,7 @@ class RandomDurations : public testing::Test {
   int runs_ = test::runs(2'000);
 };
 
-// After each pulse the time is that of the foot of the tool on the ideal line.
+// After each pulse the time is that at which the foot of the tool reaches its place on the ideal line.
 template <class Make>
 void expect_on_time(std::mt19937_64& random, Make make) {
   std::uniform_int_distribution<std::int32_t> length(-60, 60);

@@ -1,4 +1,4 @@
-// The sequences of ../shared/golden, where they are at hand: computed by independent code, matched exactly.
+// The sequences of ../shared/golden, if they are there. Independent code computed them; they must match exactly.
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -30,7 +30,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-// Rows of a file by its first `keys` columns joined; the rest as numbers, empty ones left out.
+// The rows of a file. The key is the first `keys` columns joined; the rest are numbers, without empty ones.
 class Golden : public testing::Test {
  protected:
   std::map<std::string, std::vector<Numbers>> read(const std::string& name, std::size_t keys) {

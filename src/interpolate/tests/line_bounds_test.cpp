@@ -1,5 +1,5 @@
-// Lines at the ends of their range, 2³¹−1 steps: beginning and end of moves that would take minutes to play in full
-// are compared with the definition, and whole ones are played in the slow test.
+// Lines at the ends of their range, 2³¹−1 steps. Whole moves would take minutes, so only their start and end are
+// compared with the definition. The slow test plays them in full.
 #include <cmath>
 #include <random>
 
@@ -20,7 +20,7 @@ namespace {
 using test::Place;
 constexpr std::int32_t largest = 2'147'483'647;
 
-// How far the shorter axis stands from the line, at the place of the longer one.
+// The distance of the shorter axis from the line, at the place of the longer one.
 long double axis_error(const Place<2>& place, const std::int32_t (&end)[2]) {
   const bool x_longer = std::abs(static_cast<std::int64_t>(end[0])) >= std::abs(static_cast<std::int64_t>(end[1]));
   const auto longer = static_cast<long double>(x_longer ? end[0] : end[1]);
@@ -38,7 +38,8 @@ long double distance(const Place<2>& place, const std::int32_t (&end)[2]) {
 
 class RandomLineErrors : public testing::Test {
  protected:
-  // The largest error that `measure` finds after any pulse of the method on many random lines; all end exactly.
+  // The largest error that `measure` finds after any pulse of the method, on many random lines. Checks that all end
+  // exactly.
   template <class Make, class Measure>
   long double worst(Make make, Measure measure) {
     long double most = 0;
@@ -128,7 +129,7 @@ TEST(LineBounds, two_axis_methods_start_right_on_the_longest_lines) {
   }
 }
 
-// 2³¹−1 pulses each, seconds: with the slow tests.
+// 2³¹−1 pulses each take seconds, so this is among the slow tests.
 TEST(LineBoundsInFull, the_longest_lines_end_exactly) {
   if (test::runs(0) == 0) GTEST_SKIP() << "takes a minute: PASSO_RUNS=1";
   const auto expect_end = [](auto interpolator, Place<2> end) {

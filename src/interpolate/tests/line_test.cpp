@@ -1,4 +1,4 @@
-// Lines against their definitions, written out again with wide numbers and quotients: each pulse of each method.
+// Lines compared pulse by pulse with their definitions, which are written out again with wide numbers and quotients.
 #include <random>
 
 #include "kit/seed.hpp"
@@ -23,7 +23,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 __extension__ typedef __int128 Wide;  // NOLINT: products of three lengths
 
-// Lengths of very different sizes, all signs, zero now and then.
+// Lengths of very different sizes, with all signs, and now and then zero.
 class RandomLines : public testing::Test {
  protected:
   std::int32_t length() {
@@ -122,7 +122,7 @@ std::vector<Place<2>> blocks(std::int64_t dx, std::int64_t dy) {
   return found;
 }
 
-// Into the octant of d.
+// Mirrors places into the octant of d.
 std::vector<Place<2>> mirrored(std::vector<Place<2>> first_octant, const std::int32_t (&d)[2]) {
   for (Place<2>& place : first_octant) {
     if (std::abs(d[1]) > std::abs(d[0])) std::swap(place[0], place[1]);

@@ -1,4 +1,4 @@
-// Whole moves: whatever is asked for, the count of steps is exact and the intervals are those of the ramp.
+// Whole moves: for any request, the count of steps is exact and the intervals are those of the ramp.
 #include "passo/interpolate/ramp_move.hpp"
 
 #include <algorithm>
@@ -111,7 +111,7 @@ TEST(RampMove, a_target_further_on_is_taken_without_a_stop) {
   EXPECT_EQ(play(move), Intervals({414, 317, 267, 250, 267, 317, 414, 1000}));
 }
 
-// What the move must be, from a list of the ramp's intervals: an oracle without a state machine.
+// The expected move, from a list of the ramp's intervals: an oracle without a state machine.
 template <class Ramp>
 Intervals expected(Ramp ramp, uint32_t start, uint32_t cruise, uint32_t steps) {
   const uint32_t top = std::max<uint32_t>(cruise, ramp.fastest());
@@ -146,7 +146,7 @@ TEST(RampMove, of_random_rates_and_length_is_the_ramp_and_its_mirror) {
   }
 }
 
-// Plays a move with random requests in between and keeps the books itself.
+// Plays a move with random requests in between, and counts on its own.
 template <class Ramp, class Count>
 void expect_a_safe_walk(RampMove<Ramp, Count> move, uint32_t start, const Intervals& ramp, std::mt19937_64& random) {
   int64_t position = 0;
@@ -159,12 +159,12 @@ void expect_a_safe_walk(RampMove<Ramp, Count> move, uint32_t start, const Interv
     const uint32_t interval = move.next();
     position += move.up() ? 1 : -1;
     ASSERT_EQ(move.position(), position);
-    // At rest before the first step, after the last, and where it turns: each interval there is inside the region.
+    // At rest are: before the first step, after the last, and at a turn. Each interval there is inside the region.
     if (before == 0 || was_up != move.up()) {
       ASSERT_GE(interval, start);
       ASSERT_TRUE(before == 0 || before >= start);
     } else {
-      // Neighbours on the ramp, or equal.
+      // The two intervals are neighbours on the ramp, or equal.
       const auto larger = std::ranges::upper_bound(ramp, std::max(interval, before), std::greater<>());
       const auto smaller = std::ranges::lower_bound(ramp, std::min(interval, before), std::greater<>());
       ASSERT_LE(smaller - larger, 0) << before << " then " << interval;

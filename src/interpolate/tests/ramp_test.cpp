@@ -1,4 +1,4 @@
-// The ramps in integers, step by step, against real numbers of more digits and against the sequences of others.
+// The ramps in integers, step by step, compared with real numbers of more digits and with sequences of other code.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -30,7 +30,7 @@ double squared(const RampSequence& ramp) {
   return ramp.clock * ramp.clock * 4 * std::numbers::pi / (ramp.steps_per_turn * ramp.acceleration);
 }
 
-// √(n+1) − √n with 64 bits, for 16 of which that is plenty: asserted below.
+// √(n+1) − √n with 64 bits. That is enough for 16 exact bits, as asserted below.
 long double factor(std::size_t n) {
   return 65536.0L / (std::sqrt(static_cast<long double>(n) + 1) + std::sqrt(static_cast<long double>(n)));
 }
@@ -40,7 +40,7 @@ TEST(RampTable, every_entry_is_the_factor_cut_off_after_sixteen_bits) {
   make_ramp_table(factors.data(), factors.size());
   for (std::size_t n = 1; n < factors.size(); ++n) {
     const long double k = factor(n);
-    // Where the real one is this near to a whole number, rounding of the test itself could decide.
+    // If the real value is this near to a whole number, rounding in the test itself could decide.
     ASSERT_GT(std::abs(k - std::round(k)), 1e-12L) << n;
     ASSERT_EQ(factors[n], static_cast<uint16_t>(k)) << n;
   }
@@ -61,7 +61,7 @@ TEST(TableRamp, a_first_interval_of_more_than_sixteen_bits_is_refused_and_nothin
   EXPECT_FALSE(ramp.set_first_interval(65536));
   EXPECT_FALSE(ramp.set_first_interval(79266));
   EXPECT_FALSE(ramp.set_first_interval(0));
-  EXPECT_EQ(ramp.interval(), 414);  // what it was
+  EXPECT_EQ(ramp.interval(), 414);  // unchanged
   EXPECT_TRUE(ramp.set_first_interval(65535));
   EXPECT_EQ(ramp.interval(), 65535);
 }
@@ -114,7 +114,7 @@ TEST(RoundedRoot, is_the_nearest_whole_number_over_the_whole_range) {
   std::mt19937_64 random(test::seed());
   const auto check = [](uint64_t square) {
     const auto root = static_cast<Wide>(rounded_root(square));
-    // (root − ½)² < square < (root + ½)², without halves.
+    // (root − ½)² < square < (root + ½)², written without halves.
     ASSERT_LE(root * root, square + root) << square;
     ASSERT_GE(root * root + root, square) << square;
     if (root > 0) {
@@ -128,7 +128,7 @@ TEST(RoundedRoot, is_the_nearest_whole_number_over_the_whole_range) {
   for (int run = 0; run < 100'000; ++run) check(random() >> (random() % 62 + 2));
 }
 
-// √ of numbers beyond 64 bits, rounded: by halving, with whole numbers.
+// The rounded √ of numbers beyond 64 bits, by bisection with whole numbers.
 uint64_t nearest_root(Wide square) {
   uint64_t low = 0;
   uint64_t high = uint64_t{1} << 62;

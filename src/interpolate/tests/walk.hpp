@@ -1,4 +1,4 @@
-// Runs an interpolator to its end and hands out the place after each pulse.
+// Runs an interpolator to its end and reports the place after each pulse.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ void apply(Pulse pulse, Place<axes>& place) {
   }
 }
 
-// visit(pulse, place, interpolator) after each pulse. Returns where it ends.
+// Calls visit(pulse, place, interpolator) after each pulse. Returns the end place.
 template <std::size_t axes, class Interpolator, class Visit>
 Place<axes> walk(Interpolator interpolator, Place<axes> place, Visit visit) {
   while (!interpolator.done()) {
@@ -39,7 +39,7 @@ std::vector<Place<axes>> places(Interpolator interpolator, Place<axes> start = {
   return found;
 }
 
-// How many random cases: PASSO_RUNS, or as many as a developer waits for.
+// The number of random cases: PASSO_RUNS, or as many as a developer will wait for.
 inline int runs(int otherwise) {
   const char* const given = std::getenv("PASSO_RUNS");
   return given != nullptr ? std::atoi(given) : otherwise;

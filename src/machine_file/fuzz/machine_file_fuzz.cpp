@@ -1,4 +1,5 @@
-// Any bytes as a machine file (TOML): refused with places inside their lines, or a description that is whole and sound.
+// Any bytes as a machine file (TOML): either they are refused, with places inside their lines, or the description is
+// whole and sound.
 #include <cmath>
 #include <cstdint>
 #include <string_view>

@@ -19,7 +19,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
   *out << mistake.name;
 }
 
-// Each spoils the sound file in one place and is answered by one diagnostic.
+// Each mistake spoils the sound file in one place, and one diagnostic answers it.
 const Mistake mistakes[] = {
     {"a_second_equals_sign",
      "clock_hz = 1",
@@ -321,7 +321,7 @@ TEST(MachineDiagnostics, deep_nesting_is_refused_without_harm) {
     EXPECT_FALSE(parse_machine(text, "m.toml", diagnostics));
     EXPECT_TRUE(diagnostics.any_error());
   }
-  // The deepest file that reaches the parser is read to its end.
+  // The deepest file that reaches the parser must be read to its end.
   Diagnostics deep;
   EXPECT_FALSE(parse_machine(sound_machine + "[q]\n" + deepest, "m.toml", deep));
   EXPECT_EQ(all_codes(deep), "28 machine.unknown-table\n");

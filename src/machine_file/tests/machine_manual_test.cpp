@@ -1,4 +1,4 @@
-// docs/manual/machine-file.md shows real messages and every key, or this test fails.
+// Fails unless docs/manual/machine-file.md shows real messages and every key.
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -55,7 +55,7 @@ TEST(MachineManual, shows_each_message_exactly_as_it_is_printed) {
 
 TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   const std::string manual = content_of(manual_path);
-  // All keys there are, as the program itself lists them to those who guess.
+  // All keys, as the program itself lists them to users who guess.
   std::string keys;
   for (const char* table : {"", "[board]\n", "[tool]\n", "[probe]\n", "[spindle]\n", "[homing]\n", "[axis.X]\n",
                             "[axis.A]\n", "[axis.X.torque]\n", "[axis.X.home]\n", "[axis.A.home]\n"}) {

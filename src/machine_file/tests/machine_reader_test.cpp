@@ -101,7 +101,7 @@ TEST(MachineReader, a_velocity_that_needs_just_every_event_is_allowed) {
             MmPerSecond(500));
 }
 
-// What a description promises, checked without a look at the file.
+// The promises of a description, checked without the file.
 void expect_sound(const MachineDescription& machine, const std::string& text) {
   ASSERT_FALSE(machine.axes.empty()) << text;
   ASSERT_LE(machine.axes.size(), most_motors) << text;
@@ -146,7 +146,7 @@ TEST(MachineReader, a_spoiled_file_gives_a_sound_machine_or_diagnostics_and_neve
       ASSERT_LE(diagnostic.place.column, diagnostic.text.size() + 1) << render(diagnostic, false) << text;
     }
   }
-  // Both kinds occur, whatever the seed.
+  // Both kinds occur with any seed.
   EXPECT_GT(sound, 20);
   EXPECT_GT(wrong, 1000);
 }

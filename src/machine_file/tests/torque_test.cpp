@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// 100 steps a millimetre, told by motor and screw; 25 mm/s are 6.25 turns, 1250 full steps a second.
+// 100 steps a millimetre, given by motor and screw. 25 mm/s are 6.25 turns or 1250 full steps a second.
 std::string with_torque(const std::string& keys, const std::string& constant = "") {
   return replaced(replaced(sound_machine, "steps_per_mm = 100", "steps_per_turn = 400\nscrew_pitch_mm = 4"),
                   "max_acceleration_mm_s2 = 200", constant + "\n[axis.X.torque]\n" + keys);
@@ -30,7 +30,7 @@ TEST(Torque, leaves_a_share_of_pull_out_less_friction_for_all_that_is_moved) {
       points +
       "load_inertia_g_cm2 = 100\nload_mass_kg = 10\nfriction_n = 20\nfriction_nm = 0.05\nshare_of_pull_out = 0.5\n"));
   ASSERT_TRUE(machine.axes.at(0).motor);
-  const double way = 0.004 / (2 * std::numbers::pi);  // metres a radian
+  const double way = 0.004 / (2 * std::numbers::pi);  // metres for each radian
   const double inertia = 400e-7 + 10 * way * way;
   const auto expected = [&](double torque) { return (0.5 * torque - 0.05 - 20 * way) / inertia * way * 1e3; };
   EXPECT_NEAR(machine.axes[0].acceleration.value(), expected(1.0), 1e-9 * expected(1));

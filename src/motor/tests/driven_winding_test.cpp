@@ -15,7 +15,7 @@ double pull_out(const MotorData& motor, const Drive& drive, double speed) {
   return DrivenWinding(motor, drive).pull_out({speed}).value;
 }
 
-// Speeds that a random motor is looked at: from crawling to far beyond where the voltage is used up.
+// Speeds at which a random motor is tested: from crawling to far beyond the speed that uses up the voltage.
 std::vector<double> speeds_of(const MotorData& motor, const Drive& drive) {
   const double corner = drive.supply.value / (motor.rated_current.value * motor.inductance.value * motor.rotor.teeth());
   std::vector<double> speeds;
@@ -97,7 +97,7 @@ TEST(DrivenWinding, without_inductance_a_chopper_holds_full_torque_until_back_em
   for (const double share : {0.1, 0.5, 0.9, 0.999}) {
     EXPECT_NEAR(pull_out(motor, {.supply = {24}}, share * corner), 0.45 / sqrt2, 1e-9);
   }
-  // From there on what is left of the supply drives the current through the resistance.
+  // From there on the rest of the supply drives the current through the resistance.
   for (const double speed : {corner + 1, (corner + end) / 2, end - 1}) {
     EXPECT_NEAR(pull_out(motor, {.supply = {24}}, speed), constant * (24 - constant * speed) / 1.5, 1e-6);
   }
@@ -114,7 +114,7 @@ TEST(DrivenWinding, without_inductance_a_resistive_drive_has_the_straight_line_o
   }
 }
 
-// Until R and the back-EMF are small beside X: torque K·V/X, so that speed times torque is constant.
+// At last R and the back-EMF are small beside X. The torque is then K·V/X, so speed times torque is constant.
 TEST(DrivenWinding, far_beyond_the_corner_a_weak_magnet_gives_constant_power) {
   MotorData motor = test::small_motor();
   motor.resistance = {1e-9};
@@ -141,7 +141,7 @@ TEST(DrivenWinding, a_half_coil_is_a_quarter_of_the_inductance_at_the_same_heat)
   EXPECT_EQ(as_wound(whole, Winding::whole_coil).resistance, whole.resistance);
 }
 
-// The reason to have unipolar drives at all: weaker at rest, stronger where the voltage is short.
+// The reason for unipolar drives: weaker at rest, stronger where the voltage is short.
 TEST(DrivenWinding, the_same_motor_driven_unipolar_is_weaker_when_slow_and_stronger_when_fast) {
   const Drive bipolar{.supply = {12}};
   const Drive unipolar{.supply = {12}, .winding = Winding::half_coil};

@@ -31,7 +31,7 @@ struct Driven {
   Drive drive;
 };
 
-// Values that a motor may have, each over its decade or more, evenly in the logarithm.
+// Values that a motor may have, each over a decade or more, evenly in the logarithm.
 inline Driven random_motor(std::mt19937_64& random) {
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, std::uniform_real_distribution<double>(0, 1)(random));

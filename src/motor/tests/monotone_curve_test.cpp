@@ -36,16 +36,16 @@ TEST(MonotoneCurve, points_on_a_line_give_the_line) {
   for (double x = 0; x <= 4; x += 0.125) EXPECT_NEAR(curve.at(x), 8 - 2 * x, 1e-13);
 }
 
-// Worked by hand. Between a piece of width 1 falling by 1 and one of width 2 falling by 2 a unit, the shorter counts
-// 1 + 2·2 = 5 and the longer 2·1 + 2 = 4: the slope is (5 + 4)/(5/−1 + 4/−2).
+// Computed by hand. One piece has width 1 and falls by 1, the other has width 2 and falls by 2 a unit. The shorter
+// piece has the weight 1 + 2·2 = 5 and the longer one 2·1 + 2 = 4, so the slope is (5 + 4)/(5/−1 + 4/−2).
 TEST(MonotoneCurve, has_the_slope_of_the_weighted_harmonic_mean_at_an_inner_point) {
   const MonotoneCurve curve = through({{0, 5}, {1, 4}, {3, 0}});
   const double h = 1e-6;
   EXPECT_NEAR((curve.at(1 + h) - curve.at(1 - h)) / (2 * h), -9.0 / 7, 1e-5);
 }
 
-// At the left end the parabola through three points: ((2·1 + 2)·(−1) − 1·(−2))/(1 + 2), which needs no holding back.
-// At the right one ((2·2 + 1)·(−2) − 2·(−1))/(1 + 2).
+// At the left end, the parabola through three points has the slope ((2·1 + 2)·(−1) − 1·(−2))/(1 + 2), which needs no
+// limit. At the right end it is ((2·2 + 1)·(−2) − 2·(−1))/(1 + 2).
 TEST(MonotoneCurve, has_the_slope_of_a_parabola_at_its_ends) {
   const MonotoneCurve curve = through({{0, 5}, {1, 4}, {3, 0}});
   const double h = 1e-6;

@@ -1,8 +1,8 @@
-// The closed form against the motor itself: its differential equations, integrated.
+// The closed form compared with the motor itself: its differential equations, integrated.
 //
-// Two phases, each R·i + L·di/dt + e = v, the rotor turned at constant speed; the drive's voltage or current vector
-// turns with it at an angle that a search picks for the most torque. Nothing here is taken from the model: the voltages
-// are made in the frame of the coils, the current is measured, the torque is averaged over periods.
+// Two phases, each with R·i + L·di/dt + e = v, and a rotor turned at constant speed. The drive's voltage or current
+// vector turns with the rotor, at the angle that a search finds best for the torque. Nothing here comes from the model:
+// voltages are made in the frame of the coils, the current is measured, and the torque is averaged over periods.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -39,8 +39,8 @@ struct Coils {
   double speed = 0;      // of the rotor, rad/s
 };
 
-// The mean torque in the steady state. `source(angle, current)` tells the voltages at the drive for the drive's angle
-// and the currents that flow; it is ahead of the rotor's back-EMF by `lead`.
+// The mean torque in the steady state. `source(angle, current)` returns the drive's voltages for the drive's angle and
+// the present currents. The drive is ahead of the rotor's back-EMF by `lead`.
 template <class Source>
 double mean_torque(const Coils& coils, const Source& source, double lead, double fastest_change) {
   const double period = 2 * pi / coils.frequency;
@@ -75,7 +75,7 @@ double mean_torque(const Coils& coils, const Source& source, double lead, double
   return last;
 }
 
-// Over all angles: a look around, then closer.
+// The greatest torque over all angles: a coarse search, then a finer one.
 template <class Torque>
 double most_torque(const Torque& torque) {
   double best = 0;
@@ -100,7 +100,7 @@ double most_torque(const Torque& torque) {
   return most;
 }
 
-// What the two drives are made of; worked out here from the sheet, not by the model.
+// The parts of the two drives, computed here from the sheet and not by the model.
 struct Bench {
   explicit Bench(const test::Driven& driven)
       : current(driven.motor.rated_current.value),
@@ -117,7 +117,7 @@ struct Bench {
     return turning;
   }
 
-  // A voltage of sines through a resistor in series.
+  // A sine voltage through a series resistor.
   double resistive(double speed) const {
     Coils turning = at(speed);
     turning.resistance = supply / current;
@@ -127,7 +127,7 @@ struct Bench {
     return most_torque(
         [&](double lead) { return mean_torque(turning, source, lead, turning.inductance / turning.resistance); });
   }
-  // Full steps: the supply is switched, never turned.
+  // Full steps: the supply is only switched, it does not turn.
   double resistive_full_steps(double speed) const {
     Coils turning = at(speed);
     turning.resistance = supply / current;
@@ -137,8 +137,8 @@ struct Bench {
     return most_torque(
         [&](double lead) { return mean_torque(turning, source, lead, turning.inductance / turning.resistance); });
   }
-  // A regulator that follows sines of the rated current and has no more than the supply to do it, in the sum of both
-  // phases (`together`) or in each.
+  // A regulator that follows sines of the rated current with no more than the supply: in the sum of both phases
+  // (`together`) or in each.
   double chopper(double speed, bool together) const {
     const Coils turning = at(speed);
     const double gain = 100 * supply / current;
@@ -157,7 +157,7 @@ struct Bench {
   Coils coils;
 };
 
-// Around where the supply is used up, which is where the curve bends.
+// Speeds around the one that uses up the supply, where the curve bends.
 std::vector<double> speeds_of(const Bench& bench) {
   const double corner =
       bench.supply / (bench.teeth * bench.current * bench.coils.inductance + bench.coils.torque_constant);

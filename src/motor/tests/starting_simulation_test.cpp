@@ -1,6 +1,6 @@
-// The computed starting speed against a whole simulated motor: both coils, a chopper that clips at the supply, the
-// rotor with its load and friction. The pulses begin at their full rate. The motor has followed if it is never half a
-// period of its torque, two steps, and some more behind.
+// The computed starting speed compared with a whole simulated motor: both coils, a chopper that clips at the supply,
+// and the rotor with its load and friction. The pulses begin at their full rate. The motor has followed if it is never
+// more behind than half a period of its torque, two steps, and a little.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -45,7 +45,7 @@ class SimulatedMotor {
                          state.angle + h / 2 * first.angle, state.speed + h / 2 * first.speed};
       const State second = change(middle, field, gain);
       const double speed = state.speed + h * second.speed;
-      // Dry friction brings to rest and does not turn back.
+      // Dry friction brings the rotor to rest but does not turn it back.
       state = {state.current_a + h * second.current_a, state.current_b + h * second.current_b,
                state.angle + h * second.angle, state.speed * speed < 0 ? 0 : speed};
       if (pi / 2 * rate * t - teeth * state.angle > 2 * pi) return false;

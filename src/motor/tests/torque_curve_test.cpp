@@ -28,7 +28,7 @@ TorqueCurve from_motor(const MotorData& data, const Drive& drive) {
   return *curve;
 }
 
-// So long that no motor starts beyond it.
+// The curve is so long that no motor starts beyond its end.
 TorqueCurve flat(double torque) {
   return from_points({{Hertz(0), {torque}}, {Hertz(1e5), {torque}}});
 }
@@ -58,7 +58,7 @@ TEST(TorqueCurve, the_fastest_speed_is_where_friction_meets_pull_out) {
   EXPECT_NEAR(line.rate_at(*line.fastest_speed({.friction = {0.1}})).value(), 1500, 1e-9);
   EXPECT_NEAR(line.rate_at(*line.fastest_speed({})).value(), 2000, 1e-9);
   EXPECT_EQ(line.fastest_speed({.friction = {0.4}})->value, 0);
-  // Half of the torque at rest, all of it at 20π rad/s.
+  // Half of the torque is taken at rest, all of it at 20π rad/s.
   EXPECT_NEAR(line.rate_at(*line.fastest_speed({.friction = {0.1}, .friction_per_speed = {0.1 / (10 * pi)}})).value(),
               0.3 / (0.4 / 2000 + 0.1 / 1000), 1e-9);
   const TorqueCurve cut = from_points({{Hertz(0), {0.4}}, {Hertz(2000), {0.3}}});
@@ -121,8 +121,8 @@ TEST(TorqueCurve, pull_in_begins_at_pull_out_falls_and_stays_below_it) {
   }
 }
 
-// The rotor itself, integrated: a field that turns at `speed` from the first moment, a torque that goes with the sine
-// of the lag, dry friction that holds what does not move. Whether it ever reaches the speed of the field.
+// The rotor itself, integrated: the field turns at `speed` from the first moment, the torque goes with the sine of the
+// lag, and dry friction holds a rotor that rests. Returns whether it ever reaches the field's speed.
 bool rotor_starts(double torque, double friction, double inertia, double teeth, double speed) {
   const double swing = std::sqrt(torque * teeth / inertia);  // rad/s of the small oscillation
   const double h = std::min(1 / swing, 1 / (teeth * speed)) / 400;

@@ -1,4 +1,4 @@
-// The referee itself: it agrees with closed forms, and it finds what is planted.
+// The referee itself: it agrees with closed forms, and it finds planted errors.
 #include "passo/proof/motion_proof.hpp"
 
 #include <cmath>
@@ -58,7 +58,7 @@ PlannedMove move(const Segment& segment, std::initializer_list<Phase> phases) {
   planned.to = segment.curve.length();
   return planned;
 }
-// The fastest from rest to rest, without a top speed.
+// The fastest motion from rest to rest, without a top speed.
 PlannedMove triangle(const Segment& segment, double acceleration) {
   const double length = segment.curve.length().value();
   const double half = std::sqrt(length / acceleration);
@@ -146,12 +146,13 @@ TEST(MotionProof, a_corner_is_a_stop) {
   EXPECT_NEAR(bound_of({line(xyz(0, 0), xyz(2, 0)), line(xyz(2, 0), xyz(2, 2))}), 2 * one, 1e-6);
 }
 
-// On a circle the best is not an even speed: one axis after the other is at its limit, a parabola of 45 degrees each.
+// On a circle an even speed is not the best: one axis after the other is at its limit, in a parabola of 45 degrees
+// each.
 TEST(MotionProof, a_turn_of_a_circle_is_eight_parabolas) {
   const double radius = 10;
   const double turn = bound_of({circle(radius, 4)}) - bound_of({circle(radius, 3)});
   EXPECT_NEAR(turn, 8 * std::sqrt(2 * radius * (1 - std::sqrt(0.5)) / 500), 1e-3 * turn);
-  // And under a feed that lets the circle be, it is the feed.
+  // Where the feed is low enough for the circle, the feed decides.
   EXPECT_NEAR(bound_of({circle(radius, 4, 20)}) - bound_of({circle(radius, 3, 20)}), 2 * pi * radius / 20, 1e-9);
 }
 
@@ -167,7 +168,7 @@ TEST(MotionProof, the_bound_of_a_circle_does_not_depend_on_how_it_is_cut) {
   EXPECT_NEAR(bound_of(cut), whole, 5e-4 * whole);
 }
 
-// A rounded corner: the bend grows from nothing to its middle and falls again; |dP/ds| falls to 1/√2 there.
+// A rounded corner: the bend grows from 0 to its middle and falls again, and |dP/ds| falls to 1/√2 there.
 TEST(MotionProof, the_bound_of_a_blend_does_not_depend_on_how_it_is_cut) {
   const double h = 0.3;
   const auto blend = [h](int parts) {
@@ -183,7 +184,7 @@ TEST(MotionProof, the_bound_of_a_blend_does_not_depend_on_how_it_is_cut) {
       const double to = h * (i + 1) / parts;
       path.push_back(segment_of(Curve::cubic(place(from), tangent(from), place(to), tangent(to), Mm(to - from))));
     }
-    // The second half is the mirror image of the first, backwards: x and y change places about the middle.
+    // The second half mirrors the first one, backwards: x and y change places about the middle.
     const Point middle = place(h);
     const auto mirrored = [&](double s) {
       const Point p = place(s);
@@ -201,7 +202,7 @@ TEST(MotionProof, the_bound_of_a_blend_does_not_depend_on_how_it_is_cut) {
   };
   const double fine = bound_of(blend(16));
   EXPECT_NEAR(bound_of(blend(1)), fine, 2e-4 * fine);
-  // Faster than stopping at the corner.
+  // This is faster than stopping at the corner.
   EXPECT_LT(fine, bound_of({line(xyz(-5, 0), xyz(0.25, 0)), line(xyz(0.25, 0), xyz(0.25, 5.25))}));
 }
 
@@ -301,7 +302,7 @@ TEST(MotionProof, finds_a_motion_that_does_not_end_at_rest) {
 
 TEST(MotionProof, finds_a_path_that_leaves_the_tolerance) {
   const std::vector<Segment> corner = {line(xyz(0, 0), xyz(5, 0), 1), line(xyz(5, 0), xyz(5, 5), 2)};
-  // A cut of the corner: its middle is d / √2 from the corner.
+  // A cut corner: the middle of the cut is d / √2 from the corner.
   const auto cut = [&](double d) {
     return proof_of(corner, {steady(line(xyz(0, 0), xyz(5 - d, 0)), 1), steady(line(xyz(5 - d, 0), xyz(5, d)), 1),
                              steady(line(xyz(5, d), xyz(5, 5)), 1)});
@@ -357,7 +358,7 @@ TEST(MotionProof, the_same_way_back_is_no_deviation) {
   EXPECT_LT(proof_of(planned).deviation.value, 1e-9);
 }
 
-// One move along it passes dozens of them at a stride.
+// One move along it passes dozens of short lines in one stride.
 TEST(MotionProof, a_line_of_many_short_ones_is_followed) {
   std::vector<Segment> chords;
   for (int i = 0; i < 1000; ++i) chords.push_back(line(xyz(0.01 * i, 0), xyz(0.01 * (i + 1), 0)));
@@ -366,7 +367,7 @@ TEST(MotionProof, a_line_of_many_short_ones_is_followed) {
   EXPECT_NEAR(proof_of(chords, {steady(line(xyz(0, 0), xyz(9, 0)), 1)}).deviation.value, 1, 1e-9);
 }
 
-// The way back is nearer to the way there than to the programmed way back.
+// The way back is nearer to the way out than to the programmed way back.
 TEST(MotionProof, a_path_that_turns_short_of_a_tip_is_followed_on_its_way_back) {
   std::vector<Segment> path = {line(xyz(0, 0), xyz(5.05, 0)), line(xyz(5.05, 0), xyz(0, 0.02))};
   for (Segment& segment : path) segment.tolerance = Mm(0.1);
@@ -399,7 +400,7 @@ TEST(MotionProof, jerk_counts_where_it_has_a_limit) {
   EXPECT_NEAR(proof.axes[0].acceleration_jump.value, 1000, 1e-9);
   EXPECT_THAT(faults_of(proof), testing::HasSubstr("axis X acceleration jumps: 1000"));
 
-  // Four phases of jerk 10,000: 2 j t³ of way over the whole.
+  // Four phases of jerk 10,000 cover 2 j t³ in all.
   const Segment shorter = line(xyz(0, 0), xyz(2, 0));
   const double t = std::cbrt(2.0 / (2 * 10000));
   const double a = 10000 * t;
@@ -414,7 +415,8 @@ TEST(MotionProof, jerk_counts_where_it_has_a_limit) {
 
 // --- The steps.
 
-// Steps of X at the exact times of rest to rest over `length`, an event each millisecond's hundredth.
+// Steps of X at the exact times of motion from rest to rest over `length`, with an event each hundredth of a
+// millisecond.
 MotionProof proof_of_steps(double length, double acceleration) {
   MotionProver prover(options());
   const double half = std::sqrt(length / acceleration);

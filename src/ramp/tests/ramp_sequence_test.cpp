@@ -1,4 +1,4 @@
-// What `passo ramp` shows: every method started as it was asked for, or refused in words.
+// What `passo ramp` shows: every method is started as asked for, or refused in words.
 #include "passo/ramp/ramp_sequence.hpp"
 
 #include <cmath>
@@ -23,7 +23,7 @@ std::vector<double> play(const RampRequest& request) {
   return intervals;
 }
 
-// From the definition, to 64 bits.
+// The interval from the definition, to 64 bits.
 long double exact_interval(long double first, long n) {
   return first * (std::sqrt(static_cast<long double>(n) + 1) - std::sqrt(static_cast<long double>(n)));
 }
@@ -75,7 +75,7 @@ TEST(RampSequence, a_stop_ends_the_move_on_the_same_ramp) {
   request.jerk = {500};
   request.stop_after = 300;
   const std::size_t count = play(request).size();
-  EXPECT_GT(count, 600U);  // the acceleration has to fall off first
+  EXPECT_GT(count, 600U);  // the acceleration must fall to zero first
   EXPECT_LT(count, 900U);
 }
 

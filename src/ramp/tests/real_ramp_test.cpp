@@ -1,4 +1,4 @@
-// The ramps in real numbers, against the sequences of others; and how far each method is from the exact one.
+// The ramps in real numbers compared with sequences of other code; and the distance of each method from the exact ramp.
 #include "passo/ramp/real_ramp.hpp"
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(RealRamp, the_recursion_finds_its_way_back) {
   }
 }
 
-// The header's bound: (ln n + 2.4) / 8n, which it comes near to.
+// The header's bound is (ln n + 2.4) / 8n; the error comes near to it.
 TEST(RealRamp, the_recursion_is_short_by_what_its_header_says) {
   RealExactRamp exact(1);
   RealRecursiveRamp recursive(1);

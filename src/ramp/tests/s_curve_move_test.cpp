@@ -1,4 +1,4 @@
-// Moves with bounded jerk: the count of steps exact, the limits held by what comes out, wherever the move is turned.
+// Moves with bounded jerk: the count of steps is exact and the result keeps the limits, wherever the move is turned.
 #include "passo/ramp/s_curve_move.hpp"
 
 #include <algorithm>
@@ -48,7 +48,8 @@ Played play(const SCurveLimits& limits, std::int64_t steps) {
 }
 
 TEST(SCurveMove, a_long_move_takes_the_time_of_its_seven_phases) {
-  // To rate v with acceleration a and jerk j: v/a + a/j of time, half of v of way a time; cruise between.
+  // To reach rate v with acceleration a and jerk j takes the time v/a + a/j, and half of v times the way; cruise
+  // between.
   const double v = 5000;
   const double a = 20'000;
   const double j = 400'000;
@@ -113,8 +114,8 @@ TEST(SCurveMove, ticks_are_rounded_from_absolute_times_so_that_nothing_adds_up) 
   }
 }
 
-// Third differences of the step times tell rate, acceleration and jerk as they are, without a word of the planner.
-// The rate between two steps is met somewhere between them, so that two rates whose middles lie dt apart differ by at
+// Third differences of the step times show the real rate, acceleration and jerk, without any word of the planner. The
+// mean rate between two steps is reached somewhere between them. So two rates whose middles are dt apart differ by at
 // most a · dt, and two such accelerations by at most j · dt.
 struct LimitCheck {
   const SCurveLimits& limits;
@@ -133,8 +134,8 @@ struct LimitCheck {
       if (i + 3 >= times.size()) break;
       const double d3 = times[i + 3] - times[i + 2];
       const double next = 2 * (1 / d3 - 1 / d2) / (d2 + d3);
-      // The third divided difference of the position is a mean of the jerk. It divides the rounding of the times
-      // (of the positions: times the rate) by the third power of an interval, eightfold.
+      // The third divided difference of the position is a mean of the jerk. In it the rounding of the times (times the
+      // rate, for positions) is multiplied by eight and divided by the third power of an interval.
       const double noise = 8 * 1e-15 * times[i + 3] / std::pow(std::min({d1, d2, d3}), 4);
       ASSERT_LE(std::abs(next - change) / (d1 + d2 + d3) * 3, j * (1 + 1e-5) + noise) << i;
     }
@@ -156,7 +157,7 @@ TEST(SCurveMove, stopped_and_turned_at_random_steps_it_keeps_its_limits_and_its_
     int events = 0;
     move.move_to({target});
     while (!move.done()) {
-      // One stretch without turning.
+      // One stretch without a turn.
       LimitCheck check{.limits = limits, .start = start};
       check.times.push_back(0);
       bool up = target > position;

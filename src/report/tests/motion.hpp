@@ -33,7 +33,7 @@ inline PlannedMove play(const Curve& curve, double speed, double acceleration, b
   return move;
 }
 
-// Along a line without a change of speed, as in the middle of a long path.
+// A move along a line at constant speed, as in the middle of a long path.
 inline PlannedMove cruise(const Point& from, const Point& to, double speed, bool rapid = false) {
   PlannedMove move;
   move.segment.curve = Curve::line(from, to);

@@ -19,7 +19,7 @@ struct Pixels {
   unsigned height = 0;
   std::vector<png_byte> bytes = {};  // red, green, blue
 
-  // Whether the pixel, or one beside it, has that colour.
+  // Whether the pixel, or a neighbour of it, has that colour.
   bool has(Spot spot, const Colour& colour) const {
     const auto middle_x = static_cast<int>(spot.x);
     const auto middle_y = static_cast<int>(spot.y);
@@ -121,7 +121,7 @@ TEST_F(MotorPicture, shows_the_friction_and_the_two_rates_where_there_are_any) {
   const std::string bare = draw({.curve = falling, .end = Hertz(2000)}, PictureFormat::svg);
   const std::string loaded =
       draw({.curve = falling, .load = {.friction = {0.1}}, .end = Hertz(2000)}, PictureFormat::svg);
-  // Dashed: in the bare one the guides of both rates in each chart; with friction its line and the legend's too.
+  // Dashed lines: without load the guides of both rates in each chart; with friction its line and the legend's too.
   EXPECT_EQ(count(bare, "dasharray"), 4U);
   EXPECT_EQ(count(loaded, "dasharray"), 6U);
 }

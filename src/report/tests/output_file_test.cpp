@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A directory of the test's own that is gone afterwards.
+// A directory for each test that is removed afterwards.
 class OutputFileTest : public testing::Test {
  protected:
   OutputFileTest() {
@@ -143,7 +143,7 @@ TEST_F(OutputFileTest, a_signal_handler_can_remove_what_is_unfinished) {
     file->write(std::string(2 * OutputFile::buffer_size, 'x'));
     const bool there = files() == 1;
     OutputFile::remove_unfinished();
-    ::_exit(there ? 0 : 3);  // as a handler ends the program: no destructor runs
+    ::_exit(there ? 0 : 3);  // a handler ends the program like this: no destructor runs
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);

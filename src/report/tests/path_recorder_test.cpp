@@ -73,7 +73,7 @@ TEST(PathRecorder, flattens_cubics_in_parts_into_one_polyline_that_follows_them)
   EXPECT_EQ(std::ranges::count(path.vertices(), Kind::jump, &PathRecorder::Vertex::kind), 1);
   EXPECT_LT(distance(place_of(path, path.vertices().size() - 1), at(31, 8)), 1e-5);
   double farthest = 0;
-  std::size_t near = 1;  // the polyline and the curves are walked side by side
+  std::size_t near = 1;  // the polyline and the curves are walked together
   for (const Curve& curve : curves) {
     for (int i = 0; i <= 1000; ++i) {
       const Point point = curve.at(curve.length() * (i / 1000.0));
@@ -143,7 +143,7 @@ TEST(PathRecorder, a_million_lines_stay_in_bounds_near_the_path_and_keep_their_e
   EXPECT_EQ(path.extents().low, expected.low);
   EXPECT_EQ(path.extents().high, expected.high);
 
-  // Vertices are points of the path in their order, and never far apart along it: walk both together.
+  // Vertices are points of the path in its order, and never far apart along it. So walk both together.
   int i = 0;
   double worst = 0;
   for (std::size_t vertex = 1; vertex < path.vertices().size(); ++vertex) {
@@ -160,7 +160,7 @@ TEST(PathRecorder, a_million_lines_stay_in_bounds_near_the_path_and_keep_their_e
       ++i;
     }
   }
-  EXPECT_LT(worst, 0.2);  // of an extent of 145 mm: a pixel
+  EXPECT_LT(worst, 0.2);  // a pixel at an extent of 145 mm
 }
 
 TEST(PathRecorder, what_cannot_be_joined_is_thinned_evenly) {
@@ -170,14 +170,14 @@ TEST(PathRecorder, what_cannot_be_joined_is_thinned_evenly) {
   Point last;
   constexpr int moves = 600'000;
   for (int i = 0; i < moves; ++i) {
-    // X grows slowly from the beginning to the end.
+    // X grows slowly from the start to the end.
     const Point next = at(100.0 * i / moves + anywhere(random) / 10, anywhere(random), anywhere(random));
     path.watch(cruise(last, next, 10, i % 2 != 0), Point());
     last = next;
   }
   EXPECT_LE(path.vertices().size(), PathRecorder::most_vertices);
   EXPECT_GT(path.vertices().size(), PathRecorder::most_vertices / 4);
-  std::array<double, 10> tenths{};  // how much of the path is drawn in each tenth of X
+  std::array<double, 10> tenths{};  // the share of the path that is drawn in each tenth of X
   for (std::size_t i = 1; i < path.vertices().size(); ++i) {
     if (path.vertices()[i].kind == Kind::jump) continue;
     const double x = place_of(path, i)[Axis::x];

@@ -64,7 +64,7 @@ Image decode(const std::string& bytes) {
   return image;
 }
 
-// Whether every element is closed in order and every attribute quoted; that is all of XML that cairo writes.
+// Whether every element is closed in order and every attribute is quoted. cairo writes no more of XML than that.
 bool well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t i = xml.find('<'); i != std::string::npos; i = xml.find('<', i)) {
@@ -84,7 +84,7 @@ bool well_formed(const std::string& xml) {
   return open.empty() && xml.find("<svg") != std::string::npos;
 }
 
-// cairo counts the surfaces of the process, and writes the number.
+// cairo counts the surfaces of the process and writes the number into the file.
 std::string without_surface_number(std::string svg) {
   const std::size_t begin = svg.find("\"surface") + 8;
   svg.erase(begin, svg.find('"', begin) - begin);

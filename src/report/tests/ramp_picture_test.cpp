@@ -27,7 +27,7 @@ class RampPicture : public testing::Test {
   fs::path path_ = fs::temp_directory_path() / ("passo-ramp-picture-" + std::to_string(::getpid()));
 };
 
-// `scale`: of the error of each interval, in ticks.
+// `scale` is that of each interval's error, in ticks.
 RampTrace trace_of(std::size_t count, double scale) {
   RampTrace trace{.name = "a method", .samples = {}};
   double time = 0;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// A rapid, a cut, a half circle, a dwell, with the work's zero at X 10 Y 20.
+// A rapid, a cut, a half circle and a dwell, with the work's zero at X 10 Y 20.
 RunSummary small_job() {
   SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
   const Point offset = at(10, 20);
@@ -98,7 +98,7 @@ TEST(RunSummary, of_a_job_without_motion_and_board_is_still_sound) {
 
 TEST(SummaryBuilder, splits_time_and_distance_into_cutting_rapid_and_dwell) {
   const RunSummary summary = small_job();
-  // 22.36 mm at 50 mm/s needs 25 mm of ramps at 100 mm/s²: a triangle.
+  // 22.36 mm would need 25 mm of ramps for 50 mm/s at 100 mm/s², so the speed is a triangle.
   EXPECT_NEAR(summary.rapid_time.value(), 2 * std::sqrt(std::sqrt(500.0) / 100), 1e-12);
   // Length / speed + speed / acceleration, for each cut.
   EXPECT_NEAR(summary.cutting_time.value(), 6 / 10.0 + 0.1 + pi + 0.1, 1e-12);
@@ -142,7 +142,7 @@ TEST(SummaryBuilder, finds_the_top_of_a_speed_that_turns_inside_a_phase) {
   EXPECT_DOUBLE_EQ(builder.summary().axes[0].peak_speed.value(), 20);
 }
 
-// The peaks by differences of positions in small steps of time: knows nothing of slopes and angles.
+// The peaks by differences of positions in small time steps. This knows nothing of slopes and angles.
 struct SampledPeaks {
   Point speed;
   Point acceleration;
@@ -150,7 +150,7 @@ struct SampledPeaks {
 SampledPeaks sample(const PlannedMove& move) {
   SampledPeaks peaks;
   for (const Phase& phase : move) {
-    // Not shorter than 20 µs: the second difference would be rounding.
+    // Not shorter than 20 µs, because the second difference would then be rounding.
     const int samples = static_cast<int>(std::clamp(phase.duration.value() / 20e-6, 2.0, 4000.0));
     const double h = phase.duration.value() / samples;
     if (h < 1e-5) continue;
@@ -242,7 +242,8 @@ TEST(SummaryBuilder, a_long_helix_is_understood_as_quickly_as_a_short_one) {
   builder.watch(move, Point());
   for (const AxisSummary& axis : builder.summary().axes) {
     EXPECT_NEAR(axis.peak_speed.value(), 20, 0.03);
-    // Nearly all of it at 20 mm/s on 10 mm; while the speed still changes, the two parts add at right angles.
+    // Nearly all of it is 20 mm/s on a radius of 10 mm. While the speed still changes, the two parts add at right
+    // angles.
     EXPECT_GE(axis.peak_acceleration.value(), 40);
     EXPECT_LE(axis.peak_acceleration.value(), std::hypot(200, 40) * 1.001);
   }

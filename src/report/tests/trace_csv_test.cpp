@@ -52,7 +52,7 @@ TEST(TraceCsv, names_the_axes_in_the_order_of_the_motors) {
 TEST(TraceCsv, has_a_row_for_each_event_with_the_direction_of_each_step) {
   Csv csv({.motors = xyz});
   csv->on_steps(Ticks{16}, 0b101, 0b100);
-  csv->on_steps(Ticks{160'000'000}, 0b010, 0b101);  // what does not step has no direction
+  csv->on_steps(Ticks{160'000'000}, 0b010, 0b101);  // a motor that does not step has no direction
   EXPECT_EQ(csv.finished(), "t,x,y,z\n0.000001000,1,0,-1\n10.000000000,0,1,0\n");
 }
 
@@ -91,7 +91,7 @@ TEST(TraceCsv, tells_the_nearest_nanosecond_for_random_clocks_and_times) {
     const std::string text = time_of(ticks, static_cast<double>(hertz));
     const std::size_t point = text.find('.');
     ASSERT_EQ(text.size() - point, 10U);
-    // |t − ticks/hertz| is at most half a nanosecond, in whole numbers: of 1/(2·10⁹·hertz) seconds.
+    // t − ticks/hertz| is at most half a nanosecond. In whole numbers, the unit is 1/(2·10⁹·hertz) seconds.
     const auto nanoseconds = std::stoll(text.substr(point + 1));
     const std::int64_t rest = ticks - std::stoll(text.substr(0, point)) * hertz;
     __extension__ using Wide = __int128;

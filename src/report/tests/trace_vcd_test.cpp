@@ -16,7 +16,7 @@ using Changes = std::vector<VcdChange>;
 
 const std::vector<TraceMotor> xyz = {{.axis = Axis::x}, {.axis = Axis::y}, {.axis = Axis::z}};
 
-// At 16 MHz a unit is 100 ps and a tick has 625 of them; the usual pulse of 2.5 µs has 25,000.
+// At 16 MHz the unit is 100 ps: a tick has 625 of them, and the usual pulse of 2.5 µs has 25,000.
 class Trace16 {
  public:
   explicit Trace16(TraceOptions options = {.motors = xyz})
@@ -58,7 +58,7 @@ TEST(TraceVcd, a_tick_is_a_whole_number_of_units_where_it_can_be) {
   EXPECT_EQ(timescale_at(84e6), "1 ps");    // 11.9… ns
   EXPECT_EQ(timescale_at(72e6), "1 ps");
   EXPECT_EQ(timescale_at(125e3), "1 us");  // 8 µs
-  EXPECT_EQ(timescale_at(1e6), "100 ns");  // half a tick needs a place too
+  EXPECT_EQ(timescale_at(1e6), "100 ns");  // less than a tick, since half a tick needs a place too
   EXPECT_EQ(timescale_at(1), "100 ms");
 }
 
@@ -84,7 +84,7 @@ TEST(TraceVcd, a_pulse_ends_half_way_to_the_next_step_where_that_is_sooner) {
 TEST(TraceVcd, a_direction_is_set_together_with_the_first_step_that_way) {
   Trace16 trace;
   trace->on_steps(Ticks{1000}, 0b001, 0b001);
-  trace->on_steps(Ticks{2000}, 0b010, 0b000);  // X does not step: its direction stays
+  trace->on_steps(Ticks{2000}, 0b010, 0b000);  // X does not step, so its direction stays
   trace->on_steps(Ticks{3000}, 0b001, 0b000);
   const Vcd vcd = trace.finished(3000);
   EXPECT_EQ(vcd.wires.at("X_dir"), Changes({{0, 0}, {625'000, 1}, {1'875'000, 0}}));
@@ -120,7 +120,7 @@ TEST(TraceVcd, goes_on_to_the_end_of_a_job_that_waits_there) {
   EXPECT_EQ(trace.finished(16'000'000).end, 10'000'000'000U);
 }
 
-// In units of so many picoseconds, rounded half up.
+// The time in units of so many picoseconds, rounded half up.
 std::uint64_t in_units(std::int64_t ticks, std::int64_t hertz, std::int64_t unit) {
   __extension__ using Wide = __int128;
   const Wide divisor = Wide{hertz} * unit;
@@ -132,7 +132,7 @@ struct ShownStep {
   bool down;
   friend bool operator==(const ShownStep&, const ShownStep&) = default;
 };
-// The rising edges of a step line with the level of its direction line; the length of each pulse is looked at too.
+// The rising edges of a step line, each with the level of its direction line. Also checks the length of each pulse.
 std::vector<ShownStep> steps_of(const Vcd& vcd, const std::string& axis, std::uint64_t longest_pulse) {
   std::vector<ShownStep> steps;
   const Changes& edges = vcd.wires.at(axis + "_step");

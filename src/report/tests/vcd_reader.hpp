@@ -1,4 +1,4 @@
-// A strict reader of value change dumps, for tests: refuses what a viewer would forgive.
+// A strict reader of value change dumps for tests. It refuses what a viewer would forgive.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class Vcd {
     }
   }
 
-  // All changes of a wire, the initial value first.
+  // All changes of each wire, the initial value first.
   std::map<std::string, std::vector<VcdChange>> wires;
   std::vector<std::string> names;  // in the order of their declaration
   std::string timescale;

@@ -1,4 +1,4 @@
-// The sums of BoardModel against the board's own Player, event by event.
+// The sums of BoardModel compared with the board's own Player, event by event.
 #include "board_model.hpp"
 
 #include <random>
@@ -17,7 +17,7 @@ class Segments {
     BoardSegment segment;
     segment.events = static_cast<std::uint8_t>(between(1, 255));
     segment.interval = static_cast<std::uint32_t>(between(80 * whole_tick, 65535 * whole_tick));
-    // Neither end of the segment leaves what an interval may be.
+    // At both ends of the segment the interval stays in its range.
     const std::int64_t room = std::min<std::int64_t>(segment.interval, 65535 * whole_tick - segment.interval);
     const std::int64_t most = std::min<std::int64_t>(room / segment.events, largest_change);
     segment.change = static_cast<std::int32_t>(between(-most, most));

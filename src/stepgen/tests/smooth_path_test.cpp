@@ -1,4 +1,4 @@
-// What a smoother and a planner with jerk give: cubics, parts of segments, phases of constant jerk.
+// The output of a smoother and a planner with jerk: cubics, parts of segments, phases of constant jerk.
 #include <cstdlib>
 
 #include "kit/smooth_motion.hpp"
@@ -34,7 +34,7 @@ double length_of(const std::vector<Curve>& curves) {
   return length;
 }
 
-// As fast as the board can count, and as no machine is thrown out of the bend.
+// The highest speed that the board can count and a machine can hold in the bend.
 double fastest_along(const std::vector<Curve>& curves, const StepOptions& options) {
   constexpr double sideways = 4000;  // mm/s²
   double speed = 1e9;

@@ -13,7 +13,7 @@ namespace {
 
 using oracle::generate;
 
-// How many random programs: few at every change, many in the slow test.
+// The number of random programs: few at every change, many in the slow test.
 int runs() {
   const char* text = std::getenv("PASSO_RUNS");
   return text != nullptr ? std::atoi(text) : 25;
@@ -29,13 +29,13 @@ StepOptions machine(std::initializer_list<double> steps_per_mm, double event_rat
   return options;
 }
 
-// Speeds up or slows down from `from` to `to` over the whole length, through `peak` where the length allows.
+// Changes the speed from `from` to `to` over the whole length, through `peak` if the length allows.
 PlannedMove planned(const Curve& curve, double from, double peak, double to, double acceleration) {
   PlannedMove move;
   move.segment.curve = curve;
   move.to = move.segment.curve.length();
   const double length = curve.length().value();
-  // v² differences over 2a are lengths.
+  // Differences of v² over 2a are lengths.
   const double highest = std::sqrt((from * from + to * to) / 2 + acceleration * length);
   const double top = std::max({std::min(peak, highest), from, to});
   const double up = (top * top - from * from) / (2 * acceleration);
@@ -164,7 +164,7 @@ TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
   EXPECT_LE(played.segments, played.events / 250);
 }
 
-// How a machine brakes where few segments are to do it: each step within an interval of its time, the end exact.
+// A machine brakes with few segments: each step is within an interval of its time, and the end is exact.
 TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
   const StepOptions options = machine({640, 640});
   // 61,440 steps a second to rest, in 3,840 steps.
@@ -189,7 +189,7 @@ TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
         const bool stepped = (carry != 0) != flipped;
         place[m] = (place[m] >> 16 << 16) + (stepped ? whole_step : 0) + ((place[m] + segment.increments[m]) & 0xffff);
       }
-      // s = v t - a t^2 / 2, at the end of which the speed is nothing.
+      // s = v t - a t^2 / 2, and at its end the speed is 0.
       const double along = static_cast<double>(place[0] - whole_step / 2) / whole_step;
       const double left = 3840 - along;
       if (left < 1) continue;
@@ -264,7 +264,7 @@ class RandomPrograms : public testing::Test {
       const double peak = uniform(0.05, 1) * std::min(fastest, fastest_round(curve));
       const bool last = i + 1 == curves.size();
       const double most = last ? 0 : std::min({fastest, fastest_round(curve), fastest_round(curves[i + 1])});
-      // Enough to slow down in time for what comes.
+      // Enough to slow down in time for the next move.
       const double needed = (speed * speed - most * most) / (2 * length) * (1 + 1e-9);
       const double acceleration = std::max(needed, std::pow(10.0, uniform(1.5, 3.5)));
       const double reach = std::sqrt(speed * speed + 2 * acceleration * length);

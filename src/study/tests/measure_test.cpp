@@ -19,9 +19,9 @@ TEST(Measure, a_line_of_ten_and_four) {
   EXPECT_EQ(lean.pulses, 10);
   EXPECT_EQ(lean.together, 4);
   EXPECT_EQ(lean.idle, 0);
-  // The slave is off by 0.4 of a step at most (2 for 1.6, 0 for 0.4): less, across the line.
+  // The slave is off by at most 0.4 of a step (2 for 1.6, 0 for 0.4); across the line this is less.
   EXPECT_NEAR(lean.largest_deviation, 0.4 * 10 / std::hypot(10, 4), 1e-12);
-  // Pulses by beats: six plain, four diagonal ones in the same time.
+  // By beats: six plain pulses and four diagonal ones, each of the same time.
   EXPECT_NEAR(lean.evenness[0].ratio, std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(lean.evenness[1].ratio, 1, 1e-12);
   EXPECT_NEAR(lean.evenness[2].lag, 0, 1e-12);

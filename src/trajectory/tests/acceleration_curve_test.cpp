@@ -1,4 +1,4 @@
-// Limits that fall with the speed: the curve itself, and what the planner makes of it.
+// Limits that fall with the speed: the curve itself, and the planner's use of it.
 #include "passo/trajectory/acceleration_curve.hpp"
 
 #include <algorithm>
@@ -26,13 +26,13 @@ AccelerationCurve curve_of(const Limit& limit, double fastest, double most) {
   return AccelerationCurve::below(samples, MmPerSecond2(most));
 }
 
-// All axes alike.
+// All axes have the same limits.
 struct Machine {
   Limit limit;
   double fastest;
   MotionLimits limits;
 
-  // `rise`: of the acceleration, from nothing to what there is at rest; 0: at once.
+  // `rise` is the time in which the acceleration rises from 0 to its value at rest; 0: at once.
   Machine(const Limit& own, double velocity, double rise = 0) : limit(own), fastest(velocity) {
     for (const Axis axis : all_axes) {
       if (rise > 0) limits.jerk[axis] = MmPerSecond3(own(0) / rise);
@@ -46,7 +46,7 @@ struct Machine {
 double even_fall(double v) {
   return 2000 * (1 - v / 120);
 }
-// Flat, then as a motor on a chopper.
+// Flat at first, then like a motor on a chopper.
 double shouldered(double v) {
   return v < 40 ? 3000 : 3000 * std::pow(40 / v, 1.3);
 }
@@ -55,7 +55,7 @@ double time_of_line(double length, double speed, const MotionLimits& limits) {
   return total_time(plan({line(xyz(0, 0), xyz(length, 0), speed)}, limits));
 }
 
-// From rest to rest by small steps of the speed: as long as dv/dt = A(v) speeds up, and on at `top`.
+// The time from rest to rest in small steps of the speed: dv/dt = A(v) up to `top`, then constant.
 double integrated_time(double length, double top, const Limit& limit) {
   constexpr int steps = 2'000'000;
   const double change = top / steps;
@@ -164,7 +164,7 @@ TEST(FallingLimits, a_line_takes_as_long_as_numerical_integration_says) {
   }
 }
 
-// The acceleration rises and falls once or twice on either side, which takes a rise each.
+// The acceleration rises and falls once or twice on either side, and each of these takes one rise.
 TEST(FallingLimits, with_a_limit_of_jerk_a_line_takes_some_rises_of_the_acceleration_longer) {
   constexpr double rise = 0.005;
   const Machine machine(shouldered, 150, rise);

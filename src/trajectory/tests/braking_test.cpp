@@ -1,5 +1,5 @@
-// How the path would come to rest from each place: within all limits, and asking changes nothing. And a limit of the
-// speed, which is as good as a lower feed, for rapids too.
+// Braking plans from every place: within all limits, and asking for one changes nothing. And a limit of the speed,
+// which acts like a lower feed, for rapids too.
 #include "jerk_kit.hpp"
 #include "kit/in_full.hpp"
 
@@ -10,7 +10,7 @@ class BrakingPlan : public testing::TestWithParam<int> {
  protected:
   BrakingPlan() : random_(seed() + static_cast<std::uint64_t>(GetParam())) {}
 
-  // Asks one planner after every move, and another one never.
+  // Asks one planner after every move, and another planner never.
   void brake_everywhere(const std::vector<PathItem>& path, const MotionLimits& limits) {
     ListSource<PathItem> source(path);
     ListSource<PathItem> same(path);
@@ -51,7 +51,7 @@ TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_smooth_chains) {
   EXPECT_GT(plans_, 20);
 }
 
-// With corners, which are rests or crawled through, and blends.
+// Paths with blends, and with corners where the motion rests or crawls.
 TEST_P(BrakingPlan, keeps_every_axis_within_its_limits_on_lines_and_blends) {
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
   std::vector<PathItem> path;
@@ -111,7 +111,7 @@ TEST_P(BrakingPlan, knows_a_limit_of_the_speed_for_feeds_and_rapids) {
       fastest = std::max(fastest, exit_speed(move));
       if (time < change) continue;
       planner.limit_speed_to(MmPerSecond(limit));
-      // What it takes to brake from 50, and more.
+      // The time to brake from 50, and some more.
       if (time < change + 0.2) continue;
       EXPECT_LE(exit_speed(move), limit * (1 + 1e-6)) << "jerk " << jerk;
     }

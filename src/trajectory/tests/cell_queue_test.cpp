@@ -9,7 +9,7 @@
 namespace passo {
 namespace {
 
-// As a deque, whatever comes in whatever order, at every size at which it grows.
+// Compares with a deque, for random operations, at every size at which the queue grows.
 TEST(CellQueue, keeps_its_cells_in_order) {
   test::Random random;
   for (const std::size_t capacity : {2U, 100U, 256U, 1000U}) {

@@ -1,4 +1,4 @@
-// What the tests of planning with limits of jerk share: programs, and an oracle by formulas of its own.
+// Shared by the tests of planning with limits of jerk: programs, and an oracle by formulas of its own.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline MotionLimits jerk_limits(double velocity, double acceleration, double jer
   return limits;
 }
 
-// Flat up to a shoulder, then as a motor loses its torque.
+// Flat up to a shoulder, then falling as a motor loses its torque.
 inline AccelerationCurve draw_falling(Random& random, MmPerSecond velocity, MmPerSecond2 at_rest) {
   const double shoulder = velocity.value() * random.between(0.05, 0.7);
   const double power = random.between(0.3, 2);
@@ -37,7 +37,7 @@ inline AccelerationCurve draw_falling(Random& random, MmPerSecond velocity, MmPe
   return AccelerationCurve::below(samples, at_rest);
 }
 
-// Of some, the acceleration falls with the speed.
+// On some machines the acceleration falls with the speed.
 inline MotionLimits draw_jerk_limits(Random& random) {
   MotionLimits limits = jerk_limits(1, 1, 1);
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
@@ -108,7 +108,7 @@ inline AxisMotion motion_at(const Curve& curve, Axis axis, const Phase& phase, d
   return {q.first * v, q.first * a + q.second * v * v, q.first * j + 3 * q.second * v * a + q.third * v * v * v};
 }
 
-// Looks at 40 places of each phase, and at what changes from each to the next.
+// Looks at 40 places of each phase, and at the changes from each phase to the next.
 class JerkOracle {
  public:
   explicit JerkOracle(const MotionLimits& limits) : limits_(limits) {}
@@ -188,7 +188,7 @@ inline void expect_within_limits(const std::vector<MotionItem>& motion, const Mo
   JerkOracle(limits).check(motion);
 }
 
-// Pieces of a uniform cubic B-spline: their tangents and second derivatives go on from one to the next.
+// Pieces of a uniform cubic B-spline: tangents and second derivatives are continuous.
 inline std::vector<PathItem> smooth_chain(Random& random, int pieces) {
   std::vector<Point> control{xyz(0, 0)};
   double direction = 0;

@@ -1,4 +1,4 @@
-// Hold, resume and override where the jerk is limited: at any time, within all limits, without a jump.
+// Hold, resume and override with limited jerk: at any time, within all limits, without a jump.
 #include <limits>
 
 #include "jerk_kit.hpp"
@@ -7,7 +7,7 @@
 namespace passo::test {
 namespace {
 
-// Plans live and looks at all that is given.
+// Plans live and checks all motion that is given.
 class LivePlan {
  public:
   LivePlan(const std::vector<PathItem>& path, const MotionLimits& limits, Seconds longest = Seconds(0.005))
@@ -16,7 +16,7 @@ class LivePlan {
   }
   Planner& planner() { return planner_; }
 
-  // One move or action. False at the end.
+  // Takes one move or action. Returns false at the end.
   bool go_on() {
     if (!planner_.next(item_)) return false;
     held_ = false;
@@ -25,7 +25,7 @@ class LivePlan {
       time_ += move->duration();
       speed_ = exit_speed(*move);
       place_ = move->segment.curve.at(move->to);
-      // What was planned under an override may be faster than the feed of now.
+      // Motion planned under an override may be faster than the present feed.
       move->segment.speed = move->segment.speed * fastest_;
       motion_.push_back(item_);
     } else if (std::get<Action>(item_).kind == Action::Kind::feed_hold) {
@@ -65,7 +65,7 @@ class LivePlan {
   bool held_ = false;
 };
 
-// From a speed to rest: v/a + a/j.
+// From a speed to rest takes v/a + a/j.
 TEST(JerkLimitedHold, on_a_line_comes_to_rest_as_early_as_the_limits_allow) {
   LivePlan plan({line(xyz(0, 0), xyz(100, 0), 50)}, jerk_limits(100, 500, 25'000));
   ASSERT_TRUE(plan.go_on_until(Seconds(1)));
@@ -81,7 +81,7 @@ TEST(JerkLimitedHold, on_a_line_comes_to_rest_as_early_as_the_limits_allow) {
   plan.expect_good();
 }
 
-// While the acceleration is still at its most: it must go to nothing first, for 20 ms.
+// The acceleration is still at its greatest. It must go to 0 first, which takes 20 ms.
 TEST(JerkLimitedHold, while_speeding_up_turns_the_acceleration_round_without_a_jump) {
   LivePlan plan({line(xyz(0, 0), xyz(100, 0), 80)}, jerk_limits(100, 500, 25'000));
   ASSERT_TRUE(plan.go_on_until(Seconds(0.1)));
@@ -89,7 +89,7 @@ TEST(JerkLimitedHold, while_speeding_up_turns_the_acceleration_round_without_a_j
   const double at = plan.time();
   plan.planner().hold();
   while (!plan.held()) ASSERT_TRUE(plan.go_on());
-  // To no acceleration (a/j), at the speed v + a²/2j; from there as ever.
+  // The acceleration reaches 0 after a/j, at the speed v + a²/2j. From there the hold is as usual.
   EXPECT_NEAR(plan.time() - at, 0.02 + (speed + 5) / 500 + 0.02, 2e-3);
   plan.planner().resume();
   while (plan.go_on()) {
@@ -214,7 +214,7 @@ TEST_P(JerkLimitedMeddling, keeps_every_axis_within_its_limits_on_smooth_chains)
   std::printf("%d holds, %d rests\n", holds_, rests_);
 }
 
-// As a job does it: lines and arcs, rounded within a hundredth of a millimetre.
+// As in a job: lines and arcs, rounded within a hundredth of a millimetre.
 TEST_P(JerkLimitedMeddling, keeps_every_axis_within_its_limits_on_lines_arcs_and_blends) {
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random_.seed()));
   std::vector<PathItem> path;

@@ -1,4 +1,4 @@
-// JerkProfile where its repairs run out: what is given is within the limits all the same.
+// JerkProfile where repairs do not help: the motion given is still within the limits.
 #include "../jerk_profile.hpp"
 
 #include "jerk_kit.hpp"
@@ -55,8 +55,8 @@ TEST(JerkProfile, keeps_every_limit_with_no_repair_at_all_but_takes_longer) {
   EXPECT_GT(slower, 2);
 }
 
-// Cells of any length side by side on a line, as no cutter makes them: some have no phases at all, at whatever speed,
-// until the stretch has another shape.
+// Cells of any length side by side on a line, which no cutter makes. Some have no phases at any speed until the stretch
+// gets another shape.
 TEST(JerkProfile, keeps_every_limit_on_cells_that_hardly_fit_together) {
   Random random;
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));

@@ -50,7 +50,7 @@ TEST(JerkLimitedPlanner, a_line_is_driven_from_rest_to_rest_in_s_curves) {
                 to_text(plan({line(xyz(0, 0), xyz(10, 0), 40)}, jerk_limits(100, 500, 25'000))));
 }
 
-// From rest to a speed v takes v/a + a/j, and as much back: that is the least time.
+// From rest to a speed v takes v/a + a/j, and braking as much. That is the least time.
 TEST(JerkLimitedPlanner, a_line_takes_hardly_longer_than_the_best_s_curve) {
   const MotionLimits limits = jerk_limits(100, 500, 25'000);
   const double best = 100.0 / 50 + 50.0 / 500 + 500.0 / 25'000;
@@ -59,8 +59,8 @@ TEST(JerkLimitedPlanner, a_line_takes_hardly_longer_than_the_best_s_curve) {
   EXPECT_LE(time, best * 1.01);
 }
 
-// So short that it reaches no constant speed, and the shortest no constant acceleration either. With a peak speed v the
-// ramps take v/a + a/j, or twice the root of v/j.
+// These lines are so short that they reach no constant speed, and the shortest no constant acceleration either. With a
+// peak speed v the ramps take v/a + a/j, or twice the root of v/j.
 TEST(JerkLimitedPlanner, short_lines_take_hardly_longer_than_the_best_s_curve) {
   const double a = 500;
   const double j = 25'000;
@@ -73,7 +73,7 @@ TEST(JerkLimitedPlanner, short_lines_take_hardly_longer_than_the_best_s_curve) {
   }
 }
 
-// A sluggish machine, and a feed that it has after a few milliseconds.
+// A sluggish machine, and a feed that it reaches after a few milliseconds.
 TEST(JerkLimitedPlanner, a_slow_feed_is_reached_at_once) {
   const double a = 500;
   const double j = a / 0.13;
@@ -86,8 +86,8 @@ TEST(JerkLimitedPlanner, a_slow_feed_is_reached_at_once) {
   }
 }
 
-// A leg from rest to rest takes 303.5 ms. With corners of 0.01 mm it takes 268.7 at the least, by a numerical optimum
-// over all paths within the tolerance; with corners that bend least it takes 299.
+// A leg from rest to rest takes 303.5 ms. With corners of 0.01 mm it takes at least 268.7, by a numerical optimum over
+// all paths within the tolerance. With corners that bend least it takes 299.
 TEST(JerkLimitedPlanner, right_angles_are_passed_much_faster_than_stops) {
   std::vector<PathItem> legs;
   constexpr int count = 40;

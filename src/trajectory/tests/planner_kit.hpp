@@ -1,4 +1,4 @@
-// What the planner's tests share: plans, and velocities and accelerations by hand.
+// Shared by the planner's tests: plans, and velocities and accelerations computed by hand.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ inline std::vector<MotionItem> plan(const std::vector<PathItem>& path, const Mot
   return drain(planner);
 }
 
-// As a job does it: rounded corners.
+// Smooths corners as a job does.
 inline std::vector<PathItem> smoothed(const std::vector<PathItem>& path,
                                       Smoothness smoothness = Smoothness::least_bending) {
   ListSource<PathItem> source(path);
@@ -81,7 +81,7 @@ inline std::string to_text(const std::vector<MotionItem>& motion) {
   return text;
 }
 
-// Velocity and acceleration of every axis where the path speed is v and its change a: from the polar form, by hand.
+// Velocity and acceleration of every axis at the path speed v with its change a, by hand from the polar form.
 struct Motion {
   PerAxis<Real> velocity;
   PerAxis<Real> acceleration;
@@ -168,7 +168,7 @@ inline void expect_continuous(const std::vector<MotionItem>& motion) {
   ASSERT_EQ(speed, 0) << "the program does not end at rest";
 }
 
-// A cell by itself.
+// A single cell.
 struct LoneCell {
   Cell cell;
   std::array<AxisDemand, most_demands_of_cell> demands;
@@ -176,7 +176,8 @@ struct LoneCell {
   CellPlace place() { return {cell, demands.data(), falling.data()}; }
 };
 
-// The whole program at once: backwards over all cells, then forwards. The squares of the speeds at their ends.
+// Plans the whole program at once: backwards over all cells, then forwards. Returns the squares of the speeds at their
+// ends.
 inline std::vector<double> exits_offline(const std::vector<PathItem>& path, const MotionLimits& limits) {
   struct Whole {
     LoneCell piece;

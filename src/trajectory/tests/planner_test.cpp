@@ -29,7 +29,7 @@ TEST(Planner, a_stadium_is_driven_through_its_tangent_joints) {
   expect_golden("src/trajectory/tests/golden/stadium.txt", to_text(plan(path, equal_limits(100, 500))));
 }
 
-// While no velocity limits it, an arc's time goes with the root of its radius: however small it is, nothing is lost.
+// Where no velocity limits it, an arc's time goes with the root of its radius. So nothing is lost on small arcs.
 TEST(Planner, small_arcs_are_as_near_to_the_fastest_as_large_ones) {
   const auto seconds = [](double radius) {
     Segment circle = line(xyz(0, 0), xyz(1, 0), 1000);
@@ -37,7 +37,7 @@ TEST(Planner, small_arcs_are_as_near_to_the_fastest_as_large_ones) {
     return total_time(plan({circle}, equal_limits(200, 500)));
   };
   const double of_one = seconds(1);
-  constexpr double bound = 0.3194;  // the referee's, of the circle of 1 mm
+  constexpr double bound = 0.3194;  // the referee's bound for the circle of 1 mm
   EXPECT_GT(of_one, bound);
   EXPECT_LT(of_one, bound * 1.005);
   for (const double radius : {1e-3, 1e-2, 0.1, 10.0}) {
@@ -45,7 +45,8 @@ TEST(Planner, small_arcs_are_as_near_to_the_fastest_as_large_ones) {
   }
 }
 
-// In 0.02 micrometres of X the table turns by four degrees: smoothed, a curve whose slope changes by millions.
+// Within 0.02 micrometres of X the table turns by four degrees. Smoothed, this is a curve whose slope changes by
+// millions.
 TEST(Planner, a_turn_of_a_table_within_dust_takes_no_more_cells_than_other_curves) {
   std::vector<PathItem> path = {line(xyz(0, 0), xyz(0.5, 0), 50)};
   Point turned = xyz(0.500'001, 0);
@@ -68,7 +69,7 @@ TEST(Planner, a_rounded_right_angle_is_passed_faster_than_it_could_be_stopped_at
   const auto corner = polyline({xyz(0, 0), xyz(50, 0), xyz(50, 50)}, 50);
   const double rounded = total_time(plan(smoothed(corner), equal_limits(100, 500)));
   const double stopped = total_time(plan(corner, equal_limits(100, 500)));
-  // A parabola with both axes at 500 mm/s² that passes 0.01 mm beside the corner saves 2 sqrt(sqrt(2) 0.01 / 500) s.
+  // A parabola with both axes at 500 mm/s² that passes the corner at 0.01 mm saves 2 sqrt(sqrt(2) 0.01 / 500) s.
   EXPECT_LT(rounded, stopped - 0.006);
   EXPECT_GT(rounded, stopped - 0.0107);
 }
@@ -152,7 +153,7 @@ TEST(Planner, dust_of_a_nanometre_thousandth_is_planned_without_a_jump) {
   for (const MotionItem& item : motion) expect_within_limits(std::get<PlannedMove>(item), equal_limits(200, 700));
 }
 
-// Counts how far the planner looks ahead of what it gave.
+// Counts how far the planner looks ahead of the motion given.
 class Watched final : public Source<PathItem> {
  public:
   Watched(double size, std::size_t count) : size_(size), count_(count) {}
@@ -170,7 +171,7 @@ class Watched final : public Source<PathItem> {
 };
 
 TEST(Planner, looks_ahead_as_far_as_braking_needs_and_no_further) {
-  // From 100 mm/s with 500 mm/s² braking takes 10 mm: 1,000 pieces of 0.01 mm.
+  // Braking from 100 mm/s at 500 mm/s² takes 10 mm: 1,000 pieces of 0.01 mm.
   Watched source(0.01, 50'000);
   Planner planner(source, equal_limits(200, 500));
   std::size_t given = 0;
@@ -178,7 +179,7 @@ TEST(Planner, looks_ahead_as_far_as_braking_needs_and_no_further) {
   for (MotionItem item; planner.next(item);) {
     most = std::max(most, source.pulled - given);
     ++given;
-    // At the start not even that much: what the first pieces can reach, a few dozen behind them can brake from.
+    // At the start even less is needed: a few dozen pieces are enough to brake from what the first ones can reach.
     if (given == 1) {
       EXPECT_LE(source.pulled, 64U);
     }
@@ -203,7 +204,7 @@ TEST(Planner, an_empty_path_is_no_motion) {
   EXPECT_TRUE(plan({}, equal_limits(1, 1)).empty());
 }
 
-// A line is one cell: that it is as slow at its end is not enough.
+// A line is one cell: slowing down only at its end is not enough.
 TEST(Planner, a_lowered_override_slows_a_line_at_once) {
   ListSource<PathItem> source({line(xyz(0, 0), xyz(200, 0), 50)});
   Planner planner(source, equal_limits(100, 500));

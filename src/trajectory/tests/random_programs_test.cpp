@@ -114,7 +114,7 @@ TEST_P(RandomPrograms, keep_all_that_in_spite_of_holds_and_overrides) {
     if (auto* move = std::get_if<PlannedMove>(&item)) {
       ASSERT_LE(move->duration().value(), 0.1 * 1.1);  // dust is not cut
 
-      // The feed that counts for the limits below: what it was, until it has slowed down to the new one.
+      // The limits below use the old feed until the motion has slowed down to the new one.
       move->segment.speed = MmPerSecond(std::numeric_limits<double>::infinity());
     }
     motion.push_back(item);

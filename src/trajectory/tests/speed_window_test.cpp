@@ -1,4 +1,4 @@
-// The two linear programs of a cell: what the backward pass lets in, the forward pass brings through.
+// The two linear programs of a cell: an entry that the backward pass allows must have an exit in the forward pass.
 #include "../speed_window.hpp"
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace passo {
 namespace {
 
-// Of its limit, the most that a demand asks for.
+// The largest demand, as a share of its limit.
 double largest_share(std::span<const AxisDemand> demands, double entry, double exit) {
   double most = 0;
   for (const AxisDemand& demand : demands) {
@@ -22,8 +22,9 @@ double largest_share(std::span<const AxisDemand> demands, double entry, double e
   return most;
 }
 
-// From a program: the bend and the slope of an axis cancel, and its demand at the exit depends on the exit by what
-// rounding has left. So x, right to the last place but one, left no y but a wrong one, 2 % too strong for the other.
+// From a real program: bend and slope of an axis cancel, and its demand at the exit depends on the exit only through
+// rounding. So an x that was right to the last digit but one left a single y, which was wrong: 2 % too strong for the
+// other axis.
 TEST(SpeedWindow, a_demand_that_hardly_depends_on_the_exit_leaves_one) {
   const std::array<AxisDemand, 2> demands{{{.entry_x = 383.58162811294687,
                                             .entry_y = -384.69328519805271,
@@ -42,7 +43,7 @@ TEST(SpeedWindow, a_demand_that_hardly_depends_on_the_exit_leaves_one) {
   EXPECT_LE(largest_share(demands, entry, exit), 1 + 1e-8);
 }
 
-// Cells of any curve, with every place on it among them where bend and slope cancel.
+// Cells of any curve, including every place on it where bend and slope cancel.
 TEST(SpeedWindow, what_is_let_in_comes_through) {
   test::Random random;
   for (int run = 0; run < 20'000; ++run) {

@@ -15,7 +15,7 @@ TEST(ConstantJerk, the_time_at_a_way_is_where_the_polynomial_has_it) {
   for (int run = 0; run < 100'000; ++run) {
     const double duration = between(0.01, 10);
     const double jerk = run % 3 == 0 ? 0 : between(-100, 100);
-    // The speed is a parabola in time; where its ends and its lowest point are above 0, the way grows.
+    // The speed is a parabola in time. The way grows if the parabola's ends and its lowest point are above 0.
     const double acceleration = between(-100, 100);
     const ConstantJerk rising{0, acceleration, jerk};
     double lowest = std::min(0.0, rising.speed_after(duration));

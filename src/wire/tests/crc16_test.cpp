@@ -11,7 +11,7 @@ std::uint16_t crc_of(std::string_view text) {
   return crc;
 }
 
-// The division as the polynomial has it, a bit at a time.
+// The division by the polynomial, bit by bit.
 std::uint16_t long_division(std::uint16_t crc, std::uint8_t byte) {
   unsigned remainder = crc;
   for (unsigned bit = 0; bit < 8; ++bit) {

@@ -17,7 +17,7 @@ Decoder decoder_for_five() {
   return decoder;
 }
 
-// What a decoder makes of some bytes.
+// What a decoder reports for some bytes.
 struct Heard {
   std::vector<WireFrame> frames;
   std::vector<std::size_t> at;  // index of each frame's last byte
@@ -42,7 +42,7 @@ bool same(const WireFrame& a, const WireFrame& b) {
   const std::uint8_t size = payload_size(static_cast<std::uint8_t>(a.type), motors);
   return a.type == b.type && a.sequence == b.sequence && std::equal(a.payload, a.payload + size, b.payload);
 }
-// The message of a frame, taken out of its bytes by the words of docs/wire.md.
+// The message of a frame, taken out of its bytes as docs/wire.md describes.
 WireFrame message_in(const Bytes& bytes) {
   Bytes plain = bytes;
   for (std::size_t at = 1; bytes[at] != 0;) {
@@ -61,7 +61,7 @@ class RandomFrames : public testing::Test {
   RandomFrames()
       : seed_(test::seed()), random_(seed_), trace_(__FILE__, __LINE__, "PASSO_SEED=" + std::to_string(seed_)) {}
 
-  // Is a frame heard from these bytes, and with its very last byte?
+  // Whether a frame is reported from these bytes, and with its very last byte.
   static bool ends_with(const Heard& heard, const Bytes& bytes, const WireFrame& message) {
     return !heard.frames.empty() && same(heard.frames.back(), message) && heard.at.back() == bytes.size() - 1;
   }
@@ -117,7 +117,7 @@ TEST_F(RandomFrames, are_accepted_after_a_frame_that_was_cut_short_at_any_byte) 
       ASSERT_TRUE(feed(decoder, {cut.begin(), cut.begin() + static_cast<std::ptrdiff_t>(left)}).frames.empty());
       const Heard heard = feed(decoder, next);
       ASSERT_TRUE(ends_with(heard, next, message_in(next))) << "frame " << i << " cut to " << left;
-      // Where the lost last byte was a sync byte, the next frame's brings it back.
+      // If the lost last byte was a sync byte, the next frame's sync byte replaces it.
       if (heard.frames.size() == 2) {
         ASSERT_EQ(cut.back(), sync_byte);
         ASSERT_EQ(left, cut.size() - 1);
@@ -162,7 +162,7 @@ TEST_F(RandomFrames, are_accepted_after_any_garbage) {
 }
 
 TEST(Decoder, takes_the_sync_byte_in_a_crc_for_what_it_is) {
-  // Looked for among credits: one with a sync byte in the CRC's first byte, one in its second.
+  // Searched among credits: one with a sync byte in the CRC's first byte, one in its second.
   for (const std::size_t place : {8U, 9U}) {
     bool found = false;
     for (unsigned value = 0; value < 0x10000 && !found; ++value) {
@@ -178,8 +178,8 @@ TEST(Decoder, takes_the_sync_byte_in_a_crc_for_what_it_is) {
   }
 }
 
-// After each frame that ends in a sync byte, and every value of a credit has its turn. A frame that has lost its first
-// byte is whole again behind it: the price of "a frame that arrives whole is accepted".
+// Tests every value of a credit after each frame that ends in a sync byte. A frame that has lost its first byte is
+// whole again after such a frame: the price of "a frame that arrives whole is accepted".
 TEST(Decoder, takes_a_sync_byte_at_a_frames_end_for_the_start_of_the_next_too) {
   int found = 0;
   for (unsigned value = 0; value < 0x10000; ++value) {

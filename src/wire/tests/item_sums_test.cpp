@@ -1,4 +1,4 @@
-// The second check: sums of words by formulas of this test's own, and what deceives the CRC.
+// The second check: sums of words by this test's own formulas, and errors that deceive the CRC.
 #include "random_messages.hpp"
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Replace announce(std::uint16_t number, std::uint16_t after, const std::vector<By
   return announcement.replace();
 }
 
-// What a board is left with.
+// The sums that remain on the board.
 ItemSums left(const Replace& replace, std::uint16_t number, const std::vector<WireFrame>& items) {
   ItemSums sums = replace.sums;
   sums.add_announcement(number, replace.after, replace.count);
@@ -90,7 +90,7 @@ TEST(ItemSums, are_the_sum_of_words_and_the_sum_of_sums) {
   EXPECT_EQ(second, 0U);
 }
 
-// A byte doubled or lost in a segment, and a CRC that happens to be right: here, because it is made right.
+// A byte doubled or lost in a segment, with a CRC that happens to be right: the test makes it right.
 TEST(ItemSums, see_what_a_crc_of_16_bits_lets_pass) {
   RandomMessages random(test::seed());
   int seen = 0;

@@ -11,7 +11,7 @@
 namespace passo {
 namespace {
 
-// Over the wire and back: the frame as the other side has it.
+// Carries a frame over the wire: returns the frame as the other side has it.
 WireFrame carried(const std::uint8_t* frame, std::uint8_t size, std::uint8_t motors = 0) {
   Decoder decoder;
   decoder.set_motors(motors);

@@ -22,7 +22,7 @@ class RandomMessages {
   explicit RandomMessages(std::uint64_t seed) : random_(seed) {}
 
   unsigned below(unsigned limit) { return std::uniform_int_distribution<unsigned>(0, limit - 1)(random_); }
-  // Sync bytes, and the distances that stand for them, come far more often than by chance.
+  // Sync bytes, and the distances that replace them, come far more often than by chance.
   std::uint8_t byte() {
     switch (below(4)) {
       case 0: return sync_byte;

@@ -1,4 +1,4 @@
-// The example session of docs/wire.md is the wire's golden trace: these bytes, or the protocol has changed.
+// The example session of docs/wire.md is the wire's golden trace. Other bytes mean that the protocol has changed.
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -32,8 +32,8 @@ std::vector<std::string> example_session() {
   line(encode(About{.firmware = 100, .highest_event_rate = 140'000, .baud = 1'000'000, .name = "uno cnc3"}, 1, frame));
   line(encode(BoardOutputs{.switches = spindle_on | flood_on, .spindle_rpm = 12000}, 1, frame));
   line(encode(Credit{.executed = 1, .taken = 1, .free = 32}, 2, frame));
-  // Behind item 1: 300 events, the first after 160.5 ticks and each next one a 256th of a tick sooner: X down at every
-  // event, Y up at 0x4BA5/65536 of them. Then a tail that brings both to rest.
+  // After item 1 come 300 events: the first after 160.5 ticks, each next one a 256th of a tick sooner. X goes down at
+  // every event, Y goes up at 0x4BA5/65536 of them. Then a tail brings both to rest.
   const BoardSegment segment{
       .events = 300, .directions = 1, .flips = 1, .interval = 0x00A08000, .change = -256, .increments = {0, 0x4BA5}};
   const BoardSegment tail{
@@ -59,7 +59,7 @@ std::vector<std::string> example_session() {
                            .answers = 1,
                            .positions = {-350, 103}};
   line(encode(status, 2, 7, frame));
-  // 41,300 counts, 340 behind the tenth index; at rest.
+  // 41,300 counts, 340 of them after the tenth index; at rest.
   line(encode(Ask{.motors = 2, .question = Question::spindle}, 2, frame));
   const Turned turned{.progress = {.executed = 4, .taken = 4, .free = 32},
                       .answers = 2,

@@ -1,7 +1,8 @@
-// Fingerprint: 64 bits by which the same data is known again. Against mistakes, not against forgers.
+// Fingerprint: 64 bits that tell whether two pieces of data are the same. It guards against mistakes, not against
+// forgers.
 //
-// FNV-1a (Fowler, Noll, Vo) over words of eight bytes instead of single bytes, with a shift so that high bits come down
-// again.
+// FNV-1a (Fowler, Noll, Vo) over words of eight bytes instead of single bytes. A shift after each word carries high
+// bits down again.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ class Fingerprint {
     state_ ^= state_ >> 32U;
   }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  // With its length, so that two pieces are not one.
+  // The length is added too, so that "ab" and "c" differ from "a" and "bc".
   void add(std::string_view bytes) {
     add(std::uint64_t{bytes.size()});
     for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {

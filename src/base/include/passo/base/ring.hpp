@@ -1,6 +1,6 @@
 // Ring<T, Capacity>: a bounded first-in first-out queue without a heap. Portable.
 //
-// Capacity is a power of two, so that an index is a mask; one producer and one consumer.
+// Capacity is a power of two, so that an index is a mask. One producer and one consumer.
 #pragma once
 
 #include <stddef.h>
@@ -17,12 +17,12 @@ class Ring {
   bool empty() const { return head_ == tail_; }
   bool full() const { return size() == Capacity; }
 
-  // The caller has asked full() and empty().
+  // The caller has checked full() before push(), and empty() before front().
   void push(const T& item) { items_[head_++ & (Capacity - 1)] = item; }
   const T& front() const { return items_[tail_ & (Capacity - 1)]; }
-  // Counted from the front; less than size().
+  // `index` counts from the front and is less than size().
   const T& at(size_t index) const { return items_[(tail_ + index) & (Capacity - 1)]; }
-  // Where the next item will be: written in place, then pushed. The caller has asked full().
+  // The place of the next item, to be written there and then pushed. The caller has checked full().
   T& space() { return items_[head_ & (Capacity - 1)]; }
   void push() { ++head_; }
   void pop() { ++tail_; }

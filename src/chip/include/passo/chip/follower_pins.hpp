@@ -1,6 +1,6 @@
-// FollowerPins: which pin of an ATmega board is what for the follower, as data, checked at compile time.
+// FollowerPins: the follower's pins on an ATmega board, as data that is checked at compile time.
 //
-// The clock and direction lines lie together, as on the first board, so that one reading samples them all.
+// The clock and direction lines are on one port, as on the first board, so that one read samples all of them.
 // Portable.
 #pragma once
 
@@ -12,20 +12,20 @@
 namespace passo {
 
 struct FollowerPins {
-  char lines = 0;  // this port has the clocks on bits 0, 1, 2, the directions on 3, 4, 5
+  char lines = 0;  // the port with the clocks on bits 0, 1, 2 and the directions on 3, 4, 5
   Pin relay_line = {};
   Pin windings[follower_axes][4] = {};  // F1 to F4 of X, Y, Z
   Pin relay = {};
   Pin relay_indicator = {};
   Pin automatic_indicator = {};
   Pin manual_indicator = {};
-  Pin rows[keypad_rows] = {};  // all there, on one port with the columns, or none
+  Pin rows[keypad_rows] = {};  // all of them, on one port with the columns, or none
   Pin columns[keypad_columns] = {};
   Pin tool_button = {};
 
   constexpr bool has_keypad() const { return rows[0].exists(); }
 
-  // Calls visit(pin) for every pin but those of the lines.
+  // Calls visit(pin) for every pin except the lines.
   template <class Visit>
   constexpr void each(Visit visit) const {
     each_output(visit);
@@ -76,7 +76,7 @@ struct FollowerPins {
     return same;
   }
 
-  // What the motor's pins on `port` are for a pattern of its windings.
+  // The bits of the motor's pins on `port` for a pattern of its windings.
   constexpr uint8_t winding_bits(uint8_t axis, char port, uint8_t pattern) const {
     uint8_t bits = 0;
     for (uint8_t f = 0; f < 4; ++f) {
@@ -87,8 +87,8 @@ struct FollowerPins {
   }
 };
 
-// Arduino Uno (ATmega328P): twenty pins, all of them taken, so there is no keypad. D0 and D1 drive windings, since the
-// boot loader sets only D1 and blinks D13: that moves no tool, as the relay would.
+// Arduino Uno (ATmega328P): all of its twenty pins are taken, so there is no keypad. D0, D1 and D13 drive windings,
+// because the boot loader sets D1 and blinks D13. That moves no tool; a relay would.
 inline constexpr FollowerPins uno_follower = {
     .lines = 'C',                                            // A0 to A5
     .relay_line = {'B', 4},                                  // D12

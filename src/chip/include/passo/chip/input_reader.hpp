@@ -1,7 +1,7 @@
-// InputReader: what the board's switches say, out of what its pins say.
+// InputReader: finds the state of the board's switches from the state of its pins.
 //
-// What a person presses is debounced: it counts when it has been the same for three looks, some milliseconds apart.
-// What a machine touches is not: a limit switch or a probe means what it says at once. Portable.
+// Buttons that a person presses are debounced: a state counts after it has been the same for three looks, some
+// milliseconds apart. A limit switch or a probe counts at once. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -15,8 +15,8 @@ class InputReader {
   static constexpr uint16_t pressed_by_people = input_door | input_hold | input_start;
   static constexpr uint8_t steady_looks = 3;
 
-  // `raw`: bits of BoardInput, set where the switch is on. `tick`: some milliseconds have passed since the last one.
-  // Returns the inputs that have gone on.
+  // `raw` has bits of BoardInput, set where the switch is on. `tick` means that some milliseconds have passed since the
+  // last tick. Returns the inputs that have gone on.
   uint16_t look(uint16_t raw, bool tick) {
     const uint16_t before = inputs_;
     const uint16_t buttons = raw & pressed_by_people;

@@ -5,7 +5,7 @@
 
 namespace passo {
 
-// X, Y, Z, E0, E1 have their drivers on RAMPS; the sixth motor's is wired to AUX-2. The flags are two bits of port F
+// X, Y, Z, E0 and E1 have their drivers on RAMPS; the sixth motor is wired to AUX-2. The flags are two bits of port F
 // that move no motor; the interrupt never writes them to a pin.
 inline constexpr PinMap<6> mega_ramps = {
     .motor = {{.step = {'F', 0}, .direction = {'F', 1}, .enable = {'D', 7}},   // A0, A1, D38

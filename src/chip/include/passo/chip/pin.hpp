@@ -1,4 +1,4 @@
-// Pin: a pin of the chip, as data, and where its port's registers are. Portable.
+// Pin: a pin of the chip, as data, and the address of its port's registers. Portable.
 #pragma once
 
 #include <stdint.h>

@@ -1,12 +1,12 @@
-// PinMap: which pin of the chip is what, as data, checked at compile time.
+// PinMap: what each pin of the chip is for, as data that is checked at compile time.
 //
-// A port's toggle register (PINx) is the one that the step timer's interrupt writes: a one there turns the pin over and
-// leaves its neighbours alone, so a step is two writes of the same byte. Hence what the checks ask for: step and
-// direction pins lie on the step ports, and each step port's flag bits, by which the interrupt finds what is not a
-// plain event, belong to no motor.
+// The step timer's interrupt writes a port's toggle register (PINx). A one there toggles the pin and leaves its
+// neighbours alone, so a step is two writes of the same byte. The checks follow from that: step and direction pins lie
+// on the step ports. The flag bits of each step port, by which the interrupt recognises other than plain events, belong
+// to no motor.
 //
-// Or the board switches the motors' windings itself: then each motor has four pins for them, anywhere on the step
-// ports, each step turns over those that change, and the flags have a byte of their own. Portable.
+// Alternatively the board switches the motors' windings itself. Each motor then has four pins for them, anywhere on the
+// step ports; each step toggles those that change, and the flags have a byte of their own. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -23,11 +23,11 @@ inline constexpr uint8_t winding_count = 4;
 struct MotorPins {
   Pin step = {};
   Pin direction = {};
-  Pin enable = {};                   // low: the driver is on. Several motors may share one
-  Pin windings[winding_count] = {};  // in the place of the three: F1 to F4 of WindingTable
-  Drive drive = Drive::two_on;       // how they are switched
+  Pin enable = {};                   // low: the driver is on. Several motors may share one pin
+  Pin windings[winding_count] = {};  // instead of the three above: F1 to F4 of WindingTable
+  Drive drive = Drive::two_on;       // how the windings are switched
 
-  // Its windings on `port` that have current in a pattern.
+  // The motor's pins on `port` that carry current in a pattern.
   constexpr uint8_t winding_bits(char port, uint8_t pattern = 0x0f) const {
     uint8_t bits = 0;
     for (uint8_t f = 0; f < winding_count; ++f) {
@@ -37,7 +37,7 @@ struct MotorPins {
   }
 };
 
-// For moving the machine by hand (ManualMode): all of it, or none. Any pins.
+// For moving the machine by hand (ManualMode). Either all of these exist, or none. Any pins will do.
 struct KeypadPins {
   Pin rows[keypad_rows] = {};  // 123, 456, 789, *0#
   Pin columns[keypad_columns] = {};
@@ -66,7 +66,8 @@ struct KeypadPins {
   }
 };
 
-// An encoder at the spindle: its pulses on the pin that clocks a timer, its index on one that captures. Both, or none.
+// An encoder at the spindle: its pulses on the pin that clocks a timer, its index on one that captures. Both exist, or
+// none.
 struct EncoderPins {
   Pin pulses = {};
   Pin index = {};
@@ -82,13 +83,13 @@ template <uint8_t motor_count>
 struct PinMap {
   static constexpr uint8_t motors = motor_count;
   MotorPins motor[motor_count] = {};
-  // The ports with step or direction pins, the first one with the flags of the interrupt; or those with windings.
+  // The ports with step or direction pins, the first one with the interrupt's flags; or the ports with windings.
   char step_ports[most_step_ports] = {};
   uint8_t shortest_pulse = 16;  // cycles: 1 microsecond for an A4988, 31 for a DRV8825
   uint8_t flag_special = 0;     // masks in the first step port
   uint8_t flag_stop = 0;
 
-  Pin limits[most_axis_switches] = {};  // of motors 0, 1, 2, then their second ones: at the other end of the travel
+  Pin limits[most_axis_switches] = {};  // of motors 0, 1, 2, then their second ones, at the other end of the travel
   Pin probe = {};
   Pin emergency_stop = {};
   Pin door = {};
@@ -106,7 +107,7 @@ struct PinMap {
 
   constexpr bool drives_windings() const { return motor[0].windings[0].exists(); }
 
-  // The motors' pins of one kind on one of the step ports, for the motors in `which`.
+  // The motors' pins of one kind on one step port, for the motors in `which`.
   constexpr uint8_t steps_on(char port, uint8_t which = 0xff) const {
     uint8_t mask = 0;
     for (uint8_t m = 0; m < motor_count; ++m) {
@@ -123,7 +124,7 @@ struct PinMap {
     return mask;
   }
 
-  // Pins of one kind on a port. All inputs are pulled up: a switch connects to ground.
+  // Pins of one kind on a port. All inputs have pull-ups: a switch connects to ground.
   constexpr uint8_t enables_on(char port) const {
     uint8_t mask = 0;
     for (const MotorPins& one : motor)
@@ -135,7 +136,7 @@ struct PinMap {
     for (const Pin one : limits) mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0));
     return mask;
   }
-  // These stop the machine at once.
+  // Inputs that stop the machine at once.
   constexpr uint8_t stops_on(char port) const {
     return static_cast<uint8_t>(limits_on(port) | (emergency_stop.port == port ? emergency_stop.mask() : 0));
   }
@@ -146,7 +147,7 @@ struct PinMap {
     keypad.each_input([&](Pin one) { mask = static_cast<uint8_t>(mask | (one.port == port ? one.mask() : 0)); });
     return mask;
   }
-  // These are switched in step with the motion.
+  // Outputs that are switched in step with the motion.
   constexpr uint8_t switched_on(char port) const {
     const Pin all[] = {spindle_pwm, spindle_direction, spindle_relay, mist, flood};
     uint8_t mask = 0;
@@ -166,7 +167,7 @@ struct PinMap {
     return mask;
   }
 
-  // No pin has two jobs; but for the enable pins, which motors may share with each other only.
+  // Whether no pin has two jobs. Only motors may share an enable pin with each other.
   constexpr bool without_conflict() const {
     constexpr uint8_t most = (2 + winding_count) * motor_count + most_axis_switches + 10 + 10 + 2;
     Pin pins[most] = {};
@@ -206,10 +207,10 @@ struct PinMap {
     }
     return false;
   }
-  // Nothing of the keypad is missing, and the chip's timer can count its speeds.
+  // Whether no part of the keypad is missing, and the chip's timer can count its speeds.
   constexpr bool has_whole_keypad(uint32_t clock) const { return keypad.is_whole() && can_ramp(keypad.speeds, clock); }
   constexpr bool fits_the_interrupt() const {
-    // It writes their ports as a whole.
+    // The interrupt writes the step ports as a whole.
     for (const char port : step_ports) {
       if (port != 0 && switched_on(port) != 0) return false;
     }
@@ -236,14 +237,14 @@ struct PinMap {
   }
 };
 
-// The same board with its motors driven otherwise, each in its own way.
+// The same board with its motors driven in other ways, each in its own.
 template <uint8_t motor_count>
 constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const Drive (&drives)[motor_count]) {
   for (uint8_t m = 0; m < motor_count; ++m) pins.motor[m].drive = drives[m];
   return pins;
 }
 
-// The pins of each set of motors on one port, so that nobody has to put them together while the machine runs.
+// The pins of each set of motors on one port, computed in advance: no work while the machine runs.
 template <uint8_t motor_count>
 struct MotorPinSets {
   uint8_t steps[1 << motor_count] = {};

@@ -5,8 +5,8 @@
 
 namespace passo {
 
-// Steps on D2 to D4, directions on D5 to D7: all on port D, whose two lowest bits are the serial line. While the line
-// is on, what is written there reaches no pin; so these are the flags.
+// Steps are on D2 to D4, directions on D5 to D7: all on port D, whose two lowest bits are the serial line. While the
+// line is on, what is written to these bits reaches no pin, so they are the flags.
 inline constexpr PinMap<3> uno_cnc_shield = {
     .motor = {{.step = {'D', 2}, .direction = {'D', 5}, .enable = {'B', 0}},
               {.step = {'D', 3}, .direction = {'D', 6}, .enable = {'B', 0}},
@@ -14,7 +14,7 @@ inline constexpr PinMap<3> uno_cnc_shield = {
     .step_ports = {'D'},
     .flag_special = 2,
     .flag_stop = 1,
-    // The shield of today has the Z limit on D12, where D11 is the spindle's speed.
+    // Recent shields have the Z limit on D12, and the spindle's speed on D11.
     .limits = {{'B', 1}, {'B', 2}, {'B', 4}},
     .probe = {'C', 5},
     .emergency_stop = {'C', 0},

@@ -1,7 +1,7 @@
-// Diagnostic: the user's file is wrong, here, for this reason, and this was expected.
+// Diagnostic: what is wrong in the user's file, where, why, and what was expected.
 //
 // Diagnostics are collected, not thrown: one run over a file shows them all, up to a limit. Each has a stable code
-// ("gcode.unknown-word") that scripts and search engines may rely on.
+// ("gcode.unknown-word"). Scripts and search engines may rely on the code.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace passo {
 
-// Where in a file: line and column count from 1, columns and length in bytes. Line 0: the file as a whole.
+// A place in a file. Line and column count from 1; columns and length are in bytes. Line 0 means the file as a whole.
 struct SourcePlace {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
@@ -23,10 +23,10 @@ struct SourcePlace {
 
 enum class Severity : std::uint8_t { warning, error };
 
-// A sub that was running, and where it was called.
+// A sub that was running, and the place that called it.
 struct CallPlace {
   std::string sub;   // "o100", "o<name>", "O1000"
-  std::string file;  // of the call, as its line
+  std::string file;  // the file that holds the call
   std::uint32_t line = 0;
   friend bool operator==(const CallPlace&, const CallPlace&) = default;
 };
@@ -37,30 +37,30 @@ struct Diagnostic {
   std::string file;  // as the user named it
   SourcePlace place;
   std::string message;    // one sentence without a full stop: what is wrong, with the value found
-  std::string expected;   // what would have been right, or how to mend it; may be empty
+  std::string expected;   // what would have been right, or how to correct it; may be empty
   std::string text;       // the source line, for the caret; may be empty
-  std::string rule = {};  // where it is written that this is wrong, or another program's number for it; may be empty
-  std::vector<CallPlace> calls = {};  // the subs that ran there, the innermost first
+  std::string rule = {};  // the document that makes this wrong, or another program's number for it; may be empty
+  std::vector<CallPlace> calls = {};  // the subs that were running, the innermost first
 };
 
-// Collects diagnostics up to a limit of errors; the rest is counted, not kept. The same finding at the same place (a
-// line in a loop) is kept and counted once.
+// Collects diagnostics up to a limit of errors. Errors above the limit are counted, not kept. The same finding at the
+// same place (a line in a loop) is kept and counted once.
 class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit = 20) : limit_(limit) {}
 
   void add(Diagnostic diagnostic);
-  // From now on errors may come otherwise, for this reason, and are kept as warnings; not those that are certain. An
-  // empty reason: no longer.
+  // From now on an error may be a mere consequence of `reason`, so errors are kept as warnings. Errors given to
+  // add_certain() stay errors. An empty reason ends this.
   void doubt_errors(std::string reason) { doubt_ = std::move(reason); }
   void add_certain(Diagnostic diagnostic);
-  // What to write as the rule of a diagnostic that comes without one; the stage that knows gives it.
+  // Gives the rule of a diagnostic that comes without one. The stage that knows the rules sets it.
   using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
   const std::vector<Diagnostic>& all() const { return all_; }
   std::size_t errors() const { return errors_; }
   bool any_error() const { return errors_ > 0; }
-  // No more errors are kept: a stage may stop looking for more.
+  // True when no more errors are kept; a stage may then stop looking for more.
   bool full() const { return errors_ >= limit_; }
 
  private:
@@ -71,7 +71,7 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
 };
 
-// The form people know from compilers; a long source line is shown as a window around the place:
+// The form that compilers use. A long source line is shown as a window around the place:
 //
 //   part.ngc:3:5: error: no feed rate is set [gcode.missing-feed]
 //       3 | G1 X10
@@ -80,9 +80,9 @@ class Diagnostics {
 //         = rule: RS274/NGC 3.5.2, G1
 //         = in o<slot>, called at part.ngc:9
 //
-// Of a long stack of calls, the innermost and the outermost.
+// Of a long stack of calls, only the innermost and the outermost are shown.
 std::string render(const Diagnostic& diagnostic, bool colour);
-// All of them, each as above, and a closing line that counts ("2 errors").
+// All diagnostics, each as above, and a last line with their number ("2 errors").
 std::string render(const Diagnostics& diagnostics, bool colour);
 
 // The word of `candidates` nearest to `word` (edit distance, at most a third of its length), or an empty view.

@@ -1,17 +1,17 @@
-// Board: the program of the control board, without its hardware. Bytes come in, steps go out.
+// Board: the program of the control board, without its hardware. Bytes come in and steps go out.
 //
-// Takes frames off the wire, keeps what they bring in a PlayList, and plays it in order through a player. Two sides use
-// it: receive(), settle() and report() belong to the main loop, idle(), ticks_to_next_event() and on_event() to the
-// timer. A chip's player runs ahead: it makes the events of several items before their time, and an interrupt of its
-// own plays them; there only the main loop's side is used. A player is what Player is to this file.
+// It takes frames off the wire, keeps their items in a PlayList, and plays them in order through a player. Two sides
+// use it. The main loop calls receive(), settle() and report(). The timer calls idle(), ticks_to_next_event() and
+// on_event(). A chip's player runs ahead instead: it makes the events of several items before their time, and an
+// interrupt of its own plays them; then only the main loop's side is used. Every player has the interface of Player.
 //
-// What Hardware is: board_hardware.hpp.
+// board_hardware.hpp describes Hardware.
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
 // executed in the order of the list. Time passes only between events: outputs are switched at the event before them,
-// and a segment follows another without delay. An empty list is no fault: what was sent ends at rest, and the board is
-// idle there. Positions are counted from when the board was switched on, at the end of each segment: an event has
-// nothing to do for them. Portable: integers, no heap, no virtual call.
+// and one segment follows another without delay. An empty list is no fault: the motion sent ends at rest, and the board
+// is then idle. Positions count from the time when the board was switched on. They are updated at the end of each
+// segment, so that an event does no work for them. Portable: integers, no heap, no virtual call.
 #pragma once
 
 #include <stddef.h>
@@ -27,7 +27,7 @@
 
 namespace passo {
 
-// `most_motors`: what a place for an item has room for.
+// `most_motors` is the number of motors that a place for an item has room for.
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
 class Board {
  public:
@@ -35,7 +35,7 @@ class Board {
     list_.clear(places());
   }
 
-  // The main loop's side. One byte off the wire.
+  // The main loop's side. Takes one byte off the wire.
   void receive(uint8_t byte) {
     switch (decoder_.feed(byte)) {
       case Decoded::pending: break;
@@ -43,7 +43,7 @@ class Board {
       case Decoded::refused: complain(WireError::bad_frame); break;
     }
   }
-  // Items were executed or replaced that the host has not been told of. How many, about.
+  // Whether the host has not been told of some items that were executed or replaced; owed() is about how many.
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
   void report() {
@@ -54,19 +54,20 @@ class Board {
     owed_ = 0;
     send(progress());
   }
-  // The input pins have changed. What is in `captured` is told at once, with where the motors are at this very event.
+  // Call when the input pins have changed. Changes of inputs in `captured` are reported at once, with the motors' place
+  // at this very event.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
     inputs_ = inputs;
     if (motors_ == 0) return;
-    // By itself: it may go off while another goes on.
+    // The watched input is reported separately: it may go off while another goes on.
     if ((captured & watched()) != 0) tell_captured(watched());
     captured &= static_cast<uint16_t>(~watched());
     if (captured != 0) tell_captured(captured);
   }
-  // Bits of BoardInput: the one that is captured, and those that stop the motors when they go on.
+  // Bits of BoardInput: watched() is the one that is captured, stopping() those that stop the motors when they go on.
   uint16_t watched() const { return watch_.input(); }
   uint16_t stopping() const { return watch_.stopping(); }
-  // Stops without braking and drops all it holds. Steps may be lost: nothing is played until a host says hello again.
+  // Stops without braking and drops all items. Steps may be lost, so nothing is played until a host says hello again.
   void stop_at_once(FaultReason reason) {
     const Fault fault{.reason = reason, .event = played(), .executed = executed_};
     if (begun_ != 0) count_steps();
@@ -76,8 +77,8 @@ class Board {
     send(fault);
   }
 
-  // Manual mode: a person moves the machine (ManualMode), and a host may only ask. Behind it the place is another one,
-  // so the session is over. Only at rest.
+  // Manual mode: a person moves the machine (ManualMode), and a host may only ask questions. The place is another
+  // afterwards, so the session ends. Call it only at rest.
   void begin_manual() {
     motors_ = identity_.motors;
     watch(0);
@@ -91,12 +92,12 @@ class Board {
   }
   void end_manual() { manual_ = Manual::over; }
   bool manual() const { return manual_ == Manual::on; }
-  // Nothing is played, and nothing is to be.
+  // Nothing is played, and nothing waits to be played.
   bool rests() const { return idle() && list_.empty() && !list_.gathering(); }
-  // Items of the list.
+  // The number of items in the list.
   uint8_t size() const { return list_.size(); }
   uint16_t inputs() const { return inputs_; }
-  // In manual mode, behind all that the list holds.
+  // Adds a segment in manual mode, after everything in the list.
   using Segment = SegmentFor<most_motors>;
   void jog(const Segment& segment) {
     list_.space().segment = segment;
@@ -110,9 +111,9 @@ class Board {
   using Breath = BreathOf<Hardware>;
   static void breathe() { Breath{}(); }
 
-  // The timer's side. Nothing to play: no event will come.
+  // The timer's side. True if there is nothing to play: no event will come.
   bool idle() const { return player_.done(); }
-  // From the event before to the next. Only when not idle, once for each event.
+  // Ticks from the last event to the next. Only when not idle, once for each event.
   uint32_t ticks_to_next_event() { return player_.wait(); }
   void on_event() {
     const uint8_t stepped = player_.play();
@@ -120,7 +121,7 @@ class Board {
     if (player_.done()) settle();
   }
 
-  // Takes leave of what the player has finished, and gives it what it can take. On a chip the main loop calls it.
+  // Removes items that the player has finished, and gives it those that it can take. On a chip the main loop calls it.
   void settle() {
     do {
       breathe();
@@ -133,15 +134,15 @@ class Board {
       load();
     } while (true);
   }
-  // Items that the player has not begun.
+  // The number of items that the player has not begun.
   uint8_t ahead() const { return static_cast<uint8_t>(list_.size() - begun_); }
   SegmentPlayer& player() { return player_; }
 
  private:
-  // Over: until the next hello a host knows no place.
+  // over: no host knows the machine's place until the next hello.
   enum class Manual : uint8_t { off, on, over };
 
-  // By itself, so that a byte amid a frame has not to save all the registers that a whole one needs.
+  // A function of its own, so that a byte inside a frame need not save all the registers that a whole frame needs.
   [[gnu::noinline]] void take(const WireFrame& frame) {
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
@@ -154,7 +155,7 @@ class Board {
     }
   }
 
-  // It has no number of a frame: what a host has sent stays what is done last.
+  // The item has no frame number: the last item done remains the host's.
   void append_by_hand() {
     breathe();
     list_.space().number = executed_;
@@ -172,13 +173,13 @@ class Board {
       decoder_.set_motors(hello.version == protocol_version ? hello.motors : uint8_t{0});
       return send_hello_reply();
     }
-    // The host may not like the answer; then it will not go on. Until the two agree there are no segments.
+    // A host that dislikes the answer will not go on. Until the two agree there are no segments.
     motors_ = hello.version == protocol_version && hello.motors <= identity_.motors && hello.motors <= most_motors
                   ? hello.motors
                   : uint8_t{0};
     decoder_.set_motors(motors_);
     watch(0);
-    // Both sides count fractions of steps from the same start. Whole ones go on.
+    // Both sides count fractions of steps from the same start. Whole steps count on.
     enable();
     player_.restart(motors_);
     breathe();
@@ -189,7 +190,7 @@ class Board {
     trusted_ = true;
     manual_ = Manual::off;
     send_hello_reply();
-    // Not while it is still pressed.
+    // Not while the button is still pressed.
     if (is_pressed()) stop_at_once(FaultReason::emergency_stop);
   }
   bool is_pressed() const { return (inputs_ & input_emergency_stop) != 0; }
@@ -210,7 +211,7 @@ class Board {
     if (motors_ != 0 && manual_ == Manual::off) session_ = session.number;
   }
 
-  // Rare and large, so by themselves: on a chip all in one function would need more registers than there are.
+  // Rare and large work, so functions of their own: all in one function would need more registers than a chip has.
   [[gnu::noinline]] void answer(const WireFrame& frame) {
     Ask ask;
     decode(frame, ask);
@@ -225,7 +226,7 @@ class Board {
     const MessageType answer = ask.question == Question::about ? MessageType::about
                                : kept                          ? MessageType::captured
                                                                : MessageType::status;
-    // A question that nobody waits to hear answered, as many of them as there may be, drives out nothing else.
+    // Questions whose answers nobody waits for, however many, must not displace other messages.
     const uint8_t motors = kept ? motors_ : ask.motors;
     if (!has_room(answer, motors)) return;
     if (answer == MessageType::about) return send(identity_.about);
@@ -234,7 +235,7 @@ class Board {
     tell_status(ask.motors, frame.sequence);
   }
 
-  // Another one only at rest: what is on its way was made for the one before.
+  // The watch changes only at rest: motion on its way was made for the old one.
   void begin_watch(uint8_t limit) {
     if (rests() && !manual()) watch(limit);
     if (limit == watch_.limit()) watch_.forget();
@@ -272,7 +273,7 @@ class Board {
     send_for_motors(status, motors);
   }
 
-  // How far the motion is at the tick of the count: hardly anything comes between the two.
+  // The motion's place at the tick of the count: hardly any time passes between the two.
   [[gnu::noinline]] void tell_spindle(uint8_t question) {
     if constexpr (requires { hardware_.spindle(); }) {
       if (!has_room(MessageType::turned)) return;
@@ -305,7 +306,8 @@ class Board {
   void take_in_order(const WireFrame& frame) {
     if (manual_ != Manual::off) return complain(WireError::manual);
     const uint8_t missing = static_cast<uint8_t>(frame.sequence - expected_);
-    // More than half round is behind: a repeated frame, from a host that has not heard of the first one.
+    // A number more than half round ahead is an old one: a repeated frame, from a host that missed the answer to the
+    // first.
     if (missing > 127) return report();
     if (missing != 0) return complain(WireError::out_of_sequence);
     complained_ = false;  // the host has heard of a gap, if there was one
@@ -326,8 +328,8 @@ class Board {
   }
 
   void enqueue(const WireFrame& frame) {
-    // Who has named a session minds what moves: nothing is to move that no sums were made of. It comes behind a replace
-    // that announced less than was sent, and so was damaged: the next one puts that right.
+    // A host that has named a session cares about what moves: no segment may move without sums. Such a segment follows
+    // a replace that announced less than was sent, and so was damaged. The next replace puts that right.
     if (session_ != 0 && frame.type == MessageType::segment && !list_.gathering()) {
       accept();
       ++owed_;
@@ -352,7 +354,7 @@ class Board {
     breathe();
     if (list_.gathering()) return;
     if (list_.gathered()) {
-      ++owed_;  // of the room, either way
+      ++owed_;  // of the free places, in either case
       const WireError wrong = complete();
       if (wrong != no_error) return send(ErrorReport{.reason = wrong, .expected = static_cast<uint8_t>(expected_)});
     }
@@ -366,7 +368,7 @@ class Board {
   }
 
   static constexpr WireError no_error = WireError{};
-  // What has been gathered takes its place, if it is what was sent and comes in time.
+  // Puts the gathered items in place, if they are what was sent and come in time.
   WireError complete() {
     if (!sums_.is_nothing()) {
       list_.drop_replacement();
@@ -379,10 +381,10 @@ class Board {
     complained_ = false;
   }
 
-  // The player gets an item in parts of so many events as it counts, and each is to it a segment.
+  // The player gets an item in parts of at most as many events as it can count. To the player each part is a segment.
   static constexpr uint8_t longest_part = 0xFF;
 
-  // The next part of the item that was begun last, or the first of the one behind it.
+  // Loads the next part of the item begun last, or the first part of the item after it.
   [[gnu::noinline]] void load() {
     const bool begins = to_load_ == 0;
     if (begins) ++begun_;
@@ -402,7 +404,7 @@ class Board {
     player_.load(part_);
   }
 
-  // The oldest item, or a part of it, is done. Outputs are switched here: at the event before them.
+  // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
   [[gnu::noinline]] void retire() {
     const auto& item = list_.front();
     if (item.is_segment()) {
@@ -419,7 +421,7 @@ class Board {
     --begun_;
     ++owed_;
   }
-  // Events of the item at hand.
+  // Events played of the present item.
   uint16_t played() const {
     return begun_ == 0 ? uint16_t{0} : static_cast<uint16_t>(done_of_front_ + player_.played());
   }
@@ -431,7 +433,7 @@ class Board {
   }
   uint8_t places() const { return identity_.places < queue_capacity ? identity_.places : uint8_t{queue_capacity}; }
 
-  // Of the part that has just come to its end, or is broken off.
+  // Counts the steps of the part that has just ended or was broken off.
   void count_steps() {
     for (uint8_t motor = 0; motor < motors_; ++motor) positions_[motor] += player_.steps(motor);
   }
@@ -442,7 +444,7 @@ class Board {
   uint8_t taken() const { return static_cast<uint8_t>(expected_ - 1); }
   Credit progress() const { return {.executed = executed_, .taken = taken(), .free = list_.free()}; }
 
-  // Once for each gap: all that comes after a lost frame is out of sequence, and the host knows it from the first word.
+  // Complains once for each gap. All frames after a lost one are out of sequence, and one message tells the host.
   void complain(WireError reason) {
     if (complained_ || !has_room(MessageType::error)) return;
     complained_ = true;
@@ -454,7 +456,7 @@ class Board {
                            static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(type), motors)));
   }
 
-  // By themselves, both: a frame is a lot for a chip's stack, and there must be no two.
+  // Two functions of their own: a frame is large for a chip's stack, and two must never be there at once.
   template <class Message>
   [[gnu::noinline]] void send(const Message& message) {
     uint8_t frame[largest_frame];
@@ -473,19 +475,19 @@ class Board {
   BoardIdentity identity_;
   Decoder decoder_;
   SegmentPlayer player_{0};
-  PlayList<queue_capacity, most_motors> list_;  // its front is what is being played
-  uint8_t begun_ = 0;                           // items at its front that the player has, the last one maybe in part
-  uint16_t to_load_ = 0;                        // events of that one that the player is still to get
-  uint16_t done_of_front_ = 0;                  // events of the front, in parts that are done
-  Segment part_;                                // of it, the one that is being loaded: large for a chip's stack
-  uint8_t motors_ = 0;                          // agreed upon with the host
+  PlayList<queue_capacity, most_motors> list_;  // its front is being played
+  uint8_t begun_ = 0;           // items at the front that the player has; the last one may be there in part
+  uint16_t to_load_ = 0;        // events of that last item that the player has not got yet
+  uint16_t done_of_front_ = 0;  // events of the front item in parts that are done
+  Segment part_;                // the part that is being loaded; too large for a chip's stack
+  uint8_t motors_ = 0;          // as agreed with the host
   uint16_t session_ = 0;
-  uint16_t expected_ = 0;  // number of the next frame; on the wire its low byte
-  uint16_t executed_ = 0;  // of the last item that is done
+  uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
+  uint16_t executed_ = 0;  // number of the last item done
   uint8_t sent_ = 0;       // the board's own sequence number
   uint8_t owed_ = 0;       // items executed and other news since the last report
   bool complained_ = false;
-  ItemSums sums_;  // of the replacement that is gathered, so far
+  ItemSums sums_;  // of the replacement being gathered, so far
   bool trusted_ = true;
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;

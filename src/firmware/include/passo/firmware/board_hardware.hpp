@@ -1,13 +1,12 @@
-// What a Board needs of the hardware that it runs on, and what it does where some of it is left out. A type with
-//   void step(uint8_t stepped, uint8_t directions);   the motors in `stepped` make a step; those in `directions`, down
+// What a Board needs of its hardware, and what it does where optional parts are missing. A type with
+//   void step(uint8_t stepped, uint8_t directions);   motors in `stepped` make a step; those in `directions` step down
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
-//   void enable();                                    may be left out: the motors are to move, though a stop let go of
-//                                                     them
-//   void watch();                                     may be left out: what is watched is another (Board::watched())
-//   static void breathe();                            may be left out: called between two pieces of work
-//   uint8_t room();                                   may be left out: how many bytes may be sent now
-//   bool has_encoder(); SpindleCount spindle();       may be left out, both: of an encoder at the spindle
+//   void enable();                                    optional: lets the motors move again after a stop released them
+//   void watch();                                     optional: another input is watched now (Board::watched())
+//   static void breathe();                            optional: called between two pieces of work
+//   uint8_t room();                                   optional: the number of bytes that may be sent now
+//   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
 //
 // Portable.
 #pragma once
@@ -16,7 +15,7 @@
 
 namespace passo {
 
-// Between two pieces of work: hardware with a small buffer looks at its line.
+// Called between two pieces of work: hardware with a small buffer reads its line then.
 template <class Hardware>
 struct BreathOf {
   [[gnu::always_inline]] void operator()() const {

@@ -1,4 +1,4 @@
-// BoardIdentity: what a board knows of itself, and the arithmetic of its highest rate. Portable.
+// BoardIdentity: a board's own properties, and the arithmetic of its highest rate. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-// change * times <= room, bit by bit: the product has 39 bits.
+// Whether change * times <= room, bit by bit: the product has 39 bits.
 template <class Pause>
 [[gnu::noinline]] bool product_fits(uint32_t change, uint16_t times, uint32_t room) {
   while (true) {
@@ -28,11 +28,12 @@ struct BoardIdentity {
   uint8_t motors = 0;  // the most that it can turn
   uint32_t clock = 0;  // ticks a second
   ResetCause reset = ResetCause::power_on;
-  uint32_t shortest_interval = 0;  // of a segment that it takes; shortest_interval() tells which goes with a rate
+  uint32_t shortest_interval = 0;  // of a segment that it accepts; shortest_interval() computes it from a rate
   About about = {};
-  uint8_t places = 0xFF;  // for items, where it is to have fewer than there is memory for
+  uint8_t places = 0xFF;  // for items, if fewer than there is memory for
 
-  // It has events, for motors that are there, and is slow enough: at its first interval, its last one, and so between.
+  // Whether the segment has events, only for motors that exist, and is slow enough at its first and last interval, and
+  // so at all between.
   template <class Pause, class Segment>
   [[gnu::noinline]] bool can_play(const Segment& segment, uint8_t motors_there) const {
     const uint8_t used = segment.directions | segment.flips;
@@ -42,15 +43,15 @@ struct BoardIdentity {
     if (segment.change == 0) return true;
     const bool faster = segment.change < 0;
     const uint32_t given = static_cast<uint32_t>(segment.change);
-    const uint32_t change = faster ? 0 - given : given;  // a coarse change has no opposite in 32 bits with a sign
+    const uint32_t change = faster ? 0 - given : given;  // a coarse change may have no opposite in signed 32 bits
     const uint32_t room = faster ? interval - shortest_interval : largest_interval - interval;
-    // Most segments are far from it, and so need no product.
+    // Most segments are far from the limit and need no product.
     const uint16_t times = static_cast<uint16_t>(segment.events - 1);
     return (times <= 0xFF && change >> 24 == 0 && change << 8 <= room) || product_fits<Pause>(change, times, room);
   }
 };
 
-// The interval at this many events a second, and a whole tick less: the host fits its segments that closely. 0: any.
+// The interval at this many events a second, less a whole tick: the host fits its segments that closely. 0: no limit.
 constexpr uint32_t shortest_interval(uint32_t clock, uint32_t highest_event_rate) {
   if (highest_event_rate == 0) return 0;
   const uint64_t interval = (uint64_t{clock} << 16) / highest_event_rate;

@@ -1,25 +1,25 @@
-// Follower: the first control board's program, without its hardware. Step and direction come in on lines, windings go
-// out; a keypad moves the machine by hand. docs/follower.md says what it does for the person in front of it.
+// Follower: the first control board's program, without its hardware. Step and direction come in on lines, and windings
+// are switched. A keypad moves the machine by hand. docs/follower.md describes it for the operator.
 //
-// One loop calls turn() as fast as it can. Each turn samples the clock lines once. A line that was low in the sample
-// before and is high in this one is a step, in the direction that was read with the sample before; so a direction must
-// stand before its edge, and what counts for the highest rate is the longest time between two samples. Therefore all
-// that can wait (relay, keys, indicators) is done only in a turn without a step, in pieces: a piece a millisecond.
+// One loop calls turn() as fast as it can. Each turn samples the clock lines once. A line that was low in the last
+// sample and is high in this one makes a step, in the direction read with the last sample. So a direction must stand
+// before its clock edge, and the longest time between two samples decides the highest rate. Therefore all work that can
+// wait (relay, keys, indicators) is done only in turns without a step, in pieces: one piece a millisecond.
 //
 // Hardware is a type with
 //   uint8_t lines();                               bits 0 to 2: clock of X, Y, Z; 3 to 5: direction, 1 is down
 //   bool relay_line();                             the computer wants the tool
-//   void windings(uint8_t axis, uint8_t place);    what the motor's WindingTable has for this place
+//   void windings(uint8_t axis, uint8_t place);    switches what the motor's WindingTable has for this place
 //   void relay(bool on);                           and its indicator
 //   void indicators(bool automatic, bool manual);
-//   static constexpr bool has_keypad;              without one always automatic, and what follows is not asked for
-//   bool millisecond();                            one has passed since it last said so
-//   uint8_t rows();                                of the column that is drawn low: a bit for each with a key down
-//   void draw_column(uint8_t column);              this one low, the others floating
+//   static constexpr bool has_keypad;              false: always automatic, and the rest is not needed
+//   bool millisecond();                            a millisecond has passed since the last true
+//   uint8_t rows();                                of the column driven low: a bit for each row with a key down
+//   void draw_column(uint8_t column);              drives this column low and lets the others float
 //   bool tool_button();
 //
-// Invariant: a motor's windings carry no current before its first step. The relay is never closed by a reset or a
-// change of mode, only by an edge of its line or by the button.
+// Invariant: a motor's windings carry no current before its first step. Only an edge of the relay's line or the button
+// closes the relay, never a reset or a change of mode.
 // Portable.
 #pragma once
 
@@ -32,17 +32,17 @@ namespace passo {
 
 inline constexpr uint8_t follower_axes = 3;
 
-// Times of the keypad, in looks of 5 ms each: three columns, the keys, the rest.
+// Times of the keypad, in looks of 5 ms each. A look has five pieces: three columns, the keys, the rest.
 inline constexpr uint8_t looks_to_settle = 4;   // 20 ms
 inline constexpr uint8_t looks_to_repeat = 80;  // 400 ms from a key's first step to its second
-inline constexpr uint8_t looks_a_step = 2;      // 100 steps a second: motors start at that without a ramp
+inline constexpr uint8_t looks_a_step = 2;      // 100 steps a second: motors start at that rate without a ramp
 
 template <class Hardware>
 class Follower {
  public:
   constexpr explicit Follower(Hardware& hardware) : hardware_(hardware) {}
 
-  // Once, before the first turn: what is high already is no edge.
+  // Call once, before the first turn. A line that is high already is no edge.
   void begin() {
     lines_ = hardware_.lines();
     relay_line_ = hardware_.relay_line();
@@ -87,7 +87,7 @@ class Follower {
     hardware_.relay(on);
   }
 
-  // Every millisecond a fifth of a look at the keypad.
+  // Called every millisecond: does a fifth of a look at the keypad.
   void tick() {
     const uint8_t piece = piece_++;
     if (piece < keypad_columns) {
@@ -128,14 +128,14 @@ class Follower {
     const Jog move = jog_of_key.of[key];
     step(move.steps, move.down);
   }
-  // A mode key also says: I know where the machine stands.
+  // A mode key also confirms that the operator knows where the machine stands.
   void set_manual(bool manual) {
     manual_ = manual;
     trusted_ = true;
     if (!manual_ && !relay_line_) set_relay(false);
   }
 
-  // After a reset nobody knows the position: the indicator blinks, 0.32 s on and 0.32 s off.
+  // After a reset nobody knows the position, so the indicator blinks: 0.32 s on, 0.32 s off.
   void show_mode() {
     const bool lit = trusted_ || (++looks_ & 0x40) == 0;
     hardware_.indicators(lit && !manual_, lit && manual_);
@@ -148,7 +148,7 @@ class Follower {
   bool relay_ = false;
   bool manual_ = false;
   bool trusted_ = false;
-  uint8_t piece_ = 0;  // of a look
+  uint8_t piece_ = 0;  // the next piece of a look
   uint8_t looks_ = 0;
   uint8_t wait_ = 0;  // looks until a held key acts again
   KeypadScan scan_;

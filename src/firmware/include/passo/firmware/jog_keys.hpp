@@ -1,4 +1,4 @@
-// Which motors a key of the keypad moves: the same on a board that follows and on one that plays. Portable.
+// The motors that a key of the keypad moves. Boards that follow and boards that play use the same keys. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// What a key moves: the axes of `steps`, those of `down` downwards.
+// A key moves the axes in `steps`; those in `down` move downwards.
 struct Jog {
   uint8_t steps = 0;
   uint8_t down = 0;

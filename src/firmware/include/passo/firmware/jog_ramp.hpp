@@ -1,13 +1,13 @@
-// JogRamp: how a motor that a person moves by hand gets from its start-stop speed to its highest, in stages that a
-// board plays as segments. It slows down through the same stages, backwards.
+// JogRamp: takes a motor that a person moves by hand from its start-stop speed to its highest speed. The ramp has
+// stages, which a board plays as segments. Slowing down takes the same stages backwards.
 //
 //   speed  ^            ________          Each stage changes the interval by the same amount at every event, so its
-//          |         _/                   acceleration is largest where it is fastest; it is so long that even there
-//          |      _/                      it is not above the limit.
+//          |         _/                   acceleration is largest at its fast end. A stage is so long that even there
+//          |      _/                      the acceleration keeps its limit.
 //          |   __/
 //          +--|--+--+--+---------> time
 //
-// Computed by the compiler. Portable.
+// The compiler computes it. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -17,24 +17,24 @@
 namespace passo {
 
 struct JogSpeeds {
-  uint32_t start_stop = 0;    // steps a second: from rest, and to rest, at once
+  uint32_t start_stop = 0;    // steps a second: the motor starts and stops at this speed without a ramp
   uint32_t highest = 0;       // steps a second
   uint32_t acceleration = 0;  // steps a second, each second
-  uint8_t tap = 1;            // steps of a key that is just touched
+  uint8_t tap = 1;            // steps for a key that is just touched
 };
 
 inline constexpr uint8_t jog_stages = 24;
-// What is played at the highest speed at a time: this part of a second.
+// At the highest speed motion is played in pieces of this part of a second.
 inline constexpr uint8_t jog_pieces_a_second = 100;
 
 struct JogRamp {
   struct Stage {
     uint16_t events = 0;
-    uint32_t interval = 0;  // at its slow end, 16.16 ticks
-    int32_t change = 0;     // an event, getting faster
+    uint32_t interval = 0;  // at the slow end, 16.16 ticks
+    int32_t change = 0;     // at each event, while getting faster
   };
   Stage stages[jog_stages] = {};
-  uint32_t shortest = 0;  // interval
+  uint32_t shortest = 0;  // the shortest interval
   uint16_t piece = 0;     // events
   uint8_t tap = 0;
 
@@ -48,7 +48,7 @@ constexpr JogRamp jog_ramp(const JogSpeeds& speeds, uint32_t clock) {
   for (uint8_t i = 0; i < jog_stages; ++i) {
     const uint64_t slow = speeds.start_stop + rise * i / jog_stages;
     const uint64_t fast = speeds.start_stop + rise * (i + 1U) / jog_stages;
-    // At its fast end: speed^3 times the change of the interval in seconds.
+    // The acceleration at the fast end is speed^3 times the change of the interval in seconds.
     const uint64_t events = 1 + fast * fast * (fast - slow) / (slow * speeds.acceleration);
     const auto from = static_cast<int64_t>(ticks / slow);
     const auto to = static_cast<int64_t>(ticks / fast);
@@ -62,7 +62,7 @@ constexpr JogRamp jog_ramp(const JogSpeeds& speeds, uint32_t clock) {
   return ramp;
 }
 
-// Intervals fit into 32 bits, and changes are ones that a segment takes.
+// Whether the intervals fit into 32 bits and a segment accepts the changes.
 constexpr bool can_ramp(const JogSpeeds& speeds, uint32_t clock) {
   if (speeds.acceleration == 0 || speeds.tap == 0 || speeds.highest <= speeds.start_stop) return false;
   return (uint64_t{clock} << 16) / largest_interval < speeds.start_stop;

@@ -5,9 +5,9 @@
 //   7 8 9
 //   * 0 #
 //
-// A key connects its row to its column. The rows are read with a pull-up; one column at a time is drawn low, and the
-// others float, so that two keys in a row short nothing. A column is drawn long before its rows are read: what a long
-// cable needs to settle.
+// A key connects its row to its column. The rows are read with a pull-up. One column at a time is driven low and the
+// others float, so that two keys in a row short nothing. A column is driven long before its rows are read, because a
+// long cable needs time to settle.
 //
 // Two keys at once are no key: a jog stops when a second finger comes down.
 // Portable.
@@ -25,7 +25,7 @@ inline constexpr Key no_key = keypad_rows * keypad_columns;
 constexpr Key key_at(uint8_t row, uint8_t column) {
   return static_cast<Key>(row * keypad_columns + column);
 }
-// The key with this letter on it; no_key where there is none.
+// The key with this letter. no_key if there is none.
 constexpr Key key_named(char name) {
   constexpr char names[] = "123456789*0#";
   Key key = 0;
@@ -33,7 +33,7 @@ constexpr Key key_named(char name) {
   return key;
 }
 
-// A value that counts only when it has been the same for `looks` looks after the first: contacts bounce.
+// A value that counts only after it has been the same for `looks` looks after the first, because contacts bounce.
 template <uint8_t looks>
 class Settled {
  public:
@@ -48,7 +48,7 @@ class Settled {
     }
   }
   uint8_t value() const { return value_; }
-  // The last look saw it too.
+  // Whether the last look saw the same value.
   bool steady() const { return seen_ == value_; }
 
  private:
@@ -57,10 +57,10 @@ class Settled {
   uint8_t left_ = 0;
 };
 
-// What one look at all columns finds. The caller drives the columns.
+// The result of one look at all columns. The caller drives the columns.
 class KeypadScan {
  public:
-  // `rows`: a bit for each that is connected to this column.
+  // `rows` has a bit for each row that is connected to this column.
   void add(uint8_t column, uint8_t rows) {
     if (rows == 0) return;
     const uint8_t row = only_row(rows);

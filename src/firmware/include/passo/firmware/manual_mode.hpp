@@ -1,17 +1,19 @@
-// ManualMode: a person moves the machine by the keypad of a Board. `#` enters it, `*` leaves it, both only at rest.
+// ManualMode: a person moves the machine by the keypad of a Board. `#` enters the mode, `*` leaves it, both only at
+// rest.
 //
-// A key that is touched makes some steps; held for 0.4 s it goes on, up a ramp to the highest speed, until it is let
-// go; then down the same ramp. What is jogged goes through the board's own list and player, so every step is counted
-// and switches act as ever. A host is told `manual`, and nothing that it sends is played before it has said hello
-// behind `*`.
+// A key that is touched makes some steps. Held for 0.4 s it goes on, up a ramp to the highest speed. When it is
+// released, the motion goes down the same ramp. Jogging goes through the board's own list and player, so every step is
+// counted and switches act as always. A host is told `manual`. Nothing that it sends is played until it has said hello
+// after `*`.
 //
 // Hardware is a type with
-//   static uint8_t rows();                                a bit for each with a key down in the column drawn low
-//   static void draw_column(uint8_t column);              this one low, the others floating
+//   static uint8_t rows();                                a bit for each row with a key down, in the column driven low
+//   static void draw_column(uint8_t column);              drives this column low and lets the others float
 //   static bool tool_button();
 //   static void indicators(bool automatic, bool manual);
 //
-// Invariant: the list holds some pieces ahead while a key is held; without a key the ramp's rest follows them.
+// Invariant: while a key is held, the list holds some pieces ahead. After its release the rest of the ramp follows
+// them.
 // Portable.
 #pragma once
 
@@ -29,13 +31,13 @@ class ManualMode {
  public:
   constexpr ManualMode(Board& board, const JogRamp& ramp) : board_(board), ramp_(ramp) {}
 
-  // Once, before the first tick.
+  // Call once, before the first tick.
   void begin() {
     Hardware::draw_column(0);
     Hardware::indicators(true, false);
   }
 
-  // Every 4 milliseconds, about: a column.
+  // Call about every 4 milliseconds: looks at one column.
   void tick() {
     scan_.add(column_, Hardware::rows());
     board_.breathe();
@@ -44,7 +46,7 @@ class ManualMode {
     if (column_ == 0) look();
   }
 
-  // As often as can be: what is played next.
+  // Call as often as possible: adds what is played next.
   void feed() {
     if (!board_.manual() || (!runs_ && stage_ == 0) || board_.size() >= pieces_ahead) return;
     if (!runs_) return slow_down();
@@ -53,14 +55,14 @@ class ManualMode {
     play(stage.events, stage.interval, stage.change);
   }
 
-  // A switch has stopped the motors at once.
+  // Call when a switch has stopped the motors at once.
   void stopped() {
     stage_ = 0;
     runs_ = waits_ = false;
   }
 
  private:
-  // A look is three ticks, 12 ms.
+  // A look takes three ticks, 12 ms.
   static constexpr uint8_t looks_to_settle = 2;  // 24 ms
   static constexpr uint8_t looks_to_repeat = 33;
   static constexpr uint8_t pieces_ahead = 3;
@@ -106,7 +108,7 @@ class ManualMode {
     play(stage.events, stage.interval + gained, -stage.change);
   }
   [[gnu::noinline]] void play(uint16_t events, uint32_t interval, int32_t change) {
-    // No increment, and flipped: a step at every event, and the fractions of the motors stay what they were.
+    // The increments are 0 and flipped: a step at every event, while the motors' fractions stay as they were.
     typename Board::Segment segment;
     segment.events = events;
     segment.directions = jog_.down;
@@ -133,9 +135,9 @@ class ManualMode {
   Settled<looks_to_settle> key_{no_key};
   Settled<looks_to_settle> button_{0};
   uint8_t column_ = 0;
-  uint8_t left_ = 0;    // looks until a held key goes on
-  uint8_t stage_ = 0;   // of the ramp that come next when getting faster
-  bool waits_ = false;  // a key for the motors to rest
+  uint8_t left_ = 0;    // looks until a held key begins to run
+  uint8_t stage_ = 0;   // stage of the ramp that comes next when getting faster
+  bool waits_ = false;  // a key waits for the motors to rest
   bool runs_ = false;   // a key is held
   bool tool_ = false;
   Jog jog_;

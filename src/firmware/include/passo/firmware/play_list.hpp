@@ -1,15 +1,15 @@
-// PlayList: the items that a board holds, in the order in which it will play them; and beside it those that are to take
-// the place of its tail.
+// PlayList: the items that a board holds, in the order in which it will play them. Beside them it gathers items that
+// will replace its tail.
 //
-// Items lie in slots, and each slot says which is next: an item is written once and never moved. A replacement gathers
-// in slots of its own; when it is complete, one link changes, from the old tail to the new one. What is cut short
-// changes nothing. Chains of slots are given back as a whole.
+// Items lie in slots, and each slot names the next one: an item is written once and never moved. A replacement gathers
+// in slots of its own. When it is complete, one link changes from the old tail to the new one. A replacement that was
+// cut short changes nothing. Chains of slots are freed as a whole.
 //
 //     front -> item -> item k -> tail -> tail          before: the tail brings the motors to rest
 //                        |
 //                        +-> staged -> staged -> …     after the switch; the old tail's slots are free
 //
-// Only the main loop uses it, also where a timer is an interrupt. Portable: no heap; finding item k is a walk over the
+// Only the main loop uses it, also where a timer is an interrupt. Portable: no heap. Finding item k is a walk over the
 // list.
 #pragma once
 
@@ -21,12 +21,12 @@
 
 namespace passo {
 
-// An item in as few bytes as a board with little memory has for it: 15, and two for each of its motors.
+// An item in as few bytes as possible, for boards with little memory: 15, and two for each of its motors.
 template <uint8_t motors>
 struct BoardItemSlot {
   uint16_t number = 0;
   uint8_t next = 0;
-  SegmentFor<motors> segment;  // outputs are one without events
+  SegmentFor<motors> segment;  // a segment without events stands for outputs
 
   bool is_segment() const { return segment.events != 0; }
   void keep(const BoardOutputs& outputs) {
@@ -49,7 +49,7 @@ class PlayList {
 
   PlayList() { clear(); }
 
-  // From now on it has no more than `places`.
+  // Empties the list. From now on it has no more than `places` places.
   template <class Pause = NoPause>
   void clear(uint8_t places = slot_count) {
     unused_ = none;
@@ -67,7 +67,7 @@ class PlayList {
   uint8_t free() const { return free_; }
   bool empty() const { return front_ == none; }
   const Slot& front() const { return slots_[front_]; }
-  // Counted from the front, without what is gathered beside; a walk.
+  // The item at `place`, counted from the front, without gathered ones. A walk.
   const Slot& at(uint8_t place) const {
     uint8_t slot = front_;
     for (; place != 0; --place) slot = slots_[slot].next;
@@ -82,9 +82,9 @@ class PlayList {
     give_back(slot, slot, 1);
   }
 
-  // Where the next item is to be written, all but its `next`. Only while free() > 0.
+  // Where to write the next item, except for its `next`. Only while free() > 0.
   Slot& space() { return slots_[unused_]; }
-  // Takes it: into the replacement if one is being gathered, else behind the last.
+  // Adds that item: to the replacement if one is being gathered, else after the last item.
   void append() {
     const uint8_t slot = unused_;
     unused_ = slots_[slot].next;
@@ -99,12 +99,12 @@ class PlayList {
     }
   }
 
-  // The next `count` items are to replace all behind item `after`. One that was gathered so far is dropped.
+  // The next `count` items are to replace everything after item `after`. Drops a replacement gathered so far.
   void begin_replacement(uint16_t after, uint8_t count) {
     drop_replacement();
     staged_ = {.after = after, .count = count, .missing = count};
   }
-  // What was gathered is dropped, and what was announced no longer waited for.
+  // Drops what was gathered and no longer waits for the rest.
   void drop_replacement() {
     if (staged_.front != none) {
       give_back(staged_.front, staged_.last, static_cast<uint8_t>(staged_.count - staged_.missing));
@@ -112,11 +112,11 @@ class PlayList {
     staged_ = {};
   }
   bool gathering() const { return staged_.missing > 0; }
-  // All items have come: now complete() it.
+  // True when all items have come; then call complete().
   bool gathered() const { return staged_.front != none && staged_.missing == 0; }
-  // The switch. `executed`: the last item that was popped; `begun`: how many at the front are being played or
-  // made ready for the timer, and stay. False where an item behind the one to replace after has begun: all stays as it
-  // was. The longest work of all: Pause{}() is called between its parts.
+  // Puts the replacement in place. `executed` is the last item that was popped. The first `begun` items are being
+  // played or prepared for the timer, and stay. Returns false and changes nothing if an item after the one to replace
+  // after has begun. This is the longest work of all, so Pause{}() is called between its parts.
   template <class Pause = NoPause>
   bool complete(uint16_t executed, uint8_t begun) {
     uint8_t slot = front_;
@@ -159,7 +159,7 @@ class PlayList {
     }
     last = slot;
   }
-  // A chain of `count` slots.
+  // Frees a chain of `count` slots.
   void give_back(uint8_t first, uint8_t last, uint8_t count) {
     slots_[last].next = unused_;
     unused_ = first;
@@ -170,7 +170,7 @@ class PlayList {
   uint8_t last_ = none;
   uint8_t unused_ = none;  // the first free slot
   uint8_t free_ = 0;
-  uint8_t size_ = 0;  // of the list itself
+  uint8_t size_ = 0;  // without the replacement
   Replacement staged_;
 };
 

@@ -1,6 +1,6 @@
-// Player: the heart of the board. Plays board segments event by event; the host replays the very same code.
+// Player: the heart of the board. It plays board segments event by event. The host replays motion with the same code.
 //
-// Invariant: accumulators and the fraction of a tick survive from segment to segment, nothing is rounded at a border.
+// Invariant: accumulators and the fraction of a tick carry on from segment to segment; nothing is rounded at a border.
 // Portable: integers only, no division, no heap. On the host about 3 ns an event.
 #pragma once
 
@@ -12,7 +12,7 @@ class Player {
  public:
   explicit Player(uint8_t motors) : motors_(motors) {}
 
-  // Can take the next item.
+  // Whether it can take the next item.
   bool ready() const { return done(); }
   // Takes the next segment, of 255 events at most. Only when ready().
   template <uint8_t room>
@@ -26,21 +26,21 @@ class Player {
     left_ = static_cast<uint8_t>(segment.events);
     for (uint8_t motor = 0; motor < motors_; ++motor) at_start_[motor] = accumulators_[motor];
   }
-  // Takes an item that is not its own to play: it is finished when all that came before it is. Only when ready().
+  // Takes an item that another part executes. It is finished when all items before it are. Only when ready().
   void pass(const BoardOutputs& /*outputs*/) { ++finished_; }
-  // The oldest item that it has is done: what played() and steps() say is final. Then forget() it.
+  // Whether the oldest item is done: played() and steps() are then final. Call forget() afterwards.
   bool finished() const { return finished_ != 0; }
   void forget() { --finished_; }
-  // As it was made, and whatever it played is broken off.
+  // Resets the player as at its construction, and breaks off what it plays.
   void restart(uint8_t motors) { *this = Player(motors); }
 
   bool done() const { return left_ == 0; }
-  // Since restart() it could not make an event in time and all after it came later. Never, where each is made when it
-  // is due.
+  // Whether since restart() an event could not be made in time, so that all later ones were late. Never here: each
+  // event is made when it is due.
   bool slipped() const { return false; }
   uint8_t directions() const { return segment_.directions; }
 
-  // Whole ticks from the event before to the one that comes next. Only when not done(), once for each event.
+  // Whole ticks from the last event to the next. Only when not done(), once for each event.
   uint32_t wait() {
     const uint32_t fraction = tick_fraction_ + (segment_.interval & 0xffff);
     tick_fraction_ = static_cast<uint16_t>(fraction);
@@ -49,7 +49,7 @@ class Player {
     return ticks;
   }
 
-  // The event itself: bit m of the result says that motor m steps, in the direction of directions().
+  // Plays the event. Bit m of the result says that motor m steps, in the direction of directions().
   uint8_t play() {
     uint8_t carries = 0;
     for (uint8_t motor = 0; motor < motors_; ++motor) {
@@ -62,10 +62,10 @@ class Player {
     return carries ^ segment_.flips;
   }
 
-  // Of the segment at hand: the events played, and the steps that a motor has made in them, down or up.
+  // For the present segment: the events played, and the steps that a motor has made in them, down or up.
   uint8_t played() const { return static_cast<uint8_t>(segment_.events - left_); }
   int16_t steps(uint8_t motor) const {
-    // No count at every event: so many carries so many increments make.
+    // No event counts steps: the number of carries follows from the number of increments.
     const uint8_t bit = static_cast<uint8_t>(1U << motor);
     const uint32_t added = at_start_[motor] + static_cast<uint32_t>(segment_.increments[motor]) * played();
     const int16_t carries = static_cast<int16_t>(added >> 16);
@@ -80,10 +80,10 @@ class Player {
   BoardSegment segment_;
   uint8_t motors_;
   uint8_t left_ = 0;
-  uint8_t finished_ = 0;  // items that are done and not forgotten
-  // Half a step and half a tick: what is truncated below is rounding above.
+  uint8_t finished_ = 0;  // items done and not forgotten yet
+  // Half a step and half a tick: with these, truncation below means rounding outside.
   uint16_t accumulators_[max_motors] = {0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000, 0x8000};
-  uint16_t at_start_[max_motors] = {};  // the accumulators at the start of the segment
+  uint16_t at_start_[max_motors] = {};  // as they were at the start of the segment
   uint16_t tick_fraction_ = 0x8000;
 };
 

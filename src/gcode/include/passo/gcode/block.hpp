@@ -1,9 +1,9 @@
 // Block: one line of G-code, parsed but not yet given a meaning.
 //
-// The parser knows the shape of RS274/NGC (words, expressions, parameters, comments, O-words) and none of its
-// meaning: which letters mean what, modal groups and numbers are the interpreter's. A Block owns no text of its own
-// line (views point into the reader's buffer, until the next line is read) and keeps its vectors' capacity, so that
-// parsing a line allocates nothing once it is warm.
+// The parser knows the shape of RS274/NGC: words, expressions, parameters, comments, O-words. Their meaning (letters,
+// modal groups, numbers) belongs to the interpreter. A Block owns no text of its line: its views point into the
+// reader's buffer and are valid until the next line is read. It keeps its vectors' capacity, so that parsing a line
+// allocates nothing after the first few lines.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace passo {
 
-// A stretch of the line: column counts from 1, in bytes.
+// A part of the line. The column counts from 1, in bytes.
 struct Span {
   std::uint32_t column = 0;
   std::uint32_t length = 0;
@@ -64,12 +64,12 @@ enum class ExpressionOp : std::uint8_t {
 
 struct Instruction {
   ExpressionOp op = ExpressionOp::number;
-  Span span;  // what to point at when it cannot be computed
+  Span span;  // the part of the line to point at if the value cannot be computed
   double number = 0;
   Symbol symbol{};
 };
 
-// A slice of Block::code in postfix order. Most are one `number`.
+// A slice of Block::code in postfix order. Most expressions are one `number`.
 struct Expression {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
@@ -84,7 +84,7 @@ struct Word {
 
 // #12 = …, #<name> = …
 struct Assignment {
-  std::optional<Expression> index;  // #[…]: the number of the parameter; else `symbol` names it
+  std::optional<Expression> index;  // #[…]: the number of the parameter; empty: `symbol` names it
   Symbol symbol{};
   Expression value;
   Span span;
@@ -105,7 +105,7 @@ struct Comment {
     probe_close
   };
   Kind kind = Kind::plain;
-  std::string_view text;  // as written, without the delimiters and without the keyword ("MSG,") where there is one
+  std::string_view text;  // as written, without the delimiters and without a keyword such as "MSG,"
   Span span;
 };
 
@@ -125,17 +125,16 @@ enum class ControlKind : std::uint8_t {
   endrepeat,
   break_,
   continue_,
-  program,  // the label alone ("O2000"): where a program starts that M98 calls, as Fanuc writes it
+  program,  // the label alone ("O2000"): the start of a program that M98 calls, as Fanuc writes it
 };
 
-// O… line: flow of control.
+// An O… line: flow of control.
 struct Control {
   ControlKind kind = ControlKind::sub;
-  // The label: a name or a plain number ("o100" and "o<100>" are the same label), or a computed number.
+  // The label is a name, a plain number ("o100" and "o<100>" are the same label) or a computed number.
   Symbol label{};
   std::optional<Expression> computed_label;
-  std::vector<Expression>
-      arguments;  // call: its arguments; if, elseif, while, repeat: one; return, endsub: at most one
+  std::vector<Expression> arguments;  // call: any number; if, elseif, while, repeat: one; return, endsub: one at most
   Span span;
 };
 
@@ -149,11 +148,11 @@ struct Block {
   std::vector<Assignment> assignments;
   std::vector<Comment> comments;
   std::optional<Control> control;
-  std::vector<Instruction> code;  // what all the expressions above point into
-  std::vector<Expression> spare;  // keeps the capacity of control->arguments while there is no control
+  std::vector<Instruction> code;  // all expressions above are slices of it
+  std::vector<Expression> spare;  // keeps the capacity of control->arguments for later blocks with a control
 
   bool empty() const { return words.empty() && assignments.empty() && comments.empty() && !control && !percent; }
-  // Empty again, capacity kept.
+  // Empties the block and keeps the capacity.
   void clear();
 };
 

@@ -1,4 +1,5 @@
-// BlockParser: one line of text -> Block. About 100 ns for a short line; no allocation once warm.
+// BlockParser: one line of text -> Block. About 100 ns for a short line. It allocates nothing after the first few
+// lines.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ class BlockParser {
   // `file` names the program in diagnostics.
   BlockParser(std::string file, SymbolTable& symbols) : file_(std::move(file)), symbols_(symbols) {}
 
-  // False when the line is wrong: what is wrong is in `diagnostics`, and the block is not to be used.
+  // Returns false when the line is wrong. `diagnostics` then tells what is wrong, and the block must not be used.
   [[nodiscard]] bool parse(std::string_view text, std::uint32_t line, Block& block, Diagnostics& diagnostics) const;
 
  private:
@@ -23,7 +24,7 @@ class BlockParser {
   SymbolTable& symbols_;
 };
 
-// The block as G-code again, in one canonical spelling: parse(print(b)) == b.
+// The block as G-code again, in canonical spelling: parse(print(b)) == b.
 std::string print(const Block& block, const SymbolTable& symbols);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
 // evaluate: the value of an expression, with RS274/NGC's operations as LinuxCNC defines them.
 //
-// The interpreter calls it for every word and assignment that is not a plain number. Never allocates; the stack of
-// operands is bounded. The value is finite, or there is an error that says what to point at.
+// The interpreter calls evaluate for every word and assignment that is not a plain number. It never allocates; the
+// stack of operands is bounded. The value is finite, or there is an error that tells what to point at.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@
 
 namespace passo {
 
-// Where parameters live: the interpreter's side of an expression.
+// The parameters that an expression reads. The interpreter implements this.
 class ParameterValues {
  public:
   virtual ~ParameterValues() = default;
-  // False where there is no such parameter.
+  // Both return false where there is no such parameter.
   virtual bool numbered(std::int64_t number, double& value) const = 0;
   virtual bool named(Symbol name, double& value) const = 0;
 };
@@ -36,11 +36,12 @@ struct EvaluationError {
   double operand = 0;  // the number that was wrong
 };
 
-// Operands on the stack, and brackets, signs and # inside one another. BlockParser refuses what goes deeper.
+// The greatest number of operands on the stack, and of brackets, signs and # inside one another. BlockParser refuses
+// more.
 inline constexpr std::size_t deepest_expression = 64;
-// EQ and NE: two numbers are equal when they differ by less (LinuxCNC's TOLERANCE_EQUAL; 1e-4 in old versions).
+// EQ and NE: two numbers are equal if they differ by less than this (LinuxCNC's TOLERANCE_EQUAL; 1e-4 in old versions).
 inline constexpr double equality_tolerance = 1e-6;
-// A number that must be whole (of a parameter, of an O-word) may differ from it by this much.
+// A number that must be whole (of a parameter or an O-word) may differ from a whole number by this much.
 inline constexpr double whole_number_tolerance = 1e-4;
 
 using Evaluation = Result<double, EvaluationError>;

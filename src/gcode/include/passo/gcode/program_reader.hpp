@@ -1,8 +1,8 @@
 // ProgramReader: the bytes of a G-code file, line by line, in constant memory.
 //
-// Accepts LF, CR LF and CR line ends and a UTF-8 byte order mark. Refuses, with a diagnostic: what cannot be opened
-// or read, an empty file, a directory, binary content (NUL bytes, with line and column), a line over `longest_line`
-// bytes.
+// Accepts LF, CR LF and CR line ends, and a UTF-8 byte order mark. Refuses the following, with a diagnostic: a file
+// that cannot be opened or read, an empty file, a directory, binary content (NUL bytes, with line and column), a line
+// over `longest_line` bytes.
 #pragma once
 
 #include <cstdint>
@@ -17,33 +17,34 @@ namespace passo {
 
 inline constexpr std::size_t longest_line = std::size_t{64} * 1024;
 
-// A place to come back to, for loops and subroutines.
+// A place in the program to which loops and subroutines return.
 struct ReaderPosition {
-  std::uint64_t offset = 0;  // of the line's first byte
-  std::uint32_t line = 1;    // its number
+  std::uint64_t offset = 0;  // the place of the line's first byte
+  std::uint32_t line = 1;    // the line's number
 };
 
 class ProgramReader {
  public:
-  // `path` "-" reads standard input (spooled to an unnamed temporary file, since loops go back).
+  // `path` "-" reads standard input. Its bytes go to an unnamed temporary file, because loops go back.
   static Result<ProgramReader, Diagnostic> open(const std::string& path);
-  // A program that is in memory, for tests and the manual data input. `name` stands for the file in diagnostics.
+  // A program in memory, for tests and for manual data input. `name` stands for the file in diagnostics.
   static ProgramReader from_text(std::string name, std::string text);
 
   ProgramReader(ProgramReader&&) noexcept;
   ProgramReader& operator=(ProgramReader&&) noexcept;
   ~ProgramReader();
 
-  // The next line, without its end; valid until the next call. False at the end of the file and after an error, which
-  // is then in `diagnostics`; a line that is too long or has NUL bytes is reported and skipped.
+  // Reads the next line, without its end; the text is valid until the next call. Returns false at the end of the file
+  // and after an error. The error is then in `diagnostics`. A line that is too long or has NUL bytes is reported and
+  // skipped.
   [[nodiscard]] bool next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics);
 
-  // Another reader of the same program, at its beginning. Standard input too can be read as often as wanted.
+  // Another reader of the same program, at its start. Standard input too can be read as often as wanted.
   ProgramReader again() const;
 
-  // Where the line that comes next begins.
+  // The start of the next line.
   ReaderPosition position() const;
-  // Costs nothing before the next line is read.
+  // Moves to a place. The work is done only when the next line is read.
   void seek(ReaderPosition position);
 
   const std::string& name() const;

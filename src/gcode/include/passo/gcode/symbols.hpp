@@ -1,6 +1,6 @@
-// Symbols: names (of parameters, of O-word labels) as small numbers, so that looking one up is an index.
+// Symbols: names (of parameters, of O-word labels) as small numbers, so that a look-up is an index.
 //
-// Names are compared as RS274/NGC does: lower case, white space taken out. One table serves a whole job.
+// Names are compared as in RS274/NGC: in lower case, without white space. One table serves a whole job.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +24,14 @@ class SymbolTable {
   SymbolTable(const SymbolTable&) = delete;
   SymbolTable& operator=(const SymbolTable&) = delete;
 
-  // `name` in any case and spacing.
+  // `name` may have any case and spacing.
   Symbol intern(std::string_view name);
-  // As it is compared. The view lives as long as the table.
+  // The name in the form that is compared. The view lives as long as the table.
   std::string_view name(Symbol symbol) const { return names_[symbol.id]; }
   std::size_t size() const { return names_.size(); }
 
  private:
-  std::deque<std::string> names_;  // by id; a deque, since ids_ and our callers hold views into it
+  std::deque<std::string> names_;  // by id; a deque, because ids_ and callers hold views into it
   std::unordered_map<std::string_view, std::uint32_t> ids_;
 };
 

@@ -1,6 +1,6 @@
-// Axes, and values for each of them.
+// The axes of a machine, and values for each of them.
 //
-// Nine letters as in RS274/NGC. X Y Z and U V W are lengths in millimetres, A B C angles in degrees.
+// Nine letters as in RS274/NGC: X Y Z and U V W are lengths in millimetres, A B C are angles in degrees.
 #pragma once
 
 #include <array>
@@ -57,8 +57,8 @@ class AxisSet {
   std::uint16_t bits_ = 0;
 };
 
-// A place of the tool: millimetres and degrees an axis. The frame (machine or work) is told by the name of the
-// variable.
+// A place of the tool: a value in millimetres or degrees for each axis. The name of the variable tells the frame
+// (machine or work).
 struct Point : PerAxis<double> {
   friend constexpr Point operator+(Point a, const Point& b) {
     for (std::size_t i = 0; i < axis_count; ++i) a.values[i] += b.values[i];

@@ -1,12 +1,12 @@
-// Bezier: a Bézier curve of degree 2 or 3; and the parabola, which is one of degree 2.
+// Bezier: a Bézier curve of degree 2 or 3. A parabola is one of degree 2.
 //
-//     P(u) = sum of B_i(u) control_i,  u from 0 to 1;  B_i Bernstein's polynomials
+//     P(u) = sum of B_i(u) control_i,  u from 0 to 1;  B_i are Bernstein's polynomials
 //
-// It begins at the first control point and ends at the last, and its ends point towards and from the others. Control
-// points may coincide.
+// The curve begins at the first control point and ends at the last. At each end its direction is that of the line to
+// the neighbouring control point. Control points may coincide.
 //
-// Deviation from a chord: no point of a curve is farther from the chord than the farthest control point of that stretch
-// (the curve lies in their hull), and halving the stretch brings the control points close to the curve.
+// Deviation from a chord: a stretch of the curve lies in the hull of its control points, so no point of it is farther
+// from the chord than the farthest of them. Halving the stretch brings the control points close to the curve.
 #pragma once
 
 #include <array>
@@ -43,11 +43,10 @@ extern template class Bezier<3>;
 
 static_assert(ParametricCurve<QuadraticBezier> && ParametricCurve<CubicBezier>);
 
-// An arc of a parabola, in X Y at the vertex's Z. Every arc of a parabola is a quadratic Bézier and every quadratic
-// Bézier one of a parabola, the middle control point being where the tangents at both ends meet; so this is another way
-// to make one, by what a drawing or an optician tells: vertex and focus. Ends are given by how far they lie to the
-// right of the axis, looking from the vertex to the focus: with d for that and f for the focal length, d² / (4 f) above
-// the vertex.
+// An arc of a parabola in X Y, at the vertex's Z, given by vertex and focus. Every arc of a parabola is a quadratic
+// Bézier curve, whose middle control point is where the tangents at both ends meet; every quadratic Bézier curve is an
+// arc of a parabola. `from` and `to` tell how far the ends lie to the right of the axis, seen from the vertex to the
+// focus. At distance d from the axis and with the focal length f the parabola is d² / (4 f) above the vertex.
 Result<QuadraticBezier, CurveError> parabola(const Vector3& vertex, const Vector3& focus, Mm from, Mm to);
 
 }  // namespace passo

@@ -1,15 +1,16 @@
-// Chords: cuts a curve into straight pieces that stay within a tolerance. The coarse level of interpolation: any fine
-// line interpolator walks along the chords (StepChords).
+// Chords: cuts a curve into straight pieces that stay within a tolerance. This is the coarse level of interpolation.
+// Any fine line interpolator then walks along the chords (StepChords).
 //
-// A pulled stage: one chord a call, constant memory, no heap. Every chord begins where the one before it ended, the
-// last one ends at the curve's end exactly, and none crosses a place where the curve's formula changes. No chord is
-// taken that the curve's own deviation() has not bounded by the tolerance.
+// A pulled stage: one chord a call, constant memory, no heap. Every chord begins where the last one ended, and the last
+// chord ends exactly at the curve's end. No chord crosses a place where the curve's formula changes. The curve's own
+// deviation() bounds every chord by the tolerance.
 //
-// As few as the tolerance allows: on circles and helices the smallest number of equal chords; elsewhere each chord is
-// as long as it may be, to two or three in a hundred, and the last two of a piece share what is left.
+// There are as few chords as the tolerance allows. Circles and helices get the smallest number of equal chords. On
+// other curves each chord is as long as possible, to within two or three per cent, and the last two chords of a piece
+// have equal shares of the parameter.
 //
-// Source: the sagitta as in any handbook of NC (r - sqrt(r² - L²/4)); for control points Farin, Curves and Surfaces for
-// CAGD, ch. 5 and 6.
+// Source: the sagitta as in any handbook of NC (r - sqrt(r² - L²/4)). For control points: Farin, Curves and Surfaces
+// for CAGD, ch. 5 and 6.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,8 @@
 
 namespace passo {
 
-// How far a chord may be from its curve: a nanometre at least (below it the rounding of doubles begins to count).
+// The greatest distance of a chord from its curve. At least a nanometre: below that the rounding of doubles begins to
+// count.
 class ChordTolerance {
  public:
   static constexpr Mm least{1e-6};
@@ -37,13 +39,13 @@ class ChordTolerance {
 };
 
 struct Chord {
-  double from = 0;  // the curve's parameter at both ends
+  double from = 0;  // the curve's parameter at the start and at the end
   double to = 0;
   Vector3 end;   // the curve's place at `to`
-  Mm deviation;  // no more than this between curve and chord
+  Mm deviation;  // an upper bound of the distance between curve and chord
 };
 
-// `curve` must outlive it.
+// `curve` must outlive the Chords.
 template <ParametricCurve C>
 class Chords final : public Source<Chord> {
  public:
@@ -81,7 +83,7 @@ class Chords final : public Source<Chord> {
     chord.deviation = curve_.deviation(chord.from, chord.to);
   }
 
-  // Of equal chords: by doubling, then by halving the interval in which it lies.
+  // The smallest number of equal chords, found by doubling and then by halving the interval that holds it.
   std::int64_t smallest_count() const {
     const double whole = piece_end_ - piece_start_;
     const auto good = [&](std::int64_t count) {
@@ -103,7 +105,8 @@ class Chords final : public Source<Chord> {
     find_longest(rest);
     double to = good_ < rest ? u_ + good_ : piece_end_;
     if (good_ < rest && rest < 2 * good_) {
-      // Only where both halves are good: else there are more to come than two, and halving would waste them.
+      // Halve the rest only where both halves are good. Otherwise more than two chords are left, and halving would
+      // waste some.
       const double half = u_ + rest / 2;
       const Mm there = curve_.deviation(u_, half);
       if (there <= tolerance_ && curve_.deviation(half, piece_end_) <= tolerance_) {
@@ -116,8 +119,8 @@ class Chords final : public Source<Chord> {
     step_ = good_;
   }
 
-  // The deviation goes nearly with the square of the chord, which makes the next guess from the last; a bracket of the
-  // longest that was good and the shortest that was not catches what goes otherwise (an inflection, a cusp).
+  // The deviation grows nearly with the square of the chord, so the next guess follows from the last. A bracket between
+  // the longest good chord and the shortest bad one catches curves that behave otherwise (an inflection, a cusp).
   void find_longest(double rest) {
     good_ = 0;
     double bad = rest * 2;
@@ -137,7 +140,7 @@ class Chords final : public Source<Chord> {
       guess = next_guess(guess, deviation, bad, rest);
     }
     if (good_ > 0) return;
-    // Two neighbours among the doubles; nothing lies between them.
+    // `neighbour` is the next double after u_: no shorter chord exists.
     const double neighbour = std::nextafter(u_, piece_end_);
     deviation_ = curve_.deviation(u_, neighbour);
     good_ = neighbour - u_;
@@ -147,15 +150,15 @@ class Chords final : public Source<Chord> {
     if (!std::isfinite(deviation.value())) return (good_ + bad) / 2;
     const double by_square = deviation > Mm(0) ? guess * std::sqrt(tolerance_ * (1 - nearness) / deviation) : rest;
     if (bad > rest) return std::clamp(by_square, good_, rest);
-    // Where the square law leads out of the bracket it is wrong (the tip of an ellipse): halve the bracket.
+    // The square law is wrong where it leads out of the bracket (the tip of an ellipse). Then halve the bracket.
     const bool inside = by_square > good_ && by_square < bad;
     if (!inside) return (good_ + bad) / 2;
-    return std::max(by_square, good_ > 0 ? good_ : guess / 8);  // nothing good yet: not less than an eighth at once
+    return std::max(by_square, good_ > 0 ? good_ : guess / 8);  // nothing good yet: at least an eighth of the guess
   }
 
   static constexpr double nearness = 0.02;
   static constexpr int enough_tries = 16;
-  // So that a tolerance which is the sagitta of n equal chords, worked out elsewhere, gives n.
+  // A little room for rounding: a tolerance computed elsewhere as the sagitta of n equal chords must give n chords.
   static constexpr double rounding = 1 + 1e-12;
 
   const C& curve_;
@@ -163,10 +166,10 @@ class Chords final : public Source<Chord> {
   double u_;
   double piece_start_ = 0;
   double piece_end_;
-  double step_ = 0;  // the last longest chord: where the next search begins
+  double step_ = 0;  // the last longest chord; the next search begins with it
   double good_ = 0;
   Mm deviation_;
-  std::int64_t count_ = 0;  // of equal chords in this piece, and how many of them are taken
+  std::int64_t count_ = 0;  // the number of equal chords in this piece, and how many of them are taken
   std::int64_t taken_ = 0;
 };
 

@@ -1,13 +1,14 @@
-// Curve: one geometric piece of a path, parametrised by the length s that the feed counts.
+// Curve: one geometric piece of a path. Its parameter is the length s that the feed counts.
 //
-// s runs from 0 to length(). It is millimetres of X Y Z travel where any of those move, else of U V W, else degrees
-// of A B C (RS274/NGC 2.1.2.5, "feed rate"); the other axes move along in proportion.
+// s runs from 0 to length(). s counts millimetres of X Y Z travel where any of those move, else of U V W, else degrees
+// of A B C (RS274/NGC 2.1.2.5, "feed rate"). The other axes move in proportion.
 //
-// A line moves every axis in proportion to s. An arc turns two axes of a plane about a centre and moves all others in
-// proportion (helix); where the radius at its end differs from that at its start (programs round their numbers) the
-// radius grows in proportion too, so that both ends are met exactly. A cubic is a piece of a smoothed path: every axis
-// a polynomial of s, whose parameter is nearly its length: |dP/ds| falls below 1 in corners, and rises to
-// 1.1 at most where it smooths noise.
+// - A line moves every axis in proportion to s.
+// - An arc turns two axes of a plane about a centre and moves all others in proportion (helix). Where the radius at its
+//   end differs from the radius at its start (programs round their numbers), the radius grows in proportion too, so
+//   that the arc meets both ends exactly.
+// - A cubic is a piece of a smoothed path: every axis is a polynomial of s. Its parameter is nearly its length: |dP/ds|
+//   falls below 1 in corners, and rises to 1.1 at most where the cubic smooths noise.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -15,7 +16,7 @@
 
 namespace passo {
 
-struct Box {  // what a curve covers, an axis at a time
+struct Box {  // the range of each axis that a curve covers
   Point low;
   Point high;
 };
@@ -35,14 +36,15 @@ class Curve {
   };
 
   static Curve line(const Point& start, const Point& end);
-  // From `start` to `end` with the given dP/ds there (Hermite); `length` of the parameter, above 0.
+  // A cubic from `start` to `end` with the given dP/ds at its ends (Hermite). `length` is that of the parameter, above
+  // 0.
   static Curve cubic(const Point& start, const Point& start_tangent, const Point& end, const Point& end_tangent,
                      Mm length);
-  // `sweep` in radians, not zero.
+  // `sweep` is in radians and not zero.
   static Curve arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                    double second_center, double sweep);
 
-  // The piece from one s to another, as a curve of its own: the same places, tangents and second derivatives. Its
+  // The piece from one s to another as a curve of its own, with the same places, tangents and second derivatives. Its
   // ends are at(from) and at(to), bit for bit.
   Curve part(Mm from, Mm to) const;
 
@@ -61,18 +63,19 @@ class Curve {
   bool has_length() const { return length_ > 0; }
 
   Point at(Mm s) const;
-  // dP/ds: a unit vector in X Y Z where those move.
+  // dP/ds: a unit vector in X Y Z where those move. (A cubic's is only nearly one.)
   Point tangent(Mm s) const;
   // d²P/ds².
   Point second_derivative(Mm s) const;
   Point third_derivative(Mm s) const;
   // The largest |dP/ds| of each axis anywhere on the curve.
   Point steepest() const;
-  // 1/r of the projection on the arc's plane, per mm of s squared: |d²P/ds²| in the plane, at most; 0 for a
-  // line, and for a cubic the largest |d²P/ds²| over all axes.
+  // An upper bound of |d²P/ds²|. For an arc only the arc's plane counts: 1/r times the square of the share of s that
+  // lies in the plane. For a cubic all axes count. 0 for a line.
   double curvature() const;
-  // By how many radians the direction turns, all turns counted: at most, and of an axis that goes farther than the feed
-  // counts, the change of its slope as a part of the steepest. Of a cubic never more than some dozens.
+  // An upper bound of the angle by which the direction turns, in radians, all turns counted. An axis may go farther
+  // than the feed counts; for such an axis the change of its slope counts, as a share of its steepest slope. A cubic
+  // turns by a few dozen at most.
   double turning() const { return turning(steepest()); }
   double turning(const Point& steepest) const;
   Box extents() const;
@@ -84,10 +87,10 @@ class Curve {
   Shape shape_ = Shape::line;
   Point start_;
   Point end_;
-  Point slope_;  // (end − start) / length; of a cubic dP/ds at its start
+  Point slope_;  // (end − start) / length; in a cubic dP/ds at its start
   double length_ = 0;
   ArcData arc_;
-  Point square_;  // of a cubic: P = start + slope s + square s² + cube s³
+  Point square_;  // a cubic's coefficients: P = start + slope s + square s² + cube s³
   Point cube_;
 };
 

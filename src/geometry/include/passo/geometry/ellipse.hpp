@@ -1,13 +1,13 @@
-// Ellipse: an arc of an ellipse, or all of it once or several times, anywhere in space and in either sense.
+// Ellipse: an arc of an ellipse, or the whole ellipse once or several times, anywhere in space and in either sense.
 //
 //     P = centre + major cos t + minor sin t,       t = start + u sweep,  u from 0 to 1
 //
-// `major` and `minor` are the half axes, at a right angle. t is the eccentric angle: that on the circle of which the
-// ellipse is the shadow, not the angle seen from the centre.
+// `major` and `minor` are the half axes, at a right angle. t is the eccentric angle, not the angle seen from the
+// centre: the ellipse is the shadow of a circle, and t is the angle on that circle.
 //
-// Deviation from the chord over t = m - d … m + d: arc and chord are shadows of a circle's, the chord lies parallel to
-// the tangent at m, and the farthest point is P(m), at |major| |minor| / |dP/dt (m)| times (1 - cos d). Exactly, unless
-// the arc reaches out beyond an end of the chord; then that reach counts too (ellipse.cpp).
+// Deviation from the chord over t = m - d … m + d: arc and chord are shadows of a circle's arc and chord. The chord
+// lies parallel to the tangent at m, and the farthest point is P(m), at |major| |minor| / |dP/dt (m)| times (1 - cos
+// d). This is exact unless the arc reaches out beyond an end of the chord; then that reach counts too (ellipse.cpp).
 #pragma once
 
 #include "passo/geometry/parametric_curve.hpp"
@@ -25,7 +25,8 @@ class Ellipse {
   };
 
   static Result<Ellipse, CurveError> create(const Shape& shape);
-  // In a plane of constant Z, its first half axis turned from X by `rotation`; positive angles are counterclockwise.
+  // An ellipse in a plane of constant Z. Its first half axis is turned from X by `rotation`; positive angles are
+  // counterclockwise.
   static Result<Ellipse, CurveError> flat(const Vector3& centre, Mm first_radius, Mm second_radius, Radians rotation,
                                           Radians start, Radians sweep);
 

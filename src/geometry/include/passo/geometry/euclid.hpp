@@ -1,5 +1,5 @@
-// Length and product over all nine axes, millimetres and degrees alike: bends, and the tube around a path, are measured
-// so. And over the axes that count as the length of a path.
+// Length and product over all nine axes, millimetres and degrees alike; bends and the tube around a path are measured
+// so. Also the length over the axes that count as the length of a path.
 #pragma once
 
 #include <cmath>

@@ -1,12 +1,12 @@
-// Nurbs: a rational B-spline, the curve of drawing programs and of G5.2. Degree 1 to 9.
+// Nurbs: a rational B-spline of degree 1 to 9, the curve of drawing programs and of G5.2.
 //
-//     P(u) = sum of N_i(u) w_i control_i / sum of N_i(u) w_i;  N_i the B-spline basis of the knots (de Boor, Cox)
+//     P(u) = sum of N_i(u) w_i control_i / sum of N_i(u) w_i;  N_i is the B-spline basis of the knots (de Boor, Cox)
 //
-// n control points of degree p need n + p + 1 knots; u runs from knots[p] to knots[n]. Most often the first and the
-// last p + 1 knots are equal ("clamped"): the curve then begins at the first control point and ends at the last.
-// Between two knots it is one rational Bézier curve; these are the pieces that are cut.
+// n control points of degree p need n + p + 1 knots; u runs from knots[p] to knots[n]. Usually the first p + 1 knots
+// are equal, and the last p + 1 too ("clamped"): the curve then begins at the first control point and ends at the last.
+// Between two knots the curve is one rational Bézier curve; these pieces are cut into chords.
 //
-// Points and derivatives cost O(p²) and no memory; bounds on the input keep a double good for the nanometre.
+// Points and derivatives cost O(p²) and no memory. Bounds on the input keep the error of doubles below a nanometre.
 #pragma once
 
 #include <vector>
@@ -21,18 +21,18 @@ struct SplineSpan;
 class Nurbs {
  public:
   static constexpr int most_degree = 9;
-  static constexpr double most_weight_ratio = 1e4;  // of the largest to the smallest
+  static constexpr double most_weight_ratio = 1e4;  // the largest weight over the smallest
 
   struct Definition {
     int degree = 3;
     std::vector<Vector3> control = {};
-    std::vector<double> weights = {};  // one a control point, above 0; none: all 1
-    std::vector<double> knots = {};    // none: clamped, all spans 1 long
+    std::vector<double> weights = {};  // one for each control point, above 0; empty: all are 1
+    std::vector<double> knots = {};    // empty: clamped, all spans 1 long
   };
 
-  // Says what is wrong with a definition.
+  // Fails with a message if the definition is wrong.
   static Result<Nurbs, CurveError> create(Definition definition);
-  // What `create` fills in where there are no knots.
+  // The knots that `create` uses if none are given.
   static std::vector<double> clamped_knots(int degree, std::size_t control_points);
 
   int degree() const { return degree_; }
@@ -47,7 +47,7 @@ class Nurbs {
 
  private:
   Nurbs(const Definition& definition, std::vector<double> knots);
-  // The span that holds u; a knot belongs to the span that it begins.
+  // The span that holds u. A knot belongs to the span that begins there.
   SplineSpan span_of(double u) const;
 
   int degree_;

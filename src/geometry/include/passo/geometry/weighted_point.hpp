@@ -1,5 +1,5 @@
-// WeightedPoint: a control point of a rational curve in homogeneous coordinates: x, y and z in mm times the weight, and
-// the weight. In these a rational curve is as simple as any other; dividing by the weight comes last.
+// WeightedPoint: a control point of a rational curve in homogeneous coordinates: the weight, and x, y and z in mm times
+// the weight. In these coordinates a rational curve is as simple as any other; the division by the weight comes last.
 #pragma once
 
 #include "passo/geometry/vector3.hpp"

@@ -1,8 +1,8 @@
-// ArcTravel: how far an arc in steps has come. What point comparison, DDA and midpoint have in common; they only decide
-// which axis is to step.
+// ArcTravel: how far an arc in steps has come. Point comparison, DDA and midpoint share it; they only decide which axis
+// is to step.
 //
-// Centre at the origin, R² = xs² + ys². An arc is cut where it crosses an axis. In each piece one axis falls towards
-// zero and the other rises, and the next piece changes their parts:
+// The centre is the origin, R² = xs² + ys². An arc is cut where it crosses an axis. In each piece one axis falls
+// towards zero and the other rises; in the next piece they change roles:
 //
 //            y                   counterclockwise:
 //        1   │   0               quadrant 0: x falls, y rises      direction bits  x down
@@ -10,11 +10,11 @@
 //        2   │   3                        2: x falls, y rises                      y down
 //            │                            3: y falls, x rises                      -
 //
-// Clockwise is the same with y mirrored. Pieces end at the axis crossing (0, R rounded) and, the last one, at the end
+// Clockwise is the same with y mirrored. A piece ends at the axis crossing (0, R rounded), the last one at the end
 // point. An axis that has arrived there yields to the other, so every arc ends exactly.
 //
-// Start and end: any points whose distances from the centre differ by less than a step; equal points are a full
-// circle. Coordinates up to 2³¹−1. Deviation F = x² + y² − R²; within 2·2³¹ of zero on the way.
+// Start and end may be any points whose distances from the centre differ by less than a step. Equal points are a full
+// circle. Coordinates up to 2³¹−1. The deviation F = x² + y² − R² stays within 2·2³¹ of zero.
 // Portable: one integer square root and no division, before the first pulse.
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace passo {
 
-struct ArcPoints {  // steps, from the centre
+struct ArcPoints {  // in steps, from the centre
   int32_t start[2] = {0, 0};
   int32_t end[2] = {0, 0};
   bool clockwise = false;
@@ -57,22 +57,22 @@ class ArcTravel {
 
   constexpr bool done() const { return crossings_ == 0 && falling_ == falls_to_ && rising_ == rises_to_; }
 
-  // Distances from the axes, of the tool: of the axis that falls and of the one that rises.
+  // The tool's distances from the axes: of the axis that falls and of the one that rises.
   constexpr Length falling() const { return falling_; }
   constexpr Length rising() const { return rising_; }
   constexpr Square deviation() const { return deviation_; }
-  // The largest of both anywhere on the way.
+  // The largest value of either distance anywhere on the arc.
   constexpr Length reach() const {
     const Length end = end_falling_ > end_rising_ ? end_falling_ : end_rising_;
     return crossing_ > end ? crossing_ : end;
   }
-  // An axis is at the end of the piece and yields to the other.
+  // True when that axis has reached the end of the piece; it then yields to the other.
   constexpr bool fall_is_over() const { return falling_ == falls_to_; }
   constexpr bool rise_is_over() const { return rising_ == rises_to_; }
-  // Which turn of the parts: changes where an arc crosses an axis.
+  // The present quadrant. It changes where the arc crosses an axis.
   constexpr uint8_t quadrant() const { return quadrant_; }
 
-  // One pulse: what is wanted, as far as the piece has room for it. At least one axis steps if any is wanted.
+  // Makes one pulse: the wanted steps, as far as the piece has room for them. At least one axis steps if any is wanted.
   constexpr Pulse step(bool fall, bool rise) {
     if (fall && fall_is_over()) {
       fall = false;
@@ -120,7 +120,7 @@ class ArcTravel {
   constexpr void begin_piece() {
     falls_to_ = crossings_ == 0 ? end_falling_ : Length{0};
     rises_to_ = crossings_ == 0 ? end_rising_ : crossing_;
-    // The axis that rises now falls after the crossing, to the end point: it must have come that far.
+    // The axis that rises now falls after the crossing, down to the end point. So it must first rise that far.
     if (crossings_ == 1 && rises_to_ < end_falling_) rises_to_ = end_falling_;
   }
   constexpr void cross() {
@@ -132,8 +132,8 @@ class ArcTravel {
   }
 
   uint8_t quadrant_ = 0;
-  uint8_t crossings_ = 0;  // still ahead
-  uint8_t mirror_ = 0;     // direction bits that a clockwise arc turns round
+  uint8_t crossings_ = 0;  // crossings still ahead
+  uint8_t mirror_ = 0;     // the direction bits that a clockwise arc inverts
   Length falling_ = 0;
   Length rising_ = 0;
   Length falls_to_ = 0;

@@ -1,7 +1,7 @@
-// Arcs of two axes about the origin, pulse by pulse: three ways to decide, one way to travel (arc_travel.hpp). Any
-// start, both senses, every quadrant, full circles; all of them end exactly on the end point.
+// Arcs of two axes about the origin, pulse by pulse. Three methods decide; all travel in the same way (arc_travel.hpp).
+// Any start, both senses, every quadrant and full circles; every arc ends exactly on its end point.
 //
-//   PointComparisonArc   one axis a pulse; on or outside the circle towards the centre, inside away from it. Error: one
+//   PointComparisonArc   one axis a pulse: on or outside the circle towards the centre, inside away from it. Error: one
 //                        step at most.
 //   MidpointArc          diagonals allowed (Bresenham's circle): one axis always steps, the other where the midpoint
 //                        between its two places lies on the right side. Error: half a step at most.
@@ -45,10 +45,10 @@ class MidpointArc {
     const Square falling = travel_.falling();
     const Square rising = travel_.rising();
     if (falling > rising) {
-      // Steep: F at (falling − ½, rising + 1), less a quarter.
+      // Steep: the test is F at (falling − ½, rising + 1), less a quarter.
       return travel_.step(travel_.deviation() + 2 * rising + 1 - falling >= 0, true);
     }
-    // Flat: F at (falling − 1, rising + ½), less a quarter.
+    // Flat: the test is F at (falling − 1, rising + ½), less a quarter.
     return travel_.step(true, travel_.deviation() - 2 * falling + 1 + rising < 0);
   }
   constexpr int64_t deviation() const { return travel_.deviation(); }
@@ -78,7 +78,7 @@ class DdaArc {
     rising_sum_ = static_cast<Length>(rising_sum_ + falling_register_);
     bool fall = falling_sum_ < rising_register_;  // the carries
     bool rise = rising_sum_ < falling_register_;
-    // Each axis stops at its own end; what is left of the other then follows at once, for its integrand may be 0.
+    // Each axis stops at its own end. The rest of the other axis then follows at once, because its integrand may be 0.
     if (travel_.fall_is_over()) fall = false, rise = true;
     if (travel_.rise_is_over()) rise = false, fall = true;
     const Pulse pulse = travel_.step(fall, rise);
@@ -99,7 +99,7 @@ class DdaArc {
   }
 
   ArcTravel<Length> travel_;
-  Length unit_ = 0;              // one step, in the registers
+  Length unit_ = 0;              // one step, in units of the registers
   Length falling_register_ = 0;  // distances, at the top of the word
   Length rising_register_ = 0;
   Length falling_sum_ = 0;  // the accumulator that makes an axis fall, and the one that makes it rise

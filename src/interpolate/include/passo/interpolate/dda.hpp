@@ -1,13 +1,16 @@
-// Dda: a line by digital integration. Each axis has a register of N bits with its length in it, 2ᴺ > the longest, and
-// an accumulator of N bits; 2ᴺ iterations each add the register to the accumulator, and an overflow is a step.
+// Dda: a line by digital integration. Each axis has a register of N bits with its length in it, where 2ᴺ exceeds the
+// longest length, and an accumulator of N bits. Each of 2ᴺ iterations adds the register to the accumulator; an overflow
+// is a step.
 //
-// Sum over all: 2ᴺ·length, so each axis makes its length in steps and the accumulators end where they started. They
-// start at 0 (steps come late, error just below one step) or half full (the error is centred: half a step).
+// In all 2ᴺ·length is added, so each axis makes its length in steps and the accumulators end where they started. They
+// start at 0 (steps come late, the error is just below one step) or half full (the error is centred: half a step).
 //
-// Shifting all registers left until the top bit of the longest is set saves the idle iterations of a short move in a
-// long register; that is the same as the fewest bits that hold it, and the default here. More bits are for comparison.
+// Shifting all registers left until the top bit of the longest is set would save the idle iterations of a short move in
+// a long register. Using the fewest bits that hold the longest length has the same effect, and is the default here.
+// More bits are for comparison.
 //
-// The N bits stand below the top bit of the word, so that the overflow shows there: one bit to look at, and to clear.
+// The N bits stand below the top bit of the word, so the overflow shows in the top bit: one bit to look at and to
+// clear.
 // Any number of axes, lengths up to 2³¹−1. Pulses in which nothing moves are part of the method.
 // Portable. Cost: docs/interpolation/costs.md.
 #pragma once

@@ -1,6 +1,6 @@
 // PulseDurations: how long each pulse of a line lasts, so that the tool moves at an even speed.
 //
-// Two rules, both spend the time T of the move over its pulses:
+// Two rules. Both divide the time T of the move among its pulses:
 //
 //   by_roots   a pulse of two axes moves the tool √2 times as far as a plain one, of three √3 times: with N1, N2, N3 …
 //              pulses of each kind a plain one lasts T / (N1 + N2·√2 + N3·√3 …). Any path, if its pulses are counted.
@@ -9,9 +9,9 @@
 //              by d/L, so it lasts T·d/L² (L² = Σd²), and a pulse lasts the sum of its axes. Σ d·T·d/L² = T. Any line
 //              method.
 //
-// In ticks of a timer, 32.32 fixed point: over 2³¹ pulses the sum is within a tick of T. next() hands out whole ticks
-// and carries the fraction on. Divisions by shift and subtract, before the first pulse only.
-// T below 2³² ticks; Σd² below 2⁶⁴ (four axes of full length).
+// Durations are in ticks of a timer, in 32.32 fixed point: over 2³¹ pulses the sum is within a tick of T. next()
+// returns whole ticks and carries the fraction on. Divisions use shift and subtract, before the first pulse only.
+// T is below 2³² ticks, Σd² below 2⁶⁴ (four axes of full length).
 // Portable.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace passo {
 constexpr uint64_t fixed_quotient(uint64_t numerator, uint64_t denominator) {
   uint64_t quotient = numerator / denominator;
   uint64_t rest = numerator % denominator;
-  for (uint8_t bit = 0; bit < 33; ++bit) {  // the last one rounds
+  for (uint8_t bit = 0; bit < 33; ++bit) {  // the last round rounds the quotient
     const bool carry = (rest >> 63) != 0;
     rest <<= 1;
     const bool one = carry || rest >= denominator;
@@ -41,7 +41,7 @@ class PulseDurations {
   // √n in 2.30 fixed point.
   static constexpr uint32_t root(uint8_t n) { return rounded_root(static_cast<uint64_t>(n) << 60); }
 
-  // `pulses[n]`: how many pulses move n axes; some do.
+  // `pulses[n]` is the number of pulses that move n axes; at least one of them is above 0.
   static constexpr PulseDurations by_roots(uint32_t ticks, const uint32_t (&pulses)[axes + 1]) {
     PulseDurations durations(true);
     uint64_t length = 0;
@@ -51,7 +51,7 @@ class PulseDurations {
     }
     return durations;
   }
-  // Some distance is not zero.
+  // At least one distance is not zero.
   static constexpr PulseDurations exact(uint32_t ticks, const int32_t (&distances)[axes]) {
     PulseDurations durations(false);
     const Line<axes, uint32_t> line(distances);
@@ -63,7 +63,7 @@ class PulseDurations {
     return durations;
   }
 
-  // Of a pulse, in 32.32 ticks: 0 where nothing moves.
+  // The duration of a pulse in 32.32 ticks; 0 where nothing moves.
   constexpr uint64_t of(Pulse pulse) const {
     uint64_t sum = 0;
     uint8_t count = 0;
@@ -75,7 +75,7 @@ class PulseDurations {
     if (!by_count_) return sum;
     return count == 0 ? 0 : share_[count - 1];
   }
-  // The same as whole ticks of a running timer.
+  // The duration in whole ticks of a running timer.
   constexpr uint32_t next(Pulse pulse) {
     const uint64_t sum = of(pulse) + fraction_;
     fraction_ = static_cast<uint32_t>(sum);
@@ -86,8 +86,8 @@ class PulseDurations {
   constexpr explicit PulseDurations(bool by_count) : by_count_(by_count) {}
 
   bool by_count_;
-  uint64_t share_[axes] = {};              // of a pulse of n + 1 axes, or of axis n
-  uint32_t fraction_ = uint32_t{1} << 31;  // half a tick: the running time is rounded, not cut
+  uint64_t share_[axes] = {};              // for a pulse of n + 1 axes, or for axis n
+  uint32_t fraction_ = uint32_t{1} << 31;  // starts at half a tick, so the running time is rounded, not cut
 };
 
 }  // namespace passo

@@ -1,15 +1,15 @@
-// ExactRamp: constant acceleration with exact times. Step n happens at t_n = K_b √n; T_n is that, rounded to a tick,
-// and c_n = T_(n+1) − T_n.
+// ExactRamp: constant acceleration with exact times. Step n happens at t_n = K_b √n. T_n is t_n rounded to a tick, and
+// c_n = T_(n+1) − T_n.
 //
-// T_n is known with its remainder R_n = K_b² n − T_n², so that nothing drifts: from one step to the next R grows by
-// K_b² (or shrinks, on the way down), T is moved by a guess of the interval, and as long as R says that T is not the
-// rounded root, −T < R <= T, T is corrected by R / 2T (Newton). The guess is c_(n+1) = c_n − 2 c_n / (4n + 5), so good
-// that nearly all corrections are a single tick or none. That makes one 32-bit division a step; 64-bit ones, three at
-// the most, in 49 of the first 10 000 steps for K_b = 10^4, in 166 for K_b = 10^5, most of them at the beginning.
+// T_n is known with its remainder R_n = K_b² n − T_n², so nothing drifts. From one step to the next R grows by K_b² (on
+// the way down it shrinks), and T moves by a guess of the interval. T is the rounded root when −T < R <= T; until then
+// T is corrected by R / 2T (Newton). The guess is c_(n+1) = c_n − 2 c_n / (4n + 5), so good that nearly all corrections
+// are a single tick or none. This takes one 32-bit division a step. 64-bit divisions, at most three, occur in 49 of the
+// first 10 000 steps for K_b = 10^4 and in 166 for K_b = 10^5, most of them at the beginning.
 //
-// Errors: each T_n within half a tick and each interval within one tick of the real one, for ever. K_b² is given as a
-// whole number; rounding a real one shifts t_n by √n / 4K_b ticks more.
-// Ranges: 1 <= K_b < 2^32 ticks, steps up to 2^30. R is meant modulo 2^64 until T is nearly right.
+// Errors: each T_n is within half a tick and each interval within one tick of the real value, without end. K_b² is
+// given as a whole number; rounding a real K_b² shifts t_n by √n / 4K_b ticks more.
+// Ranges: 1 <= K_b < 2^32 ticks, steps up to 2^30. R counts modulo 2^64 until T is nearly right.
 // Portable.
 #pragma once
 
@@ -31,13 +31,13 @@ class ExactRamp {
         remainder_(first_squared - uint64_t{interval_} * interval_) {}
 
   constexpr uint32_t index() const { return index_; }
-  // c_n of the current index, in ticks. It may be 0 where K_b is spent: from about n = K_b²/4 on.
+  // c_n of the present index n, in ticks. It may become 0 at high n: from about n = K_b²/4 on.
   constexpr uint32_t interval() const { return interval_; }
   constexpr uint32_t fastest() const { return 1; }
-  // T_(n+1): from rest to the end of the current step, in ticks.
+  // T_(n+1), in ticks: the time from rest to the end of the present step.
   constexpr uint64_t end() const { return static_cast<uint64_t>(end_); }
 
-  // To n + 1.
+  // Goes to n + 1.
   constexpr void rise() {
     const int64_t start = end_;
     ++index_;
@@ -46,7 +46,7 @@ class ExactRamp {
     settle();
     interval_ = static_cast<uint32_t>(end_ - start);
   }
-  // To n − 1. Only where n > 0.
+  // Goes to n − 1. Only where n > 0.
   constexpr void fall() {
     remainder_ -= first_squared_;
     move_by(-int64_t{interval_});
@@ -65,12 +65,12 @@ class ExactRamp {
   }
 
  private:
-  // Another root of the same square: X = T² + R.
+  // Takes another root of the same square: X = T² + R.
   constexpr void move_by(int64_t ticks) {
     remainder_ -= static_cast<uint64_t>(ticks) * static_cast<uint64_t>(2 * end_ + ticks);
     end_ += ticks;
   }
-  // T becomes the rounded root. Most corrections are a single tick; those need no division.
+  // Makes T the rounded root. Most corrections are a single tick and need no division.
   constexpr void settle() {
     for (;;) {
       const int64_t rest = static_cast<int64_t>(remainder_);

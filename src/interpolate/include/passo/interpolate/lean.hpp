@@ -1,15 +1,16 @@
-// Lean: a line with master and slaves in the form for an interrupt. The same pulses as master_slave.hpp.
+// Lean: a line with a master and slaves, in a form for an interrupt. It makes the same pulses as master_slave.hpp.
 //
-// One decision variable an axis, D, starts at −m; each pulse adds 2s; where it is ≥ 0 the axis steps and 2m is taken
-// off. All three are even or odd together with m, so half of it decides as well: d starts at −⌈m/2⌉, gains s, loses m.
-// Then d stays in −m … −1 between pulses, in −m … s−1 on the way, and fits the signed word of a length:
+// m is the number of the master's steps, s that of an axis. Each axis has one decision variable D. D starts at −m, and
+// each pulse adds 2s. Where D ≥ 0 the axis steps and D loses 2m. D is even or odd as m is, so ⌊D/2⌋ decides as well: d
+// starts at −⌈m/2⌉, gains s, loses m. Then d stays in −m … −1 between pulses and in −m … s−1 within one, and fits the
+// signed word of a length:
 //
 //      d:  −m ─────────── −1 │ 0 … s−1
 //                  + s ──────▶ steps, − m
 //
-// "≥ 0" is one bit to look at, which on an 8-bit chip is cheaper than a comparison of all bytes.
+// "d ≥ 0" is one bit to look at. On an 8-bit chip that is cheaper than a comparison of all bytes.
 //
-// One variable for all axes, or a start at +m, as a listing that circulates has it, ends a step too far:
+// A widely copied listing uses one variable for all axes, or a start at +m. It ends a step too far:
 // docs/interpolation/master-slave.md shows it.
 //
 // Any number of axes, lengths up to 2³¹−1. Error: at most half a step on each axis.
@@ -58,7 +59,7 @@ class Lean {
 
   Line<axes, Length> line_;
   Length left_;
-  uint8_t masters_ = 0;  // step at every pulse: there is nothing to decide
+  uint8_t masters_ = 0;  // the axes that step at every pulse, without a decision
   Signed decision_[axes] = {};
 };
 

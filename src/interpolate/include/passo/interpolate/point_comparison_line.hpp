@@ -2,15 +2,15 @@
 //
 //      F = |xe|·y − |ye|·x
 //
-// tells on which side of the line the tool stands. Four beats a pulse: judge the deviation, feed one axis, compute the
-// new deviation, judge the end. F ≥ 0 feeds X and F loses |ye|; F < 0 feeds Y and F gains |xe|. F stays in
-// −|ye| … |xe| − 1.
+// tells on which side of the line the tool stands. A pulse has four beats: judge the deviation, feed one axis, compute
+// the new deviation, judge the end. F ≥ 0 feeds X, and F loses |ye|. F < 0 feeds Y, and F gains |xe|. F stays in −|ye|
+// … |xe| − 1.
 //
-// An axis that has arrived yields to the other. With X at its end F = |xe|·(y − |ye|) is negative until Y has arrived;
-// with Y at its end F = |ye|·(|xe| − x) is positive until X has: the deviation itself sees to it, but where an axis
-// has no length at all.
+// An axis that has arrived yields to the other. With X at its end F = |xe|·(y − |ye|) is negative until Y has arrived.
+// With Y at its end F = |ye|·(|xe| − x) is positive until X has arrived. So the deviation itself makes the axis yield,
+// except where an axis has no length at all.
 //
-// The end can be judged in three ways, with the same pulses: ends that count each axis, the longer axis, or all pulses.
+// Three ways to judge the end make the same pulses: count each axis, the longer axis, or all pulses.
 // Error: at most one step. Lengths up to 2³¹−1.
 // Portable.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace passo {
 
-// One counter an axis: both at zero.
+// One counter for each axis. The end is reached when both are zero.
 template <class Length>
 class EndByCoordinates {
  public:
@@ -35,8 +35,7 @@ class EndByCoordinates {
   Length y_;
 };
 
-// One counter, of the longer axis. At zero it is not enough: the shorter axis must have arrived as well, which F = 0
-// says.
+// One counter, of the longer axis. Its zero is not enough: the shorter axis must have arrived too, which F = 0 shows.
 template <class Length>
 class EndByProjection {
  public:
@@ -55,7 +54,7 @@ class EndByProjection {
   uint8_t longer_;
 };
 
-// One counter of all pulses, |xe| + |ye|.
+// One counter of all pulses. It starts at |xe| + |ye|.
 template <class Length>
 class EndByTotal {
  public:

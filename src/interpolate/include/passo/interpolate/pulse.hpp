@@ -1,10 +1,11 @@
-// Pulse: what every interpolator gives, one beat at a time: which axes step, and which way.
+// Pulse: the output of every interpolator, one beat at a time: which axes step, and in which direction.
 //
 // An interpolator is a value type with
 //   bool done() const;   the end is reached, exactly
 //   Pulse next();        the next beat; only when not done(). A beat in which nothing moves is a pulse too (DDA).
 //
-// Bit a belongs to axis a. Additions, comparisons and shifts only; what divides, divides once, before the first pulse.
+// Bit a belongs to axis a. Interpolators use additions, comparisons and shifts; one that divides does so only before
+// the first pulse.
 // Portable.
 #pragma once
 

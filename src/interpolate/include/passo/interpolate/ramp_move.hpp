@@ -1,21 +1,24 @@
-// RampMove: whole moves of one motor with constant acceleration, on request turned round or stopped in mid-move.
+// RampMove: whole moves of one motor with constant acceleration. A move can be stopped or given a new target on the
+// way.
 //
 //   rate
-//    cruise   ____________          The ramp's index n rises while the rate is below the wanted one and there is room
-//            /            \         to come back down; it falls when what is left is just the way down. The intervals
+//    cruise   ____________          The ramp's index n rises while the rate is below the wanted rate and there is room
+//            /            \         to brake. The index falls when the steps left are just enough to brake. The
+//            intervals
 //   start  _|              |_       of braking are those of the start, mirrored.
 //
-// One comparison decides: with `height` indices above where the ramp starts, the motor needs height + 1 intervals to
-// come to rest, and height < left always holds. Trapezoid, triangle, a constant rate, stop and reversal are that one
-// rule; the count of steps cannot be wrong.
+// One comparison decides. At `height` indices above the ramp's first one, the motor needs height + 1 intervals to come
+// to rest, and height < left always holds. Trapezoid, triangle, constant rate, stop and reversal all follow from that
+// one rule, and the count of steps is always right.
 //
-// start: the shortest interval with which the motor starts, stops and reverses without a ramp (its pull-in rate). The
-// ramp begins at the fastest of its indices that is inside, and ends there: nothing slower is worth the time. Where
-// the wanted rate is itself inside, it is constant. Where the ramp's own first interval is shorter than `start`, the
-// move would not begin inside, and set_rates() refuses.
+// `start` is the shortest interval with which the motor starts, stops and reverses without a ramp (its pull-in rate).
+// The ramp begins and ends at the fastest of its indices that is inside this start/stop region: anything slower is a
+// waste of time. Where the wanted rate is itself inside, the rate is constant. Where the ramp's own first interval is
+// shorter than `start`, the move would not begin inside, and set_rates() refuses.
 //
-// Ramp: TableRamp, ExactRamp or one of their kind, at index 0. Count: uint16_t makes it cheaper on a chip, with moves
-// below 65536 steps. Positions stay within ±2^30 steps. One addition and two comparisons a step beside the ramp's own.
+// Ramp is TableRamp, ExactRamp or one of their kind, at index 0. Count may be uint16_t, which is cheaper on a chip, for
+// moves below 65536 steps. Positions stay within ±2^30 steps. A step costs one addition and two comparisons beside the
+// ramp's own work.
 // Portable: no division.
 #pragma once
 
@@ -31,8 +34,9 @@ class RampMove {
 
   explicit constexpr RampMove(const Ramp& ramp) : ramp_(ramp) {}
 
-  // In ticks, at least 1; start 0: the motor has no such region, a move begins with the ramp's first interval. False:
-  // the ramp begins outside the region. At rest only, and once for a ramp: it is walked up to where it starts.
+  // `start` and `cruise` are intervals in ticks, at least 1. `start` 0 means that the motor has no start/stop region; a
+  // move then begins with the ramp's first interval. Returns false if the ramp begins outside the region. Call it at
+  // rest only, and once for a ramp: it walks the ramp up to its first index.
   [[nodiscard]] constexpr bool set_rates(Interval start, Interval cruise) {
     cruise_ = cruise > ramp_.fastest() ? cruise : ramp_.fastest();
     if (start == 0) return true;
@@ -42,13 +46,13 @@ class RampMove {
     }
     if (ramp_.interval() < start) return false;
     while (ramp_.interval() >= start) ramp_.rise();
-    ramp_.fall();  // it had just left the region
+    ramp_.fall();  // the last rise() left the region: one index back
     return true;
   }
 
   constexpr bool done() const { return left_ == 0 && leg_end_ == target_; }
 
-  // The next interval, in ticks; then comes the step, in direction up() or down. Only when not done().
+  // The next interval, in ticks. The step comes at its end, in direction up() or down. Only when not done().
   constexpr Interval next() {
     if (left_ == 0) begin_leg();
     const Interval raw = ramp_.interval();
@@ -65,12 +69,13 @@ class RampMove {
     }
     return interval;
   }
-  // The direction of the step that next() told.
+  // The direction of the step that the last next() announced.
   constexpr bool up() const { return up_; }
-  // After the last step that next() told.
+  // The position after the step that the last next() announced.
   constexpr Position position() const { return up_ ? leg_end_ - steps(left_) : leg_end_ + steps(left_); }
 
-  // Where to go from wherever it is. In mid-move, and behind what can still be reached: brake, stop, and come back.
+  // Sets the target, also in mid-move. If the motor can no longer stop before the target, it brakes, stops and comes
+  // back.
   constexpr void move_to(Position target) {
     target_ = target;
     if (left_ == 0) return;
@@ -80,7 +85,7 @@ class RampMove {
     left_ = static_cast<Count>(ahead < shortest ? shortest : ahead);
     leg_end_ = up_ ? here + steps(left_) : here - steps(left_);
   }
-  // As soon as the ramp lets it; the move is done() there.
+  // Stops as soon as the ramp allows. The move is then done() at that place.
   constexpr void stop() {
     move_to(position());
     target_ = leg_end_;
@@ -98,7 +103,7 @@ class RampMove {
   Ramp ramp_;
   Interval cruise_ = 1;
   Count left_ = 0;        // intervals to the leg's end
-  Count height_ = 0;      // indices above the one that the ramp starts with; below left_ while there are any
+  Count height_ = 0;      // indices above the first one of the move; below left_ while any steps are left
   Position leg_end_ = 0;  // where this leg comes to rest
   Position target_ = 0;
   bool up_ = true;

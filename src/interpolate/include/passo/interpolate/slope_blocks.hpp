@@ -1,10 +1,10 @@
-// SlopeBlocks: a line of two axes as blocks of pulses, one for each step of the shorter axis. Seen from the first
-// octant, with q = length div height: q div 2 plain steps, one diagonal, q − 1 − q div 2 plain ones; each of the first
-// (length mod height) blocks has one plain step more.
+// SlopeBlocks: a line of two axes as blocks of pulses, one block for each step of the shorter axis. Seen from the first
+// octant, with q = length div height, a block is q div 2 plain steps, one diagonal and q − 1 − q div 2 plain steps.
+// Each of the first (length mod height) blocks has one plain step more.
 //
-// Between two diagonals there is only a count-down; the one division is done before the first pulse. The remainder r is
-// not spread but spent at the start, so the tool falls behind by up to r·(height − r)/length steps, and half a step
-// more within a block. Lengths up to 2³¹−1. Portable.
+// Between two diagonals there is only a count-down. The one division comes before the first pulse. The remainder r is
+// not spread over the line but spent at its start, so the tool falls behind by up to r·(height − r)/length steps, and
+// by half a step more within a block. Lengths up to 2³¹−1. Portable.
 #pragma once
 
 #include "passo/interpolate/line.hpp"
@@ -26,10 +26,10 @@ class SlopeBlocks {
   constexpr Pulse next() {
     --left_;
     if (plain_ != 0 || blocks_ == 0) {
-      --plain_;  // past the last diagonal nobody looks at it
+      --plain_;  // after the last diagonal this value is not used
       return octant_.along;
     }
-    // The rest of this block and the beginning of the next.
+    // The rest of this block and the start of the next.
     plain_ = static_cast<Length>(pulses_ - 1);
     if (longer_ != 0) {
       ++plain_;
@@ -39,7 +39,7 @@ class SlopeBlocks {
     return octant_.both;
   }
 
-  // Plain steps before the next diagonal; blocks whose diagonal is still to come.
+  // Plain steps before the next diagonal, and the number of blocks whose diagonal is still to come.
   constexpr uint32_t plain() const { return blocks_ == 0 ? left_ : plain_; }
   constexpr uint32_t blocks() const { return blocks_; }
 

@@ -1,11 +1,11 @@
-// SlopeRecalculated: a line of two axes, from hot-wire cutters. Seen from the first octant the slope that is still to
-// go is compared with the slope of the whole line: below it, a step along the longer axis; at or above it, both at
-// once. The first pulse is a plain step; slope 1 is all diagonal.
+// SlopeRecalculated: a line of two axes; the method comes from hot-wire cutters. Seen from the first octant, each pulse
+// compares the slope of what is still to go with the slope of the whole line. If it is below, a step along the longer
+// axis follows; at or above, both axes step. The first pulse is a plain step. At slope 1 all pulses are diagonal.
 //
-// By cross products there is no quotient: slope to go ≥ slope  ⟺  E = height_left·length − height·length_left ≥ 0.
+// Cross products avoid the quotient: slope to go ≥ slope  ⟺  E = height_left·length − height·length_left ≥ 0.
 // A plain step adds `height` to E, a diagonal one `height − length`: E stays in height − length … height − 1.
 //
-// Error: below one step, always on the same side of the line (it runs ahead). Lengths up to 2³¹−1.
+// Error: below one step, always on the same side of the line (the tool runs ahead). Lengths up to 2³¹−1.
 // Portable.
 #pragma once
 
@@ -18,7 +18,7 @@ class SlopeRecalculated {
  public:
   constexpr explicit SlopeRecalculated(const int32_t (&distances)[2])
       : octant_(distances), left_(octant_.length), starting_(octant_.height != octant_.length) {
-    if (octant_.height == 0) excess_ = -1;  // and stays there: no diagonals
+    if (octant_.height == 0) excess_ = -1;  // stays negative: no diagonals
   }
 
   constexpr bool done() const { return left_ == 0; }
@@ -40,7 +40,7 @@ class SlopeRecalculated {
 
   Octant<Length> octant_;
   Length left_;
-  bool starting_;  // both slopes are equal, and yet a plain step is wanted
+  bool starting_;  // the first pulse is a plain step although both slopes are equal
   Signed excess_ = 0;
 };
 

@@ -1,14 +1,14 @@
 // TableRamp: constant acceleration from a table, with one 16 × 16 multiplication a step: c_n = (K_b · k_n) >> 16.
 //
-// A walk over the index n, one step up or down at a time, so that a motor brakes with the intervals that it started
-// with. An error stays in its own interval, which is less than K_b/65536 + 1 ticks short, so less than two; where a
-// real K_b was cut off to a whole number, k_n ticks more. Never long: a run is early by as much as all its steps are
-// short.
+// A walk over the index n, one up or down at a time, so a motor brakes with the intervals that it started with. An
+// error stays in its own interval. An interval is short by less than K_b/65536 + 1 ticks, so by less than two; where a
+// real K_b was cut off to a whole number, by up to k_n ticks more. No interval is too long, so a run ends early by the
+// sum of these errors.
 //
 // Ranges: 1 <= K_b < 65536 ticks. A longer first interval is refused, never wrapped; a slower timer clock or another
-// method is then the way. Where the table ends the motor goes on at the speed it has.
-// Table: a type with `uint16_t size() const` and `uint16_t scaled(uint16_t first, uint16_t n) const`, the product
-// (ramp_table.hpp). A chip's own one reads flash and multiplies as that chip does best.
+// method then helps. At the end of the table the motor goes on at the speed it has.
+// Table is a type with `uint16_t size() const` and `uint16_t scaled(uint16_t first, uint16_t n) const`, the product
+// (ramp_table.hpp). A chip's own table reads flash and multiplies in the chip's best way.
 // Portable: no division.
 #pragma once
 
@@ -24,7 +24,7 @@ class TableRamp {
 
   explicit constexpr TableRamp(Table table = Table()) : table_(table) {}
 
-  // K_b = c_0, in ticks. False: it does not fit, and the ramp is what it was. At index 0 afterwards.
+  // Sets K_b = c_0, in ticks, and goes to index 0. Returns false and changes nothing if K_b does not fit.
   [[nodiscard]] constexpr bool set_first_interval(uint32_t ticks) {
     if (ticks == 0 || ticks > longest_first_interval) return false;
     first_ = static_cast<uint16_t>(ticks);
@@ -33,17 +33,17 @@ class TableRamp {
   }
 
   constexpr uint16_t index() const { return index_; }
-  // c_n of the current index, in ticks.
+  // c_n of the present index n, in ticks.
   constexpr uint16_t interval() const { return interval_of(index_); }
   // The shortest interval there is: the one at the table's end.
   constexpr uint16_t fastest() const { return interval_of(static_cast<uint16_t>(table_.size() - 1)); }
 
-  // To n + 1; at the table's end it stays.
+  // Goes to n + 1. At the table's end n stays.
   constexpr void rise() {
     const uint16_t next = static_cast<uint16_t>(index_ + 1);
     if (next < table_.size()) index_ = next;
   }
-  // To n − 1. Only where n > 0.
+  // Goes to n − 1. Only where n > 0.
   constexpr void fall() { --index_; }
 
  private:

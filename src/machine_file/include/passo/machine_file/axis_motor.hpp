@@ -1,9 +1,10 @@
-// AxisMotor: what the motor of an axis leaves for its acceleration, at each speed.
+// AxisMotor: the acceleration that the motor of an axis can give, at each speed.
 //
 //     J φ'' = share · pull-out(φ') - friction         J: rotor, load and slide, as felt at the shaft
 //
-// `share` of pull-out is the most that is asked of the motor, friction included; the rest is kept for what is not in
-// the file: resonance, a warm winding, a supply that sags. For braking, where friction helps, the same is allowed.
+// `share` is the greatest part of pull-out that the motor is asked for, friction included. The rest is kept for what
+// the file does not know: resonance, a warm winding, a supply that sags. For braking, where friction helps, the same
+// acceleration is allowed.
 #pragma once
 
 #include "passo/motor/torque_curve.hpp"
@@ -13,13 +14,13 @@ namespace passo {
 
 struct AxisMotor {
   TorqueCurve curve;
-  Load load = {};  // all that turns but the rotor
+  Load load = {};  // everything that turns, except the rotor
   double share = 0.7;
-  double radians_per_unit = 0;  // of the shaft, a millimetre or degree of the axis
+  double radians_per_unit = 0;  // radians of the shaft for each millimetre or degree of the axis
 
-  // 0 where nothing is left. It never rises.
+  // The acceleration at a speed. 0 where no torque is left. It never rises with the speed.
   MmPerSecond2 acceleration_at(MmPerSecond speed) const;
-  // Up to here `least` is left.
+  // The highest speed at which `least` is left.
   MmPerSecond fastest_with(MmPerSecond2 least) const;
 };
 

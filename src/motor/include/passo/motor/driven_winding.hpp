@@ -1,26 +1,26 @@
-// DrivenWinding: the most torque that a two-phase motor gives at a steady speed, from its data and its drive.
+// DrivenWinding: the greatest torque of a two-phase motor at a steady speed, computed from the motor's data and drive.
 //
-// In the frame that turns with the rotor, the currents of both phases together are one vector: i_q across the magnet's
-// flux, which makes the torque K·i_q, and i_d along it, which makes none but weakens the flux where it is negative. At
-// N·ω radians of current a second (N rotor teeth) and in the steady state
+// In the frame that turns with the rotor, the currents of both phases together are one vector. Its part i_q across the
+// magnet's flux makes the torque K·i_q. Its part i_d along the flux makes no torque; a negative i_d weakens the flux.
+// At the speed ω the current has N·ω radians a second (N rotor teeth), and in the steady state
 //
 //   v_q = R·i_q + X·i_d + E      X = N·ω·L
 //   v_d = R·i_d − X·i_q          E = K·ω, the back-EMF      K = holding torque / (√2·rated current)
 //
-// An open-loop motor lags behind the field by as much as the load asks for, so that the load itself finds the best
-// (i_d, i_q); pull-out is where there is no better one. What the drive allows are discs in the plane of the currents:
+// An open-loop motor lags behind the field by as much as the load asks for, so the load itself finds the best (i_d,
+// i_q). At pull-out there is no better one. The limits of the drive are discs in the plane of the currents:
 //
-//   chopper    |i| ≤ I (rated)  and  |v| ≤ V (supply): the highest point of what two discs share
-//   resistive  |v| = V with the series resistor counted to R: the highest point of one circle
+//   chopper    |i| ≤ I (rated)  and  |v| ≤ V (supply): the highest point that two discs share
+//   resistive  |v| = V, R including the series resistor: the highest point of one circle
 //
-// At rest both give K·I = holding torque/√2. The torque falls with the speed, and rises with the supply.
+// At rest both give K·I = holding torque/√2. The torque falls with the speed and rises with the supply.
 //
-// Currents and voltages are sines with the peak I and V, as a driver makes them that divides the step finely. Limits:
-// no resonance, no iron losses, no detent, no saturation; see docs/ramps/torque.md. A steady state: the currents need
-// a few L/R to follow a change of speed.
+// Currents and voltages are sines with the peaks I and V, as a driver with fine microsteps makes them. Left out:
+// resonance, iron losses, detent, saturation; see docs/ramps/torque.md. The result is for a steady state: after a
+// change of speed the currents need a few L/R to follow.
 //
-// Source: for the resistive drive P. Acarnley, Stepping Motors, on pull-out torque of the hybrid motor; for both limits
-// at once the current and voltage circles of synchronous motors (e.g. Morimoto and others, 1990).
+// Source: for the resistive drive P. Acarnley, Stepping Motors, on pull-out torque of the hybrid motor. For both limits
+// at once, the current and voltage circles of synchronous motors (e.g. Morimoto and others, 1990).
 #pragma once
 
 #include "passo/motor/motor_data.hpp"
@@ -29,13 +29,13 @@ namespace passo {
 
 class DrivenWinding {
  public:
-  // `data` and `drive` have passed their checks.
+  // `data` and `drive` must have passed their checks.
   DrivenWinding(const MotorData& data, const Drive& drive);
 
-  // At `speed` ≥ 0; 0 where the motor cannot follow at all.
+  // The pull-out torque at `speed` ≥ 0. 0 where the motor cannot follow at all.
   NewtonMetres pull_out(RadiansPerSecond speed) const;
 
-  // Of a phase: N·m an ampere, and as well V·s.
+  // The torque constant K of one phase: N·m an ampere, which is also V·s.
   double torque_constant() const { return torque_constant_; }
 
  private:

@@ -1,12 +1,12 @@
-// MonotoneCurve: a smooth curve through points that goes up or down only where the points do.
+// MonotoneCurve: a smooth curve through points. It rises or falls only where the points do.
 //
-// A torque curve from a data sheet is a handful of points. A cubic spline through them overshoots: it would promise
-// torque that nobody measured. Here each piece is a cubic whose slopes at the points are held back so far that it stays
-// between its two ends; the curve and its slope are continuous. Outside the points it keeps the first and the last
-// value. Plain numbers: what x and y mean, and what a value outside is worth, is the caller's.
+// A torque curve from a data sheet is a handful of points. A cubic spline through them overshoots: it promises torque
+// that nobody measured. Here each piece is a cubic whose slopes at the points are limited, so that the piece stays
+// between its two ends. The curve and its slope are continuous. Outside the points the curve keeps the first and the
+// last value. The numbers are plain: the caller knows what x and y mean, and what a value outside is worth.
 //
-// Source: F. N. Fritsch and R. E. Carlson, Monotone piecewise cubic interpolation, SIAM J. Numer. Anal. 17 (1980); the
-// slopes by F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), known as PCHIP.
+// Source: F. N. Fritsch and R. E. Carlson, Monotone piecewise cubic interpolation, SIAM J. Numer. Anal. 17 (1980). The
+// slopes: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984), known as PCHIP.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ struct CurvePointsError {
 
 class MonotoneCurve {
  public:
-  // At least two points with x ascending, all of them finite.
+  // Needs at least two points, x ascending, all numbers finite.
   static Result<MonotoneCurve, CurvePointsError> through(std::vector<CurvePoint> points);
 
   double at(double x) const;

@@ -1,10 +1,10 @@
-// MotorData and Drive: what a data sheet says of a two-phase hybrid (or permanent-magnet) stepping motor, and what
-// drives it.
+// MotorData and Drive: the data sheet of a two-phase hybrid (or permanent-magnet) stepping motor, and the electronics
+// that drive it.
 //
 // The electrical values of a sheet belong to a way of connecting the motor. A bipolar drive pushes current through the
-// whole coil of each phase, in both directions. A unipolar one has the coil tapped in its middle and pushes current
-// through one half for one direction, through the other half for the other: half of the copper is always idle. Four
-// leads: the sheet is for whole coils. Five or six: it is nearly always for half coils. `as_wound` converts.
+// whole coil of each phase, in both directions. A unipolar drive has the coil tapped in its middle and uses one half
+// for each direction, so that half of the copper is always idle. With four leads the sheet is for whole coils; with
+// five or six it is nearly always for half coils. `as_wound` converts.
 #pragma once
 
 #include <cstdint>
@@ -39,25 +39,26 @@ enum class Winding : std::uint8_t {
 
 enum class Regulation : std::uint8_t {
   chopper,    // holds the rated current by switching, as long as the supply can push it
-  resistive,  // the supply through a resistor that lets the rated current flow at standstill (an L/R drive)
+  resistive,  // the supply feeds the coil through a resistor that lets the rated current flow at standstill (an L/R
+              // drive)
 };
 
 struct Rotor {
-  // Full steps. Two phases have four of them a rotor tooth, so that it is a multiple of four.
+  // Full steps. Two phases make four full steps for each rotor tooth, so this is a multiple of four.
   int steps_per_revolution = 200;
   KilogramMetres2 inertia = {};
 
-  // Periods of the winding's current a revolution.
+  // Periods of the winding's current in one revolution.
   double teeth() const { return steps_per_revolution / 4.0; }
 };
 
 struct MotorData {
   Rotor rotor = {};
-  NewtonMetres holding_torque = {};       // both phases on at the rated current
-  Amperes rated_current = {};             // of a phase, both on
-  Ohms resistance = {};                   // of a phase
-  Henries inductance = {};                // of a phase
-  Winding winding = Winding::whole_coil;  // what the four above were measured on
+  NewtonMetres holding_torque = {};       // with both phases on at the rated current
+  Amperes rated_current = {};             // of one phase, with both on
+  Ohms resistance = {};                   // of one phase
+  Henries inductance = {};                // of one phase
+  Winding winding = Winding::whole_coil;  // the coils that the four values above were measured on
 };
 
 struct Drive {
@@ -70,14 +71,14 @@ struct MotorError {
   std::string message;  // "the rotor's inertia must be above 0 kg·m², not -1"
 };
 
-// Each value is finite and above zero, the steps a multiple of four.
+// Checks that each value is finite and above zero, and the steps a multiple of four.
 Status<MotorError> check(const Rotor& rotor);
 Status<MotorError> check(const MotorData& data);
 Status<MotorError> check(const Drive& drive);
 
-// The same motor, its values for `winding`, at the same heat in the copper: a half coil has half the turns, so half the
-// resistance and torque per ampere, a quarter of the inductance, and takes √2 of the current; it holds 1/√2 of the
-// torque. (The resistance halves with the length of the wire; inductance goes with the turns squared.)
+// The same motor with its values for `winding`, at the same heat in the copper. A half coil has half the turns: half
+// the resistance and torque per ampere, and a quarter of the inductance. It takes √2 of the current and holds 1/√2 of
+// the torque. (The resistance goes with the length of the wire, the inductance with the turns squared.)
 MotorData as_wound(const MotorData& data, Winding winding);
 
 }  // namespace passo

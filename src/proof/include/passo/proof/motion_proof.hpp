@@ -1,12 +1,12 @@
-// MotionProver: watches a job from the side and measures what its motion really does.
+// MotionProver: watches a job from the side and measures its real motion.
 //
-// It is the referee of the planner and the path smoother and shares no code with either: curves are evaluated by
-// formulas of its own, steps are replayed from the definition in wire/board_segment.hpp, and the time is compared with
-// the shortest possible on the same path. docs/motion-proof.md has every formula.
+// It is the referee of the planner and the path smoother, and shares no code with either. It evaluates curves by
+// formulas of its own, replays steps from the definition in wire/board_segment.hpp, and compares the time with the
+// shortest possible time on the same path. docs/motion-proof.md has every formula.
 //
 // Place on the street: beside it. Feed it, in the order in which they come, the programmed path (Job::path()), the
-// planned motion (Job::motion()) and the board items (Job::board()); no item of the motion comes before the segments
-// of the path that it plays. Memory is bounded: a window of the path, whatever the length of the job.
+// planned motion (Job::motion()) and the board items (Job::board()). An item of the motion may come only after the
+// segments of the path that it plays. Memory is bounded: a window of the path, for a job of any length.
 #pragma once
 
 #include <cstdint>
@@ -22,14 +22,15 @@
 
 namespace passo {
 
-// What one motor of the board and its axis may do. A limit of 0 is none.
+// The limits of one motor of the board and its axis. 0 means no limit.
 struct ProvenAxis {
   Axis axis = Axis::x;
-  Mm step{0};  // the way of one step; 0: the steps are not looked at
+  Mm step{0};  // the length of one step; 0: steps are not checked
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};
   MmPerSecond3 jerk{0};
-  // Where it falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all speeds.
+  // The limit where it falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all
+  // speeds.
   std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
 };
 struct ProofOptions {
@@ -37,27 +38,27 @@ struct ProofOptions {
   Hertz tick_rate{16e6};
 };
 
-// The worst that was found of one kind: the largest, or where the limit changes with the speed the largest multiple of
-// the limit there. In the units of its kind: mm (or degrees) and seconds.
+// The worst value of one kind: the largest, or the largest multiple of the limit where the limit changes with the
+// speed. Units: mm (or degrees) and seconds.
 struct Finding {
   double value = 0;
-  double limit = 0;        // 0: there is none
-  Seconds time{0};         // of the motion
-  std::uint32_t line = 0;  // of the program; 0: not known
+  double limit = 0;        // 0: no limit
+  Seconds time{0};         // since the start of the motion
+  std::uint32_t line = 0;  // of the program; 0: unknown
 
   double multiple() const { return limit > 0 ? value / limit : 0; }
 };
 
 struct AxisProof {
   Axis axis = Axis::x;
-  // Inside the phases.
+  // Within phases.
   Finding velocity;
   Finding acceleration;
   Finding jerk;
-  // From one phase to the next.
+  // Between two phases.
   Finding velocity_jump;      // the limit is what rounding may leave
-  Finding acceleration_jump;  // no limit where the jerk has none
-  // In the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add `..._noise`.
+  Finding acceleration_jump;  // no limit where the jerk has no limit
+  // From the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add `..._noise`.
   Finding step_velocity;
   Finding step_acceleration;
   double step_velocity_noise = 0;
@@ -66,16 +67,16 @@ struct AxisProof {
 
 struct MotionProof {
   std::vector<AxisProof> axes;
-  Finding feed;       // ṡ against the programmed speed
-  Finding deviation;  // of planned and programmed path from each other; the limit is the tolerance of that place
-  Finding gap;        // between the end of one phase and the beginning of the next, mm
+  Finding feed;       // the speed along the path against the programmed one
+  Finding deviation;  // between planned and programmed path; the limit is the tolerance at that place
+  Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
-  Seconds time_bound{0};  // no motion along the same path within velocity, acceleration and feed is faster
+  Seconds time_bound{0};  // no motion on the same path within velocity, acceleration and feed takes less
   std::uint64_t moves = 0;
   std::uint64_t phases = 0;
 
   double times_bound() const { return time_bound > Seconds(0) ? time / time_bound : 0; }
-  // What is beyond its limit, a line each; empty: the motion is good.
+  // What exceeds its limit, one line each. Empty: the motion is good.
   std::vector<std::string> faults() const;
   bool good() const { return faults().empty(); }
 };
@@ -88,7 +89,7 @@ class MotionProver {
   void watch(const PathItem& item);
   void watch(const MotionItem& item);
   void watch(const BoardItem& item);
-  // After the last item; once.
+  // Call once, after the last item.
   MotionProof finish();
 
  private:

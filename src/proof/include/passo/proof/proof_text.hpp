@@ -1,6 +1,6 @@
-// What a MotionProof says, as a person reads it and as data.
+// A MotionProof as text for a person, and as data.
 //
-// Both are the same from run to run. Keys of the JSON are added to, not changed; a limit that is not there is null.
+// Both are the same from run to run. Keys of the JSON may be added but not changed. A missing limit is null.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
-// RampSequence: the intervals of a ramp or of a whole move, one at a time, by any method. What `passo ramp` shows.
+// RampSequence: the intervals of a ramp or of a whole move, one at a time, by any method. `passo ramp` shows them.
 //
-// It starts the walk that fits (interpolate/ramp_move.hpp over a ramp, or an SCurveMove) and says in words why a method
-// does not apply. Constant memory, but for a table.
+// It chooses the walk that fits: interpolate/ramp_move.hpp over a ramp, or an SCurveMove. Where a method does not
+// apply, it says why in words. Constant memory, except for a table.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ struct RampRequest {
   RampSetup setup;
   RampMethod method = RampMethod::exact;
   std::int64_t steps = 0;       // 1…most_steps
-  bool whole_move = false;      // to rest again; else upwards only
-  bool whole_ticks = false;     // as a chip plays it; a table always does
-  Hertz rate{0};                // the greatest; 0: none
+  bool whole_move = false;      // true: to rest again; false: upwards only
+  bool whole_ticks = false;     // as a chip plays them; a table always has whole ticks
+  Hertz rate{0};                // the greatest rate; 0: no limit
   Hertz start{0};               // of the start/stop region; 0: none
-  RadiansPerSecond3 jerk;       // bounded in a whole move; 0: not
+  RadiansPerSecond3 jerk;       // the greatest jerk of a whole move; 0: no limit
   std::int32_t table_size = 0;  // 0: as many entries as the steps need
-  std::int64_t stop_after = 0;  // a whole move is told to stop after so many steps; 0: not
+  std::int64_t stop_after = 0;  // stop a whole move after so many steps; 0: do not
 };
 
 struct RampError {
@@ -56,7 +56,7 @@ class RampSequence {
 
   std::unique_ptr<Walk> walk_;
   std::int64_t left_ = 0;
-  std::int64_t to_stop_ = 0;  // steps until the move is told to; 0: it is not
+  std::int64_t to_stop_ = 0;  // steps until the order to stop; 0: none will come
   bool whole_ticks_ = false;
 };
 

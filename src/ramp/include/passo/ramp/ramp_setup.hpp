@@ -1,7 +1,7 @@
-// RampSetup: the motor, its clock and the acceleration: what decides a ramp. And what a table of N entries can do.
+// RampSetup: what decides a ramp: the motor, its clock and the acceleration. And what a table of N entries can do.
 //
-// K_b = f_ck √(2α/a), with the step angle α = 2π / steps a turn: the first interval from rest, in ticks. Real numbers
-// of ticks are doubles; counted ones are integers.
+// K_b = f_ck √(2α/a) is the first interval from rest, in ticks, with the step angle α = 2π / steps a turn. Real numbers
+// of ticks are doubles; counted ticks are integers.
 #pragma once
 
 #include <cmath>
@@ -32,12 +32,12 @@ inline double first_interval(const RampSetup& setup) {
   return std::sqrt(first_interval_squared(setup));
 }
 
-// The least acceleration with which a table of N entries comes to `rate`: a_lim = π f² / (N · steps a turn).
+// The least acceleration with which a table of N entries reaches `rate`: a_lim = π f² / (N · steps a turn).
 constexpr RadiansPerSecond2 least_acceleration(Hertz rate, std::int64_t table_size, std::int32_t steps_per_turn) {
   const double f = rate.value();
   return {std::numbers::pi * f * f / (static_cast<double>(table_size) * steps_per_turn)};
 }
-// The rate after N steps from rest, with which the motor goes on: f = √(2aN/α).
+// The rate after N steps from rest: f = √(2aN/α). The motor keeps it at the end of a table of N entries.
 inline Hertz reached_rate(RadiansPerSecond2 acceleration, std::int64_t table_size, std::int32_t steps_per_turn) {
   const double square = 2 * acceleration.value * static_cast<double>(table_size) / step_angle(steps_per_turn).value;
   return Hertz(std::sqrt(square));

@@ -1,14 +1,14 @@
-// The exact and the recursive ramp in real numbers: what the integers on the chip are compared with, and what
-// `passo ramp` prints.
+// The exact and the recursive ramp in real numbers. The integers on the chip are compared with them, and `passo ramp`
+// prints them.
 //
-// Both are walks over the index n, as interpolate/table_ramp.hpp and exact_ramp.hpp are, and play in a RampMove.
-// Ticks are real. Largest shares by which an interval differs from the exact one:
+// Both are walks over the index n, as interpolate/table_ramp.hpp and exact_ramp.hpp are, and can be used in a RampMove.
+// Ticks are real numbers. The largest relative differences of an interval from the exact one:
 //
-//   exact       c_n = K_b / (√(n+1) + √n)         nothing; 1e-15 of rounding, and no difference of large numbers
-//   recursive   c_n = c_(n−1) / (1 + 2 (c_(n−1)/K_b)²)   short by 19.5 % at n = 1, by less than (ln n + 2.4) / 8n
-//   always
+//   exact       c_n = K_b / (√(n+1) + √n)         none; 1e-15 of rounding, without a difference of large numbers
+//   recursive   c_n = c_(n−1) / (1 + 2 (c_(n−1)/K_b)²)   too short: by 19.5 % at n = 1, always by less than
+//   (ln n + 2.4) / 8n
 //
-// tests/real_ramp_test.cpp measures them, and the table's.
+// tests/real_ramp_test.cpp measures these differences, and those of the table.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,7 @@ class RealExactRamp {
 
   double interval() const { return first_ / (std::sqrt(number() + 1) + std::sqrt(number())); }
   double fastest() const { return 0; }
-  // K_b √(n+1): from rest to the end of the current step.
+  // K_b √(n+1), in ticks: the time from rest to the end of the present step.
   double end() const { return first_ * std::sqrt(number() + 1); }
   void rise() { ++index_; }
   void fall() { --index_; }
@@ -49,8 +49,8 @@ class RealRecursiveRamp {
     interval_ /= 1 + 2 * share * share;
     ++index_;
   }
-  // The interval whose successor is the present one: the smaller root. What rounding has done is n times as large at
-  // the bottom as it was at index n.
+  // The interval before the present one: the smaller root of the recursion. A rounding error at index n becomes n times
+  // as large at the bottom.
   void fall() {
     const double share = interval_ / first_;
     --index_;

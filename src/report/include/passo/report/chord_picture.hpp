@@ -1,8 +1,8 @@
-// A picture of a curve and its chords: top view (and front view, where the curve leaves the plane), and how far the
-// chords are from the curve all along it.
+// A picture of a curve and its chords. It has a top view, a front view if the curve leaves the plane, and the distance
+// of the chords from the curve along its length.
 //
-// A chord's distance from its curve is small beside both: in the views it is drawn larger than it is, together with the
-// tube of the tolerance around the curve, by a factor that the picture tells.
+// A chord's distance from its curve is small beside both. So the views enlarge it, together with the tube of the
+// tolerance around the curve, by a factor that the picture states.
 #pragma once
 
 #include <algorithm>
@@ -23,14 +23,14 @@ struct ChordDrawing {
     Vector3 chord;  // the nearest place of the chord
   };
   Mm tolerance;
-  std::vector<Vector3> ends = {};  // where the chords meet, the start included
+  std::vector<Vector3> ends = {};  // the points where chords meet, the start included
   std::vector<Sample> samples = {};
 };
 
-// The place of the straight piece from `a` to `b` that is nearest to `place`.
+// The place nearest to `place` on the straight piece from `a` to `b`.
 Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place);
 
-// Cuts the curve. A curve of more than `most_chords` is recorded as far as these go.
+// Cuts the curve into chords and records them. Of a longer curve only the first `most_chords` are recorded.
 template <ParametricCurve C>
 ChordDrawing record_chords(const C& curve, ChordTolerance tolerance) {
   ChordDrawing drawing{.tolerance = tolerance.value()};
@@ -51,7 +51,7 @@ ChordDrawing record_chords(const C& curve, ChordTolerance tolerance) {
   return drawing;
 }
 
-// Into `file`, which the caller commits. `options.program` is the title.
+// Draws into `file`, which the caller commits. `options.program` is the title.
 Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

@@ -1,7 +1,7 @@
-// A picture of a move in steps: the grid, the ideal path, and where the pulses of each method go.
+// A picture of a move in steps: the grid, the ideal path, and the pulses of each method.
 //
-// One method fills the picture, with its evenness of speed below; several stand side by side. A move of three axes or
-// more is seen from two sides, X Y and X Z. For moves up to `most_pictured_pulses`.
+// One method fills the picture, with its evenness of speed below. Several methods stand side by side. A move of three
+// axes or more is seen from two sides, X Y and X Z. The move may have up to `most_pictured_pulses`.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct StudiedMethod {
   Measures measures;
 };
 
-// A checked move, and at least one method that takes it. Into `file`, which the caller commits.
+// Draws a checked move and at least one method that takes it. Draws into `file`, which the caller commits.
 Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<StudiedMethod>& methods,
                                        PictureFormat format, OutputFile& file);
 

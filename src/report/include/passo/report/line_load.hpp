@@ -1,4 +1,4 @@
-// LineLoad: how many bytes go down the wire in a second, at most, as the board's time goes by.
+// LineLoad: the most bytes sent in any second of the board's time.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace passo {
 
 class LineLoad {
  public:
-  // `sent`: bytes up to `now`. Often; a look a second at least.
+  // `sent` counts the bytes sent up to `now`. Call this often, at least once a second.
   void look(Seconds now, std::uint64_t sent) {
     if (now - since_ < Seconds(1)) return;
     const double rate = static_cast<double>(sent - before_) / (now - since_).value();
@@ -18,7 +18,8 @@ class LineLoad {
     since_ = now;
     before_ = sent;
   }
-  // Bytes a second, over a second or what the looks were apart; 0 where it all took less.
+  // The highest rate in bytes a second, over one second or the time between two looks. 0 if all took less than a
+  // second.
   std::uint64_t busiest() const { return busiest_; }
 
  private:

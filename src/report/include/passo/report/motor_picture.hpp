@@ -1,5 +1,5 @@
-// A picture of what a motor can do with its load: torque over speed with the start/stop region and the friction, and
-// below it the acceleration that is left.
+// A picture of the abilities of a motor with its load. It shows torque over speed, with the start/stop region and the
+// friction, and below that the acceleration that is left.
 //
 // Rates are full steps a second.
 #pragma once
@@ -13,11 +13,11 @@ namespace passo {
 struct MotorScene {
   TorqueCurve curve;
   Load load = {};
-  double margin = 1;  // of the torque, to accelerate with
-  Hertz end;          // of the axis of rates, at least
+  double margin = 1;  // share of the torque to accelerate with
+  Hertz end;          // the least end of the axis of rates
 };
 
-// `options.program` is the title, `options.machine` the line below it. Into `file`, which the caller commits.
+// `options.program` is the title, `options.machine` the line below it. Draws into `file`, which the caller commits.
 Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

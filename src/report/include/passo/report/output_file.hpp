@@ -1,10 +1,10 @@
-// OutputFile: a file that appears whole or not at all. Every writer of the program writes through it.
+// OutputFile: a file that appears either whole or not at all. Every writer of the program uses it.
 //
-// Bytes go to a temporary name in the same directory; commit() gives the file its name in one step (rename), so that
-// a reader never sees half a file and an older file stays until the new one is complete. Without commit() nothing is
-// left behind. "-" is standard output, and what is no regular file (a device, a pipe) is written to directly.
+// Bytes go to a temporary name in the same directory. commit() gives the file its name in one step (rename). So a
+// reader never sees half a file, and an older file stays until the new one is complete. Without commit() nothing
+// remains. "-" is standard output. What is no regular file (a device, a pipe) is written to directly.
 //
-// write() never fails on its own: the first error is kept, the bytes after it are dropped, and commit() tells it. A
+// write() never reports an error. The first error is kept, the bytes after it are dropped, and commit() returns it. A
 // writer of gigabytes asks failed() now and then.
 #pragma once
 
@@ -33,9 +33,9 @@ class OutputFile {
 
   void write(std::string_view bytes);
   bool failed() const;
-  // All bytes written so far, buffered ones included.
+  // All bytes written so far, including buffered ones.
   std::uint64_t size() const;
-  // Hands the rest to the system and gives the file its name. Once.
+  // Hands the rest to the system and gives the file its name. Call it once.
   Status<OutputError> commit();
 
   // For a signal handler that ends the program: removes the temporary files of all OutputFiles that are open.

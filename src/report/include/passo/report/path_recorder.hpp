@@ -1,11 +1,11 @@
-// PathRecorder: watches the motion and keeps what a picture of it needs, in bounded memory.
+// PathRecorder: watches the motion and keeps what a picture needs, in bounded memory.
 //
-// The path becomes one polyline in machine coordinates, each piece with its speed: lines are cut where their speed
-// changes, arcs and cubics are flattened. When the polyline is full, pieces that run nearly straight are joined, with a
-// tolerance that doubles until there is room again; where even a coarse polyline is too long (a path of kilometres over
-// the same place) evenly spread stretches of it are left out. Extents stay exact.
+// The path becomes one polyline in machine coordinates; each piece has its speed. Lines are cut where their speed
+// changes; arcs and cubics are flattened. When the polyline is full, pieces that run nearly straight are joined, with a
+// tolerance that doubles until there is room again. Even a coarse polyline may be too long (a path of kilometres over
+// the same place); then evenly spread stretches are left out. Extents stay exact.
 //
-// Memory: most_vertices of 20 bytes (2 MB) for a job of any length. About 0.3 µs a line.
+// Memory: most_vertices of 20 bytes (2 MB) for a job of any length. About 0.3 µs for a line.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,9 @@ class PathRecorder {
  public:
   static constexpr std::size_t most_vertices = 100'000;
 
-  enum class Kind : std::uint8_t { jump, rapid, feed };  // jump: the polyline begins anew here
-  // Relative to base(), so that single precision is enough for a picture however far away and small the path is.
+  enum class Kind : std::uint8_t { jump, rapid, feed };  // jump: the polyline starts again here
+  // Coordinates are relative to base(). So single precision is enough for a picture, however far away and small the
+  // path is.
   struct Vertex {
     float x = 0;
     float y = 0;
@@ -30,18 +31,18 @@ class PathRecorder {
     Kind kind = Kind::jump;
   };
 
-  // `machine_minus_work`: the work frame at this item, as an offset.
+  // `machine_minus_work` is the work frame at this item, as an offset.
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const Point& base() const { return base_; }
-  // Where nothing moved along X, Y or Z there is no path: empty() is true and the extents mean nothing.
+  // True if nothing moved along X, Y or Z; the extents then have no meaning.
   bool empty() const { return !any_; }
   const Box& extents() const { return extents_; }  // machine coordinates
-  // The highest speed at feed, mm/s; 0: there were only rapids.
+  // The highest speed at feed, mm/s. 0 if there were only rapids.
   MmPerSecond fastest_feed() const { return MmPerSecond(fastest_feed_); }
   Seconds time() const { return time_; }
-  // The work zeros that were used while the path moved, each once, in machine coordinates; at most nine (G54…G59.3).
+  // The work zeros in use while the path moved, each once, in machine coordinates. At most nine (G54…G59.3).
   const std::vector<Point>& origins() const { return origins_; }
 
  private:
@@ -60,8 +61,8 @@ class PathRecorder {
   Seconds time_{0};
   std::vector<Point> origins_;
 
-  double tolerance_ = 0;  // mm, of the joining so far; 0: everything is still there
-  // Of the path, stretches of moves are kept and the others left out: one of so many.
+  double tolerance_ = 0;  // mm, of the joining so far; 0: nothing is joined
+  // Of so many stretches of moves one is kept and the others are left out.
   std::uint64_t keep_one_of_ = 1;
   std::uint64_t moves_ = 0;
 };

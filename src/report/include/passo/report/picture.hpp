@@ -1,6 +1,6 @@
-// A picture of the path: an isometric view and a top view side by side, feeds coloured by their actual speed.
+// A picture of the path: an isometric view and a top view side by side. Feeds are coloured by their real speed.
 //
-// One drawing for both formats (cairo). An SVG stays under 10 MB whatever was recorded.
+// The same drawing serves both formats (cairo). An SVG stays under 10 MB for any recording.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace passo {
 
 enum class PictureFormat : std::uint8_t { svg, png };
 
-// By the end of the name, in any case: ".svg", ".png".
+// Chooses by the end of the name, in any case: ".svg", ".png".
 std::optional<PictureFormat> picture_format_of(std::string_view path);
 
 struct PictureOptions {
@@ -25,10 +25,10 @@ struct PictureOptions {
   std::string machine;
   int width = 1600;
   int height = 900;
-  int pixels_per_unit = 1;  // of a PNG: 2 gives 3200 × 1800 pixels
+  int pixels_per_unit = 1;  // for a PNG: 2 gives 3200 × 1800 pixels
 };
 
-// Into `file`, which the caller commits.
+// Draws into `file`, which the caller commits.
 Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions& options, OutputFile& file);
 
 }  // namespace passo

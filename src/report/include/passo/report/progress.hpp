@@ -1,7 +1,7 @@
-// ProgressLine: how far a long job is and how long it will take, on one line of a terminal that rewrites itself.
+// ProgressLine: the progress and remaining time of a long job, on one terminal line that rewrites itself.
 //
-// Reads no clock: the caller tells the elapsed time. Nothing is shown for work under a second, more often than ten
-// times a second, or where standard error is no terminal. About 5 ns an update that shows nothing.
+// It reads no clock: the caller passes the elapsed time. Nothing is shown in the first second, more often than ten
+// times a second, or where standard error is no terminal. An update that shows nothing takes about 5 ns.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace passo {
 
 class ProgressLine {
  public:
-  // `label` says what is being done ("part.ngc").
+  // `label` names the work ("part.ngc").
   ProgressLine(std::string label, bool terminal) : label_(std::move(label)), terminal_(terminal) {}
 
-  // What to write now, or nothing. `fraction` of the work done, 0…1.
+  // Returns the text to write now; empty for none. `fraction` is the share of the work done, 0…1.
   std::string update(double fraction, Seconds elapsed);
-  // What takes the line away again, or nothing when none was shown. Afterwards it may begin anew.
+  // Returns the text that removes the line; empty if no line is shown. Afterwards the line may begin anew.
   std::string clear();
 
  private:
@@ -27,7 +27,7 @@ class ProgressLine {
   Seconds next_{1.0};
 };
 
-// 42 s, 3:07 min, 1:02:09 h. Whole seconds: for people, not for measurements.
+// 42 s, 3:07 min, 1:02:09 h. Whole seconds, because this is for people and not for measurements.
 std::string clock_text(Seconds time);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// A picture of ramps: the rate over time of each method against the ideal line, the intervals, and the error of each
-// interval in ticks; of moves with bounded jerk, the acceleration in place of the error.
+// A picture of ramps: each method's rate over time against the ideal line, the intervals, and the error of each
+// interval in ticks. For moves with bounded jerk the acceleration takes the place of the error.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace passo {
 
-// One interval: of step `n`, in seconds from the start and in ticks.
+// The interval of step `n`: its start in seconds and its length in ticks.
 struct RampSample {
   double n = 0;
   double begin = 0;
   double end = 0;
   double ticks = 0;
-  double error = 0;  // ticks, against the exact interval
+  double error = 0;  // ticks, compared with the exact interval
 };
 
-// What a method makes of the ramp. Of a long one only every so many intervals, but always the first and the last.
+// The ramp as a method makes it. A long ramp has only one in so many intervals, but always the first and the last.
 struct RampTrace {
   std::string name;
   std::vector<RampSample> samples;
@@ -33,9 +33,9 @@ struct RampPoint {
 
 struct RampScene {
   std::vector<RampTrace> traces = {};  // at most three
-  std::vector<RampPoint> ideal = {};   // the rate as it is meant
+  std::vector<RampPoint> ideal = {};   // the intended rate
   std::string ideal_name = {};
-  std::vector<RampPoint> acceleration = {};  // of the first trace; empty: the errors are drawn instead
+  std::vector<RampPoint> acceleration = {};  // of the first trace; empty: errors are drawn instead
   double tick = 1;                           // s
 };
 

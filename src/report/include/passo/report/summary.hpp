@@ -1,6 +1,7 @@
-// RunSummary: what a run came to, in numbers. Filled by SummaryBuilder (the motion) and by whoever drives the board.
+// RunSummary: the results of a run, in numbers. SummaryBuilder fills in the motion; whoever drives the board adds the
+// rest.
 //
-// Two renderings: text for a person, JSON for a program. Keys of the JSON are a promise: they are added to, not
+// Two renderings: text for a person, JSON for a program. Keys of the JSON are a promise: they may be added but not
 // changed.
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace passo {
 
-// Of one axis, in millimetres or degrees.
+// A range of one axis, in millimetres or degrees.
 struct Range {
   double low = 0;
   double high = 0;
@@ -22,15 +23,15 @@ struct Range {
 
 struct AxisSummary {
   Axis axis = Axis::x;
-  // Where the path goes, rapids included; none where nothing moved.
+  // The extents of the path, rapids included. Empty if nothing moved.
   std::optional<Range> machine_extents;
   std::optional<Range> work_extents;
   MmPerSecond peak_speed{0};
   MmPerSecond2 peak_acceleration{0};
-  // Of the board:
+  // Counted by the board:
   Steps net_steps;
   Steps total_steps;
-  double position = 0;  // machine coordinates at the end, from the steps that were counted
+  double position = 0;  // machine coordinates at the end, from the counted steps
 };
 
 struct BoardSummary {
@@ -39,35 +40,35 @@ struct BoardSummary {
   std::uint64_t events = 0;
   std::uint64_t frames = 0;  // sent down the wire
   std::uint64_t bytes = 0;
-  std::uint64_t busiest_second = 0;  // bytes; 0: it did not take one
-  // Over a line, where what it holds always ends at rest.
+  std::uint64_t busiest_second = 0;  // bytes; 0: the run took less than a second
+  // For a board on a line, which always ends what it holds at rest.
   int held_items = 0;  // places in its list; 0: no line
-  int rests = 0;       // because nothing more had come in time
+  int rests = 0;       // rests because no more motion had come in time
 };
 
-// A hold in mid-run. Times of the board.
+// A hold in mid-run. Times are the board's.
 struct HoldSummary {
   Seconds asked{0};
-  Seconds reaction{0};                  // from then on until the machine got slower: what was committed
-  Seconds rest{0};                      // when it stood
-  std::vector<double> place = {};       // of each axis, machine coordinates, from the steps that were counted
-  std::optional<Seconds> resumed = {};  // none: the run ended there
+  Seconds reaction{0};                  // from then until the machine slowed down: the committed motion
+  Seconds rest{0};                      // when the machine stood still
+  std::vector<double> place = {};       // of each axis, machine coordinates, from the counted steps
+  std::optional<Seconds> resumed = {};  // empty: the run ended in the hold
 };
 
-// What probe moves found. Places on each axis, machine coordinates.
+// Results of probe moves. Places of each axis, in machine coordinates.
 struct ProbeSummary {
   std::uint64_t moves = 0;
   std::uint64_t touched = 0;
   bool last_touched = false;
-  std::vector<double> last_contact = {};  // to the step; without contact, the end of the move
-  std::vector<double> last_rest = {};     // where the machine came to rest after it
-  Mm farthest_overrun{0};                 // of all: from contact to rest
+  std::vector<double> last_contact = {};  // exact to the step; without contact, the end of the move
+  std::vector<double> last_rest = {};     // where the machine then came to rest
+  Mm farthest_overrun{0};                 // from contact to rest, the largest of all moves
 };
 
-// A rest at the end of a braking tail, because nothing more had come from the computer. Times of the board.
+// A rest at the end of a braking tail, because no more motion had come from the computer. Times are the board's.
 struct TailSummary {
-  Seconds rest{0};                 // when it stood
-  std::vector<double> place = {};  // as of a hold
+  Seconds rest{0};                 // when the machine stood still
+  std::vector<double> place = {};  // as in a hold
   Seconds resumed{0};
 };
 
@@ -75,21 +76,21 @@ struct RunSummary {
   std::string program;
   std::string machine;
 
-  // By the phases of the motion; cutting is everything at feed.
+  // From the phases of the motion. Cutting is everything at feed.
   Seconds cutting_time{0};
   Seconds rapid_time{0};
   Seconds dwell_time{0};
   Mm cutting_distance{0};
   Mm rapid_distance{0};
-  std::uint64_t moves = 0;  // rapids and arcs included
+  std::uint64_t moves = 0;  // including rapids and arcs
   std::uint64_t rapids = 0;
   std::uint64_t arcs = 0;
   std::uint64_t dwells = 0;
 
   std::vector<AxisSummary> axes;
-  std::optional<BoardSummary> board;  // none: nothing was sent to a board
+  std::optional<BoardSummary> board;  // empty: nothing was sent to a board
   std::vector<HoldSummary> holds;
-  std::optional<ProbeSummary> probes;  // none: no probe move
+  std::optional<ProbeSummary> probes;  // empty: no probe move
   std::vector<TailSummary> tails;
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }

@@ -1,8 +1,8 @@
-// SummaryBuilder: watches the motion as it passes and adds it up. Constant memory.
+// SummaryBuilder: watches the motion and adds it up. Constant memory.
 //
-// About 70 ns a line, 1.3 µs an arc. Extents are exact. The peaks of an axis are exact for lines; on arcs, where the
-// pull to the centre and the change of speed add up at an angle, they are found by bisection and lie at most 0.1 %
-// below the true peak.
+// About 70 ns for a line, 1.3 µs for an arc. Extents are exact. The peaks of an axis are exact for lines. On arcs the
+// pull to the centre and the change of speed add up at an angle; there bisection finds the peaks, at most 0.1 % below
+// the true ones.
 #pragma once
 
 #include <memory>
@@ -15,15 +15,15 @@ namespace passo {
 
 class SummaryBuilder {
  public:
-  // `axes` of the machine, in the order in which they are shown.
+  // `axes` are the machine's, in the order in which they are shown.
   explicit SummaryBuilder(std::vector<Axis> axes);
   ~SummaryBuilder();
 
-  // `machine_minus_work`: the work frame at this item, as an offset (a frame that is turned about Z has none: the work
-  // extents are then those of the offset alone).
+  // `machine_minus_work` is the work frame at this item, as an offset. (A frame that is turned about Z has no such
+  // offset; the work extents are then those of its offset alone.)
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
-  // The motion's part; names and board are left to the caller.
+  // The summary of the motion. The caller adds names and board.
   RunSummary summary() const;
 
  private:

@@ -17,7 +17,7 @@ class TraceBuffer {
  public:
   explicit TraceBuffer(TraceSink sink) : sink_(std::move(sink)), text_(std::make_unique<char[]>(size)) {}
 
-  // What is put between two calls of this is at most `longest` bytes.
+  // Between two calls of this, at most `longest` bytes may be put.
   void make_room() {
     if (used_ > size - longest) flush();
   }
@@ -30,7 +30,7 @@ class TraceBuffer {
     char* const from = &text_[used_];
     used_ += static_cast<std::size_t>(std::to_chars(from, from + 20, number).ptr - from);
   }
-  // A point and nine digits.
+  // Writes a point and nine digits.
   void put_decimals(std::uint64_t billionths) {
     put(1'000'000'000 + billionths);
     text_[used_ - 10] = '.';

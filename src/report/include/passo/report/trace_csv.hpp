@@ -3,9 +3,9 @@
 //   t,x,y,z
 //   0.000010031,1,0,-1
 //
-// Seconds from the start with nine decimals, rounded half up from the exact tick; then for each axis −1, 0 or 1: the
-// direction of the axis, whichever way its motor turns. Outputs are not shown.
-// Cost: about 20 ns a row.
+// The first column is seconds from the start with nine decimals, rounded half up from the exact tick. Then each axis
+// has −1, 0 or 1: the direction of the axis, whichever way its motor turns. Outputs are not shown. Cost: about 20 ns a
+// row.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace passo {
 
 class TraceCsv final : public Trace {
  public:
-  // Hands on the header with the first piece of text.
+  // The first piece of text begins with the header.
   TraceCsv(const TraceOptions& options, TraceSink sink);
 
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override;
@@ -31,7 +31,7 @@ class TraceCsv final : public Trace {
   std::uint64_t ticks_a_second_;
   unsigned motors_;
   std::uint8_t inverted_ = 0;
-  // The whole second that the last row was in.
+  // The whole second of the last row.
   std::uint64_t second_ = 0;
   std::uint64_t second_start_ = 0;  // ticks
 };

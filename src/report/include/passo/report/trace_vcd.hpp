@@ -1,14 +1,15 @@
-// TraceVcd: the board's lines over time as a value change dump (IEEE 1364-2005, 18), for GTKWave and its like.
+// TraceVcd: the board's lines over time as a value change dump (IEEE 1364-2005, 18), for GTKWave and similar viewers.
 //
-// A machine has for each axis X_step and X_dir (1: the motor counts down; the level of the line, so an inverted motor
-// shows the other way round than its axis), then spindle, spindle_reverse, mist, flood and spindle_rpm.
+// Each axis of the machine has X_step and X_dir. X_dir is the level of the line (1: the motor counts down), so for an
+// inverted motor it is opposite to the axis's direction. Then follow spindle, spindle_reverse, mist, flood and
+// spindle_rpm.
 //
-//   X_dir  ____/‾‾‾‾‾‾‾‾‾‾‾‾     set together with the first step that way
+//   X_dir  ____/‾‾‾‾‾‾‾‾‾‾‾‾     changes together with the first step in that direction
 //   X_step ____/‾\______/‾\_     high for the step pulse, but at most half the time to the next event with steps
 //
-// Time is exact: the unit is the largest power of ten that a tick is a multiple of (a true one: half a tick needs a
-// place too). Where a tick is no whole number of picoseconds, the unit is that and times are rounded.
-// No date: the same job gives the same bytes. Cost: about 30 ns an event.
+// Time is exact. The unit is the largest power of ten of which a tick is a multiple, but less than a tick, because half
+// a tick needs a place too. If a tick is no whole number of picoseconds, the unit is a picosecond and times are
+// rounded. There is no date: the same job gives the same bytes. Cost: about 30 ns an event.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace passo {
 
 class TraceVcd final : public Trace {
  public:
-  // Hands on the header with the first piece of text.
+  // The first piece of text begins with the header.
   TraceVcd(const TraceOptions& options, TraceSink sink);
 
   void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) override;
@@ -28,13 +29,13 @@ class TraceVcd final : public Trace {
   void finish(Ticks end) override;
 
  private:
-  // What one unit of the file's time is.
+  // The unit of the file's time.
   struct Scale {
     explicit Scale(Hertz clock);
     std::uint64_t units(std::uint64_t ticks) const;
     std::uint64_t ticks_a_second;
-    std::uint64_t units_a_tick = 0;  // 0: no whole number
-    std::uint64_t picoseconds = 1;   // a unit
+    std::uint64_t units_a_tick = 0;  // 0: a tick is no whole number of picoseconds
+    std::uint64_t picoseconds = 1;   // in one unit
   };
 
   void put_header(const TraceOptions& options);
@@ -44,7 +45,7 @@ class TraceVcd final : public Trace {
   void put_time(std::uint64_t time);
   void close_pulse(std::uint64_t longest);
 
-  // Wires in the order of their codes: of each motor step and direction, then the outputs.
+  // Wires in the order of their codes: step and direction of each motor, then the outputs.
   static unsigned step_wire(unsigned motor) { return 2 * motor; }
   static unsigned direction_wire(unsigned motor) { return 2 * motor + 1; }
   unsigned output_wire(unsigned output) const { return 2 * motors_ + output; }
@@ -55,7 +56,7 @@ class TraceVcd final : public Trace {
   std::uint64_t step_pulse_;  // from here on all times are in units
   std::uint64_t now_ = 0;
   std::uint64_t rose_at_ = 0;
-  unsigned high_ = 0;  // the step lines that are
+  unsigned high_ = 0;  // the step lines that are high
   unsigned directions_ = 0;
   BoardOutputs outputs_;
 };

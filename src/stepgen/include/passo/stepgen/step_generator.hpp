@@ -1,4 +1,4 @@
-// StepGenerator: phases -> board segments. Every step where and when mathematics puts it.
+// StepGenerator: phases -> board segments. Each step is where and when the exact motion has it.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace passo {
 
-// A motor of the board and the axis it turns.
+// A motor of the board, and the axis it turns.
 struct Motor {
   Axis axis = Axis::x;
-  double steps_per_unit = 0;  // a millimetre or a degree; negative: the motor turns the other way
+  double steps_per_unit = 0;  // for a millimetre or a degree; negative: the motor turns the other way
 };
 
 struct BoardClock {
@@ -45,19 +45,20 @@ struct StepOptions {
   std::optional<BoardPlace> place = {};  // where the board stands; nothing: it has just heard a hello, at `start`
 };
 
-// What goes down the wire, in order. An Action follows the segments that end at rest before it; a dwell has become
-// segments without steps.
+// The items that go down the wire, in order. The segments before an Action end at rest. A dwell has become segments
+// without steps.
 using BoardItem = std::variant<BoardSegment, Action>;
 
-// How exact the times of events are. Looser, motion takes far fewer segments close to a rest; no step less, and none in
-// another place.
+// How exact the times of events are. With looser times, motion takes far fewer segments close to a rest. Every step is
+// still made, and at the same place.
 struct Exactness {
-  // An event may be off its exact time by this part of its interval; 0: only as far as it shows in no whole tick.
+  // An event may be off its exact time by one part in so many of its interval. 0: at most by what shows in no whole
+  // tick.
   int one_in = 0;
-  // Where events would come more seldom they divide the steps of the fastest motor, on a slow board from a sixteenth of
-  // its highest rate on. 0: they never divide more finely than they do.
+  // Below this rate, events divide the steps of the fastest motor; on a slow board below a sixteenth of its highest
+  // rate. 0: they are never divided for slowness.
   Hertz least_rate{10'000};
-  // Events of a segment. So many as are exact to the tick are seldom more than 255.
+  // The most events of a segment. Segments that are exact to the tick seldom have more than 255.
   int longest_segment = 255;
   friend bool operator==(const Exactness&, const Exactness&) = default;
 };
@@ -70,18 +71,18 @@ class StepGenerator final : public Source<BoardItem> {
 
   [[nodiscard]] bool next(BoardItem& item) override;
 
-  // From now on events wait no longer than this for later ones that would make a longer board segment: what motion is
-  // pulled ahead of the segment given is at most this and a move. Segments get shorter, no step less exact.
+  // From now on events wait at most this time for later ones that would make a longer segment. So motion is pulled
+  // ahead of the last segment by at most this time and a move. Segments get shorter, but no step less exact.
   void limit_waiting_to(Seconds time);
   void be_exact_to(const Exactness& exactness);
 
-  // From now on goes on as `other` would, which was made with the same options, but with its own motion, waiting and
-  // exactness. So a fork tells what another motion from here on would be, and its end is a place to go on from.
+  // Continues from the state of `other`, which was made with the same options, but with its own motion, waiting time
+  // and exactness. So a fork tells what another motion from here would be, and its end is a state to go on from.
   void assume(const StepGenerator& other);
-  // All the motion that was pulled ends at rest; and it is given, too.
+  // Whether the motion pulled so far ends at rest; at_rest(): and all of it was given too.
   bool ends_at_rest() const;
   bool at_rest() const;
-  // What was given last is waiting at rest, of which there may be more: a dwell.
+  // Whether the last item waits at rest and more such items may follow: a dwell.
   bool waits_at_rest() const;
   // The rest of that waiting is left out. How long it was.
   Seconds cut_dwell();

@@ -1,4 +1,4 @@
-// IdealPath: the curve that the pulses stand for, and where the tool is beside it.
+// IdealPath: the curve that the pulses stand for, and the tool's place relative to it.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@ class IdealPath {
   explicit IdealPath(const StepMove& move);
 
   double length() const { return length_; }  // steps
-  // The point after a share of the path, 0 … 1; axes that the move lacks are 0.
+  // The point after `share` (0 … 1) of the path. Axes that the move lacks are 0.
   std::array<double, most_axes> at(double share) const;
-  // The tool stands at `place` now; called for each place in turn, for a full circle has more than one answer.
-  // How much of the path lies behind the tool's foot on it, 0 at the start, 1 at the end.
+  // The share of the path before the tool's foot on it: 0 at the start, 1 at the end. `place` is the tool's present
+  // place. Call this for each place in turn, because a full circle has more than one answer.
   double progress(const Place& place);
-  // Distance from the path, steps.
+  // The distance of `place` from the path, in steps.
   double distance(const Place& place) const;
 
  private:

@@ -1,15 +1,15 @@
-// Measures: what a method made of a move, in figures.
+// Measures: figures that tell how well a method makes a move.
 //
-// Deviation: the distance of the tool from the ideal path after a pulse that moved it. Evenness of speed, under three
-// rules for how long a pulse lasts, all of which spend the same time on the whole move:
+// Deviation is the distance of the tool from the ideal path after a pulse that moved it. Evenness of speed is measured
+// under three rules for the duration of a pulse. All of them spend the same time on the whole move:
 //
-//   beats   every pulse the same
-//   roots   a pulse of n axes √n times a plain one; none for a pulse that moves nothing
-//   exact   as long as the foot of the tool on the ideal path takes at constant speed
+//   beats   every pulse lasts the same
+//   roots   a pulse of n axes lasts √n times a plain one; a pulse that moves nothing takes no time
+//   exact   as long as the foot of the tool on the ideal path needs at constant speed
 //
-// Unevenness is told in two ways: how far the foot is ever ahead of or behind a point that moves along the ideal path
-// at constant speed (lag), and how much faster the fastest step is than the slowest (ratio; the tool's own way over the
-// time since it last moved).
+// Two figures tell the unevenness. The lag is the greatest distance of the foot from a point that moves along the ideal
+// path at constant speed, ahead or behind. The ratio is the speed of the fastest step over that of the slowest; a
+// step's speed is the tool's way over the time since it last moved.
 #pragma once
 
 #include <array>
@@ -27,19 +27,19 @@ inline constexpr std::size_t speed_rules = 3;
 
 struct Evenness {
   double lag = 0;    // steps along the path
-  double ratio = 1;  // fastest over slowest step; 1 is even
+  double ratio = 1;  // speed of the fastest over the slowest step; 1 is even
 };
 
 struct Measures {
   std::int64_t pulses = 0;
   std::int64_t together = 0;     // pulses in which two axes or more step
-  std::int64_t idle = 0;         // pulses in which none does
+  std::int64_t idle = 0;         // pulses in which no axis steps
   double largest_deviation = 0;  // steps
   double mean_deviation = 0;
-  std::array<Evenness, speed_rules> evenness;  // by SpeedRule
+  std::array<Evenness, speed_rules> evenness;  // indexed by SpeedRule
 };
 
-// What there is to see after a pulse.
+// The state after a pulse.
 struct Followed {
   Pulse pulse;
   const Place& place;
@@ -47,19 +47,20 @@ struct Followed {
   double deviation = 0;  // steps
 };
 
-// Runs the method over the move, or says why it does not take it.
+// Runs the method over the move and calls `visit` after each pulse. Fails with the reason if the method does not take
+// the move.
 Status<std::string> follow(const Method& method, const StepMove& move,
                            const std::function<void(const Followed&)>& visit);
 
-// Runs the method twice over the move: the first time its pulses are counted. `watch` hears now and then what share of
-// the work is done.
+// Runs the method twice over the move; the first time only counts its pulses. `watch` is called now and then with the
+// share of the work done.
 Result<Measures, std::string> measure(const Method& method, const StepMove& move,
                                       const std::function<void(double)>& watch = nullptr);
 
 // The time after each pulse under one rule, 0 … 1 over the move.
 class SpeedClock {
  public:
-  // `pulses` and `way`: of the whole move; `way` is the sum of way_of() over its pulses.
+  // `pulses` and `way` belong to the whole move; `way` is the sum of way_of() over its pulses.
   SpeedClock(SpeedRule rule, std::int64_t pulses, double way);
   double after(const Followed& followed);
 
@@ -69,9 +70,9 @@ class SpeedClock {
   double done_ = 0;
 };
 
-// √n for a pulse of n axes: how far it moves the tool.
+// √n for a pulse of n axes: the distance that it moves the tool, in steps.
 double way_of(Pulse pulse);
-// One pulse on.
+// Moves `place` by one pulse.
 void apply(Pulse pulse, Place& place);
 
 }  // namespace passo

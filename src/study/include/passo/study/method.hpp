@@ -1,7 +1,7 @@
-// Method: an interpolator by its name, for the command line, pictures and comparisons.
+// Method: an interpolator chosen by its name, for the command line, pictures and comparisons.
 //
-// A PulseSource hides which interpolator it is; a virtual call a pulse is no matter here. The pipeline and the board
-// use the interpolators themselves.
+// A PulseSource hides the interpolator behind virtual calls, whose cost does not matter here. The pipeline and the
+// board use the interpolators directly.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@ enum class EndJudging : std::uint8_t { coordinates, projection, total };
 struct Method {
   MethodName name = MethodName::lean;
   bool half_loaded = false;                        // DDA
-  std::optional<std::uint8_t> register_bits = {};  // DDA of lines; else left-normalised, as few as hold the move
-  EndJudging end_judging = EndJudging::total;      // point comparison of lines: the pulses are the same
+  std::optional<std::uint8_t> register_bits = {};  // DDA of lines; empty: left-normalised, the fewest possible
+  EndJudging end_judging = EndJudging::total;      // point comparison of lines; the pulses are the same for all
 };
 
-// "master-slave", "lean", …: all of them, in this order.
+// All names, in a fixed order: "master-slave", "lean", ….
 const std::vector<std::string>& method_names();
 std::optional<MethodName> method_named(std::string_view name);
-// "dda, half loaded".
+// For example "dda, half loaded".
 std::string title(const Method& method);
 
 class PulseSource {
@@ -46,15 +46,15 @@ class PulseSource {
   virtual ~PulseSource() = default;
   virtual bool done() const = 0;
   virtual Pulse next() = 0;
-  // The method's decision variables as they are now, in the order of decision_names().
+  // Writes the method's present decision variables, in the order of decision_names().
   virtual void decisions(std::vector<std::int64_t>& values) const = 0;
   virtual std::vector<std::string> decision_names() const = 0;
 };
 
-// A checked move by a method, or why the method does not take it: "is for lines; an arc is cut by …".
+// Starts a method on a checked move, or says why the method does not take it: "is for lines; an arc is cut by …".
 Result<std::unique_ptr<PulseSource>, std::string> start(const Method& method, const StepMove& move);
 
-// Every method, with its variants, that takes this move.
+// Every method that takes this move, with its variants.
 std::vector<Method> methods_for(const StepMove& move);
 
 }  // namespace passo

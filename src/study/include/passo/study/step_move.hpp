@@ -1,6 +1,6 @@
-// StepMove: one move in whole steps, as a person states it: from, to, and for an arc its centre.
+// StepMove: one move in whole steps, as a person states it: start, end, and for an arc its centre.
 //
-// What check() lets pass, every interpolator of passo/interpolate can take.
+// A move that passes check() suits every interpolator of passo/interpolate.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace passo {
 
-using Place = std::vector<std::int64_t>;  // absolute steps, an axis each
+using Place = std::vector<std::int64_t>;  // absolute steps, one for each axis
 
 struct StepMove {
   struct Arc {
@@ -27,10 +27,10 @@ struct StepMove {
   std::size_t axes() const { return to.size(); }
 };
 
-// Why it is no move: axes that do not match, too long, no circle. The words fit after "the move ".
+// Fails with the reason: axes that do not match, too long, no circle. The words fit after "the move ".
 Status<std::string> check(const StepMove& move);
 
-// Both for checked moves only. Axes that the move lacks rest.
+// Both are only for checked moves. Axes that the move lacks rest.
 struct LineDistances {
   std::int32_t all[most_axes] = {};
 };

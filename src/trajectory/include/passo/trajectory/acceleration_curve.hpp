@@ -1,20 +1,20 @@
-// AccelerationCurve: how the acceleration that an axis may have falls with its speed.
+// AccelerationCurve: how an axis's greatest acceleration falls with its speed.
 //
-// Given are samples of a falling function A(v). Kept is a convex function of w = v² below them, as the highest of a few
-// straight lines at_rest − fall·w. In w, because the planner's demands are linear in squares of speeds: each of the
-// lines is a demand that keeps to the curve wherever the speed really is, and the one that is highest at that speed
-// gives hardly anything away (speed_window.hpp).
+// The input is samples of a falling function A(v). The curve kept is a convex function of w = v² below the samples: the
+// highest of a few straight lines at_rest − fall·w. It is a function of w because the planner's demands are linear in
+// squares of speeds. So each line is a demand that keeps to the curve at any speed, and the line that is the highest at
+// the present speed loses hardly anything (speed_window.hpp).
 //
 //   A ^ ......                 ...  the samples: flat up to a shoulder, then falling
 //     |    \  `.               \    the lines; left of the shoulder they are above the constant limit that
-//     |     \__ `.                  every axis has besides, and do not matter
+//     |     \__ `.                  every axis has besides, and have no effect
 //     |        `---\____
 //     +-------------------> w
 //
-// What the samples promise where they are concave beyond the shoulder is lost: the chord below it counts.
+// Where the samples are concave beyond the shoulder, only the chord below them counts; what they allow above is lost.
 //
-// Invariant: falls are not negative and descending, so that line after line is the highest. Without lines it does not
-// limit.
+// Invariant: the falls are not negative and descend from line to line, so each line in turn is the highest. A curve
+// without lines does not limit.
 #pragma once
 
 #include <cstddef>
@@ -39,14 +39,15 @@ class AccelerationCurve {
   };
 
   AccelerationCurve() = default;
-  // Nowhere above any falling function through the samples, whose speeds ascend from 0 and whose accelerations fall
-  // and stay above 0. `most`: the constant limit beside it; where the samples are above it they are not needed.
+  // A curve that is nowhere above any falling function through the samples. The speeds of the samples ascend from 0;
+  // their accelerations fall and stay above 0. `most` is the constant limit beside the curve; samples above it are not
+  // needed.
   static AccelerationCurve below(std::span<const Sample> samples, MmPerSecond2 most);
 
   bool empty() const { return lines_.empty(); }
-  // Up to this w the constant limit counts alone; only where there are lines.
+  // Up to this w only the constant limit counts. Only if there are lines.
   double shoulder() const { return shoulder_; }
-  // The highest line at w, by number; lines() is not empty.
+  // The number of the highest line at w. lines() must not be empty.
   std::size_t line_at(double w) const;
   const std::vector<Line>& lines() const { return lines_; }
   MmPerSecond2 at(MmPerSecond speed) const;
@@ -55,7 +56,7 @@ class AccelerationCurve {
   void add(const Line& line, double w);
 
   std::vector<Line> lines_;
-  std::vector<double> ends_;  // of all lines but the last: the w from where the next one is higher
+  std::vector<double> ends_;  // for all lines but the last: the w from which the next line is higher
   double shoulder_ = 0;
 };
 

@@ -7,7 +7,7 @@
 
 namespace passo {
 
-// What no machine does, in mm and seconds; it keeps a segment finite that no axis limits.
+// Beyond any machine, in mm and seconds. Keeps a segment finite that no axis limits.
 inline constexpr double fastest = 1e6;
 inline constexpr double strongest = 1e9;
 inline constexpr double sharpest = 1e13;
@@ -16,7 +16,8 @@ struct MotionLimits {
   PerAxis<MmPerSecond> velocity;
   PerAxis<MmPerSecond2> acceleration;
   PerAxis<MmPerSecond3> jerk;
-  // Beside the constant, what a motor has left at the axis's speed. Empty: the constant alone.
+  // The acceleration that a motor has left at the axis's speed; it limits beside the constant. Empty: the constant
+  // alone.
   PerAxis<AccelerationCurve> falling;
 };
 

@@ -1,9 +1,8 @@
-// Phase: a stretch of constant jerk along the path. PlannedMove: a segment, or a part of one, and the phases that play
-// it.
+// Phase: a piece of motion with constant jerk along the path. PlannedMove: a segment, or a part of one, and its phases.
 //
 // s(t) = s0 + v0 t + a0 t²/2 + j t³/6 for 0 <= t <= duration, with s along the segment's curve. The phases of a move
-// follow each other without gap. A segment that takes more phases than a move holds comes as several moves: each begins
-// where the one before ended, the first at s = 0, and the last ends at the curve's length.
+// follow each other without gap. A segment with more phases than a move holds comes as several moves. The first begins
+// at s = 0, each of the others where the last one ended, and the last ends at the curve's length.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +47,7 @@ struct PlannedMove {
   }
   const Phase* begin() const { return phases.data(); }
   const Phase* end() const { return phases.data() + phase_count; }
-  // The part of the curve that it covers: from the start of its first phase
+  // The part of the curve that the move covers: from the start of its first phase
   Mm from() const { return phase_count > 0 ? phases[0].start : Mm(0); }
   Mm to{0};  // to here
   Seconds duration() const {
@@ -56,15 +55,15 @@ struct PlannedMove {
     for (const Phase& phase : *this) sum += phase.duration;
     return sum;
   }
-  // At its end, of a move with phases.
+  // The velocity at the end of a move that has phases.
   MmPerSecond exit_velocity() const {
     const Phase& last = phases[phase_count - 1];
     return last.velocity_at(last.duration);
   }
-  // Whether no axis goes faster there than rounding leaves of a rest. Of axes, not along the path: within dust an
-  // axis may turn by a hundred thousand degrees for each millimetre of it.
+  // Whether no axis is faster at the end than rounding leaves of a rest. The axes are tested, not the speed along the
+  // path: on a segment as short as dust an axis may turn by a hundred thousand degrees for each millimetre.
   bool ends_at_rest() const {
-    constexpr double rest_speed = 1e-6;  // mm/s or degrees/s: a step would take half a minute on the finest machine
+    constexpr double rest_speed = 1e-6;  // mm/s or degrees/s; a step would take half a minute on the finest machine
     if (phase_count == 0) return true;
     const double speed = exit_velocity().value();
     if (speed >= rest_speed) return false;

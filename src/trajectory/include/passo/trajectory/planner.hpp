@@ -1,20 +1,18 @@
-// Planner: segments -> phases. The fastest motion along the path that keeps every axis within its limits; look-ahead as
-// far as braking needs, in bounded memory.
+// Planner: segments -> phases. It finds the fastest motion along the path that keeps every axis within its limits. It
+// looks ahead as far as braking needs, in bounded memory.
 //
-//   v²    top ________                 The path is cut into cells; in each, v² is a straight line over the way.
-//   Backwards
-//        /|           \______          from the last cell known: how fast may each be entered so that all speeds after
-//        it
-//       / |           |      \         can still be met (braking)? Forwards: how fast is it really, from rest on
-//      /  |           |       \        (accelerating)? Feed and velocities cap both. Where directions of segments
-//     0 --+--cell-----+--------+-- s   differ (corners), after an exact stop and at actions the path rests.
+//   v²    top ________                 The path is cut into cells; in each cell v² is a straight line over the way.
+//        /|           \______          Backwards, from the last known cell: the highest entry from which braking can
+//       / |           |      \         still meet all later speeds. Forwards, from rest: the real speed, by
+//      /  |           |       \        accelerating. Feed and velocities cap both. The path rests at corners (where
+//     0 --+--cell-----+--------+-- s   directions of segments differ), after an exact stop and at actions.
 //
-// On a curve an axis needs part of its acceleration for turning and has the rest for speeding up and braking: what is
-// possible at the two ends of a cell is a small linear program each way (speed_window.hpp).
+// On a curve an axis needs part of its acceleration for turning; the rest is for speeding up and braking. So the
+// possible speeds at the two ends of a cell are a small linear program in each direction (speed_window.hpp).
 //
-// Invariant: what is given ends at a speed from which the cells queued behind it can brake to rest, and is the
-// same, bit for bit, as if the whole program had been planned at once, except after a queue of `most_queued_cells`
-// did not reach the braking distance. Time: amortised constant a cell. See docs/decisions/0010 and 0014.
+// Invariant: each move ends at a speed from which the queued cells can brake to rest. The motion is the same, bit for
+// bit, as if the whole program had been planned at once, unless a queue of `most_queued_cells` did not reach the
+// braking distance. Time: amortised constant for each cell. See docs/decisions/0010 and 0014.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +27,8 @@ namespace passo {
 
 class Planner final : public Source<MotionItem> {
  public:
-  // About 110 bytes each, 40 for each axis and 40 more, and 570 for each segment: 26 MiB when full of short segments of
-  // three axes. It grows as it is needed.
+  // A cell takes about 110 bytes, 40 for each axis and 40 more; a segment takes 570. A queue full of short segments of
+  // three axes takes 26 MiB. It grows only as needed.
   static constexpr std::size_t most_queued_cells = 30'000;
 
   Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued = most_queued_cells);
@@ -38,32 +36,32 @@ class Planner final : public Source<MotionItem> {
 
   [[nodiscard]] bool next(MotionItem& item) override;
 
-  // In mid-run. A move that was given stays as it is; what follows is planned anew from its end, on the path and within
-  // the limits. How late a change takes effect is so for the caller to say: by how much it pulls ahead, and by
+  // Changes in mid-run. A move that was given stays as it is. The motion after it is planned anew from its end, on the
+  // path and within the limits. So the caller decides how late a change takes effect: by how far it pulls ahead, and by
   // how long a move may be.
 
-  // From now on a move ends after this time at the latest.
+  // From now on no move is longer than this time.
   void limit_moves_to(Seconds duration);
-  // Feeds are multiplied by both factors, 0 to 2 and 0 to 1, where their segments heed them; rapids stay as they are.
-  // Where that makes less than a hundredth, the motion stands as in a hold, until it is raised.
+  // Both factors multiply the feeds of segments that heed them; ranges 0 to 2 and 0 to 1. Rapids do not change. Where
+  // the product is below a hundredth, the motion stands still as in a hold until the factor is raised.
   void set_feed_override(double factor);
   void set_adaptive_feed(double factor);
-  // The speed of segments with a SpindleLock, a multiple of what they say: the spindle is not as fast as commanded.
+  // Multiplies the speed of segments with a SpindleLock: the ratio of the spindle's real speed to the commanded one.
   void set_spindle_ratio(double ratio);
-  // Of all motion from here on, rapids included, along the path.
+  // Limits the speed along the path of all motion from here on, rapids included.
   void limit_speed_to(MmPerSecond speed);
-  // Brakes to rest on the path; then next() gives an Action of kind feed_hold, however often, until resume(). Waits
-  // where the segment does not heed it.
+  // Brakes to rest on the path. Until resume(), every next() then gives an Action of kind feed_hold. On segments that
+  // do not heed a hold, the motion goes on to one that does.
   void hold();
   void resume();
-  // A hold wherever it is, whatever its segments heed, until resume().
+  // Like hold(), but on any segment, whatever it heeds. Lasts until resume().
   void stop();
-  // At rest in a hold: drops what is left of the path up to the next action, which comes next after resume().
+  // At rest in a hold: drops the rest of the path up to the next action. That action comes next after resume().
   void drop_to_action();
 
-  // How the path would come to rest behind the last move given if it were held now. Nothing changes by it.
+  // The motion by which the path would come to rest if it were held after the last move given. Changes nothing.
   void braking_plan(std::vector<PlannedMove>& plan) const;
-  // Forgets what it has pulled and begins again, from rest, with what the path gives next. Settings stay.
+  // Forgets the path pulled so far and begins again, from rest, with the path's next item. Settings stay.
   void restart();
 
  private:

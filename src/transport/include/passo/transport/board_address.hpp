@@ -1,4 +1,4 @@
-// BoardAddress: where a board is, as a user writes it.
+// BoardAddress: the place of a board, as a user writes it.
 //
 //   virtual                       a virtual machine in this process
 //   serial:/dev/ttyUSB0           a serial line at 500,000 baud
@@ -19,14 +19,14 @@ inline constexpr unsigned usual_baud = 500'000;
 struct BoardAddress {
   enum class Kind : unsigned char { virtual_machine, serial, tcp, emulated };
   Kind kind = Kind::virtual_machine;
-  std::string place;           // device, host, or what is emulated
+  std::string place;           // device, host, or emulated board
   std::string port;            // tcp
   unsigned baud = usual_baud;  // serial
 
   bool operator==(const BoardAddress&) const = default;
 };
 
-// The error is a sentence that says what was expected.
+// The error is a sentence that tells what was expected.
 Result<BoardAddress, std::string> parse_board_address(std::string_view text);
 
 }  // namespace passo

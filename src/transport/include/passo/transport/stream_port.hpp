@@ -1,9 +1,9 @@
 // StreamPort: a board at the other end of a serial line or a TCP connection, in real time.
 //
-// Place on the street: the wire itself, where the board is not in this process. The only code that opens devices and
-// sockets and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A line that breaks
-// says nothing any more, and swallows what is sent, while it is opened again and again: how long that may take is for
-// the link to say (LineCare).
+// Place on the street: the wire itself, where the board is not in this process. Only this code opens devices and
+// sockets and waits by the clock; a link sees a BoardPort and cannot tell it from a virtual line. A broken line is
+// silent and swallows what is sent, while this code opens it again and again. The link decides how long that may take
+// (LineCare).
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,8 @@ namespace passo {
 
 class StreamPort final : public BoardPort {
  public:
-  // Takes an open descriptor, which it closes in the end. `open_again` gives another for a line that broke, or less
-  // than 0.
+  // Takes an open descriptor and closes it in the end. `open_again` returns a new descriptor for a line that broke, or
+  // a negative number.
   explicit StreamPort(int descriptor, std::function<int()> open_again = nullptr);
   ~StreamPort() override;
   StreamPort(const StreamPort&) = delete;
@@ -32,7 +32,7 @@ class StreamPort final : public BoardPort {
   std::span<const std::uint8_t> replies() override;
   Seconds elapsed() const override;
 
-  // The device has gone, or the other side has closed.
+  // Whether the device has gone or the other side has closed.
   bool broken() const { return broken_; }
 
  private:

@@ -1,8 +1,9 @@
-// ConstantJerk: what a stretch of constant jerk does, s(t) = v t + a t²/2 + j t³/6, and when it has come how far.
+// ConstantJerk: motion at constant jerk, s(t) = v t + a t²/2 + j t³/6, and the time at which it reaches a given way.
 //
-// For any unit of way (millimetres of a path, steps of a motor) and seconds; bare numbers, as the polynomial cares for
-// none. The way grows with the time all along the stretch. Time from way: constant acceleration in closed form, jerk
-// by Newton's method inside a bracket, to the last digits of t.
+// Ways may be in any unit (millimetres of a path, steps of a motor); times are in seconds. The numbers are bare,
+// because the polynomial is the same for all units. The way must grow with time all along the stretch. At constant
+// acceleration the time of a way has a closed form. With jerk, Newton's method inside a bracket finds the time to the
+// last digits of t.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +13,17 @@ namespace passo {
 
 struct ConstantJerk {
   double speed = 0;         // at the start of the stretch
-  double acceleration = 0;  // there
+  double acceleration = 0;  // at the start of the stretch
   double jerk = 0;
 
   constexpr double way_after(double t) const { return t * (speed + t * (acceleration / 2 + t * (jerk * sixth))); }
   constexpr double speed_after(double t) const { return speed + t * (acceleration + t * jerk / 2); }
   constexpr double acceleration_after(double t) const { return acceleration + t * jerk; }
 
-  // The time at which it has come `way`, in 0…duration.
+  // The time at which the stretch reaches `way`, in 0…duration.
   double time_to(double way, double duration) const { return time_to(way, duration, soon(way), rounding * way); }
-  // The same, with a guess of that time from what is known of a time just before. Where there is jerk, the way at the
-  // time that is found differs from `way` by no more than `precision`.
+  // The same, with a guess of that time, taken for instance from a time just before. Where there is jerk, the way at
+  // the returned time differs from `way` by at most `precision`.
   double time_to(double way, double duration, double guess, double precision) const {
     if (way <= 0) return 0;
     if (jerk != 0) return time_with_jerk(way, duration, guess, precision);
@@ -31,17 +32,18 @@ struct ConstantJerk {
     const double square = speed * speed + 2 * acceleration * way;
     return std::min(2 * way / (speed + std::sqrt(std::max(square, 0.0))), duration);
   }
-  // The first terms of the time as a series of the way: near where the speed hardly changes, and a guess anywhere.
+  // The first terms of the time as a series of the way. They are right where the speed hardly changes, and a guess
+  // elsewhere.
   double soon(double way) const {
     const double slowness = 1 / speed;
     const double time = way * slowness;
     return time - time * time * (acceleration * slowness / 2);
   }
 
-  static constexpr double rounding = 1e-16;  // of the way: no double can be told from its neighbour
+  static constexpr double rounding = 1e-16;  // a share of the way, smaller than the spacing of doubles
 
  private:
-  static constexpr double sixth = 1.0 / 6;  // a product is found sooner than a quotient
+  static constexpr double sixth = 1.0 / 6;  // a product is faster than a quotient
 
   double time_with_jerk(double way, double duration, double guess, double precision) const {
     double low = 0;
@@ -53,7 +55,7 @@ struct ConstantJerk {
       const double step = -excess / speed_after(t);
       const double next = t + step;
       if (next >= low && next <= high) {
-        // A step of Newton's method leaves exactly this of a cubic.
+        // For a cubic, the error after a step of Newton's method is exactly this.
         const double left = step * step * (acceleration_after(t) / 2 + step * (jerk * sixth));
         if (std::abs(left) <= precision || next == t) return next;
         t = next;

@@ -1,7 +1,7 @@
-// Strong units: a length cannot be passed where a speed is wanted, and it costs no instruction.
+// Strong units: a length cannot be passed where a speed is wanted. They cost no instruction.
 //
-// Lengths are millimetres and times seconds everywhere below interpreter/; millimetres a minute and inches exist
-// only in gcode/, interpreter/ and the user interface. A rotary axis's degree takes the place of the millimetre.
+// Everywhere below interpreter/ lengths are millimetres and times are seconds. Millimetres a minute and inches exist
+// only in gcode/, interpreter/ and the user interface. For a rotary axis, degrees take the place of millimetres.
 #pragma once
 
 #include <compare>
@@ -61,13 +61,13 @@ using MmPerSecond3 = Quantity<1, -3>;
 using Seconds = Quantity<0, 1>;
 using Hertz = Quantity<0, -1>;
 
-// An angle is a number without dimension; the type keeps degrees out.
+// An angle is a number without dimension. The type keeps degrees out.
 struct Radians {
   double value = 0;
   friend constexpr auto operator<=>(Radians, Radians) = default;
 };
 
-// What turns a motor, and what it turns: per second are radians, not revolutions.
+// The quantities of a motor and its load. Speeds are radians per second, not revolutions.
 struct RadiansPerSecond {
   double value = 0;
   friend constexpr auto operator<=>(RadiansPerSecond, RadiansPerSecond) = default;  // NOLINT(modernize-use-nullptr)
@@ -89,7 +89,7 @@ struct RadiansPerSecond3 {
   friend constexpr auto operator<=>(RadiansPerSecond3, RadiansPerSecond3) = default;
 };
 
-// Counted, not measured: motor steps, and counts of the board's timer.
+// Counted quantities, not measured ones: motor steps, and counts of the board's timer.
 struct Steps {
   std::int64_t count = 0;
   friend constexpr auto operator<=>(Steps, Steps) = default;

@@ -1,4 +1,4 @@
-// Announcement: puts a replace together from the frames that are to follow it. Of the host. Portable.
+// Announcement: builds a replace from the frames that follow it. For the host. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -10,13 +10,13 @@ namespace passo {
 
 class Announcement {
  public:
-  // The frame that is number `number` replaces what is behind item `after`.
+  // The frame numbered `number` replaces everything after item `after`.
   Announcement(uint16_t number, uint16_t after, uint8_t motors) : number_(number), motors_(motors) {
     replace_.after = after;
     reader_.set_motors(motors);
   }
 
-  // An item's frame, as the board will see it.
+  // Adds an item's frame, as the board will see it.
   void add(const uint8_t* frame, uint8_t size) {
     for (uint8_t i = 0; i < size; ++i) static_cast<void>(reader_.feed(frame[i]));
     sums_.add(reader_.frame(), motors_);
@@ -25,7 +25,7 @@ class Announcement {
   }
   Replace replace() const {
     Replace replace = replace_;
-    // What is announced comes first; with nothing before it, it is the first of all words.
+    // The announcement comes first. Nothing precedes it, so its words are the first of all.
     ItemSums sums;
     sums.add_announcement(number_, replace.after, replace.count);
     sums.second = static_cast<uint16_t>(sums.second + words_ * sums.first + sums_.second);
@@ -38,7 +38,7 @@ class Announcement {
   uint16_t number_;
   uint8_t motors_;
   Decoder reader_;
-  ItemSums sums_;  // of the items alone
+  ItemSums sums_;  // the sums of the items alone
   unsigned words_ = 0;
   Replace replace_;
 };

@@ -1,12 +1,13 @@
-// BoardSegment: what the board plays. One event clock for all motors.
+// BoardSegment: what the board plays. All motors share one event clock.
 //
-// Time. Intervals are ticks of the board's timer in 16.16 fixed point. The first event comes `interval` after the event
-// before it, each next interval is longer by `change`. The fraction of a tick runs on from segment to segment.
+// Time. Intervals are ticks of the board's timer in 16.16 fixed point. The first event comes `interval` after the last
+// event of the segment before; each next interval is longer by `change`. The fraction of a tick carries on from segment
+// to segment.
 //
-// Place. Each motor has a position in 1/65536 of a step, and every event adds a signed increment of at most one step to
-// it; when the whole part changes, that is a step. The board keeps the fraction only (the accumulator, 16 bits, runs on
-// from segment to segment) and sees a step as the carry of the addition. An increment d is sent modulo 65536 with a
-// flip bit, so that one addition serves both directions and the master axis that steps at every event:
+// Place. Each motor has a position in 1/65536 of a step, and every event adds a signed increment of at most one step. A
+// step is a change of the position's whole part. The board keeps only the fraction (the accumulator: 16 bits, carried
+// on from segment to segment), and a step shows as the carry of the addition. An increment d is sent modulo 65536 with
+// a flip bit. So one addition serves both directions, and also the master axis that steps at every event:
 //
 //       d in steps        increment     flip    a step when
 //       0 <= d < 1        d             0       there is a carry
@@ -14,7 +15,7 @@
 //      -1 <  d < 0        1 − |d|       1       there is no carry: the fraction went below zero
 //       d = −1            0             1       always
 //
-//   step = carry XOR flip;  direction is told beside it.
+//   step = carry XOR flip;  the direction is sent separately.
 //
 // Portable.
 #pragma once
@@ -37,20 +38,20 @@ struct SegmentFor {
 using BoardSegment = SegmentFor<max_motors>;
 
 inline constexpr uint16_t most_events = 0x7fff;
-// On the wire a change has 24 bits, a large one without its last eight.
+// On the wire a change has 24 bits. A large change is sent without its last eight bits.
 inline constexpr int32_t fine_change = 0x7fffff;
 inline constexpr int32_t coarse_change = 0x100;
-inline constexpr uint16_t coarse_bit = 0x8000;  // beside the number of events: the change is a large one
+inline constexpr uint16_t coarse_bit = 0x8000;  // set in the number of events if the change is a large one
 inline constexpr int32_t largest_change = fine_change * coarse_change;
 constexpr bool is_fine(int32_t change) {
   return change <= fine_change && change >= -fine_change;
 }
 inline constexpr uint32_t largest_interval = 0xffffffff;
-// One whole step in accumulator units, and one whole tick in interval units.
+// One whole step in units of the accumulator, and one whole tick in units of the interval.
 inline constexpr int32_t whole_step = 65536;
 inline constexpr int64_t whole_tick = 65536;
 
-// All digital outputs and the spindle's speed, switched in order with the motion.
+// All digital outputs and the spindle's speed. They are switched at their place in the motion.
 struct BoardOutputs {
   uint8_t switches = 0;  // bits: OutputSwitch
   uint16_t spindle_rpm = 0;

@@ -1,8 +1,8 @@
-// Decoder: bytes off the wire, one at a time -> frames. Same code on the host and on the board.
+// Decoder: makes frames of the bytes off the wire, one byte at a time. Host and board use the same code.
 //
-// Invariant: a frame that arrives whole is told with its last byte, whatever came before it. Every byte costs the same
-// small work, so that a board may read its line between two steps: one short way for a byte amid a payload (80 cycles
-// on an AVR), another for all else.
+// Invariant: a frame that arrives whole is reported with its last byte, whatever came before it. Every byte costs the
+// same small work, so that a board may read its line between two steps. A byte inside a payload takes a short way (80
+// cycles on an AVR), all other bytes another.
 //
 // Portable.
 #pragma once
@@ -15,20 +15,20 @@
 namespace passo {
 
 enum class Decoded : uint8_t {
-  pending,  // nothing to tell yet
-  frame,    // frame() is whole and right
-  refused,  // what looked like a frame was none: cut short, of no known type, or its CRC is wrong
+  pending,  // nothing to report yet
+  frame,    // frame() is whole and correct
+  refused,  // the bytes were no valid frame: cut short, of no known type, or with a wrong CRC
 };
 
 class Decoder {
  public:
-  // How many motors a message has something for. Before that is agreed upon no such message is accepted.
+  // The number of motors for which messages carry values. Until it is agreed, no such message is accepted.
   void set_motors(uint8_t motors) { motors_ = motors; }
 
   [[gnu::always_inline]] Decoded feed(uint8_t byte) {
     if (state_ != State::payload || byte == sync_byte) return feed_other(byte);
     crc_ = crc16(crc_, byte);
-    // From 0 this runs round to 255, which is more than a frame has.
+    // From 0 this wraps to 255, which is more bytes than a frame has.
     if (--to_sync_ == 0) {
       to_sync_ = byte;
       byte = sync_byte;
@@ -38,14 +38,14 @@ class Decoder {
     return Decoded::pending;
   }
 
-  // After Decoded::frame, until the next byte.
+  // The frame after Decoded::frame. Valid until the next byte.
   const WireFrame& frame() const { return frame_; }
 
  private:
   enum class State : uint8_t { search, link, type, sequence, payload, crc_low, crc_high };
 
   [[gnu::noinline]] Decoded feed_other(uint8_t byte) {
-    // The two bytes of the CRC are the only ones after the sync byte that may look like one.
+    // After the sync byte only the two bytes of the CRC may have the value of a sync byte.
     if (state_ == State::crc_low) {
       crc_low_ = byte;
       state_ = State::crc_high;
@@ -93,8 +93,8 @@ class Decoder {
       if (crc_high == sync_byte) begin();
       return Decoded::frame;
     }
-    // Where a frame was cut short, the next one's sync byte may have come in the place of the CRC. (Above, it may even
-    // have been the right last byte.) There is no payload under way, so neither goes the short way.
+    // If a frame was cut short, the next frame's sync byte may be where the CRC was expected. (Above, it may even have
+    // been the right last byte.) No payload is under way, so neither byte takes the short way.
     feed_other(crc_low_);
     feed_other(crc_high);
     return Decoded::refused;

@@ -1,7 +1,7 @@
-// Encoder: puts one frame together in a buffer of the caller's. Same code on the host and on the board.
+// Encoder: builds one frame in a buffer of the caller. Host and board use the same code.
 //
-// A frame is long work for a chip that has to look after its line meanwhile: Pause{}() is called at every byte, and on
-// the host is nothing. Portable.
+// A frame is long work for a chip that must read its line meanwhile. So Pause{}() is called at every byte; on the host
+// it does nothing. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -18,7 +18,7 @@ struct NoPause {
 template <class Pause = NoPause>
 class Encoder {
  public:
-  // `frame` has room for largest_frame bytes.
+  // `frame` must have room for largest_frame bytes.
   Encoder(uint8_t* frame, MessageType type, uint8_t sequence) : frame_(frame) {
     frame_[0] = sync_byte;
     frame_[1] = 0;
@@ -49,10 +49,10 @@ class Encoder {
     put16(static_cast<uint16_t>(value >> 16));
   }
 
-  // Closes the frame and returns its size. Once.
+  // Closes the frame and returns its size. Call it once.
   uint8_t finish() {
-    // Over the bytes as they are on the wire, links included: a flipped bit is then one wrong bit to the CRC, never
-    // more.
+    // The CRC covers the bytes as they are on the wire, links included. So a flipped bit is exactly one wrong bit to
+    // the CRC.
     uint16_t crc = crc16_start;
     for (uint8_t i = 1; i < size_; ++i) {
       crc = crc16(crc, frame_[i]);
@@ -66,7 +66,7 @@ class Encoder {
  private:
   uint8_t* frame_;
   uint8_t size_ = 2;
-  uint8_t last_link_ = 1;  // where the distance to the next sync byte is to be written
+  uint8_t last_link_ = 1;  // where to write the distance to the next sync byte
 };
 
 }  // namespace passo

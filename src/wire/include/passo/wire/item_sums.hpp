@@ -1,10 +1,11 @@
-// ItemSums: the second check over what moves motors. Same code on the host and on the board.
+// ItemSums: a second check over everything that moves motors. Host and board use the same code.
 //
 // A byte that is lost or doubled shifts a frame, and a CRC of 16 bits lets one such frame in 65,536 pass. So a replace
-// brings two sums with it, to which everything that it announces is added, word by word; the host has chosen them so
-// that nothing is left in the end. The first is the sum of all words, the second that of all values of the first
-// (Fletcher's check, modulo 65,536): another kind of arithmetic than the CRC's, so that what deceives the one does not
-// deceive the other. On an AVR about 20 cycles a word, where a second CRC of 16 bits would take about 50.
+// carries two sums. Everything that it announces is added to them, word by word. The host has chosen the sums so that
+// both are 0 in the end. The first is the sum of all words; the second is the sum of all values of the first
+// (Fletcher's check, modulo 65,536). Its arithmetic is of another kind than the CRC's, so that an error that deceives
+// one does not deceive the other. On an AVR it takes about 20 cycles a word, where a second CRC of 16 bits would take
+// about 50.
 //
 // Portable.
 #pragma once
@@ -24,13 +25,13 @@ struct ItemSums {
     first = static_cast<uint16_t>(first + word);
     second = static_cast<uint16_t>(second + first);
   }
-  // The type and the payload of an item. Its sequence number is that of its place. Pause: Encoder's.
+  // Adds the type and payload of an item. Its sequence number follows from its place. Pause is that of Encoder.
   template <class Pause = NoPause>
   void add(const WireFrame& frame, uint8_t motors) {
     const uint8_t type = static_cast<uint8_t>(frame.type);
     const uint8_t* byte = frame.payload;
-    uint8_t left = payload_size(type, motors) / 2;  // with the type the bytes are even in number
-    ItemSums sums = *this;                          // in registers
+    uint8_t left = payload_size(type, motors) / 2;  // with the type, the number of bytes is even
+    ItemSums sums = *this;                          // a copy, kept in registers
     sums.add(static_cast<uint16_t>(type | *byte++ << 8));
     for (; left != 0; --left, byte += 2) {
       Pause{}();
@@ -38,7 +39,7 @@ struct ItemSums {
     }
     *this = sums;
   }
-  // What a replace announces: its own number, the item it replaces after, and how many items.
+  // Adds what a replace announces: its own number, the item it replaces after, and the number of items.
   void add_announcement(uint16_t number, uint16_t after, uint8_t count) {
     add(number);
     add(after);
@@ -46,12 +47,12 @@ struct ItemSums {
   }
   bool is_nothing() const { return (first | second) == 0; }
 
-  // What it takes to begin with, so that nothing is left when `words` words have been added to it that made these sums
-  // of nothing.
+  // The sums to start with, so that both are 0 after `words` more words. These words must be the ones that made the
+  // present sums, from 0.
   ItemSums to_leave_nothing(unsigned words) const {
     return {.first = static_cast<uint16_t>(0U - first), .second = static_cast<uint16_t>(words * first - second)};
   }
-  // Of an item.
+  // The number of words of an item.
   static constexpr unsigned words_of(uint8_t type, uint8_t motors) { return (payload_size(type, motors) + 1U) / 2; }
   static constexpr unsigned words_of_announcement = 3;
 };

@@ -1,4 +1,4 @@
-// Messages: what is in the frames, and how it lies there. docs/wire.md has each of them byte by byte. Portable.
+// Messages: the content of frames and how it is laid out. docs/wire.md describes each message byte by byte. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -10,144 +10,143 @@
 
 namespace passo {
 
-// Host to board, first of all. Its sequence number is where the counting starts: the first frame has the next one.
+// Host to board, the first message. Its sequence number starts the counting: the first frame has the next number.
 struct Hello {
   uint8_t version = protocol_version;
-  uint8_t motors = 0;  // how many increments each segment will have
+  uint8_t motors = 0;  // the number of increments of each segment
 };
 
-// The board's answer: what it is.
+// The board's answer: its properties.
 struct HelloReply {
   uint8_t version = protocol_version;
-  uint8_t motors = 0;    // the most it can turn
-  uint8_t capacity = 0;  // items that it holds, the one being played included
+  uint8_t motors = 0;    // the most motors it can turn
+  uint8_t capacity = 0;  // items that it holds, including the one being played
   uint32_t clock = 0;    // ticks a second
 };
 
-// Host to board, behind a hello: a number by which the host knows the board again after the line was broken. A board
-// that was reset meanwhile has none, 0.
+// Host to board, after a hello. By this number the host recognises the board again after the line was broken. A board
+// that was reset meanwhile has the number 0.
 struct Session {
   uint16_t number = 0;
 };
 
-// Host to board: the `count` frames that follow are items that take the place of all that the board holds behind item
-// `after`, as soon as the last of them has come.
+// Host to board. The next `count` frames are items. They replace everything that the board holds after item `after`, as
+// soon as the last of them has come.
 struct Replace {
   uint16_t after = 0;
-  uint8_t count = 0;   // 1 and more
-  ItemSums sums = {};  // to which all of it is added: nothing must be left
+  uint8_t count = 0;   // at least 1
+  ItemSums sums = {};  // everything is added to them; the result must be 0
 };
 
-// Host to board, at any time: how are you? The only message of the host's, with hello and session, that is not counted.
-// Its sequence number is a number of its own, by which the status says which question it answers.
+// Host to board, at any time: a question about the board's state. Like hello and session it is not counted. Its
+// sequence number is one of its own; the answer repeats it to show which question it answers.
 enum class Question : uint8_t {
   status = 0,
   about = 1,
-  watch = 2,    // and keep from now on where the probe, or the limit switch that is named, changes first; the answer is
-                // the status
-  kept = 3,     // what was kept: the answer is a captured
-  spindle = 8,  // where is it: the answer is a turned, of a board without an encoder the status
+  watch = 2,    // from now on keep where the probe, or the named limit switch, changes first; the answer is a status
+  kept = 3,     // what was kept; the answer is a captured
+  spindle = 8,  // the spindle's place; the answer is a turned, or a status if the board has no encoder
 };
 struct Ask {
   uint8_t version = protocol_version;
-  uint8_t motors = 0;  // for how many positions are wanted
+  uint8_t motors = 0;  // the number of positions wanted
   Question question = Question::status;
-  uint8_t limit = 0;  // of a watch: the bit of a limit switch that is to capture in place of stopping; 0: the probe is
+  uint8_t limit = 0;  // for watch: the bit of the limit switch that captures instead of stopping; 0: the probe
 };
 
-// Board to host: so far have I come. Each tells all that the ones before it told, so that none is missed when lost.
+// Board to host: progress. Each credit repeats all that earlier ones said, so a lost one is not missed.
 struct Credit {
-  uint16_t executed = 0;  // number of the last item that is done
-  uint8_t taken = 0;      // sequence number of the last frame that was taken
-  uint8_t free = 0;       // items that there is room for
+  uint16_t executed = 0;  // number of the last item done
+  uint8_t taken = 0;      // sequence number of the last frame taken
+  uint8_t free = 0;       // free places for items
 };
 
 enum class WireError : uint8_t {
-  bad_frame = 1,        // cut short, of no known type, or the CRC is wrong
-  out_of_sequence = 2,  // a frame is missing before this one
-  queue_full = 3,       // the host did not count its credits
-  bad_value = 4,        // a segment without events, faster than the board is, or for a motor that is not there
-  unexpected = 5,       // a message that only the board sends, or a hello amid motion
-  too_late = 6,         // an item behind the one to replace after has begun; what was to take its place is dropped
-  manual = 7,           // a person moves the machine, or has since the hello: say it again behind that
-  wrong_sums = 8,       // items came that were not sent: what was to take the place of others is dropped
+  bad_frame = 1,        // cut short, of no known type, or with a wrong CRC
+  out_of_sequence = 2,  // a frame before this one is missing
+  queue_full = 3,       // the host did not heed its credits
+  bad_value = 4,        // a segment without events, faster than the board, or for a motor that does not exist
+  unexpected = 5,       // a message that only the board sends, or a hello during motion
+  too_late = 6,         // an item after the one to replace after has begun; the replacement is dropped
+  manual = 7,           // a person moves the machine, or did since the hello: say hello again afterwards
+  wrong_sums = 8,       // items came that were not sent: the replacement is dropped
 };
 
-// Board to host: what came was not taken.
+// Board to host: a frame was not taken.
 struct ErrorReport {
   WireError reason = WireError::bad_frame;
-  uint8_t expected = 0;  // sequence number of the frame that the board waits for
+  uint8_t expected = 0;  // sequence number of the frame that the board expects
 };
 
 enum class ResetCause : uint8_t { power_on = 0, brown_out = 1, watchdog = 2, button = 3 };
 enum BoardState : uint8_t {
-  board_moves = 1,      // it plays something
-  board_trusted = 2,    // since the hello the motors have made every step that is counted, as far as the board knows
-  board_replaces = 4,   // items are still to come for a replacement
-  board_slipped = 8,    // since the hello it stood still amid motion: it could not make events in time. No step is lost
-  board_kept = 16,      // since it was told to watch, the probe has changed
-  board_manual = 32,    // a person moves the machine by the board's keypad
-  board_homes = 64,     // a limit switch captures in place of stopping
-  board_encodes = 128,  // it has an encoder at its spindle
+  board_moves = 1,     // the board plays something
+  board_trusted = 2,   // since the hello the motors have made every step counted, as far as the board knows
+  board_replaces = 4,  // a replacement still waits for items
+  board_slipped = 8,  // since the hello it could not make events in time and stood still during motion. No step is lost
+  board_kept = 16,    // since it was told to watch, the watched input has changed
+  board_manual = 32,  // a person moves the machine by the board's keypad
+  board_homes = 64,   // a limit switch captures instead of stopping
+  board_encodes = 128,  // the spindle has an encoder
 };
-// What the board's input pins say: a bit is set where the switch is on.
+// The board's input pins. A bit is set if the switch is on.
 enum BoardInput : uint16_t {
-  input_limit = 1,  // and the next seven: of motors 1…7
+  input_limit = 1,  // motor 0; the next seven bits are motors 1…7
   input_probe = 0x100,
   input_door = 0x200,
   input_emergency_stop = 0x400,
   input_hold = 0x800,
   input_start = 0x1000,
 };
-// Beside the input of a captured.
-inline constexpr uint16_t captured_kept = 0x4000;      // it answers a question
+// Further bits in the input of a captured.
+inline constexpr uint16_t captured_kept = 0x4000;      // this answers a question
 inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
 
-// Board to host, when asked. Positions are the motors' steps since the board was switched on.
-// `room`: for so many motors it has places.
+// Board to host, as an answer. Positions are the motors' steps since the board was switched on. `room` is the number of
+// motors that there are places for.
 template <uint8_t room>
 struct BoardStatusFor {
   uint16_t session = 0;
-  uint16_t executed = 0;  // as in a credit, as the next two
+  uint16_t executed = 0;  // this and the next two as in a credit
   uint8_t taken = 0;
   uint8_t free = 0;
-  uint16_t event = 0;  // how many events of the item at hand are played
+  uint16_t event = 0;  // events of the present item that are played
   uint8_t state = 0;   // bits: BoardState
   ResetCause reset = ResetCause::power_on;
-  uint8_t motors = 0;   // agreed upon; 0: a host has not said hello since the reset
+  uint8_t motors = 0;   // agreed with the host; 0: no hello since the reset
   uint16_t inputs = 0;  // bits: BoardInput
-  uint8_t answers = 0;  // sequence number of the question
+  uint8_t answers = 0;  // sequence number of the question it answers
   int32_t positions[room] = {};
 };
 using BoardStatus = BoardStatusFor<max_motors>;
 
-// Board to host: an input has changed that is watched, at this very event. As an answer: where the probe changed first;
-// without an input it did not, and there is no item.
+// Board to host: at this very event a watched input has changed. As an answer: where the watched input changed first.
+// Without an input in it, there was no change and there is no item.
 struct Captured {
   uint16_t input = 0;  // BoardInput, captured_kept, captured_released
-  uint8_t item = 0;    // low byte of the number of the item that was played
-  uint16_t event = 0;  // how many of its events were
+  uint8_t item = 0;    // low byte of the number of the item being played
+  uint16_t event = 0;  // events of that item that were played
   int32_t positions[max_motors] = {};
 };
 
-// What a board's encoder has counted, and when: counts and ticks run on from any start, modulo 2^32.
+// What a board's encoder counted, and when. Counts and ticks start anywhere and run on modulo 2^32.
 struct SpindleCount {
   uint32_t count = 0;
-  uint32_t tick = 0;      // of the board's clock, when it was that
+  uint32_t tick = 0;      // of the board's clock, at the count
   uint32_t at_index = 0;  // the count at the last index
-  uint8_t indexes = 0;    // how many have come, modulo 256
+  uint8_t indexes = 0;    // index pulses so far, modulo 256
 };
 
-// Board to host, when asked for it: how far the spindle is, and at that tick the motion. It tells all that a credit
-// does.
+// Board to host, as an answer: the spindle's place, and the motion's place at the same tick. It tells everything that a
+// credit does.
 struct Turned {
   Credit progress = {};
-  uint16_t event = 0;   // how many events of the item at hand were played
-  uint8_t answers = 0;  // sequence number of the question
+  uint16_t event = 0;   // events of the present item that were played
+  uint8_t answers = 0;  // sequence number of the question it answers
   SpindleCount spindle = {};
 };
 
-// Board to host: the motors were stopped at once. The positions are not trusted from here on; a hello begins anew.
+// Board to host: the motors were stopped at once. From here on positions are not trusted. A hello begins anew.
 enum class FaultReason : uint8_t { emergency_stop = 1, limit = 2, driver = 3 };
 struct Fault {
   FaultReason reason = FaultReason::emergency_stop;
@@ -155,15 +154,16 @@ struct Fault {
   uint16_t executed = 0;
 };
 
-// Board to host, when asked: what else it is.
+// Board to host, as an answer: more of its properties.
 struct About {
   uint16_t firmware = 0;            // its own version, hundreds and units
   uint32_t highest_event_rate = 0;  // events a second
-  uint32_t baud = 0;                // the fastest that its line can go
+  uint32_t baud = 0;                // the highest baud rate of its line
   char name[16] = {};               // of the board; filled up with zeros
 };
 
-// Each writes one frame to `frame`, which has room for largest_frame bytes, and returns its size. Pause: Encoder's.
+// Each of these writes one frame to `frame`, which must have room for largest_frame bytes, and returns its size. Pause
+// is that of Encoder.
 template <class Pause = NoPause>
 uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::hello, sequence);
@@ -239,7 +239,7 @@ uint8_t encode(const Credit& credit, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-// For as many motors as the question had.
+// For as many motors as the question asked for.
 template <class Pause = NoPause, uint8_t room>
 uint8_t encode(const BoardStatusFor<room>& status, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::status, sequence);
@@ -318,12 +318,12 @@ constexpr uint32_t load32(const uint8_t* bytes) {
   return load16(bytes) | static_cast<uint32_t>(load16(bytes + 2)) << 16;
 }
 
-// The caller has looked at the frame's type.
+// The caller has checked the frame's type.
 inline void decode(const WireFrame& frame, Hello& hello) {
   hello = {.version = frame.payload[0], .motors = frame.payload[1]};
 }
 
-// By themselves, for the sake of the registers that they need on a chip.
+// A function of its own, because of the registers that it needs on a chip.
 template <uint8_t room>
 [[gnu::noinline]] void load_increments(const uint8_t* bytes, uint8_t motors, SegmentFor<room>& segment) {
   for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
@@ -334,7 +334,8 @@ template <uint8_t room>
 template <uint8_t room>
 [[gnu::noinline]] void load_times(const uint8_t* bytes, bool coarse, SegmentFor<room>& segment) {
   segment.interval = load32(bytes);
-  // 24 bits with a sign: at the top they are a large one, and a small one down again with the sign drawn along.
+  // 24 bits with a sign. In the upper bits they are a large change. For a small one they are shifted down, sign
+  // included.
   segment.change =
       static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 4)) << 8 | static_cast<uint32_t>(bytes[6]) << 24);
   if (!coarse) segment.change >>= 8;

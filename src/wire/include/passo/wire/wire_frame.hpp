@@ -1,11 +1,12 @@
-// WireFrame: the envelope of every message on the wire, in both directions. docs/wire.md has it byte by byte.
+// WireFrame: the envelope of every message on the wire, in both directions. docs/wire.md describes it byte by byte.
 //
 //   sync  link  type  sequence  payload…  crc low  crc high
 //
-// The sync byte never occurs between link and payload: where a message has one, the byte on the wire is instead the
-// distance to the next such place (0: none), and `link` is the distance to the first. So a sync byte is the start of a
-// frame, a receiver is in step again at the very next frame after any garbage, and each byte costs it the same work.
-// The type alone tells the length (where there is something for each motor, also the number of motors). Portable.
+// The sync byte never occurs from link to payload. Where a message has a byte of that value, the wire carries instead
+// the distance to the next such place (0: none); `link` is the distance to the first. So a sync byte always starts a
+// frame. After any garbage a receiver is in step again at the very next frame, and each byte costs it the same work.
+// The type alone tells the length; for messages with a value for each motor, type and number of motors tell it.
+// Portable.
 #pragma once
 
 #include <stdint.h>
@@ -17,7 +18,7 @@ namespace passo {
 inline constexpr uint8_t sync_byte = 0xA5;
 inline constexpr uint8_t protocol_version = 5;
 
-// Words of the extended Hamming code (8,4): three bits must be wrong before one passes for another.
+// Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
 enum class MessageType : uint8_t {
   // host to board
   hello = 0x0F,
@@ -38,7 +39,7 @@ enum class MessageType : uint8_t {
 };
 
 inline constexpr uint8_t frame_overhead = 6;
-inline constexpr uint8_t segment_size = 11;  // without what is there for each motor
+inline constexpr uint8_t segment_size = 11;  // without the part that repeats for each motor
 inline constexpr uint8_t status_size = 14;
 inline constexpr uint8_t captured_size = 5;
 inline constexpr uint8_t largest_payload = status_size + 4 * max_motors;
@@ -50,7 +51,8 @@ struct WireFrame {
   uint8_t payload[largest_payload] = {};
 };
 
-// Bytes of payload, or 0 for what is no type. Without motors there are no messages that have something for each.
+// Bytes of payload, or 0 for an unknown type. With 0 motors, messages that repeat a part for each motor are unknown
+// too.
 constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
   const auto with_motors = [motors](unsigned rest, unsigned each) {
     return motors == 0 ? uint8_t{0} : static_cast<uint8_t>(rest + each * motors);
