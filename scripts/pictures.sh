@@ -4,7 +4,9 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 cmake --build build/release --target passo
-grep -rhoE '^build/release/passo .*(--picture|-p) docs/pictures/[a-z0-9-]+\.(svg|png).*$' docs --include='*.md' | sort -u |
+# A command may go on in the next line after a backslash.
+find docs -name '*.md' -exec sed -e ':join' -e '/\\$/{N;s/ *\\\n */ /;b join' -e '}' {} + |
+  grep -oE '^build/release/passo .*(--picture|-p) docs/pictures/[a-z0-9-]+\.(svg|png).*$' | sort -u |
   while read -r command; do
     echo "+ $command"
     # The words of the commands have no quotes that need a shell.

@@ -1,4 +1,5 @@
 // The documents' pictures: each is drawn by the command that stands beside it.
+#include <algorithm>
 #include <sstream>
 
 #include "kit/command_line.hpp"
@@ -21,6 +22,11 @@ TEST_F(Documents, each_picture_is_drawn_by_the_command_beside_it) {
     if (entry.path().extension() != ".md") continue;
     std::istringstream text(read(entry.path()));
     for (std::string line; std::getline(text, line);) {
+      for (std::string rest;
+           line.ends_with('\\') && std::getline(text, rest);) {  // the command goes on in the next line
+        line.back() = ' ';
+        line += rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
+      }
       const std::size_t picture = line.find("docs/pictures/");
       if (!line.starts_with(program) || picture == std::string::npos) continue;
       const std::string name = line.substr(picture, line.find(' ', picture) - picture);

@@ -1,5 +1,7 @@
 // The part of the style that clang-format and clang-tidy do not know.
 #include <algorithm>
+#include <iterator>
+#include <regex>
 #include <sstream>
 
 #include "source_tree.hpp"
@@ -37,6 +39,32 @@ TEST(Style, every_public_header_opens_with_a_comment_and_guards_itself) {
     ++checked;
   }
   EXPECT_GT(checked, 15U);
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files = {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"};
+  std::ranges::copy(files_below("docs", {".md"}), std::back_inserter(files));
+  return files;
+}
+
+// Characters of UTF-8 text, not bytes: all bytes but those that continue a character.
+std::size_t characters_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+TEST(Style, no_line_of_a_document_is_longer_than_160_characters) {
+  static const std::regex only_a_url(R"(\s*([-*]\s+)?<?https?://\S+\s*)");
+  std::size_t checked = 0;
+  for (const fs::path& file : documents()) {
+    const std::vector<std::string> lines = lines_of(file);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      ++checked;
+      if (characters_of(lines[i]) <= 160 || std::regex_match(lines[i], only_a_url)) continue;
+      ADD_FAILURE() << file.string() << ":" << i + 1 << " has " << characters_of(lines[i]) << " characters";
+    }
+  }
+  EXPECT_GT(checked, 1000U);
 }
 
 // A path of the machine where something was written means nothing to those who clone it.
