@@ -33,11 +33,13 @@ struct Kind {
   const char* ports;
   std::vector<MotorPins> motors;
   std::map<BoardInput, Pin> switches;
+  Pin spindle_speed = {};
   Pin spindle_direction = {};
   bool has_encoder = false;
 };
 
 // Of the Mega: the spindle's PWM is timer 4's output C, connected to its pin by one bit. docs/boards.md has its speed.
+constexpr Pin output_c = {'H', 5};
 constexpr std::uint16_t tccr4a = 0xa0;
 constexpr std::uint16_t ocr4cl = 0xac;
 constexpr std::uint8_t connected = 1 << 3;
@@ -56,6 +58,7 @@ Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = 
                          {input_emergency_stop, pins.emergency_stop},
                          {input_hold, pins.feed_hold},
                          {input_start, pins.cycle_start}},
+            .spindle_speed = pins.spindle_pwm,
             .spindle_direction = pins.spindle_direction,
             .has_encoder = pins.encoder.exists()};
   for (MotorPins& motor : kind.motors) motor.drive = drive;
@@ -82,6 +85,7 @@ class AvrBoard final : public EmulatedBoard {
   AvrBoard(Kind kind, const std::string& program)
       : motors_(std::move(kind.motors)),
         switches_(std::move(kind.switches)),
+        spindle_speed_(kind.spindle_speed),
         spindle_direction_(kind.spindle_direction),
         has_encoder_(kind.has_encoder),
         positions_(motors_.size(), 0),
@@ -118,6 +122,7 @@ class AvrBoard final : public EmulatedBoard {
   void connect(Plant& plant) override {
     plant_ = &plant;
     if (has_encoder_ && plant.spindle().has_encoder()) fit_encoder();
+    if (spindle_speed_ == output_c) watch_spindle();
     look_at_plant(elapsed());
   }
 
@@ -129,6 +134,8 @@ class AvrBoard final : public EmulatedBoard {
   void fit_encoder() {
     encoder_.emplace(chip_, plant_->spindle().counts_per_turn(),
                      [this](std::uint64_t cycle) { return std::abs(plant_->spindle().turns_at(time_of(cycle))); });
+  }
+  void watch_spindle() {
     chip_.on_write(ocr4cl, [this](std::uint8_t value) {
       duty_ = value;
       command_spindle();
@@ -190,6 +197,7 @@ class AvrBoard final : public EmulatedBoard {
 
   std::vector<MotorPins> motors_;
   std::map<BoardInput, Pin> switches_;
+  Pin spindle_speed_;
   Pin spindle_direction_;
   bool has_encoder_;
   IdealPlant own_plant_;

@@ -52,7 +52,7 @@ bool VirtualMachine::run(Seconds most) {
 
 bool VirtualMachine::run_to(Ticks time) {
   const std::int64_t end = time.count;
-  look_at_plant();
+  look_at_inputs();
   while (hardware_.to_host.empty() && !board_.idle()) {
     if (!waits_) {
       const std::int64_t interval = board_.ticks_to_next_event();
@@ -81,6 +81,10 @@ void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
 void VirtualMachine::look_at_plant() {
   hardware_.pulse_plant();
   look_in_ = hardware_.plant->events_to_next_change();
+  look_at_inputs();
+}
+
+void VirtualMachine::look_at_inputs() {
   const unsigned inputs = hardware_.plant->inputs_at(hardware_.time());
   if (inputs != told_) heed(inputs);
 }

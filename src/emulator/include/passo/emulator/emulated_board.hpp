@@ -32,7 +32,8 @@ class EmulatedBoard : public BoardPort {
 
   // At the start. The plant outlives the board's last run(). Until then the board has an ideal one of its own, with
   // nothing but motors and a spindle. Each step goes to the plant; the pins of the switches and of the encoder, where
-  // the board has such, are as the plant says. What somebody else does to the plant the board sees in its next run().
+  // the board has such, are as the plant says. Of a spindle only the Mega's speed output is seen. What somebody else
+  // does to the plant the board sees in its next run().
   virtual void connect(Plant& plant) = 0;
 };
 

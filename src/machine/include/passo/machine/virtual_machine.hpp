@@ -97,6 +97,7 @@ class VirtualMachine final : public BoardPort {
   };
 
   void look_at_plant();
+  void look_at_inputs();
   void heed(unsigned inputs);
 
   IdealPlant own_plant_;

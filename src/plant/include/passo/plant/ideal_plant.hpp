@@ -13,7 +13,7 @@ class IdealPlant final : public Plant {
  public:
   // Without a model the spindle does as commanded, and has no encoder.
   void fit_spindle(const SpindleModel& model) { spindle_ = VirtualSpindle(model); }
-  // From machine zero. At the start.
+  // From machine zero. As the switches and bodies, before a board drives the plant.
   void stand_at(const MotorSteps& steps);
   void add(const TravelSwitch& added);
   void add(const TouchBody& body);
