@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "block_executor.hpp"
-#include "plane_axes.hpp"
 #include <fmt/format.h>
 
 namespace passo {

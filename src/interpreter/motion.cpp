@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "block_executor.hpp"
-#include "plane_axes.hpp"
 #include <fmt/format.h>
 
 namespace passo {

@@ -23,9 +23,9 @@ inline constexpr uint8_t winding_count = 4;
 struct MotorPins {
   Pin step = {};
   Pin direction = {};
-  Pin enable = {};                   // low: the driver is on. Several motors may share one
-  Pin windings[winding_count] = {};  // in the place of the three: F1 to F4 of WindingTable
-  Drive drive = Drive::two_on;       // how they are switched
+  Pin enable = {};                      // low: the driver is on. Several motors may share one
+  Pin windings[winding_count] = {};     // in the place of the three: F1 to F4 of WindingTable
+  DriveMode drive = DriveMode::two_on;  // how they are switched
 
   // Its windings on `port` that have current in a pattern.
   constexpr uint8_t winding_bits(char port, uint8_t pattern = 0x0f) const {
@@ -238,7 +238,7 @@ struct PinMap {
 
 // The same board with its motors driven otherwise, each in its own way.
 template <uint8_t motor_count>
-constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const Drive (&drives)[motor_count]) {
+constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const DriveMode (&drives)[motor_count]) {
   for (uint8_t m = 0; m < motor_count; ++m) pins.motor[m].drive = drives[m];
   return pins;
 }

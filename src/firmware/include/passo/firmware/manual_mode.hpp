@@ -138,7 +138,7 @@ class ManualMode {
   bool waits_ = false;  // a key for the motors to rest
   bool runs_ = false;   // a key is held
   bool tool_ = false;
-  Jog jog_;
+  KeyMove jog_;
 };
 
 }  // namespace passo

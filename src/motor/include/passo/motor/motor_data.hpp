@@ -1,4 +1,4 @@
-// MotorData and Drive: what a data sheet says of a two-phase hybrid (or permanent-magnet) stepping motor, and what
+// MotorData and MotorDrive: what a data sheet says of a two-phase hybrid (or permanent-magnet) stepping motor, and what
 // drives it.
 //
 // The electrical values of a sheet belong to a way of connecting the motor. A bipolar drive pushes current through the
@@ -60,7 +60,7 @@ struct MotorData {
   Winding winding = Winding::whole_coil;  // what the four above were measured on
 };
 
-struct Drive {
+struct MotorDrive {
   Volts supply = {};
   Winding winding = Winding::whole_coil;
   Regulation regulation = Regulation::chopper;
@@ -73,7 +73,7 @@ struct MotorError {
 // Each value is finite and above zero, the steps a multiple of four.
 Status<MotorError> check(const Rotor& rotor);
 Status<MotorError> check(const MotorData& data);
-Status<MotorError> check(const Drive& drive);
+Status<MotorError> check(const MotorDrive& drive);
 
 // The same motor, its values for `winding`, at the same heat in the copper: a half coil has half the turns, so half the
 // resistance and torque per ampere, a quarter of the inductance, and takes √2 of the current; it holds 1/√2 of the

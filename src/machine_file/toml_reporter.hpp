@@ -1,4 +1,4 @@
-// Reporter: a machine file's text by lines, and the way from a place in it to a diagnostic with its line and caret.
+// TomlReporter: a machine file's text by lines, and the way from a place in it to a diagnostic with its line and caret.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace passo {
 
-class Reporter {
+class TomlReporter {
  public:
   // `text` must outlive the reporter.
-  Reporter(std::string_view text, std::string file, Diagnostics& diagnostics);
+  TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics);
 
   void error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const;
 

@@ -1,4 +1,4 @@
-// JerkProfile: from a speed and an acceleration to the end speed, over a given way, as fast as the limits let it.
+// JerkRamp: from a speed and an acceleration to the end speed, over a given way, as fast as the limits let it.
 // Private to ramp/. Steps and seconds.
 //
 // Three parts: a head from the state to the crest speed, a stretch at the crest, and a tail from the crest to the end
@@ -61,14 +61,14 @@ class JerkPhases {
   double duration_ = 0;
 };
 
-class JerkProfile {
+class JerkRamp {
  public:
-  JerkProfile() = default;
+  JerkRamp() = default;
   // From the middle of a move. `way` not below shortest(); what rounding lacks is ignored.
-  JerkProfile(const JerkState& from, double way, const JerkLimits& limits);
+  JerkRamp(const JerkState& from, double way, const JerkLimits& limits);
   // From rest: the first step and the last at the end speed where that is not 0, a constant speed where there is
   // nothing between.
-  static JerkProfile from_rest(double way, const JerkLimits& limits);
+  static JerkRamp from_rest(double way, const JerkLimits& limits);
   // The way that the state needs to come to the end speed, with the last step at that.
   static double shortest(const JerkState& from, const JerkLimits& limits);
 
