@@ -1,6 +1,7 @@
 // How many of their trials tests make.
 //
 // PASSO_IN_FULL=N: tests that take minutes are run, with one in N of their trials; 1: with all of them.
+// PASSO_ONE_IN, a definition of the test program (cmake/PassoModule.cmake): the other tests make one in so many.
 #pragma once
 
 #include <algorithm>
@@ -25,12 +26,7 @@ class InFull : public Test {
   }
 };
 
-// Under sanitizers a trial takes ten times as long: one in so many is made.
-#ifdef PASSO_SANITIZED
-inline constexpr int one_in = 8;
-#else
-inline constexpr int one_in = 1;
-#endif
+inline constexpr int one_in = PASSO_ONE_IN;
 constexpr int fewer(int trials) {
   return std::max(trials / one_in, 1);
 }
