@@ -1,8 +1,9 @@
-# passo_module(NAME [SOURCES file…] [LIBRARIES target…] [TESTS file…])
+# passo_module(NAME [SOURCES file…] [LIBRARIES target…] [TESTS file…] [TESTS_APART file…])
 #
 # One module of the street: a static library passo_NAME with its public headers under
 # include/passo/NAME/. What it may use is read from docs/layers.txt, the only place where that is written.
-# TESTS become one test program NAME_tests.
+# TESTS become one test program NAME_tests. They are compiled several at a time (a unity build); those whose own names
+# clash with the others' are TESTS_APART.
 file(STRINGS "${PROJECT_SOURCE_DIR}/docs/layers.txt" PASSO_LAYER_LINES REGEX "^[a-z_]+\\*?:")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/layers.txt")
 
@@ -18,7 +19,7 @@ function(passo_layers module out)
 endfunction()
 
 function(passo_module module)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;TESTS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;TESTS;TESTS_APART" ${ARGN})
   passo_layers(${module} layers)
   list(TRANSFORM layers PREPEND "passo_")
 
@@ -26,15 +27,41 @@ function(passo_module module)
     add_library(passo_${module} STATIC ${ARG_SOURCES})
     target_include_directories(passo_${module} PUBLIC include)
     target_link_libraries(passo_${module} PUBLIC ${layers} PRIVATE ${ARG_LIBRARIES} passo_compiler)
+    if(PASSO_SANITIZE)
+      passo_sanitized_library(passo_${module})
+    endif()
   else()
     add_library(passo_${module} INTERFACE)
     target_include_directories(passo_${module} INTERFACE include)
     target_link_libraries(passo_${module} INTERFACE ${layers})
   endif()
 
-  if(ARG_TESTS AND PASSO_BUILD_TESTS)
-    passo_test(${module}_tests SOURCES ${ARG_TESTS} LIBRARIES passo_${module})
+  if(ARG_TESTS AND PASSO_BUILD_TESTS AND (NOT PASSO_SANITIZE OR module IN_LIST PASSO_SANITIZED_MODULES))
+    passo_test(${module}_tests SOURCES ${ARG_TESTS} ${ARG_TESTS_APART} LIBRARIES passo_${module})
+    set_target_properties(${module}_tests PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_source_files_properties(${ARG_TESTS_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
+endfunction()
+
+# With PASSO_SANITIZE only the modules that read what others wrote, and those with the most arithmetic of indices, have
+# tests, and of the tests of the whole street one program (tests/CMakeLists.txt). Libraries are built that these need.
+set(PASSO_SANITIZED_MODULES base diagnostics gcode interpreter machine_file geometry path trajectory wire firmware link)
+
+# clang reads the standard headers once for all libraries: a quarter of the time. In other builds each file includes what
+# it uses, or does not compile.
+function(passo_sanitized_library name)
+  set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    return()
+  endif()
+  if(NOT TARGET passo_standard_headers)
+    file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/standard_headers.cpp" CONTENT "")
+    add_library(passo_standard_headers OBJECT "${PROJECT_BINARY_DIR}/standard_headers.cpp")
+    target_link_libraries(passo_standard_headers PRIVATE passo_compiler)
+    target_precompile_headers(passo_standard_headers PRIVATE <algorithm> <array> <cmath> <functional> <map> <memory>
+      <optional> <ostream> <span> <string> <string_view> <variant> <vector>)
+  endif()
+  target_precompile_headers(${name} REUSE_FROM passo_standard_headers)
 endfunction()
 
 # GoogleTest's headers, compiled once for all test programs.
@@ -45,16 +72,26 @@ function(passo_test_headers)
   target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
-# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…])
+# Slow tests make an eighth of their trials, or all of them, which takes an hour: scripts/test.sh --full.
+option(PASSO_TESTS_IN_FULL "Slow tests make all of their trials" OFF)
+
+# passo_test(NAME SOURCES file… LIBRARIES target… [LABELS label…] [DEFINITIONS name=value…] [ONE_IN number])
 #
-# A GoogleTest program. Tests without a label are fast: a developer runs them at every change.
+# A GoogleTest program. Tests without a label are fast: a developer runs them at every change. ONE_IN: of the trials of
+# random tests they make one in so many (tests/kit/in_full.hpp).
 function(passo_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "ONE_IN" "SOURCES;LIBRARIES;LABELS;DEFINITIONS" ${ARGN})
+  if(PASSO_SANITIZE)
+    set(ARG_ONE_IN 8)  # a trial takes ten times as long
+  elseif(PASSO_TESTS_IN_FULL OR NOT ARG_ONE_IN)
+    set(ARG_ONE_IN 1)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
-    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> ${ARG_DEFINITIONS})
+    PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${ARG_ONE_IN}
+    $<$<BOOL:${PASSO_SANITIZE}>:PASSO_SANITIZED> ${ARG_DEFINITIONS})
   if(NOT TARGET passo_test_headers)
     passo_test_headers()
   endif()
@@ -69,13 +106,19 @@ function(passo_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
 endfunction()
 
-# passo_slow_test(NAME SECONDS COMMAND program [argument…] [ENVIRONMENT name=value…])
+# passo_slow_test(NAME SECONDS COMMAND program [argument…] [ENVIRONMENT name=value…] [IN_FULL name=value…])
 #
-# Tests of a program that a developer would not wait for, about so long: CI runs them, the longest first, so that no
-# processor stands idle at the end.
+# Tests of a program that a developer would not wait for. CI runs them with ENVIRONMENT, which asks for about an eighth of
+# the trials, in about so many seconds, the longest first, so that no processor stands idle at the end. With
+# PASSO_TESTS_IN_FULL they get IN_FULL instead, which asks for all.
 function(passo_slow_test name seconds)
-  cmake_parse_arguments(ARG "" "" "COMMAND;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "COMMAND;ENVIRONMENT;IN_FULL" ${ARGN})
+  set(timeout 600)
+  if(PASSO_TESTS_IN_FULL)
+    set(ARG_ENVIRONMENT ${ARG_IN_FULL})
+    set(timeout 7200)
+  endif()
   add_test(NAME ${name} COMMAND ${ARG_COMMAND})
   set_tests_properties(${name} PROPERTIES
-    LABELS slow COST ${seconds} TIMEOUT 600 ENVIRONMENT "${ARG_ENVIRONMENT}")
+    LABELS slow COST ${seconds} TIMEOUT ${timeout} ENVIRONMENT "${ARG_ENVIRONMENT}")
 endfunction()

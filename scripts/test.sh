@@ -1,38 +1,42 @@
 #!/usr/bin/env bash
-# scripts/test.sh [--all]: builds Passo with all its tests and runs them.
+# scripts/test.sh [--all|--full]: builds Passo with all its tests and runs them.
 #
-#   --all   what CI wants, before that: the format check, and the fast tests, built by clang, under
-#           AddressSanitizer and UndefinedBehaviorSanitizer
+#   --all    what CI wants, before that: the format check; what reads what others wrote, and what plans motion, by clang
+#            under AddressSanitizer and UndefinedBehaviorSanitizer, with its tests; all else looked at by clang; and the
+#            program and its libraries as the preset dev builds them
+#   --full   slow tests make all of their trials and not an eighth: an hour and more
 #
 # The last lines are the summary of ctest, and its exit code is the script's.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 case "${1-}" in
-  "" | --all) ;;
+  "" | --all | --full) ;;
   *)
-    sed -n '2,7s/^# \{0,1\}//p' scripts/test.sh
+    sed -n '2,9s/^# \{0,1\}//p' scripts/test.sh
     exit 2
     ;;
 esac
 
-build() {  # PRESET [OPTION...]
-  local preset=$1
-  shift
-  cmake --preset "$preset" "$@"
-  cmake --build "build/$preset" --parallel "$(nproc)"
+build() {  # PRESET [TARGET...]
+  cmake --build "build/$1" --parallel "$(nproc)" ${2:+--target "${@:2}"}
 }
 run_tests() {  # PRESET [OPTION...]
-  local preset=$1
-  shift
-  ctest --test-dir "build/$preset" --parallel "$(nproc)" --output-on-failure --no-tests=error "$@"
+  ctest --test-dir "build/$1" --parallel "$(nproc)" --output-on-failure --no-tests=error "${@:2}"
 }
 
 scripts/install.sh
 if [[ ${1-} == --all ]]; then
   scripts/format.sh --check
-  build sanitize -DPASSO_BUILD_BENCHMARKS=OFF
+  cmake --preset sanitize
+  build sanitize
   run_tests sanitize --label-exclude slow
+  scripts/look_by_clang.sh
+  cmake --preset dev
+  build dev passo
 fi
-build release -DPASSO_BUILD_TESTS=ON -DPASSO_BUILD_BENCHMARKS=ON
+in_full=OFF
+if [[ ${1-} == --full ]]; then in_full=ON; fi
+cmake --preset release -DPASSO_BUILD_TESTS=ON -DPASSO_BUILD_BENCHMARKS=ON -DPASSO_TESTS_IN_FULL=$in_full
+build release
 run_tests release

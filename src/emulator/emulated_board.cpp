@@ -47,7 +47,7 @@ constexpr double full_duty = 255;
 constexpr double full_rpm = 24'000;
 
 template <class Map>
-Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = {}) {
+Kind kind_of(const char* mcu, const char* ports, const Map& pins, DriveMode drive = {}) {
   Kind kind{.mcu = mcu,
             .ports = ports,
             .motors = {std::begin(pins.motor), std::end(pins.motor)},
@@ -66,14 +66,14 @@ Kind kind_of(const char* mcu, const char* ports, const Map& pins, Drive drive = 
 }
 
 template <class Map>
-Kind kind_of(bool is_mega, const Map& pins, Drive drive = {}) {
+Kind kind_of(bool is_mega, const Map& pins, DriveMode drive = {}) {
   return is_mega ? kind_of("atmega2560", "ABCDEFGHJKL", pins, drive) : kind_of("atmega328p", "BCD", pins, drive);
 }
 
 Kind kind_named(std::string_view name) {
   const bool is_mega = name.starts_with("mega");
-  for (const auto& [ending, drive] : {std::pair{"_two_on", Drive::two_on}, std::pair{"_wave", Drive::wave},
-                                      std::pair{"_half_step", Drive::half_step}}) {
+  for (const auto& [ending, drive] : {std::pair{"_two_on", DriveMode::two_on}, std::pair{"_wave", DriveMode::wave},
+                                      std::pair{"_half_step", DriveMode::half_step}}) {
     if (!name.ends_with(ending)) continue;
     return is_mega ? kind_of(is_mega, mega_windings, drive) : kind_of(is_mega, uno_windings, drive);
   }

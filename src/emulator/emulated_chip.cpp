@@ -11,14 +11,6 @@
 #include <simavr/sim_elf.h>
 #include <simavr/sim_interrupts.h>
 
-#ifdef __SANITIZE_ADDRESS__
-// simavr 1.6 never gives back what it allocates for an ELF file and for its wires.
-extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
-extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
-  return "leak:libsimavr";
-}
-#endif
-
 namespace passo {
 namespace {
 

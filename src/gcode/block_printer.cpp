@@ -116,19 +116,19 @@ class ExpressionPrinter {
   std::vector<Operand> stack_;
 };
 
-const char* keyword_of(Comment::Kind kind) {
+const char* keyword_of(BlockComment::Kind kind) {
   switch (kind) {
-    case Comment::Kind::plain: return "";
-    case Comment::Kind::message: return "MSG";
-    case Comment::Kind::debug: return "DEBUG";
-    case Comment::Kind::print: return "PRINT";
-    case Comment::Kind::log: return "LOG";
-    case Comment::Kind::log_open: return "LOGOPEN";
-    case Comment::Kind::log_append: return "LOGAPPEND";
-    case Comment::Kind::log_close: return "LOGCLOSE";
-    case Comment::Kind::abort: return "ABORT";
-    case Comment::Kind::probe_open: return "PROBEOPEN";
-    case Comment::Kind::probe_close: return "PROBECLOSE";
+    case BlockComment::Kind::plain: return "";
+    case BlockComment::Kind::message: return "MSG";
+    case BlockComment::Kind::debug: return "DEBUG";
+    case BlockComment::Kind::print: return "PRINT";
+    case BlockComment::Kind::log: return "LOG";
+    case BlockComment::Kind::log_open: return "LOGOPEN";
+    case BlockComment::Kind::log_append: return "LOGAPPEND";
+    case BlockComment::Kind::log_close: return "LOGCLOSE";
+    case BlockComment::Kind::abort: return "ABORT";
+    case BlockComment::Kind::probe_open: return "PROBEOPEN";
+    case BlockComment::Kind::probe_close: return "PROBECLOSE";
   }
   return "";
 }
@@ -156,13 +156,13 @@ const char* keyword_of(ControlKind kind) {
 }
 
 // The last plain comment is written after ';', where any text may stand. The others keep their brackets.
-std::string print_comment(const Comment& comment, bool is_last) {
-  if (comment.kind == Comment::Kind::plain) {
+std::string print_comment(const BlockComment& comment, bool is_last) {
+  if (comment.kind == BlockComment::Kind::plain) {
     return is_last ? fmt::format(";{}", comment.text) : fmt::format("({})", comment.text);
   }
   // These three are written without a comma: a blank, then the text.
-  const bool bare = comment.kind == Comment::Kind::log_close || comment.kind == Comment::Kind::probe_open ||
-                    comment.kind == Comment::Kind::probe_close;
+  const bool bare = comment.kind == BlockComment::Kind::log_close || comment.kind == BlockComment::Kind::probe_open ||
+                    comment.kind == BlockComment::Kind::probe_close;
   const bool comma = !bare || !(comment.text.empty() || comment.text.front() == ' ' || comment.text.front() == '\t');
   return fmt::format("({}{}{})", keyword_of(comment.kind), comma ? "," : "", comment.text);
 }
@@ -200,7 +200,7 @@ std::string print(const Block& block, const SymbolTable& symbols) {
                                                 : fmt::format("<{}>", symbols.name(assignment.symbol));
     item(fmt::format("#{}={}", target, expressions.print(block, assignment.value)));
   }
-  for (const Comment& comment : block.comments) item(print_comment(comment, &comment == &block.comments.back()));
+  for (const BlockComment& comment : block.comments) item(print_comment(comment, &comment == &block.comments.back()));
   return out;
 }
 

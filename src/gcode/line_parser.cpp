@@ -10,21 +10,21 @@ namespace {
 
 struct CommentKeyword {
   std::string_view name;
-  Comment::Kind kind;
+  BlockComment::Kind kind;
   bool takes_comma;  // LinuxCNC writes (LOGCLOSE) and (PROBEOPEN name) without a comma
 };
 
 constexpr std::array comment_keywords = {
-    CommentKeyword{"MSG", Comment::Kind::message, true},
-    CommentKeyword{"DEBUG", Comment::Kind::debug, true},
-    CommentKeyword{"PRINT", Comment::Kind::print, true},
-    CommentKeyword{"LOG", Comment::Kind::log, true},
-    CommentKeyword{"LOGOPEN", Comment::Kind::log_open, true},
-    CommentKeyword{"LOGAPPEND", Comment::Kind::log_append, true},
-    CommentKeyword{"LOGCLOSE", Comment::Kind::log_close, false},
-    CommentKeyword{"ABORT", Comment::Kind::abort, true},
-    CommentKeyword{"PROBEOPEN", Comment::Kind::probe_open, false},
-    CommentKeyword{"PROBECLOSE", Comment::Kind::probe_close, false},
+    CommentKeyword{"MSG", BlockComment::Kind::message, true},
+    CommentKeyword{"DEBUG", BlockComment::Kind::debug, true},
+    CommentKeyword{"PRINT", BlockComment::Kind::print, true},
+    CommentKeyword{"LOG", BlockComment::Kind::log, true},
+    CommentKeyword{"LOGOPEN", BlockComment::Kind::log_open, true},
+    CommentKeyword{"LOGAPPEND", BlockComment::Kind::log_append, true},
+    CommentKeyword{"LOGCLOSE", BlockComment::Kind::log_close, false},
+    CommentKeyword{"ABORT", BlockComment::Kind::abort, true},
+    CommentKeyword{"PROBEOPEN", BlockComment::Kind::probe_open, false},
+    CommentKeyword{"PROBECLOSE", BlockComment::Kind::probe_close, false},
 };
 
 const CommentKeyword* find_comment_keyword(std::string_view name) {
@@ -35,7 +35,7 @@ const CommentKeyword* find_comment_keyword(std::string_view name) {
 }
 
 // Finds the keyword at the start of a comment and removes it from the text.
-Comment::Kind take_keyword(std::string_view& text) {
+BlockComment::Kind take_keyword(std::string_view& text) {
   std::array<char, 10> letters;  // the longest keyword
   std::size_t size = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -54,7 +54,7 @@ Comment::Kind take_keyword(std::string_view& text) {
     }
     if (c == ',') break;
   }
-  return Comment::Kind::plain;
+  return BlockComment::Kind::plain;
 }
 
 struct ControlKeyword {
@@ -201,7 +201,7 @@ bool LineParser::parse_comment() {
     return fail("gcode.nested-comment", close, 1, "a comment inside a comment",
                 "no '(' before the ')' that closes the comment");
   }
-  Comment& comment = block_.comments.emplace_back();
+  BlockComment& comment = block_.comments.emplace_back();
   comment.text = std::string_view(open + 1, static_cast<std::size_t>(close - open - 1));
   comment.kind = take_keyword(comment.text);
   at_ = close;
@@ -214,7 +214,7 @@ bool LineParser::parse_comment() {
 void LineParser::parse_semicolon_comment() {
   const char* const start = at_;
   token_end_ = at_ = end_;
-  Comment& comment = block_.comments.emplace_back();
+  BlockComment& comment = block_.comments.emplace_back();
   comment.text = rest(start).substr(1);
   comment.span = span_from(start);
 }

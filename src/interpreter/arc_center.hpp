@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "passo/interpreter/plane_axes.hpp"
+
 namespace passo {
 
 struct PlanePoint {
@@ -13,6 +15,9 @@ struct PlanePoint {
   double second = 0;
   friend bool operator==(const PlanePoint&, const PlanePoint&) = default;
 };
+constexpr PlanePoint in_plane(const Point& point, const PlaneAxes& axes) {
+  return {point[axes.first], point[axes.second]};
+}
 
 struct ArcTolerance {
   double radius;                                    // a radius below is none; R may fall this short of half the chord

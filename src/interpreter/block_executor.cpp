@@ -372,11 +372,11 @@ bool BlockExecutor::assign(const Block& block) {
 
 // As LinuxCNC does: what follows ';' is never obeyed, and of several comments in parentheses the last one is.
 bool BlockExecutor::obey_comments(const Block& block) {
-  const Comment* last = nullptr;
-  for (const Comment& comment : block.comments) {
-    const bool says_nothing = comment.text.empty() && comment.kind == Comment::Kind::plain;
+  const BlockComment* last = nullptr;
+  for (const BlockComment& comment : block.comments) {
+    const bool says_nothing = comment.text.empty() && comment.kind == BlockComment::Kind::plain;
     if (says_nothing || block.text[comment.span.column - 1] == ';') continue;
-    if (last != nullptr && last->kind != Comment::Kind::plain) {
+    if (last != nullptr && last->kind != BlockComment::Kind::plain) {
       reporter_.warning("gcode.hidden-comment", last->span, "only the last comment of a block is obeyed",
                         "one comment a block");
     }
@@ -385,8 +385,8 @@ bool BlockExecutor::obey_comments(const Block& block) {
   return last == nullptr || obey(*last);
 }
 
-bool BlockExecutor::obey(const Comment& comment) {
-  using Kind = Comment::Kind;
+bool BlockExecutor::obey(const BlockComment& comment) {
+  using Kind = BlockComment::Kind;
   using Log = operation::Log;
   const auto filled = [&]() -> std::string_view {
     fill_in_parameters(comment.text, parameters_, symbols_, text_);

@@ -89,7 +89,7 @@ class BlockExecutor : private CodeFamily {
 
   // Words and groups, in the order in which they are executed.
   bool obey_comments(const Block& block);
-  bool obey(const Comment& comment);
+  bool obey(const BlockComment& comment);
   bool set_feed_mode(CodeNumber code);
   bool set_feed_rate();
   bool set_spindle_speed();

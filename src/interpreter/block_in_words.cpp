@@ -209,8 +209,8 @@ std::string_view text_of(const Block& block, Span span) {
   return block.text.substr(span.column - 1, span.length);
 }
 
-const char* meaning_of(Comment::Kind kind) {
-  using Kind = Comment::Kind;
+const char* meaning_of(BlockComment::Kind kind) {
+  using Kind = BlockComment::Kind;
   switch (kind) {
     case Kind::message: return "a message to the operator";
     case Kind::debug: return "a message to the operator, with the values of parameters";
@@ -279,7 +279,7 @@ std::vector<WordValue> word_values(const Block& block, const Parameters& paramet
     }
     values.push_back({std::string(text_of(block, block.control->span)), 0, 0, true, std::move(meaning)});
   }
-  for (const Comment& comment : block.comments) {
+  for (const BlockComment& comment : block.comments) {
     values.push_back({std::string(text_of(block, comment.span)), 0, 0, true, meaning_of(comment.kind)});
   }
   return values;

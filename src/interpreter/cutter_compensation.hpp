@@ -18,7 +18,6 @@
 
 #include "arc_center.hpp"
 #include "operation_queue.hpp"
-#include "plane_axes.hpp"
 
 #include "passo/geometry/axes.hpp"
 

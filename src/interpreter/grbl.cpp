@@ -333,7 +333,7 @@ bool is_without_effect(const Block& block, const Word& word) {
 bool accept_as_grbl(Block& block, const MachineState& state, Reporter& reporter) {
   if (!GrblCheck(block, state, reporter).passes()) return false;
   std::erase_if(block.words, [&](const Word& word) { return is_without_effect(block, word); });
-  for (Comment& comment : block.comments) comment.kind = Comment::Kind::plain;
+  for (BlockComment& comment : block.comments) comment.kind = BlockComment::Kind::plain;
   return true;
 }
 

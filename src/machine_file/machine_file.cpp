@@ -60,7 +60,7 @@ std::size_t dots_of(std::string_view line) {
 
 // Refuses what a parser should not see. A text over several lines is refused too: without such texts a comment can be
 // recognised from its line alone.
-bool is_fit_for_parser(const Reporter& reporter) {
+bool is_fit_for_parser(const TomlReporter& reporter) {
   for (std::uint32_t number = 1; number <= reporter.line_count(); ++number) {
     const std::string_view line = reporter.line(number);
     const auto refuse = [&](const char* code, std::size_t offset, std::string message, std::string expected) {
@@ -120,7 +120,7 @@ std::optional<MachineDescription> parse_machine(std::string_view text, const std
     return std::nullopt;
   }
   Diagnostics found(most_errors);
-  const Reporter reporter(text, file, found);
+  const TomlReporter reporter(text, file, found);
   MachineDescription machine;
   if (is_fit_for_parser(reporter)) machine = read_machine(parse_toml(std::string(text), reporter), reporter);
   hand_over(found, diagnostics);

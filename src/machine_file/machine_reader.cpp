@@ -71,7 +71,8 @@ constexpr double longest_interval_ticks = 65535;
 
 class MachineReader {
  public:
-  MachineReader(const TomlDocument& document, const Reporter& reporter) : document_(document), reporter_(reporter) {}
+  MachineReader(const TomlDocument& document, const TomlReporter& reporter)
+      : document_(document), reporter_(reporter) {}
 
   MachineDescription read();
 
@@ -102,7 +103,7 @@ class MachineReader {
   void finish(TableReader& reader) const { reader.finish(document_.complete, {"name", path_tolerance_key.name}); }
 
   const TomlDocument& document_;
-  const Reporter& reporter_;
+  const TomlReporter& reporter_;
   MachineDescription machine_;
   std::optional<Hertz> event_rate_;  // the board's, if it is right
   std::vector<AxisEntry> axes_;
@@ -398,7 +399,7 @@ void MachineReader::number_motors() {
 
 }  // namespace
 
-MachineDescription read_machine(const TomlDocument& document, const Reporter& reporter) {
+MachineDescription read_machine(const TomlDocument& document, const TomlReporter& reporter) {
   return MachineReader(document, reporter).read();
 }
 

@@ -27,7 +27,8 @@ bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
 
 }  // namespace
 
-TableReader::TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const Reporter& reporter)
+TableReader::TableReader(const TomlTable& table, std::string path, const SourcePlace& place,
+                         const TomlReporter& reporter)
     : table_(table), path_(std::move(path)), place_(place), reporter_(reporter) {}
 
 std::string TableReader::full_name(std::string_view key) const {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reporter.hpp"
+#include "toml_reporter.hpp"
 #include "toml_document.hpp"
 
 namespace passo {
@@ -34,7 +34,7 @@ class TableReader {
  public:
   // `path` names the table as the file does ("axis.X"; empty for the top of the file). An absent table is read as an
   // empty one.
-  TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const Reporter& reporter);
+  TableReader(const TomlTable& table, std::string path, const SourcePlace& place, const TomlReporter& reporter);
 
   bool has(std::string_view key) const { return find(table_, key) != nullptr; }
   SourcePlace place_of(std::string_view key) const;  // the place of its value; the table's where there is none
@@ -83,7 +83,7 @@ class TableReader {
   const TomlTable& table_;
   std::string path_;
   SourcePlace place_;
-  const Reporter& reporter_;
+  const TomlReporter& reporter_;
   std::vector<std::string_view> known_;
   std::vector<MissingKey> missing_;
 };

@@ -10,15 +10,15 @@
 namespace passo {
 namespace {
 
-TomlTable convert(const toml::table& table, const Reporter& reporter);
+TomlTable convert(const toml::table& table, const TomlReporter& reporter);
 
-SourcePlace place_of(const toml::source_region& region, const Reporter& reporter) {
+SourcePlace place_of(const toml::source_region& region, const TomlReporter& reporter) {
   const bool one_line = region.begin.line == region.end.line;
   const std::uint32_t end = one_line ? region.end.column : UINT16_MAX;
   return reporter.place(region.begin.line, region.begin.column, end);
 }
 
-TomlValue convert(const toml::node& node, const Reporter& reporter) {
+TomlValue convert(const toml::node& node, const TomlReporter& reporter) {
   TomlValue value;
   value.place = place_of(node.source(), reporter);
   if (const auto* table = node.as_table()) {
@@ -39,7 +39,7 @@ TomlValue convert(const toml::node& node, const Reporter& reporter) {
   return value;
 }
 
-TomlTable convert(const toml::table& table, const Reporter& reporter) {
+TomlTable convert(const toml::table& table, const TomlReporter& reporter) {
   TomlTable result;
   for (const auto& [key, node] : table) {
     result.entries.push_back({std::string(key.str()), place_of(key.source(), reporter), convert(node, reporter)});
@@ -69,7 +69,7 @@ std::string advice(std::string_view line, std::size_t offset) {
   return "lines as in 'key = 1.5', 'key = \"text\"' or '[table]'; a comment begins with #";
 }
 
-void report(const toml::parse_error& error, const Reporter& reporter) {
+void report(const toml::parse_error& error, const TomlReporter& reporter) {
   std::string_view description = error.description();
   const SourcePlace place = place_of(error.source(), reporter);
   if (const std::size_t start = description.find("cannot redefine existing "); start != std::string_view::npos) {
@@ -96,7 +96,7 @@ struct Attempt {
   std::uint32_t wrong_line = 0;  // 0: the error may have begun on an earlier line than where it shows
 };
 
-Attempt attempt(std::string_view text, const Reporter& reporter) {
+Attempt attempt(std::string_view text, const TomlReporter& reporter) {
   try {
     return {toml::parse(text), 0};
   } catch (const toml::parse_error& error) {
@@ -148,7 +148,7 @@ std::string kind_of(const TomlValue& value) {
   return std::visit(Namer{}, value.content);
 }
 
-TomlDocument parse_toml(std::string text, const Reporter& reporter) {
+TomlDocument parse_toml(std::string text, const TomlReporter& reporter) {
   constexpr int most_attempts = 20;
   TomlDocument document;
   for (int i = 0; i < most_attempts; ++i) {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "reporter.hpp"
+#include "toml_reporter.hpp"
 
 namespace passo {
 
@@ -43,6 +43,6 @@ struct TomlDocument {
 };
 
 // Every syntax error goes to the reporter. A wrong line is left out, and the rest is read again.
-TomlDocument parse_toml(std::string text, const Reporter& reporter);
+TomlDocument parse_toml(std::string text, const TomlReporter& reporter);
 
 }  // namespace passo

@@ -6,7 +6,7 @@
 
 namespace passo {
 
-DrivenWinding::DrivenWinding(const MotorData& data, const Drive& drive)
+DrivenWinding::DrivenWinding(const MotorData& data, const MotorDrive& drive)
     : teeth_(data.rotor.teeth()),
       voltage_(drive.supply.value),
       limits_current_(drive.regulation == Regulation::chopper) {

@@ -41,7 +41,7 @@ Status<MotorError> check(const MotorData& data) {
                          {"the inductance", data.inductance.value, "H"}});
 }
 
-Status<MotorError> check(const Drive& drive) {
+Status<MotorError> check(const MotorDrive& drive) {
   return check_positive({{"the supply voltage", drive.supply.value, "V"}});
 }
 

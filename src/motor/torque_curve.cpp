@@ -107,7 +107,7 @@ Result<TorqueCurve, MotorError> TorqueCurve::from_points(const Rotor& rotor, con
   return curve;
 }
 
-Result<TorqueCurve, MotorError> TorqueCurve::from_motor(const MotorData& data, const Drive& drive) {
+Result<TorqueCurve, MotorError> TorqueCurve::from_motor(const MotorData& data, const MotorDrive& drive) {
   const Status<MotorError> good_data = check(data);
   if (!good_data) return Failure{good_data.error()};
   const Status<MotorError> good_drive = check(drive);

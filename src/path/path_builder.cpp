@@ -10,6 +10,8 @@
 #include "spline_pieces.hpp"
 #include <fmt/format.h>
 
+#include "passo/interpreter/plane_axes.hpp"
+
 namespace passo {
 namespace {
 
@@ -238,7 +240,7 @@ void PathBuilder::refuse_surface_speed(const operation::SetSpindleMode& mode) {
 
 bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
   if (frame_.rotation_degrees() != 0 && arc.plane != Plane::xy) return take_tilted_arc(arc, item);
-  const auto [first, second] = axes_of(arc.plane);
+  const auto [first, second, normal] = axes_of(arc.plane);
   const Point end = machine_end(arc.end);
   Point work_center = arc.end;
   work_center[first] = arc.first_center.value();

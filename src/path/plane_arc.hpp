@@ -1,27 +1,11 @@
-// What an arc of RS274/NGC is in its plane: which axes, and how far round. Private to path/.
+// How far round an arc of RS274/NGC goes. Private to path/.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
-#include "passo/geometry/axes.hpp"
-#include "passo/interpreter/operation.hpp"
-
 namespace passo {
-
-struct PlaneAxes {
-  Axis first;
-  Axis second;
-};
-
-constexpr PlaneAxes axes_of(Plane plane) {
-  switch (plane) {
-    case Plane::zx: return {Axis::z, Axis::x};
-    case Plane::yz: return {Axis::y, Axis::z};
-    default: return {Axis::x, Axis::y};  // there are no arcs in the planes of U V W
-  }
-}
 
 // The angle from start to end in the sense of `turns`, 1 or -1 within one turn. As in LinuxCNC's canon layer two
 // directions closer than a millionth of a radian are one, and the arc is a full circle.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jerk_profile.hpp"
+#include "jerk_ramp.hpp"
 
 namespace passo {
 
@@ -12,7 +12,7 @@ struct SCurveMove::State {
   double clock = 0;       // ticks a second
   double step_angle = 0;  // radians
 
-  JerkProfile profile;
+  JerkRamp profile;
   std::int64_t leg_end = 0;  // where the leg comes to rest
   std::int64_t left = 0;     // steps to leg_end
   std::int64_t target = 0;
@@ -37,7 +37,7 @@ void SCurveMove::State::begin_leg() {
   up = target > leg_end;
   left = std::abs(target - leg_end);
   leg_end = target;
-  profile = JerkProfile::from_rest(static_cast<double>(left), limits);
+  profile = JerkRamp::from_rest(static_cast<double>(left), limits);
   start_time = 0;
   time = 0;
   ticks = 0;
@@ -46,7 +46,7 @@ void SCurveMove::State::begin_leg() {
 // Plans from the state at the last step to rest in `steps`. The clock runs on.
 void SCurveMove::State::go_on(std::int64_t steps) {
   if (steps == left) return;
-  profile = JerkProfile(now(), static_cast<double>(steps), limits);
+  profile = JerkRamp(now(), static_cast<double>(steps), limits);
   start_time = time;
   leg_end = up ? position() + steps : position() - steps;
   left = steps;
@@ -105,7 +105,7 @@ void SCurveMove::move_to(Steps target) {
   const std::int64_t here = state.position();
   const std::int64_t ahead = state.up ? target.count - here : here - target.count;
   // The way to rest, in whole steps. Only rounding can make it longer than the present leg.
-  const double shortest = JerkProfile::shortest(state.now(), state.limits);
+  const double shortest = JerkRamp::shortest(state.now(), state.limits);
   const auto least = std::min(static_cast<std::int64_t>(std::ceil(shortest)), state.left);
   state.go_on(std::max(ahead, std::max<std::int64_t>(least, 1)));
 }

@@ -6,14 +6,6 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
-#ifdef __SANITIZE_ADDRESS__
-// fontconfig keeps its configuration until the process ends. LeakSanitizer calls that a leak, so it is suppressed.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's own name
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libfontconfig\n";
-}
-#endif
-
 namespace passo {
 namespace {
 

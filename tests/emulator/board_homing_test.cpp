@@ -38,18 +38,19 @@ HomingBoard mega() {
   return with_limits({.board = mega_under_test(PASSO_MOTION_MEGA, 4), .interval = 145, .look = 18}, mega_ramps);
 }
 HomingBoard uno_windings_board() {
-  return with_limits(
-      {.board = uno_windings_under_test(PASSO_MOTION_UNO_TWO_ON, {Drive::two_on, Drive::two_on, Drive::two_on}),
-       .interval = 457,
-       .look = 260},
-      uno_windings);
+  return with_limits({.board = uno_windings_under_test(PASSO_MOTION_UNO_TWO_ON,
+                                                       {DriveMode::two_on, DriveMode::two_on, DriveMode::two_on}),
+                      .interval = 457,
+                      .look = 260},
+                     uno_windings);
 }
 HomingBoard mega_windings_board() {
-  return with_limits({.board = mega_windings_under_test(PASSO_MOTION_MEGA_TWO_ON,
-                                                        {Drive::two_on, Drive::two_on, Drive::two_on, Drive::two_on}),
-                      .interval = 533,
-                      .look = 260},
-                     mega_windings);
+  return with_limits(
+      {.board = mega_windings_under_test(PASSO_MOTION_MEGA_TWO_ON,
+                                         {DriveMode::two_on, DriveMode::two_on, DriveMode::two_on, DriveMode::two_on}),
+       .interval = 533,
+       .look = 260},
+      mega_windings);
 }
 
 std::uint8_t bit_of(std::size_t limit) {

@@ -81,10 +81,11 @@ Keypad ramps() {
           .relay = mega_ramps.spindle_relay};
 }
 Keypad windings() {
-  return {.board = mega_windings_under_test(PASSO_MOTION_MEGA_HALF_STEP, std::vector<Drive>(4, Drive::half_step)),
-          .pins = mega_windings.keypad,
-          .limit = mega_windings.limits[3],
-          .relay = mega_windings.spindle_relay};
+  return {
+      .board = mega_windings_under_test(PASSO_MOTION_MEGA_HALF_STEP, std::vector<DriveMode>(4, DriveMode::half_step)),
+      .pins = mega_windings.keypad,
+      .limit = mega_windings.limits[3],
+      .relay = mega_windings.spindle_relay};
 }
 
 class KeypadOf : public testing::TestWithParam<const char*> {
@@ -111,7 +112,7 @@ TEST_P(KeypadOf, moves_within_its_ramp_and_counts_every_step) {
     person.bench().ports().forget_changes();
     person.press(key, 1'800);
     const BoardStatus after = person.status();
-    const Jog jog = jog_of_key.of[key_named(key)];
+    const KeyMove jog = jog_of_key.of[key_named(key)];
     const std::vector<SeenSteps> seen = person.bench().seen();
     for (std::size_t m = 0; m < under_test.board.motors.size(); ++m) {
       if ((jog.steps >> m & 1) == 0) {

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
   const bool all = intervals.empty();
   if (all) intervals = {300, 200, 178, 160, 145, 133, 120, 114};
   const std::vector<std::uint32_t> slow = all ? std::vector<std::uint32_t>{1600, 800, 640, 533} : intervals;
-  const std::vector<Drive> drives(4, Drive::half_step);
+  const std::vector<DriveMode> drives(4, DriveMode::half_step);
   try {
     std::puts(
         "| board | motors | kbaud | events a second, thousands | every edge | error, cycles | apart | pulse | set-up | "

@@ -17,9 +17,9 @@ struct Image {
 };
 
 std::vector<Image> images() {
-  using enum Drive;
-  const std::vector<Drive> mixed = {two_on, wave, half_step, half_step};
-  const auto all = [](Drive drive) { return std::vector<Drive>(4, drive); };
+  using enum DriveMode;
+  const std::vector<DriveMode> mixed = {two_on, wave, half_step, half_step};
+  const auto all = [](DriveMode drive) { return std::vector<DriveMode>(4, drive); };
   return {{"uno two_on", uno_windings_under_test(PASSO_MOTION_UNO_TWO_ON, all(two_on))},
           {"uno wave", uno_windings_under_test(PASSO_MOTION_UNO_WAVE, all(wave))},
           {"uno half_step", uno_windings_under_test(PASSO_MOTION_UNO_HALF_STEP, all(half_step))},
@@ -158,7 +158,7 @@ void expect_stop(const Stop& stop) {
 }
 
 TEST(Windings, are_off_after_an_emergency_stop) {
-  const std::vector<Drive> drives(4, Drive::half_step);
+  const std::vector<DriveMode> drives(4, DriveMode::half_step);
   expect_stop({.board = uno_windings_under_test(PASSO_MOTION_UNO_HALF_STEP, drives),
                .pin = uno_windings.emergency_stop,
                .reason = FaultReason::emergency_stop});
@@ -167,7 +167,7 @@ TEST(Windings, are_off_after_an_emergency_stop) {
                .reason = FaultReason::emergency_stop});
 }
 TEST(Windings, hold_at_a_limit_switch) {
-  const std::vector<Drive> drives(4, Drive::two_on);
+  const std::vector<DriveMode> drives(4, DriveMode::two_on);
   expect_stop({.board = uno_windings_under_test(PASSO_MOTION_UNO_TWO_ON, drives),
                .pin = uno_windings.limits[1],
                .reason = FaultReason::limit});
@@ -180,7 +180,8 @@ TEST(Windings, hold_at_a_limit_switch) {
 
 TEST(Windings, leave_room_on_the_stack_of_the_uno) {
   std::mt19937_64 random(test::seed());
-  BoardBench bench(uno_windings_under_test(PASSO_MOTION_UNO_MIXED, {Drive::two_on, Drive::wave, Drive::half_step}));
+  BoardBench bench(
+      uno_windings_under_test(PASSO_MOTION_UNO_MIXED, {DriveMode::two_on, DriveMode::wave, DriveMode::half_step}));
   static_cast<void>(bench.play(random_stream(random, 3, {.shortest_interval = 540, .longest_interval = 600})));
   bench.start(random_stream(random, 3, {.shortest_interval = 800, .longest_interval = 900, .segments = 10}));
   for (int i = 0; i < 40; ++i) {

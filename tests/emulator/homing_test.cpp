@@ -137,8 +137,8 @@ TEST(EmulatedHoming, is_stopped_by_a_switch_of_another_axis) {
   stops_at_a_switch_of_another_axis(mega);
 }
 TEST(EmulatedHoming, is_exact_where_the_line_was_cut) {
-  cut_before_frames(uno, 397);
-  cut_before_frames(mega, 797);
+  cut_before_frames(uno, 1597);
+  cut_before_frames(mega, 3191);
 }
 TEST(EmulatedHomingInFull, is_exact_where_the_line_was_cut) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";

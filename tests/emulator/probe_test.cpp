@@ -111,8 +111,8 @@ TEST(EmulatedProbing, finds_the_step_of_contact_on_the_mega) {
   finds_the_step(mega);
 }
 TEST(EmulatedProbing, finds_it_where_the_line_was_cut) {
-  cut_before_frames(uno, 97);
-  cut_before_frames(mega, 211);
+  cut_before_frames(uno, 389);
+  cut_before_frames(mega, 839);
 }
 TEST(EmulatedProbingInFull, cut_before_every_frame) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";

@@ -56,7 +56,7 @@ BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors) 
   return board;
 }
 
-BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<Drive>& drives) {
+BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<DriveMode>& drives) {
   BoardUnderTest board;
   board.program = program;
   board.motors.assign(std::begin(uno_windings.motor), std::end(uno_windings.motor));
@@ -64,7 +64,7 @@ BoardUnderTest uno_windings_under_test(const std::string& program, const std::ve
   return board;
 }
 
-BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<Drive>& drives) {
+BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<DriveMode>& drives) {
   BoardUnderTest board;
   board.program = program;
   board.mcu = "atmega2560";

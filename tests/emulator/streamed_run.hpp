@@ -34,8 +34,8 @@ BoardUnderTest uno_under_test(const std::string& program);
 // With a host that drives that many motors.
 BoardUnderTest mega_under_test(const std::string& program, std::uint8_t motors);
 // With its motors driven so.
-BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<Drive>& drives);
-BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<Drive>& drives);
+BoardUnderTest uno_windings_under_test(const std::string& program, const std::vector<DriveMode>& drives);
+BoardUnderTest mega_windings_under_test(const std::string& program, const std::vector<DriveMode>& drives);
 
 struct EdgeCheck {
   std::uint64_t steps = 0;            // edges seen

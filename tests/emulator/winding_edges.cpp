@@ -9,11 +9,11 @@ namespace {
 
 using Patterns = std::vector<std::string>;  // F1 F2 F3 F4, step by step upwards
 
-const Patterns& patterns_of(Drive drive) {
+const Patterns& patterns_of(DriveMode drive) {
   static const Patterns two_on = {"1100", "0110", "0011", "1001"};
   static const Patterns wave = {"1000", "0100", "0010", "0001"};
   static const Patterns half_step = {"1100", "0100", "0110", "0010", "0011", "0001", "1001", "1000"};
-  return drive == Drive::two_on ? two_on : drive == Drive::wave ? wave : half_step;
+  return drive == DriveMode::two_on ? two_on : drive == DriveMode::wave ? wave : half_step;
 }
 
 // Ports are written one after the other: what comes within so many cycles is one step.

@@ -10,10 +10,10 @@
 namespace passo {
 namespace {
 
-Drive drive_named(const std::string& name) {
-  if (name == "two_on") return Drive::two_on;
-  if (name == "wave") return Drive::wave;
-  if (name == "half_step") return Drive::half_step;
+DriveMode drive_named(const std::string& name) {
+  if (name == "two_on") return DriveMode::two_on;
+  if (name == "wave") return DriveMode::wave;
+  if (name == "half_step") return DriveMode::half_step;
   throw std::runtime_error("no such drive: " + name);
 }
 

@@ -12,6 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Soon told; regular expressions take long.
+bool has(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
+
 struct Code {
   std::vector<std::pair<fs::path, std::string>> files;  // sources of src/ without tests and without comments
 
@@ -26,7 +31,8 @@ struct Code {
 
   bool has_function(const std::string& name) const {
     const std::regex regex(std::string("\\b").append(name).append("\\s*\\("));
-    return std::ranges::any_of(files, [&](const auto& file) { return std::regex_search(file.second, regex); });
+    return std::ranges::any_of(
+        files, [&](const auto& file) { return has(file.second, name) && std::regex_search(file.second, regex); });
   }
 
   // A file of that name, or with that path's end: "wire/board_segment.hpp".
@@ -49,6 +55,7 @@ struct Code {
     const std::regex names = regex("\\b", member, "\\b");
     const std::regex defines = regex("\\b", scope, std::string(R"((<[^>]*>)?::)").append(member).append("\\b").c_str());
     return std::ranges::any_of(files, [&](const auto& file) {
+      if (!has(file.second, scope) || !has(file.second, member)) return false;
       return (std::regex_search(file.second, declares) && std::regex_search(file.second, names)) ||
              std::regex_search(file.second, defines);
     });

@@ -1,6 +1,7 @@
 // The number of trials that tests make.
 //
 // PASSO_IN_FULL=N runs the tests that take minutes, with one in N of their trials. 1 means all trials.
+// PASSO_ONE_IN, a definition of the test program (cmake/PassoModule.cmake): the other tests make one in so many trials.
 #pragma once
 
 #include <algorithm>
@@ -25,12 +26,7 @@ class InFull : public Test {
   }
 };
 
-// Under sanitizers a trial takes ten times as long, so only one in this many is made.
-#ifdef PASSO_SANITIZED
-inline constexpr int one_in = 8;
-#else
-inline constexpr int one_in = 1;
-#endif
+inline constexpr int one_in = PASSO_ONE_IN;
 constexpr int fewer(int trials) {
   return std::max(trials / one_in, 1);
 }

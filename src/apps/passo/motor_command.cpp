@@ -91,9 +91,10 @@ Result<TorqueCurve, MotorError> curve_of(const MotorArguments& arguments) {
                        .resistance = {*arguments.resistance},
                        .inductance = {*arguments.inductance * henries_per_millihenry},
                        .winding = winding_of(arguments.data.empty() ? arguments.drive : arguments.data)};
-  const Drive drive{.supply = {*arguments.supply},
-                    .winding = winding_of(arguments.drive),
-                    .regulation = arguments.regulation == "resistive" ? Regulation::resistive : Regulation::chopper};
+  const MotorDrive drive{
+      .supply = {*arguments.supply},
+      .winding = winding_of(arguments.drive),
+      .regulation = arguments.regulation == "resistive" ? Regulation::resistive : Regulation::chopper};
   return TorqueCurve::from_motor(data, drive);
 }
 

@@ -30,20 +30,20 @@ struct PortBits {
 
 // A state of the outputs: their two ports as a whole, and the PWM of the spindle. At duty 0 the spindle's pin is not
 // connected to the PWM, which would still make a pulse of one count.
-struct Action {
+struct OutputAction {
   uint8_t first_port;
   uint8_t second_port;
   uint8_t duty;
   uint8_t control;
 };
 inline constexpr uint8_t action_count = 4;
-inline constexpr uint8_t safe_action = (actions_address & 0xff) + sizeof(Action) * action_count;
+inline constexpr uint8_t safe_action = (actions_address & 0xff) + sizeof(OutputAction) * action_count;
 // The bits of a turn's first byte that toggle directions.
 inline constexpr uint8_t turning_bits = pins.directions_on(pins.step_ports[0]);
 static_assert((turning_bits & action_bits) == 0);
 static_assert((actions_address & 0xff & ~action_bits) == 0 && (safe_action & ~action_bits) == 0);
 static_assert(actions_address >> 8 == turns_address >> 8, "turns and actions are on one page");
-static_assert(first_free_address >= actions_address + sizeof(Action) * (action_count + 1));
+static_assert(first_free_address >= actions_address + sizeof(OutputAction) * (action_count + 1));
 
 // The byte of an entry that has the flags: the first step port's, or a byte for the flags alone.
 inline volatile uint8_t& flagged_byte(uint8_t index) {

@@ -1,6 +1,6 @@
 // The firmware `follower` for an Arduino Uno or Mega: Follower on the chip's pins. No interrupt; one loop.
 //
-// PASSO_FOLLOWER_PINS names the board (a FollowerPins), and PASSO_FOLLOWER_DRIVE how the motors are driven (a Drive).
+// PASSO_FOLLOWER_PINS names the board (a FollowerPins), and PASSO_FOLLOWER_DRIVE how the motors are driven (a DriveMode).
 #include "passo/firmware/follower.hpp"
 
 #include "passo/chip/follower_pins.hpp"
@@ -10,7 +10,7 @@ namespace passo {
 namespace {
 
 constexpr const FollowerPins& pins = PASSO_FOLLOWER_PINS;
-constexpr WindingTable table = winding_table(Drive::PASSO_FOLLOWER_DRIVE);
+constexpr WindingTable table = winding_table(DriveMode::PASSO_FOLLOWER_DRIVE);
 constexpr char ports[] = {'A', 'B', 'C', 'D', 'E', 'F', 'G', 'H', 'J', 'K', 'L'};
 
 volatile uint8_t& data_register(uint16_t address) {

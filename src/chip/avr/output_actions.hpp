@@ -26,7 +26,7 @@ class OutputActions {
 
   // Adds an action after all events made so far. `rests` tells whether none is to come.
   static void put(const BoardOutputs& outputs, bool (*rests)()) {
-    const uint8_t place = static_cast<uint8_t>(actions_address + sizeof(Action) * next_);
+    const uint8_t place = static_cast<uint8_t>(actions_address + sizeof(OutputAction) * next_);
     next_ = static_cast<uint8_t>((next_ + 1) % action_count);
     ++waiting_;
     store(place, outputs);
@@ -53,12 +53,12 @@ class OutputActions {
   static void make_safe() { act(safe_action); }
 
  private:
-  static volatile Action* at(uint8_t place) {
-    return reinterpret_cast<volatile Action*>((actions_address & 0xff00) | place);
+  static volatile OutputAction* at(uint8_t place) {
+    return reinterpret_cast<volatile OutputAction*>((actions_address & 0xff00) | place);
   }
   [[gnu::noinline]] static void store(uint8_t place, const BoardOutputs& outputs) {
-    const Action action = Wiring::action_of(outputs);
-    volatile Action& stored = *at(place);
+    const OutputAction action = Wiring::action_of(outputs);
+    volatile OutputAction& stored = *at(place);
     stored.first_port = action.first_port;
     stored.second_port = action.second_port;
     stored.duty = action.duty;

@@ -57,7 +57,7 @@ constexpr uint8_t vectors_before = 11;
   line_is_watched = 0;
 }
 [[gnu::always_inline]] inline void act(uint8_t place) {
-  Wiring::act(*reinterpret_cast<const volatile Action*>((actions_address & 0xff00) | place));
+  Wiring::act(*reinterpret_cast<const volatile OutputAction*>((actions_address & 0xff00) | place));
 }
 // Returns false if no further step may be made. The flags are cleared before the pins are read, so that no change is
 // missed.

@@ -15,7 +15,7 @@
 namespace passo::chip {
 
 // PASSO_WINDINGS tells how each motor is driven: a list of their Drives, in order.
-using enum Drive;
+using enum DriveMode;
 #ifdef __AVR_ATmega2560__
 inline constexpr PinMap<4> pins = driven(mega_windings, {PASSO_WINDINGS});
 inline constexpr About about = {

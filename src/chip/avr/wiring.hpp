@@ -49,7 +49,7 @@ class Wiring {
   }
 
   // The action that switches the outputs to this and keeps everything else on their ports.
-  static Action action_of(const BoardOutputs& outputs) {
+  static OutputAction action_of(const BoardOutputs& outputs) {
     const bool turns = pins.spindle_pwm.exists() && (outputs.switches & spindle_on) != 0;
     const uint8_t duty = turns ? duty_of(outputs.spindle_rpm) : uint8_t{0};
     return {.first_port = port_with(output_ports[0], outputs.switches),
@@ -58,7 +58,7 @@ class Wiring {
             .control = duty != 0 ? spindle_connected : spindle_disconnected};
   }
   // Only while the interrupt does not play, because the interrupt does the same.
-  [[gnu::always_inline]] static void act(const volatile Action& action) {
+  [[gnu::always_inline]] static void act(const volatile OutputAction& action) {
     port_register(output_ports[0], 2) = action.first_port;
     port_register(output_ports[1], 2) = action.second_port;
     SpindleDuty::write(action.duty);

@@ -77,8 +77,8 @@ TEST(PinMap, has_the_bits_of_a_pattern_of_windings) {
   EXPECT_EQ(z.winding_bits('B', 0b0110), 1 << 4);
   EXPECT_EQ(uno_windings.windings_on('D'), 0xfc);
   EXPECT_EQ(mega_windings.windings_on('K'), 0x0f);
-  const PinMap<3> mixed = driven(uno_windings, {Drive::wave, Drive::two_on, Drive::half_step});
-  EXPECT_EQ(mixed.motor[2].drive, Drive::half_step);
+  const PinMap<3> mixed = driven(uno_windings, {DriveMode::wave, DriveMode::two_on, DriveMode::half_step});
+  EXPECT_EQ(mixed.motor[2].drive, DriveMode::half_step);
   EXPECT_TRUE(mixed.without_conflict());
 }
 

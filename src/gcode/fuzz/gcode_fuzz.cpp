@@ -55,7 +55,7 @@ void check_block(const Block& block) {
     if (assignment.index) check_expression(block, *assignment.index);
     check_expression(block, assignment.value);
   }
-  for (const Comment& comment : block.comments) {
+  for (const BlockComment& comment : block.comments) {
     require(inside(comment.span, block.text), "a comment outside its line", block.text);
   }
   if (!block.control) return;

@@ -34,8 +34,9 @@ inline bool same_meaning(const Block& a, const Block& b) {
                               return same_optional(x.index, y.index) && x.symbol == y.symbol &&
                                      same_expression(x.value, y.value);
                             }) &&
-         std::ranges::equal(a.comments, b.comments,
-                            [](const Comment& x, const Comment& y) { return x.kind == y.kind && x.text == y.text; }) &&
+         std::ranges::equal(
+             a.comments, b.comments,
+             [](const BlockComment& x, const BlockComment& y) { return x.kind == y.kind && x.text == y.text; }) &&
          a.control.has_value() == b.control.has_value() && (!a.control || same_control(*a.control, *b.control));
 }
 

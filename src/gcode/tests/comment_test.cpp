@@ -3,7 +3,7 @@
 namespace passo {
 namespace {
 
-using Kind = Comment::Kind;
+using Kind = BlockComment::Kind;
 
 TEST(Comments, stand_anywhere_between_words) {
   const ParsedLine line("(a) G1 (b c) X1 ; d (e)");

@@ -11,12 +11,12 @@ namespace {
 
 using std::numbers::sqrt2;
 
-double pull_out(const MotorData& motor, const Drive& drive, double speed) {
+double pull_out(const MotorData& motor, const MotorDrive& drive, double speed) {
   return DrivenWinding(motor, drive).pull_out({speed}).value;
 }
 
 // Speeds at which a random motor is tested: from crawling to far beyond the speed that uses up the voltage.
-std::vector<double> speeds_of(const MotorData& motor, const Drive& drive) {
+std::vector<double> speeds_of(const MotorData& motor, const MotorDrive& drive) {
   const double corner = drive.supply.value / (motor.rated_current.value * motor.inductance.value * motor.rotor.teeth());
   std::vector<double> speeds;
   for (double share = 0.01; share < 20; share *= 1.4) speeds.push_back(corner * share);
@@ -35,7 +35,7 @@ void for_random_motors(int count, const Look& look) {
 }
 
 TEST(DrivenWinding, at_rest_gives_the_holding_torque_over_the_root_of_two_whatever_drives_it) {
-  for_random_motors(200, [](const MotorData& motor, Drive drive) {
+  for_random_motors(200, [](const MotorData& motor, MotorDrive drive) {
     for (const Regulation regulation : {Regulation::chopper, Regulation::resistive}) {
       drive.regulation = regulation;
       EXPECT_NEAR(pull_out(motor, drive, 0), motor.holding_torque.value / sqrt2, 1e-12);
@@ -51,7 +51,7 @@ TEST(DrivenWinding, a_supply_below_what_the_rated_current_needs_holds_as_much_le
 }
 
 TEST(DrivenWinding, torque_falls_with_the_speed_and_is_never_negative) {
-  for_random_motors(300, [](const MotorData& motor, Drive drive) {
+  for_random_motors(300, [](const MotorData& motor, MotorDrive drive) {
     for (const Regulation regulation : {Regulation::chopper, Regulation::resistive}) {
       drive.regulation = regulation;
       double last = pull_out(motor, drive, 0);
@@ -66,10 +66,10 @@ TEST(DrivenWinding, torque_falls_with_the_speed_and_is_never_negative) {
 }
 
 TEST(DrivenWinding, more_voltage_never_lowers_the_torque) {
-  for_random_motors(300, [](const MotorData& motor, Drive drive) {
+  for_random_motors(300, [](const MotorData& motor, MotorDrive drive) {
     for (const Regulation regulation : {Regulation::chopper, Regulation::resistive}) {
       drive.regulation = regulation;
-      Drive stronger = drive;
+      MotorDrive stronger = drive;
       stronger.supply.value *= 1.3;
       for (const double speed : speeds_of(motor, drive)) {
         ASSERT_GE(pull_out(motor, stronger, speed), pull_out(motor, drive, speed) - 1e-12);
@@ -79,9 +79,9 @@ TEST(DrivenWinding, more_voltage_never_lowers_the_torque) {
 }
 
 TEST(DrivenWinding, a_chopper_is_at_no_speed_weaker_than_a_resistor_on_the_same_supply) {
-  for_random_motors(300, [](const MotorData& motor, Drive drive) {
+  for_random_motors(300, [](const MotorData& motor, MotorDrive drive) {
     for (const double speed : speeds_of(motor, drive)) {
-      Drive resistive = drive;
+      MotorDrive resistive = drive;
       resistive.regulation = Regulation::resistive;
       ASSERT_GE(pull_out(motor, drive, speed), pull_out(motor, resistive, speed) - 1e-12);
     }
@@ -143,8 +143,8 @@ TEST(DrivenWinding, a_half_coil_is_a_quarter_of_the_inductance_at_the_same_heat)
 
 // The reason for unipolar drives: weaker at rest, stronger where the voltage is short.
 TEST(DrivenWinding, the_same_motor_driven_unipolar_is_weaker_when_slow_and_stronger_when_fast) {
-  const Drive bipolar{.supply = {12}};
-  const Drive unipolar{.supply = {12}, .winding = Winding::half_coil};
+  const MotorDrive bipolar{.supply = {12}};
+  const MotorDrive unipolar{.supply = {12}, .winding = Winding::half_coil};
   const MotorData motor = test::small_motor();
   EXPECT_NEAR(pull_out(motor, unipolar, 0) / pull_out(motor, bipolar, 0), 1 / sqrt2, 1e-12);
   EXPECT_GT(pull_out(motor, unipolar, 100), pull_out(motor, bipolar, 100));
@@ -177,7 +177,7 @@ TEST(MotorData, is_refused_with_the_value_that_is_wrong) {
             "the rated current must be above 0 A, not nan");
   EXPECT_EQ(message([](MotorData& m) { m.resistance = {0}; }), "the resistance must be above 0 ohm, not 0");
   EXPECT_EQ(message([](MotorData& m) { m.inductance = {1 / 0.0}; }), "the inductance must be above 0 H, not inf");
-  EXPECT_EQ(check(Drive{.supply = {0}}).error().message, "the supply voltage must be above 0 V, not 0");
+  EXPECT_EQ(check(MotorDrive{.supply = {0}}).error().message, "the supply voltage must be above 0 V, not 0");
 }
 
 }  // namespace

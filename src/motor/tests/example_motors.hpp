@@ -28,7 +28,7 @@ inline MotorData large_motor() {
 
 struct Driven {
   MotorData motor;
-  Drive drive;
+  MotorDrive drive;
 };
 
 // Values that a motor may have, each over a decade or more, evenly in the logarithm.

@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 const Rotor rotor{.steps_per_revolution = 200, .inertia = {5e-6}};
-const Drive supply_24{.supply = {24}};
+const MotorDrive supply_24{.supply = {24}};
 
 TorqueCurve from_points(const std::vector<TorquePoint>& pull_out, const std::vector<TorquePoint>& pull_in = {}) {
   auto curve = TorqueCurve::from_points(rotor, pull_out, pull_in);
@@ -22,7 +22,7 @@ TorqueCurve from_points(const std::vector<TorquePoint>& pull_out, const std::vec
   return *curve;
 }
 
-TorqueCurve from_motor(const MotorData& data, const Drive& drive) {
+TorqueCurve from_motor(const MotorData& data, const MotorDrive& drive) {
   auto curve = TorqueCurve::from_motor(data, drive);
   EXPECT_TRUE(curve) << curve.error().message;
   return *curve;

@@ -25,7 +25,7 @@ struct MotorPins {
   Pin direction = {};
   Pin enable = {};                   // low: the driver is on. Several motors may share one pin
   Pin windings[winding_count] = {};  // instead of the three above: F1 to F4 of WindingTable
-  Drive drive = Drive::two_on;       // how the windings are switched
+  DriveMode drive = DriveMode::two_on;       // how the windings are switched
 
   // The motor's pins on `port` that carry current in a pattern.
   constexpr uint8_t winding_bits(char port, uint8_t pattern = 0x0f) const {
@@ -239,7 +239,7 @@ struct PinMap {
 
 // The same board with its motors driven in other ways, each in its own.
 template <uint8_t motor_count>
-constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const Drive (&drives)[motor_count]) {
+constexpr PinMap<motor_count> driven(PinMap<motor_count> pins, const DriveMode (&drives)[motor_count]) {
   for (uint8_t m = 0; m < motor_count; ++m) pins.motor[m].drive = drives[m];
   return pins;
 }

@@ -125,7 +125,7 @@ class Follower {
   }
   void jog(Key key, uint8_t looks_until_next) {
     wait_ = looks_until_next;
-    const Jog move = jog_of_key.of[key];
+    const KeyMove move = jog_of_key.of[key];
     step(move.steps, move.down);
   }
   // A mode key also confirms that the operator knows where the machine stands.

@@ -8,19 +8,19 @@
 namespace passo {
 
 // A key moves the axes in `steps`; those in `down` move downwards.
-struct Jog {
+struct KeyMove {
   uint8_t steps = 0;
   uint8_t down = 0;
 };
 struct JogTable {
-  Jog of[no_key + 1] = {};
+  KeyMove of[no_key + 1] = {};
 };
 constexpr JogTable jog_table() {
   constexpr uint8_t x = 1;
   constexpr uint8_t y = 2;
   constexpr uint8_t z = 4;
   constexpr uint8_t both = x | y;
-  constexpr Jog jogs[keypad_rows][keypad_columns] = {
+  constexpr KeyMove jogs[keypad_rows][keypad_columns] = {
       {{both, x}, {y, 0}, {both, 0}},     // 1 2 3
       {{x, x}, {z, 0}, {x, 0}},           // 4 5 6
       {{both, both}, {y, y}, {both, y}},  // 7 8 9

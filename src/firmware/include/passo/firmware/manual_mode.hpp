@@ -140,7 +140,7 @@ class ManualMode {
   bool waits_ = false;  // a key waits for the motors to rest
   bool runs_ = false;   // a key is held
   bool tool_ = false;
-  Jog jog_;
+  KeyMove jog_;
 };
 
 }  // namespace passo

@@ -12,7 +12,7 @@
 
 namespace passo {
 
-enum class Drive : uint8_t { two_on, wave, half_step };
+enum class DriveMode : uint8_t { two_on, wave, half_step };
 
 struct WindingTable {
   uint8_t patterns[8] = {};
@@ -21,11 +21,11 @@ struct WindingTable {
   constexpr uint8_t at(uint8_t place) const { return patterns[place & mask]; }
 };
 
-constexpr WindingTable winding_table(Drive drive) {
+constexpr WindingTable winding_table(DriveMode drive) {
   switch (drive) {
-    case Drive::two_on: return {.patterns = {0b0011, 0b0110, 0b1100, 0b1001}, .mask = 3};
-    case Drive::wave: return {.patterns = {0b0001, 0b0010, 0b0100, 0b1000}, .mask = 3};
-    case Drive::half_step:
+    case DriveMode::two_on: return {.patterns = {0b0011, 0b0110, 0b1100, 0b1001}, .mask = 3};
+    case DriveMode::wave: return {.patterns = {0b0001, 0b0010, 0b0100, 0b1000}, .mask = 3};
+    case DriveMode::half_step:
       return {.patterns = {0b0011, 0b0010, 0b0110, 0b0100, 0b1100, 0b1000, 0b1001, 0b0001}, .mask = 7};
   }
   return {};

@@ -90,7 +90,7 @@ struct Assignment {
   Span span;
 };
 
-struct Comment {
+struct BlockComment {
   enum class Kind : std::uint8_t {
     plain,
     message,
@@ -146,7 +146,7 @@ struct Block {
   std::optional<std::string_view> line_number;  // the digits after N, as written
   std::vector<Word> words;                      // in order, without N
   std::vector<Assignment> assignments;
-  std::vector<Comment> comments;
+  std::vector<BlockComment> comments;
   std::optional<Control> control;
   std::vector<Instruction> code;  // all expressions above are slices of it
   std::vector<Expression> spare;  // keeps the capacity of control->arguments for later blocks with a control

@@ -30,7 +30,7 @@ namespace passo {
 class DrivenWinding {
  public:
   // `data` and `drive` must have passed their checks.
-  DrivenWinding(const MotorData& data, const Drive& drive);
+  DrivenWinding(const MotorData& data, const MotorDrive& drive);
 
   // The pull-out torque at `speed` ≥ 0. 0 where the motor cannot follow at all.
   NewtonMetres pull_out(RadiansPerSecond speed) const;

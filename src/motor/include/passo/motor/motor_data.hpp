@@ -1,4 +1,4 @@
-// MotorData and Drive: the data sheet of a two-phase hybrid (or permanent-magnet) stepping motor, and the electronics
+// MotorData and MotorDrive: the data sheet of a two-phase hybrid (or permanent-magnet) stepping motor, and the electronics
 // that drive it.
 //
 // The electrical values of a sheet belong to a way of connecting the motor. A bipolar drive pushes current through the
@@ -61,7 +61,7 @@ struct MotorData {
   Winding winding = Winding::whole_coil;  // the coils that the four values above were measured on
 };
 
-struct Drive {
+struct MotorDrive {
   Volts supply = {};
   Winding winding = Winding::whole_coil;
   Regulation regulation = Regulation::chopper;
@@ -74,7 +74,7 @@ struct MotorError {
 // Checks that each value is finite and above zero, and the steps a multiple of four.
 Status<MotorError> check(const Rotor& rotor);
 Status<MotorError> check(const MotorData& data);
-Status<MotorError> check(const Drive& drive);
+Status<MotorError> check(const MotorDrive& drive);
 
 // The same motor with its values for `winding`, at the same heat in the copper. A half coil has half the turns: half
 // the resistance and torque per ampere, and a quarter of the inductance. It takes √2 of the current and holds 1/√2 of

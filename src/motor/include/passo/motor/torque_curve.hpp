@@ -65,7 +65,7 @@ class TorqueCurve {
   // pull-in is computed. With pull-in points, the same rules hold for them, and they may not lie above pull-out.
   static Result<TorqueCurve, MotorError> from_points(const Rotor& rotor, const std::vector<TorquePoint>& pull_out,
                                                      const std::vector<TorquePoint>& pull_in = {});
-  static Result<TorqueCurve, MotorError> from_motor(const MotorData& data, const Drive& drive);
+  static Result<TorqueCurve, MotorError> from_motor(const MotorData& data, const MotorDrive& drive);
 
   const Rotor& rotor() const { return rotor_; }
   RadiansPerSecond speed_at(Hertz rate) const;

@@ -1,4 +1,4 @@
-// Reporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and caret.
+// TomlReporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and caret.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace passo {
 
-class Reporter {
+class TomlReporter {
  public:
   // `text` must outlive the reporter.
-  Reporter(std::string_view text, std::string file, Diagnostics& diagnostics);
+  TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics);
 
   void error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const;
 

@@ -1,4 +1,4 @@
-#include "reporter.hpp"
+#include "toml_reporter.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -27,7 +27,7 @@ std::string printable(std::string text) {
 
 }  // namespace
 
-Reporter::Reporter(std::string_view text, std::string file, Diagnostics& diagnostics)
+TomlReporter::TomlReporter(std::string_view text, std::string file, Diagnostics& diagnostics)
     : file_(std::move(file)), diagnostics_(diagnostics) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -38,7 +38,8 @@ Reporter::Reporter(std::string_view text, std::string file, Diagnostics& diagnos
   }
 }
 
-void Reporter::error(std::string_view code, const SourcePlace& place, std::string message, std::string expected) const {
+void TomlReporter::error(std::string_view code, const SourcePlace& place, std::string message,
+                         std::string expected) const {
   diagnostics_.add({.severity = Severity::error,
                     .code = std::string(code),
                     .file = file_,
@@ -48,11 +49,11 @@ void Reporter::error(std::string_view code, const SourcePlace& place, std::strin
                     .text = std::string(line(place.line))});
 }
 
-std::string_view Reporter::line(std::uint32_t number) const {
+std::string_view TomlReporter::line(std::uint32_t number) const {
   return number == 0 || number > lines_.size() ? std::string_view() : lines_[number - 1];
 }
 
-SourcePlace Reporter::place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const {
+SourcePlace TomlReporter::place(std::uint32_t line, std::uint32_t first_character, std::uint32_t end_character) const {
   const std::size_t first = bytes_before(this->line(line), first_character);
   const std::size_t end = bytes_before(this->line(line), std::max(first_character + 1, end_character));
   return {.line = line,

@@ -1,4 +1,4 @@
-#include "jerk_profile.hpp"
+#include "jerk_ramp.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -79,7 +79,7 @@ JerkState JerkPhases::state_at(double way) const {
   return {found.phase->motion.speed_after(found.time), found.phase->motion.acceleration_after(found.time)};
 }
 
-void JerkProfile::climb(const JerkState& from, double lead, const JerkLimits& limits) {
+void JerkRamp::climb(const JerkState& from, double lead, const JerkLimits& limits) {
   const auto needed = [&](double crest) {
     return head_to(crest, from, lead, limits).way() + tail_to(crest, limits).way();
   };
@@ -101,12 +101,12 @@ void JerkProfile::climb(const JerkState& from, double lead, const JerkLimits& li
   duration_ = head_.duration() + (rest > 0 && crest_ > 0 ? rest / crest_ : 0) + tail_.duration();
 }
 
-JerkProfile::JerkProfile(const JerkState& from, double way, const JerkLimits& limits) : way_(way) {
+JerkRamp::JerkRamp(const JerkState& from, double way, const JerkLimits& limits) : way_(way) {
   climb(from, 0, limits);
 }
 
-JerkProfile JerkProfile::from_rest(double way, const JerkLimits& limits) {
-  JerkProfile profile;
+JerkRamp JerkRamp::from_rest(double way, const JerkLimits& limits) {
+  JerkRamp profile;
   profile.way_ = way;
   const double ends = 2 * last_step(limits);
   if (limits.end_speed > 0 && (way <= ends || limits.speed <= limits.end_speed)) {
@@ -118,18 +118,18 @@ JerkProfile JerkProfile::from_rest(double way, const JerkLimits& limits) {
   return profile;
 }
 
-double JerkProfile::shortest(const JerkState& from, const JerkLimits& limits) {
+double JerkRamp::shortest(const JerkState& from, const JerkLimits& limits) {
   return head_to(limits.end_speed, from, 0, limits).way() + last_step(limits);
 }
 
-double JerkProfile::time_at(double way) const {
+double JerkRamp::time_at(double way) const {
   const double rest = way_ - way;
   if (rest < tail_.way() || rest <= 0) return duration_ - tail_.time_at(rest);
   if (way <= head_.way()) return head_.time_at(way);
   return head_.duration() + (way - head_.way()) / crest_;
 }
 
-JerkState JerkProfile::state_at(double way) const {
+JerkState JerkRamp::state_at(double way) const {
   const double rest = way_ - way;
   if (rest < tail_.way()) {
     const JerkState backwards = tail_.state_at(rest);

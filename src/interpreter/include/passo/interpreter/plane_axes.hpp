@@ -1,8 +1,6 @@
-// PlaneAxes: the two axes of an arc's plane, in the order in which counterclockwise turns the first into the second,
-// and the one through it.
+// PlaneAxes: the two axes of a plane, in the order in which counterclockwise turns the first into the second, and the
+// one through it. The stages that read arcs (path/) mean by a plane what the interpreter means.
 #pragma once
-
-#include "arc_center.hpp"
 
 #include "passo/geometry/axes.hpp"
 #include "passo/interpreter/operation.hpp"
@@ -28,9 +26,6 @@ constexpr PlaneAxes axes_of(Plane plane) {
 // U V W beside X Y Z: cycles alone know them.
 constexpr bool is_of_uvw(Plane plane) {
   return plane == Plane::uv || plane == Plane::wu || plane == Plane::vw;
-}
-constexpr PlanePoint in_plane(const Point& point, const PlaneAxes& axes) {
-  return {point[axes.first], point[axes.second]};
 }
 
 }  // namespace passo

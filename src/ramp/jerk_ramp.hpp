@@ -1,4 +1,4 @@
-// JerkProfile: the fastest motion within limits from a speed and an acceleration to the end speed, over a given way.
+// JerkRamp: the fastest motion within limits from a speed and an acceleration to the end speed, over a given way.
 // Private to ramp/. In steps and seconds.
 //
 // Three parts: a head from the start state to the crest speed, a stretch at the crest, and a tail from the crest to the
@@ -61,14 +61,14 @@ class JerkPhases {
   double duration_ = 0;
 };
 
-class JerkProfile {
+class JerkRamp {
  public:
-  JerkProfile() = default;
+  JerkRamp() = default;
   // From the middle of a move. `way` is at least shortest(); a lack by rounding is ignored.
-  JerkProfile(const JerkState& from, double way, const JerkLimits& limits);
+  JerkRamp(const JerkState& from, double way, const JerkLimits& limits);
   // From rest. Where the end speed is not 0, the first step and the last run at it. A constant speed where no steps lie
   // between.
-  static JerkProfile from_rest(double way, const JerkLimits& limits);
+  static JerkRamp from_rest(double way, const JerkLimits& limits);
   // The least way from the state to the end speed, including a last step at that speed.
   static double shortest(const JerkState& from, const JerkLimits& limits);
 
