@@ -4,9 +4,9 @@
 
 #include "block_words.hpp"
 #include "cutter_compensation.hpp"
-#include "machine_state.hpp"
 #include "operation_queue.hpp"
 #include "parameters.hpp"
+#include "program_state.hpp"
 #include "reporter.hpp"
 
 #include "passo/interpreter/interpreter.hpp"
@@ -14,10 +14,10 @@
 namespace passo {
 
 struct BlockContext {
-  BlockContext(MachineState& machine, Parameters& values, OperationQueue& queue, Reporter& findings)
+  BlockContext(ProgramState& machine, Parameters& values, OperationQueue& queue, Reporter& findings)
       : state(machine), parameters(values), operations(queue), reporter(findings), cutter(queue) {}
 
-  MachineState& state;
+  ProgramState& state;
   Parameters& parameters;
   OperationQueue& operations;
   Reporter& reporter;

@@ -57,7 +57,7 @@ std::string rounded(double value) {
   return plain_number(std::round(value * 1e6) / 1e6 + 0.0);
 }
 
-std::string quantity_in_words(double value, Quantity quantity, const MachineState& state) {
+std::string quantity_in_words(double value, Quantity quantity, const ProgramState& state) {
   switch (quantity) {
     case Quantity::length:
       return state.modal.inches() ? fmt::format("{} in ({} mm)", plain_number(value), rounded(value * mm_per_inch))
@@ -76,7 +76,7 @@ std::string on_axis(double millimetres_or_degrees, Axis axis) {
 // The words of one block, and what its codes make of them.
 class Meanings {
  public:
-  Meanings(const std::vector<WordValue>& words, const MachineState& before, const MachineState& after) : after_(after) {
+  Meanings(const std::vector<WordValue>& words, const ProgramState& before, const ProgramState& after) : after_(after) {
     bool any_axis = false;
     for (const WordValue& word : words) {
       any_axis |= word.letter != 0 && (axis_letters | polar_letters).has(word.letter);
@@ -197,7 +197,7 @@ class Meanings {
                : fmt::format("the arc's centre is {} in {} from its start", length, axis);
   }
 
-  const MachineState& after_;
+  const ProgramState& after_;
   std::vector<const CodeEntry*> codes_;
   const CodeEntry* taker_ = nullptr;    // of the axis words
   const CodeEntry* implied_ = nullptr;  // the motion that is active, where it takes them
@@ -285,8 +285,8 @@ std::vector<WordValue> word_values(const Block& block, const Parameters& paramet
   return values;
 }
 
-std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const MachineState& before,
-                                              const MachineState& after) {
+std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const ProgramState& before,
+                                              const ProgramState& after) {
   const Meanings meanings(words, before, after);
   std::vector<Explanation::Word> said;
   if (const CodeEntry* const implied = meanings.implied_motion()) {

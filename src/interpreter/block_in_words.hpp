@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "machine_state.hpp"
 #include "parameters.hpp"
+#include "program_state.hpp"
 
 #include "passo/gcode/block.hpp"
 #include "passo/gcode/symbols.hpp"
@@ -23,8 +23,8 @@ struct WordValue {
 std::vector<WordValue> word_values(const Block& block, const Parameters& parameters, const SymbolTable& symbols);
 
 // `before` and `after` are the states around the block: words are meant in the units of the state after.
-std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const MachineState& before,
-                                              const MachineState& after);
-std::vector<Explanation::Mode> modes_in_words(const MachineState& before, const MachineState& after);
+std::vector<Explanation::Word> words_in_words(const std::vector<WordValue>& words, const ProgramState& before,
+                                              const ProgramState& after);
+std::vector<Explanation::Mode> modes_in_words(const ProgramState& before, const ProgramState& after);
 
 }  // namespace passo

@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "machine_state.hpp"
 #include "parameters.hpp"
+#include "program_state.hpp"
 
 #include "passo/gcode/block.hpp"
 
@@ -16,9 +16,9 @@ class BlockWatcher {
  public:
   virtual ~BlockWatcher() = default;
   // All borrowed, until the call returns. `file` is the name of the file that the block is in.
-  virtual void before(const Block& block, std::string_view file, const MachineState& state,
+  virtual void before(const Block& block, std::string_view file, const ProgramState& state,
                       const Parameters& parameters, const SymbolTable& symbols) = 0;
-  virtual void after(const MachineState& state) = 0;
+  virtual void after(const ProgramState& state) = 0;
 };
 
 }  // namespace passo

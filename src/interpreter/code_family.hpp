@@ -70,7 +70,7 @@ class CodeFamily {
   }
 
   BlockContext& block_;
-  MachineState& state_;
+  ProgramState& state_;
   Parameters& parameters_;
   OperationQueue& operations_;
   Reporter& reporter_;

@@ -2,8 +2,9 @@
 
 #include <numbers>
 
-#include "plane_axes.hpp"
 #include <fmt/format.h>
+
+#include "passo/interpreter/plane_axes.hpp"
 
 namespace passo {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "code_table.hpp"
 #include "cycle.hpp"
-#include "machine_state.hpp"
+#include "program_state.hpp"
 
 namespace passo {
 

@@ -16,7 +16,7 @@ class Explainer final : public BlockWatcher {
   Explainer(std::string file, LineRange range, Explanations& result)
       : file_(std::move(file)), range_(range), result_(result), unseen_(result.lines.size()) {}
 
-  void before(const Block& block, std::string_view file, const MachineState& state, const Parameters& parameters,
+  void before(const Block& block, std::string_view file, const ProgramState& state, const Parameters& parameters,
               const SymbolTable& symbols) override {
     current_ = nullptr;
     if (block.line < range_.first || block.line - range_.first >= result_.lines.size() || file != file_) return;
@@ -29,7 +29,7 @@ class Explainer final : public BlockWatcher {
     line.before = {state.position, state.machine_position()};
   }
 
-  void after(const MachineState& state) override {
+  void after(const ProgramState& state) override {
     if (current_ == nullptr) return;
     current_->after = {state.position, state.machine_position()};
     current_->words = words_in_words(words_, state_before_, state);
@@ -48,7 +48,7 @@ class Explainer final : public BlockWatcher {
   Explanations& result_;
   std::size_t unseen_;
   Explanation* current_ = nullptr;
-  MachineState state_before_;
+  ProgramState state_before_;
   std::vector<WordValue> words_;
 };
 

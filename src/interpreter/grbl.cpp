@@ -120,7 +120,7 @@ Use use_of(char letter, CodeNumber number, bool& known) {
 // One block on its way into grbl.
 class GrblCheck {
  public:
-  GrblCheck(const Block& block, const MachineState& state, Reporter& reporter)
+  GrblCheck(const Block& block, const ProgramState& state, Reporter& reporter)
       : block_(block), state_(state), reporter_(reporter) {}
 
   bool passes() {
@@ -311,7 +311,7 @@ class GrblCheck {
   }
 
   const Block& block_;
-  const MachineState& state_;
+  const ProgramState& state_;
   Reporter& reporter_;
   LetterSet present_;
   std::array<double, letter_count> values_{};
@@ -330,7 +330,7 @@ bool is_without_effect(const Block& block, const Word& word) {
 
 }  // namespace
 
-bool accept_as_grbl(Block& block, const MachineState& state, Reporter& reporter) {
+bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter) {
   if (!GrblCheck(block, state, reporter).passes()) return false;
   std::erase_if(block.words, [&](const Word& word) { return is_without_effect(block, word); });
   for (BlockComment& comment : block.comments) comment.kind = BlockComment::Kind::plain;

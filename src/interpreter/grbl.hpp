@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "machine_state.hpp"
+#include "program_state.hpp"
 #include "reporter.hpp"
 
 #include "passo/gcode/block.hpp"
@@ -17,7 +17,7 @@
 namespace passo {
 
 // Whether grbl takes the block; if not, it was said why. What has no effect is gone from it.
-[[nodiscard]] bool accept_as_grbl(Block& block, const MachineState& state, Reporter& reporter);
+[[nodiscard]] bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter);
 
 // "grbl error:20, unsupported or invalid command"; empty where grbl has no number for it.
 std::string grbl_error(std::string_view code);

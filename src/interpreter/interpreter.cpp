@@ -117,7 +117,7 @@ class Interpreter::Implementation {
 
   SavedParameters saved_;  // as they were before the program
   SymbolTable symbols_;
-  MachineState state_;
+  ProgramState state_;
   Parameters parameters_;
   Reporter reporter_;
   OperationQueue operations_;

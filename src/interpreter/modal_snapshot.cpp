@@ -9,7 +9,7 @@ using enum ModalGroup;
 
 }  // namespace
 
-ModalSnapshot snapshot_of(const MachineState& state) {
+ModalSnapshot snapshot_of(const ProgramState& state) {
   return {.valid = true,
           .restore_at_return = false,
           .modal = state.modal,

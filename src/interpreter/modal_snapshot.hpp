@@ -2,7 +2,7 @@
 // sub that runs. The motion code, positions and offsets of work systems are not part of it.
 #pragma once
 
-#include "machine_state.hpp"
+#include "program_state.hpp"
 
 namespace passo {
 
@@ -21,6 +21,6 @@ struct ModalSnapshot {
   bool feed_hold = true;
 };
 
-ModalSnapshot snapshot_of(const MachineState& state);
+ModalSnapshot snapshot_of(const ProgramState& state);
 
 }  // namespace passo

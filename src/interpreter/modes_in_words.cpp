@@ -30,26 +30,26 @@ constexpr GroupName shown_groups[] = {
     {ModalGroup::lathe_diameter, "X words"},
 };
 
-std::string feed_of(const MachineState& state) {
+std::string feed_of(const ProgramState& state) {
   if (state.feed == 0) return "none given";
   const double units = state.feed / state.length_unit();
   return fmt::format("{} {}{}", plain_number(units), state.modal.inches() ? "in" : "mm",
                      state.modal.per_revolution() ? "/rev" : "/min");
 }
 
-std::string spindle_of(const MachineState& state) {
+std::string spindle_of(const ProgramState& state) {
   if (state.spindles[0].direction == SpindleDirection::off) return "off";
   return fmt::format("{}, {} rev/min",
                      state.spindles[0].direction == SpindleDirection::clockwise ? "clockwise" : "counterclockwise",
                      plain_number(state.spindles[0].speed));
 }
 
-std::string coolant_of(const MachineState& state) {
+std::string coolant_of(const ProgramState& state) {
   if (state.mist && state.flood) return "mist and flood";
   return state.mist ? "mist" : state.flood ? "flood" : "off";
 }
 
-std::string tool_of(const MachineState& state) {
+std::string tool_of(const ProgramState& state) {
   std::string text = state.tool == 0 ? std::string("none in the spindle") : fmt::format("{}", state.tool);
   if (state.selected_tool >= 0 && state.selected_tool != state.tool) {
     text += fmt::format("; {} is selected", state.selected_tool);
@@ -57,27 +57,27 @@ std::string tool_of(const MachineState& state) {
   return text;
 }
 
-std::string overrides_of(const MachineState& state) {
+std::string overrides_of(const ProgramState& state) {
   if (state.feed_override == state.spindles[0].speed_override) return state.feed_override ? "on" : "off";
   return state.feed_override ? "of the feed only" : "of the spindle speed only";
 }
 
-std::string rotation_of(const MachineState& state) {
+std::string rotation_of(const ProgramState& state) {
   return fmt::format("{} degrees", plain_number(state.frame.rotation_degrees()));
 }
 
 // What no code of a modal group says.
 struct Setting {
   const char* name;
-  std::string (*of)(const MachineState&);
+  std::string (*of)(const ProgramState&);
   const char* usual;  // not shown while it is this; null: always shown
 };
 constexpr const char* no_offset = "X 0 mm, Y 0 mm, Z 0 mm";
 const Setting shown_settings[] = {
-    {"work offset", [](const MachineState& state) { return in_words(state.frame.work_offset()); }, nullptr},
-    {"G92 offset", [](const MachineState& state) { return in_words(state.frame.g92_offset()); }, no_offset},
+    {"work offset", [](const ProgramState& state) { return in_words(state.frame.work_offset()); }, nullptr},
+    {"G92 offset", [](const ProgramState& state) { return in_words(state.frame.g92_offset()); }, no_offset},
     {"rotation about Z", rotation_of, "0 degrees"},
-    {"tool offset", [](const MachineState& state) { return in_words(state.frame.tool_offset()); }, nullptr},
+    {"tool offset", [](const ProgramState& state) { return in_words(state.frame.tool_offset()); }, nullptr},
     {"feed", feed_of, nullptr},
     {"spindle", spindle_of, nullptr},
     {"coolant", coolant_of, nullptr},
@@ -98,7 +98,7 @@ std::string in_words(const Point& point) {
   return text;
 }
 
-std::vector<Mode> modes_in_words(const MachineState& before, const MachineState& after) {
+std::vector<Mode> modes_in_words(const ProgramState& before, const ProgramState& after) {
   std::vector<Mode> modes;
   for (const auto& [group, name] : shown_groups) {
     const CodeNumber number = after.modal[group];

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "plane_axes.hpp"
 #include <fmt/format.h>
+
+#include "passo/interpreter/plane_axes.hpp"
 
 namespace passo {
 namespace {

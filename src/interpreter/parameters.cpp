@@ -11,7 +11,7 @@ constexpr int last_position_parameter = position_parameter + static_cast<int>(ax
 
 }  // namespace
 
-Parameters::Parameters(SymbolTable& symbols, const MachineState& state, LengthUnits machine_units,
+Parameters::Parameters(SymbolTable& symbols, const ProgramState& state, LengthUnits machine_units,
                        std::shared_ptr<const SettingsFile> settings)
     : symbols_(symbols),
       state_(state),

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "machine_state.hpp"
+#include "program_state.hpp"
 
 #include "passo/gcode/expression.hpp"
 #include "passo/gcode/symbols.hpp"
@@ -51,7 +51,7 @@ constexpr int rotation_parameter(int system) {
 
 class Parameters final : public ParameterValues {
  public:
-  Parameters(SymbolTable& symbols, const MachineState& state, LengthUnits machine_units = LengthUnits::mm,
+  Parameters(SymbolTable& symbols, const ProgramState& state, LengthUnits machine_units = LengthUnits::mm,
              std::shared_ptr<const SettingsFile> settings = nullptr);
 
   // Before the program, and after it: those that are there, and those that are always saved.
@@ -100,7 +100,7 @@ class Parameters final : public ParameterValues {
   double unit_of(Axis axis) const { return is_rotary(axis) ? 1 : machine_unit_; }
 
   SymbolTable& symbols_;
-  const MachineState& state_;
+  const ProgramState& state_;
   double machine_unit_;  // in millimetres
   std::shared_ptr<const SettingsFile> settings_;
   std::array<double, highest_parameter + 1> numbers_{};

@@ -3,7 +3,7 @@
 namespace passo {
 namespace {
 
-using State = MachineState;
+using State = ProgramState;
 
 double truth(bool value) {
   return value ? 1 : 0;

@@ -4,13 +4,13 @@
 #include <span>
 #include <string_view>
 
-#include "machine_state.hpp"
+#include "program_state.hpp"
 
 namespace passo {
 
 struct PredefinedParameter {
   std::string_view name;
-  double (*value)(const MachineState&);
+  double (*value)(const ProgramState&);
 };
 
 std::span<const PredefinedParameter> predefined_parameters();

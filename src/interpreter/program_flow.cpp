@@ -35,7 +35,7 @@ std::string_view name_of_end(ControlKind kind) {
 
 }  // namespace
 
-ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, MachineState& state, Parameters& parameters,
+ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, ProgramState& state, Parameters& parameters,
                          SymbolTable& symbols, Reporter& reporter)
     : options_(options),
       state_(state),

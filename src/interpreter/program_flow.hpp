@@ -24,8 +24,8 @@
 #include "block_watcher.hpp"
 #include "block_words.hpp"
 #include "kept_blocks.hpp"
-#include "machine_state.hpp"
 #include "parameters.hpp"
+#include "program_state.hpp"
 #include "reporter.hpp"
 #include "subprogram_jump.hpp"
 
@@ -48,7 +48,7 @@ class ProgramFlow final : public CallStack {
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
-  ProgramFlow(ProgramReader reader, const Options& options, MachineState& state, Parameters& parameters,
+  ProgramFlow(ProgramReader reader, const Options& options, ProgramState& state, Parameters& parameters,
               SymbolTable& symbols, Reporter& reporter);
 
   // The next block to execute; null at the end of the program, and where an O-word left a sub (take_left_sub).
@@ -194,7 +194,7 @@ class ProgramFlow final : public CallStack {
   std::string label_text(Symbol label) const;
 
   Options options_;
-  MachineState& state_;
+  ProgramState& state_;
   Parameters& parameters_;
   SymbolTable& symbols_;
   Reporter& reporter_;

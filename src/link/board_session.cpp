@@ -28,87 +28,6 @@ BoardSession::BoardSession(BoardPort& port, const LineCare& care)
   decoder_.set_motors(max_motors);
 }
 
-void BoardSession::inquire(Question question) {
-  assert(question == Question::about || question == Question::status);
-  about_.reset();
-  status_.reset();
-  answered_ = true;  // what went before is over
-  await(question);
-}
-
-void BoardSession::greet(const Greeting& greeting) {
-  assert(greeting.motors > 0);
-  forget_what_was();
-  motors_ = greeting.motors;
-  session_ = greeting.session;
-  greeting_ = greeting.number;
-  sent_ = taken_ = executed_ = asked_behind_ = greeting_;
-  decoder_.set_motors(motors_);
-  heard_ = port_.elapsed();
-  phase_ = Phase::greeting;
-  say_hello();
-}
-
-// A hello begins anew, also after an error.
-void BoardSession::forget_what_was() {
-  board_.reset();
-  error_.reset();
-  awaited_.reset();
-  turned_.reset();
-  rehearsed_.reset();
-  kept_.clear();
-  probe_ = {};
-  usual_question_ = last_question_ = Question::status;
-  answered_ = true;
-  rests_ = repeating_ = false;
-  refusals_ = doubts_ = free_ = 0;
-  pressed_ = 0;
-}
-
-void BoardSession::hang_up() {
-  forget_what_was();
-  phase_ = Phase::before_hello;
-  decoder_.set_motors(max_motors);
-}
-
-void BoardSession::say_hello() {
-  greeted_ = quiet_since_ = port_.elapsed();
-  say(Hello{.motors = motors_}, greeting_);
-}
-
-void BoardSession::name_session(std::uint16_t number) {
-  assert(number != 0 && !busy());
-  session_ = number;
-  phase_ = Phase::naming;
-  say_session();
-}
-
-void BoardSession::say_session() {
-  greeted_ = quiet_since_ = port_.elapsed();
-  say(Session{.number = session_}, std::uint8_t{0});
-  ask(Question::status);
-}
-
-// What has come may be what the greeting waits for.
-void BoardSession::look_at_greeting() {
-  if (phase_ == Phase::greeting && board_) {
-    free_ = board_->capacity;
-    if (board_->version != protocol_version) {
-      error_ = LinkError::wrong_version;
-    } else if (board_->motors < motors_) {
-      error_ = LinkError::too_few_motors;
-    } else if (session_ != 0) {
-      phase_ = Phase::naming;
-      status_.reset();
-      say_session();
-    } else {
-      phase_ = Phase::ready;
-    }
-  }
-  if (phase_ == Phase::naming && status_ && status_->session == session_) phase_ = Phase::ready;
-  news_ = news_ || phase_ == Phase::ready;
-}
-
 BoardSession::Progress BoardSession::poll(Seconds most) {
   constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
   const bool endless = std::isinf(most.value());
@@ -467,12 +386,6 @@ void BoardSession::repeat() {
   ask();
   repeating_ = session_ != 0;  // else nobody tells
   repeated_before_ = question_;
-}
-
-template <class Message, class... More>
-void BoardSession::say(const Message& message, More... more) {
-  std::uint8_t frame[largest_frame];
-  put_on_wire(frame, encode(message, more..., frame));
 }
 
 template <class Message, class... More>

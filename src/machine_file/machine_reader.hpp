@@ -1,8 +1,8 @@
 // Makes a MachineDescription of the tree of a TOML file. Checks the keys, their ranges, and how they fit together.
 #pragma once
 
-#include "toml_reporter.hpp"
 #include "toml_document.hpp"
+#include "toml_reporter.hpp"
 
 #include "passo/machine_file/machine_description.hpp"
 

@@ -1,4 +1,5 @@
-// TomlReporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and caret.
+// TomlReporter: the text of a machine file, by lines. It turns a place in the file into a diagnostic with line and
+// caret.
 #pragma once
 
 #include <cstdint>

@@ -284,7 +284,7 @@ MachineSession::Answer MachineSession::take(request::SetPosition& set) {
   return at_once();
 }
 
-MachineSession::Answer MachineSession::take(request::Reset&) {
+MachineSession::Answer MachineSession::take(request::ResetMachine&) {
   if (auto refused = refuse(MachineEvent::reset)) return Failure{*refused};
   begin_reset();
   return at_once();

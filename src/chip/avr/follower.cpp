@@ -1,6 +1,7 @@
 // The firmware `follower` for an Arduino Uno or Mega: Follower on the chip's pins. No interrupt; one loop.
 //
-// PASSO_FOLLOWER_PINS names the board (a FollowerPins), and PASSO_FOLLOWER_DRIVE how the motors are driven (a DriveMode).
+// PASSO_FOLLOWER_PINS names the board (a FollowerPins), and PASSO_FOLLOWER_DRIVE how the motors are driven (a
+// DriveMode).
 #include "passo/firmware/follower.hpp"
 
 #include "passo/chip/follower_pins.hpp"

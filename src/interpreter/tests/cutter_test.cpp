@@ -180,7 +180,7 @@ TEST(CutterCompensation, a_tool_without_a_diameter_is_warned_of_and_compensates_
 }
 
 TEST(CutterCompensation, radius_and_orientation_come_from_the_tool_table_and_the_sign_changes_sides) {
-  MachineState state;
+  ProgramState state;
   state.modal.set(ModalGroup::plane, code(18));
   Tool tool;
   tool.number = 3;
@@ -198,7 +198,7 @@ TEST(CutterCompensation, radius_and_orientation_come_from_the_tool_table_and_the
   for (const Case& expected : {Case{"G41 D3", 1, 9}, {"G42 D3", -1, 9}, {"G41", -3, 10}, {"G42 D0", 3, 10}}) {
     Diagnostics diagnostics;
     SymbolTable symbols;
-    MachineState copy = state;
+    ProgramState copy = state;
     Parameters parameters(symbols, copy);
     Reporter reporter(diagnostics);
     OperationQueue operations;

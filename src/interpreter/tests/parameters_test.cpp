@@ -80,7 +80,7 @@ TEST(Parameters, a_hash_without_a_parameter_behind_it_is_only_a_hash) {
 
 TEST(Parameters, nested_subs_undo_their_names_in_order) {
   SymbolTable symbols;
-  MachineState state;
+  ProgramState state;
   Parameters parameters(symbols, state);
   const Symbol name = symbols.intern("name");
   const std::array<double, 2> arguments = {1, 2};

@@ -23,9 +23,9 @@ inline constexpr uint8_t winding_count = 4;
 struct MotorPins {
   Pin step = {};
   Pin direction = {};
-  Pin enable = {};                   // low: the driver is on. Several motors may share one pin
-  Pin windings[winding_count] = {};  // instead of the three above: F1 to F4 of WindingTable
-  DriveMode drive = DriveMode::two_on;       // how the windings are switched
+  Pin enable = {};                      // low: the driver is on. Several motors may share one pin
+  Pin windings[winding_count] = {};     // instead of the three above: F1 to F4 of WindingTable
+  DriveMode drive = DriveMode::two_on;  // how the windings are switched
 
   // The motor's pins on `port` that carry current in a pattern.
   constexpr uint8_t winding_bits(char port, uint8_t pattern = 0x0f) const {

@@ -160,7 +160,10 @@ class BoardSession final : public Link {
   void note_taken(std::uint8_t sequence);
   void repeat();
   template <class Message, class... More>
-  void say(const Message& message, More... more);
+  void say(const Message& message, More... more) {
+    std::uint8_t frame[largest_frame];
+    put_on_wire(frame, encode(message, more..., frame));
+  }
   template <class Message, class... More>
   void send_counted(const Message& message, More... more);
   void send_frame(const Frame& frame);

@@ -1,5 +1,5 @@
-// MotorData and MotorDrive: the data sheet of a two-phase hybrid (or permanent-magnet) stepping motor, and the electronics
-// that drive it.
+// MotorData and MotorDrive: the data sheet of a two-phase hybrid (or permanent-magnet) stepping motor, and the
+// electronics that drive it.
 //
 // The electrical values of a sheet belong to a way of connecting the motor. A bipolar drive pushes current through the
 // whole coil of each phase, in both directions. A unipolar drive has the coil tapped in its middle and uses one half

@@ -100,7 +100,7 @@ class MachineSession {
   Answer take(request::Override& change);
   Answer take(request::OperatorDone& done);
   Answer take(request::SetPosition& set);
-  Answer take(request::Reset& reset);
+  Answer take(request::ResetMachine& reset);
   Answer take(request::Sleep& sleep);
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;

@@ -79,7 +79,7 @@ struct SetPosition {
   KnownPosition position;
 };
 // After an alarm or a fault: another hello. The place is unknown after that.
-struct Reset {};
+struct ResetMachine {};
 struct Sleep {};
 struct Wake {};
 
@@ -88,7 +88,7 @@ struct Wake {};
 using Request =
     std::variant<request::Start, request::Jog, request::RenewLease, request::Home, request::Probe, request::Check,
                  request::Hold, request::Resume, request::Stop, request::Override, request::OperatorDone,
-                 request::SetPosition, request::Reset, request::Sleep, request::Wake>;
+                 request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
 

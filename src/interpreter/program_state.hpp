@@ -1,4 +1,4 @@
-// MachineState: what the program has set so far. The modal state is one code for each modal group.
+// ProgramState: what the program has set so far. The modal state is one code for each modal group.
 #pragma once
 
 #include <array>
@@ -82,7 +82,7 @@ struct PathTolerance {
   Mm merge{0};
 };
 
-struct MachineState {
+struct ProgramState {
   ModalState modal;
   Frame frame;
   Point position;      // work coordinates, millimetres and degrees; with cutter compensation on the contour
