@@ -10,8 +10,8 @@
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
-#include "passo/activity/program.hpp"
 #include "passo/activity/machine_plant.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/emulator/emulated_board.hpp"
 
 namespace passo {

@@ -109,7 +109,8 @@ class DrivenProgram {
                   .taps = !board_.is_remote() && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)}),
         program_(std::move(reader), machine, options, answers_, diagnostics),
         steps_(steps_from(machine, start_)),
-        unsuited_(passo::unsuited(board_.session(), steps_, on.board != nullptr && machine.spindle.counts_per_turn > 0)),
+        unsuited_(
+            passo::unsuited(board_.session(), steps_, on.board != nullptr && machine.spindle.counts_per_turn > 0)),
         drive_(program_, motion_limits(machine), steps_, board_.session(), answers_, drive_options(machine)) {
     board_.follow(drive_);
   }

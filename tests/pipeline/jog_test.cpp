@@ -1,11 +1,11 @@
 // Jogging: as long as the lease, within the travel, and with every step counted.
-#include "passo/activity/jog_line.hpp"
-
 #include <cmath>
 #include <string>
 
 #include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
+
+#include "passo/activity/jog_line.hpp"
 
 namespace passo {
 namespace {

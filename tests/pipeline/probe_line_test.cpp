@@ -15,8 +15,8 @@
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
-#include "passo/activity/program.hpp"
 #include "passo/activity/machine_plant.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {

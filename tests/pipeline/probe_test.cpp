@@ -8,8 +8,8 @@
 #include "kit/stage_test.hpp"
 #include "pipeline/probe_kit.hpp"
 
-#include "passo/activity/program.hpp"
 #include "passo/activity/machine_plant.hpp"
+#include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {

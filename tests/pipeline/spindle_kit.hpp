@@ -11,8 +11,8 @@
 #include "kit/example_machine.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/activity/program.hpp"
 #include "passo/activity/machine_plant.hpp"
+#include "passo/activity/program.hpp"
 
 namespace passo::test {
 
