@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
-
-#include "passo/activity/program.hpp"
 
 namespace passo::test {
 
@@ -23,14 +22,14 @@ struct Outcome {
 };
 
 // Sees each frame with its number, and gives back what passes.
-using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
+using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, Bytes bytes)>;
 
 inline Outcome run(const MachineDescription& machine, const std::string& program, bool with_line,
                    const Trouble& trouble = nullptr) {
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
   // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
+  DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
   StepLog log;
   job.machine().add_observer(log);
   Outcome outcome;
