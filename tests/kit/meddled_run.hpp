@@ -70,6 +70,7 @@ struct Meddling {
         }
         break;
       case MotionDrive::State::holding:
+        // Seldom: it takes many turns to come to rest.
         if (random.chance(0.008)) drive.resume();
         break;
       case MotionDrive::State::held:
