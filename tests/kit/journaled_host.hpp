@@ -78,7 +78,7 @@ class JournaledHost {
     const std::optional<BoardStatus> status = ask_status_at_rest(asking, Seconds(5));
     ASSERT_TRUE(status);
     const auto reader = ProgramReader::from_text("t", program_);
-    JournalHead head = head_of_beginning({}, *status, machine_.axes.size());
+    JournalHead head = head_of_beginning({}, *status, {}, machine_.axes.size());
     std::optional<ResumePoint> point;
     if (!store.bytes.empty()) {
       const auto journal = Journal::read(store.bytes);
