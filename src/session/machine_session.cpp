@@ -61,7 +61,7 @@ void MachineSession::turn(Seconds most) {
     go_online(most);
   } else if (state_ == MachineState::check) {
     turn_check();
-  } else if (busy() && work_) {
+  } else if (busy()) {
     turn_work(most);
   } else {
     board_.poll(std::isinf(most.value()) ? Seconds(0) : most);
@@ -89,14 +89,19 @@ void MachineSession::go_online(Seconds most) {
     move_to(MachineEvent::lose_board);
     return;
   }
+  place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);
 }
 
-// From here on the board's counts are those of that place.
+// From here on the board's counts are those of that place. What the board has below a step stays.
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
-  place_.reset();
+  mismatch_.reset();
+  if (place_) {
+    const MotorSteps steps = steps_at(machine_, position.place);
+    for (std::size_t m = 0; m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
+  }
   count_from_here();
   ++version_;
 }
@@ -117,6 +122,7 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
 }
 
 void MachineSession::begin_reset() {
+  if (state_ == MachineState::idle) trust_before_ = position_.trust;
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
@@ -134,7 +140,7 @@ void MachineSession::find_place_again() {
                      (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
   place_.reset();
   if (!knows || !zero_counts_) {
-    position_.trust = Trust::unknown;
+    position_.trust = trust_before_ = Trust::unknown;
     return;
   }
   position_.trust = trust_before_;
@@ -145,7 +151,9 @@ void MachineSession::find_place_again() {
   }
 }
 
+// A check needs no board, but hears what the board says.
 void MachineSession::turn_check() {
+  board_.poll(Seconds(0));
   if (!work_->stopped && !work_->checker->go_on(items_a_turn)) return;
   end_work();
 }
@@ -256,13 +264,12 @@ void MachineSession::note_place() {
     const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
     position_.place[steps.motors[m].axis] = exact / steps.motors[m].steps_per_unit;
   }
-  if (work_->finishing) compare_counts();
-  const bool homed = work_->homing != nullptr && work_->homing->done();
-  if (homed) {
-    position_.place = home_place();
-    position_.trust = Trust::homed;
-    count_from_here();
-  }
+  if (work_->finishing && !counts_agree()) return;
+  if (work_->homing == nullptr || !work_->homing->done()) return;
+  position_.place = home_place();
+  position_.trust = Trust::homed;
+  mismatch_.reset();
+  count_from_here();
 }
 
 // The switches have told where the homed axes stand; the others keep their places.
@@ -279,8 +286,9 @@ Point MachineSession::home_place() {
   return place;
 }
 
-void MachineSession::compare_counts() {
-  if (!board_.status() || !zero_counts_) return;
+// Counts that differ are told once: what comes after is compared from there on.
+bool MachineSession::counts_agree() {
+  if (!board_.status() || !zero_counts_) return true;
   const BoardStatus& status = *board_.status();
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     const std::int64_t counted = std::int64_t{status.positions[m]} - (*zero_counts_)[m];
@@ -288,20 +296,23 @@ void MachineSession::compare_counts() {
     mismatch_ = CountMismatch{.motor = m, .counted = counted, .commanded = place_->steps(m)};
     position_.trust = Trust::unknown;
     note({.kind = MachineChange::Kind::position_lost});
-    return;
+    count_from_here();
+    return false;
   }
   if (position_.trust == Trust::commanded) position_.trust = Trust::counted;
+  return true;
 }
 
 // An error of the board ends what is going on, and the machine is in alarm or in fault until a reset.
 void MachineSession::mind_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
-  if (work_ && !work_->ended && is_of_work(error)) return;  // the drive ends by itself
+  if (busy() && is_of_work(error)) return;  // the drive ends by itself
   trouble_ = error;
   trouble_words_ = message_of(error);
-  if (work_ && !work_->ended) end_work();
-  trust_before_ = position_.trust;
+  if (busy()) end_work();
+  // A reset that fails does not change what the next one may find.
+  if (state_ != MachineState::offline) trust_before_ = position_.trust;
   position_.trust = Trust::unknown;
   place_.reset();
   move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
@@ -309,14 +320,13 @@ void MachineSession::mind_board() {
 
 void MachineSession::look_at_panel() {
   if (!options_.over_a_line || board_.error() || !board_.ready()) return;
-  const bool runs = busy() && work_ && work_->drive && !work_->ended && !work_->finishing;
-  if (!work_ || !work_->finishing || work_->ended) {
-    panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
-  }
+  const bool finishing = busy() && work_->finishing;
+  const bool runs = busy() && work_->drive && !finishing;
+  if (!finishing) panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
   const Panel::Pressed pressed = panel_->take();
   if (state_ == MachineState::idle && panel_->door_is_open()) {
     move_to(MachineEvent::open_door);
-  } else if (state_ == MachineState::door && !runs && !panel_->door_is_open()) {
+  } else if (state_ == MachineState::door && !busy() && !panel_->door_is_open()) {
     move_to(MachineEvent::close_door);
   }
   if (!runs) return;
@@ -362,6 +372,10 @@ std::vector<MachineChange> MachineSession::take_changes() {
   return taken;
 }
 
+bool MachineSession::busy() const {
+  return work_ && !work_->ended;
+}
+
 MachineStatus MachineSession::status() const {
   MachineStatus status;
   status.version = version_;
@@ -373,7 +387,7 @@ MachineStatus MachineSession::status() const {
   status.overrides = overrides_;
   status.trouble = trouble_;
   status.trouble_words = trouble_words_;
-  if (!work_ || work_->ended || !work_->drive) return status;
+  if (!busy() || !work_->drive) return status;
   const MotionDrive& drive = *work_->drive;
   status.holds = drive.holds();
   status.rests = drive.state() == MotionDrive::State::held || drive.state() == MotionDrive::State::ended;

@@ -64,8 +64,8 @@ class MachineSession {
   MachineState state() const { return state_; }
   // The board's time.
   Seconds now() const { return board_.now(); }
-  // Something is going on.
-  bool busy() const { return row_of(state_).has_activity; }
+  // Something is going on, or rests and goes on later.
+  bool busy() const;
   // What keeps the machine from being driven by this board, as a sentence without a full stop.
   const std::string& trouble_words() const { return trouble_words_; }
 
@@ -104,6 +104,7 @@ class MachineSession {
   Answer take(request::Sleep& sleep);
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
+  Refusal why_not() const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
   DriveOptions drive_options() const;
@@ -125,7 +126,7 @@ class MachineSession {
   std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
   void note_place();
   Point home_place();
-  void compare_counts();
+  [[nodiscard]] bool counts_agree();
   void mind_lease();
   void mind_holds();
   void note_tails();
