@@ -16,14 +16,6 @@ constexpr std::size_t items_between_tails = 3;
 // As long as there is time, a refill has so many at least, and leaves as many places for the next.
 constexpr std::size_t worth_sending = 8;
 
-// Where a tail is too long the speed is limited to this part of what it is there: again after so much motion, in which
-// the planner has braked; and where tails are short enough for so long, it may rise by this part.
-constexpr double slower = 0.7;
-constexpr double slower_from_rest = 0.5;
-constexpr Seconds to_settle{0.03};
-constexpr double faster = 1.3;
-constexpr Seconds to_go_on_so{0.1};
-constexpr double least_limit = 0.05;  // mm/s
 // Of the questions before refills. A refill that goes before one takes the longer by so much; answers that were slow
 // are forgotten at this rate; a chip makes events of so much motion ahead.
 constexpr double behind_a_refill = 3;
@@ -65,7 +57,7 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       behind_(stages.link.executed()),
       places_(static_cast<std::size_t>(std::max(stages.link.places(), 0))),
       given_(stages.path.place()),
-      long_tail_((places_ - std::min(places_, worth_sending + 1)) / 2),
+      speed_(stages.planner, places_, worth_sending),
       waits_for_operator_(waits_for_operator) {
   stages.path.keep();
   commit();
@@ -76,8 +68,7 @@ void Refiller::watch(const MotionItem& motion) {
   const auto* move = std::get_if<PlannedMove>(&motion);
   given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
   if (move == nullptr || move->phase_count == 0) return;
-  speed_ = move->exit_velocity().value();
-  fastest_ = std::max(fastest_, speed_);
+  speed_.note_speed(move->exit_velocity().value());
 }
 
 Refiller::Turn Refiller::advance() {
@@ -211,7 +202,7 @@ Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {
 // What the board has told of how far it is.
 void Refiller::note_executed() {
   const ItemNumber executed = stages_.link.executed();
-  show_executed(executed);
+  played_.show_executed(executed);
   for (; !motion_.empty() && later_by(motion_.front().number, executed) <= 0; motion_.pop_front()) {
     ahead_ -= motion_.front().time;
   }
@@ -231,30 +222,22 @@ void Refiller::note_executed() {
   if (executed != under_way.front().last) return;
   rested_ = std::move(under_way.front().rest);
   under_way.pop_front();
-  fastest_ = speed_;
+  speed_.forget_fastest();
   if (!on_tail_) return;
   behind_ = executed;
   take_up();
   if (!brakes_) ++recoveries_;
 }
 
-// A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
-void Refiller::show_executed(ItemNumber executed) {
-  for (; !sent_.empty() && later_by(sent_.front().number, executed) <= 0; sent_.pop_front()) {
-    const Sent& sent = sent_.front();
-    if (!sent.end_of_tail || later_by(executed, *sent.end_of_tail) <= 0) executed_watcher_(sent.item);
-  }
-}
-
 // The board rests. All that was sent behind it came too late, and all that was pulled is pulled again.
 void Refiller::take_up() {
   refills_under_way_.clear();
-  sent_.clear();
+  played_.forget();
   motion_.clear();
   pulled_.clear();
   ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
-  speed_ = fastest_ = 0;
+  speed_.rest();
   action_.reset();
   given_ = rested_.place;
   stages_.path.rewind(given_);
@@ -265,33 +248,9 @@ void Refiller::take_up() {
 
 // At rest, where nothing fits.
 bool Refiller::begin_more_slowly() {
-  const double limit = std::min(speed_limit_, fastest_) * slower_from_rest;
-  if (limit < least_limit) return false;
-  limit_speed_to(limit);
+  if (!speed_.begin_more_slowly()) return false;
   take_up();
   return !(guards_threads_ && stages_.path.is_in_thread());
-}
-
-void Refiller::limit_speed_to(double speed) {
-  if (speed < speed_limit_) ++slowdowns_;
-  speed_limit_ = speed;
-  limited_for_ = Seconds(0);
-  stages_.planner.limit_speed_to(MmPerSecond(speed));
-}
-
-// What comes is limited before the tails are too long to be sent.
-void Refiller::mind_length_of(const Tail& tail) {
-  const bool is_long = tail.items.size() > long_tail_;
-  if (is_long && speed_ > least_limit && (std::isinf(speed_limit_) || limited_for_ > to_settle)) {
-    limit_speed_to(std::min(speed_limit_, speed_) * slower);
-  } else if (!is_long && !std::isinf(speed_limit_)) {
-    const bool is_short = 2 * tail.items.size() < long_tail_;
-    if (is_short && limited_for_ > to_settle) {
-      limit_speed_to(std::numeric_limits<double>::infinity());
-    } else if (limited_for_ > to_go_on_so) {
-      limit_speed_to(speed_limit_ * faster);
-    }
-  }
 }
 
 // Motion up to the horizon, and further to where a refill may end.
@@ -323,7 +282,7 @@ void Refiller::pull() {
 void Refiller::add(const LinkItem& item) {
   pulled_.push_back({.item = item, .time = time_of(item)});
   pulled_time_ += pulled_.back().time;
-  limited_for_ += pulled_.back().time;
+  speed_.note_motion(pulled_.back().time);
   const StepGenerator& generator = stages_.generator;
   // A long dwell has more items than a board has places: it may end amid it, and go on with the next refill.
   if (generator.at_rest() || generator.waits_at_rest()) {
@@ -332,7 +291,7 @@ void Refiller::add(const LinkItem& item) {
     return;  // it is to come to rest by itself
   } else if (is_far_from_last_tail()) {
     pulled_.back().tail = find_tail();
-    mind_length_of(*pulled_.back().tail);
+    speed_.note_tail(pulled_.back().tail->items.size());
   }
 }
 
@@ -424,10 +383,9 @@ void Refiller::send(std::size_t items) {
   refill.last_of_motion = behind_ = static_cast<ItemNumber>(refill.first + items - 1);
   refill.last = static_cast<ItemNumber>(refill.first + items_.size() - 1);
   assert(refill.last == stages_.link.sent());
-  for (std::size_t i = 0; executed_watcher_ && i < items_.size(); ++i) {
-    Sent sent{.number = static_cast<ItemNumber>(refill.first + i), .item = items_[i]};
-    if (i >= items) sent.end_of_tail = refill.last;
-    sent_.push_back(sent);
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    played_.note_sent(static_cast<ItemNumber>(refill.first + i), items_[i],
+                      i < items ? std::nullopt : std::optional(refill.last));
   }
   reach_ = reach_ * longer;
   tail_items_ += tail.items.size();
@@ -464,7 +422,7 @@ bool Refiller::settled() {
   if (stages_.link.error()) return true;
   if (stages_.link.busy()) return false;
   behind_ = stages_.link.executed();
-  if (switched_ && executed_watcher_) executed_watcher_(*switched_);
+  if (switched_) played_.show(*switched_);
   switched_.reset();
   return true;
 }

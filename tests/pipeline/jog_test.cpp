@@ -33,8 +33,8 @@ INSTANTIATE_TEST_SUITE_P(, Jog, testing::Bool(),
 TEST_P(Jog, by_a_distance_goes_just_so_far) {
   SessionRun run(example_machine("router"), on());
   run.make_ready();
-  const Point place = jog(run, {.way = {.direction = test::xyz(3, 4), .speed = MmPerSecond(20), .distance = Mm(10)},
-                                .lease = Seconds(10)});
+  const Point place = jog(
+      run, {.way = {.direction = test::xyz(3, 4), .speed = MmPerSecond(20), .distance = Mm(10)}, .lease = Seconds(10)});
   EXPECT_NEAR(place[Axis::x], 6, within);
   EXPECT_NEAR(place[Axis::y], 8, within);
   run.expect_at_place();
@@ -58,8 +58,8 @@ TEST_P(Jog, that_is_not_renewed_brakes_at_the_end_of_its_lease_at_the_latest) {
     SessionRun run(jerk ? test::with_jerk_limits(router) : router, on());
     run.make_ready();
     const Seconds begun = run.now();
-    const Ticket ticket =
-        run.taken(request::Jog{.way = {.direction = test::xyz(-1, 0), .speed = MmPerSecond(40)}, .lease = Seconds(0.2)});
+    const Ticket ticket = run.taken(
+        request::Jog{.way = {.direction = test::xyz(-1, 0), .speed = MmPerSecond(40)}, .lease = Seconds(0.2)});
     run.to_end();
     // With jerk the deceleration rises and falls for 20 ms each; the lease ends where braking begins all the same. Over
     // a line the board may play the tail behind what is committed, and tells then.
@@ -125,8 +125,8 @@ TEST_P(Jog, is_not_slowed_by_the_overrides_of_programs) {
   SessionRun run(example_machine("router"), on());
   run.make_ready();
   run.taken(request::Override{.feed = 0.0});
-  const Point place = jog(run, {.way = {.direction = test::xyz(1, 0), .speed = MmPerSecond(20), .distance = Mm(10)},
-                                .lease = Seconds(10)});
+  const Point place = jog(
+      run, {.way = {.direction = test::xyz(1, 0), .speed = MmPerSecond(20), .distance = Mm(10)}, .lease = Seconds(10)});
   EXPECT_NEAR(place[Axis::x], 10, within);
 }
 

@@ -27,7 +27,9 @@
 #include "passo/base/source.hpp"
 #include "passo/drive/feed.hpp"
 #include "passo/drive/outputs_order.hpp"
+#include "passo/drive/played_items.hpp"
 #include "passo/drive/rewindable_path.hpp"
+#include "passo/drive/speed_for_tails.hpp"
 #include "passo/link/link.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -94,13 +96,13 @@ class Refiller final : public Feed {
   Seconds longest_ahead() const { return longest_ahead_; }
 
   // Who wants to see each item that the board has told to have executed, tails that were played included.
-  void watch_executed(std::function<void(const LinkItem&)> watcher) { executed_watcher_ = std::move(watcher); }
+  void watch_executed(std::function<void(const LinkItem&)> watcher) { played_.watch(std::move(watcher)); }
   // Who wants to be told, before a refill is sent, where the board may come to rest from then on.
   void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
   // How often a tail was played to its end, and the path taken up again there.
   int recoveries() const { return recoveries_; }
   // How often the speed was limited since a tail was long.
-  int slowdowns() const { return slowdowns_; }
+  int slowdowns() const { return speed_.slowdowns(); }
   // Of the items sent, those that were tails.
   std::uint64_t tail_items() const { return tail_items_; }
   std::uint64_t refills() const { return refills_; }
@@ -111,11 +113,6 @@ class Refiller final : public Feed {
     Seconds time{0};
     Seconds end{0};  // since the last rest
     LinkItem item = {};
-  };
-  struct Sent {
-    ItemNumber number = 0;
-    LinkItem item;
-    std::optional<ItemNumber> end_of_tail = {};  // none: motion
   };
   // A place on the path where the machine rests, and the generator and the outputs there.
   struct Rest {
@@ -152,7 +149,6 @@ class Refiller final : public Feed {
   Seconds refill_at() const;
   bool waits_for_answer();
   void note_executed();
-  void show_executed(ItemNumber executed);
   void take_up();
   void pull();
   void add(const LinkItem& item);
@@ -160,9 +156,7 @@ class Refiller final : public Feed {
   Tail find_tail();
   Tail tail_of_nothing();
   std::unique_ptr<StepGenerator> fork();
-  void mind_length_of(const Tail& tail);
   bool begin_more_slowly();
-  void limit_speed_to(double speed);
   std::size_t free_places() const;
   std::size_t size_of_refill();
   void send(std::size_t items);
@@ -178,22 +172,16 @@ class Refiller final : public Feed {
   std::deque<Refill> refills_under_way_;  // the first is being played; of the others, nothing yet
   ItemNumber behind_ = 0;                 // the next refill goes behind this item
   std::size_t places_;                    // that the board has for items, as far as we use them
-  std::function<void(const LinkItem&)> executed_watcher_;
+  PlayedItems played_;
   std::function<void(const BoardRest&)> rest_watcher_;
-  std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
   Seconds given_time_{0};  // of all motion since the last rest, by the planner
   Seconds sent_time_{0};   // and of what of that was sent
   std::optional<Seconds> told_ahead_;
-  std::optional<Seconds> began_;                                  // by the board's clock
-  PathPlace given_;                                               // by the planner
-  double speed_ = 0;                                              // there
-  double fastest_ = 0;                                            // since the last rest
-  Rest rested_;                                                   // the last one
-  std::size_t long_tail_;                                         // items: longer ones leave too few places
-  double speed_limit_ = std::numeric_limits<double>::infinity();  // for the sake of them
-  Seconds limited_for_{0};                                        // of motion that was pulled
-  int slowdowns_ = 0;
+  std::optional<Seconds> began_;  // by the board's clock
+  PathPlace given_;               // by the planner
+  Rest rested_;                   // the last one
+  SpeedForTails speed_;
   bool on_tail_ = false;  // the board plays one: nothing is sent before it rests
 
   std::deque<Pulled> pulled_;  // and not sent
