@@ -89,15 +89,18 @@ void VirtualMachine::look_at_inputs() {
   if (inputs != told_) heed(inputs);
 }
 
-// As the firmware's main loop does it: what is watched is captured, what a person presses is told, what stops stops.
+// As the chip's main loop does it: what is watched is captured, what a person presses is told, what stops stops, and
+// switches the outputs off.
 void VirtualMachine::heed(unsigned now) {
   const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
   constexpr unsigned by_people = input_door | input_hold | input_start;
   const unsigned on = changed & now;
   board_.set_inputs(told_, static_cast<std::uint16_t>((changed & board_.watched()) | (on & by_people)));
   const unsigned stops = on & board_.stopping();
-  if ((stops & input_emergency_stop) != 0) return board_.stop_at_once(FaultReason::emergency_stop);
-  if (stops != 0 && !board_.idle()) board_.stop_at_once(FaultReason::limit);
+  const bool pressed = (stops & input_emergency_stop) != 0;
+  if (!pressed && (stops == 0 || board_.idle())) return;
+  if (hardware_.outputs_now.switches != 0) hardware_.outputs({});
+  board_.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
 }
 
 void VirtualMachine::wait(Ticks time) {

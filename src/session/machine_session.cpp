@@ -85,10 +85,12 @@ void MachineSession::go_online(Seconds most) {
   const bool wants_encoder = options_.over_a_line && machine_.spindle.counts_per_turn > 0;
   if (const auto words = unsuited(board_, passo::step_options(machine_), wants_encoder)) {
     trouble_words_ = *words;
-    unsuited_ = true;
     move_to(MachineEvent::lose_board);
     return;
   }
+  if (std::exchange(leaves_outputs_, false)) board_.send(BoardOutputs{});
+  if (board_.busy()) board_.poll(most);
+  if (board_.busy() || board_.error()) return;
   place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);
@@ -126,7 +128,8 @@ void MachineSession::begin_reset() {
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
-  greeted_ = unsuited_ = false;
+  greeted_ = false;
+  leaves_outputs_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
   if (!options_.over_a_line) position_.trust = Trust::unknown;

@@ -144,7 +144,7 @@ class MachineSession {
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
   bool asks_place_ = false;  // before another hello
-  bool unsuited_ = false;
+  bool leaves_outputs_ = false;  // on, perhaps, what was going on when the board was lost
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the board was lost
   std::optional<BoardPlace> place_;        // where the board stands, below a step too; nothing: as after a hello
