@@ -13,7 +13,6 @@ namespace passo {
 namespace {
 
 constexpr double no_feed = 0.01;
-constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
 
 // A feed of nothing ends by itself when there is more.
 constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::program_stop,

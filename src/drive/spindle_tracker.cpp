@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "passo/link/board_port.hpp"
+
 namespace passo {
 namespace {
 
@@ -25,7 +27,6 @@ constexpr int sure_of_start = 3;
 constexpr double most_missing = 0.1;
 constexpr Seconds longest_lead{0.2};
 constexpr std::size_t bytes_of_a_start = 460;  // twenty items
-constexpr Seconds hardly_any{1e-6};            // less than a tick may be none
 
 }  // namespace
 

@@ -29,7 +29,6 @@ BoardSession::BoardSession(BoardPort& port, const LineCare& care)
 }
 
 BoardSession::Progress BoardSession::poll(Seconds most) {
-  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
   const bool endless = std::isinf(most.value());
   const Seconds end = port_.elapsed() + most;
   Progress progress;
@@ -71,7 +70,7 @@ void BoardSession::mind_silence(bool heard, bool endless) {
     if (!heard && endless) error_ = LinkError::no_answer;
   } else if (now - heard_ > care_.patience) {
     error_ = LinkError::no_answer;
-  } else if ((!heard && (endless || now - quiet_since_ >= care_.answer_within)) || overdue()) {
+  } else if ((!heard && (endless || care_.answer_within - (now - quiet_since_) <= hardly_any)) || overdue()) {
     quiet_since_ = now;
     ask_again();
   }

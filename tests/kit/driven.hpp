@@ -32,7 +32,7 @@ inline StepOptions steps_from(const MachineDescription& machine, const Point& st
 
 // Lets time pass in a hold, or until something is switched on.
 inline void let_pass(MotionDrive& drive, Seconds time) {
-  for (const Seconds end = drive.now() + time; end - drive.now() > Seconds(1e-6) && drive.turn(end - drive.now());) {
+  for (const Seconds end = drive.now() + time; end - drive.now() > hardly_any && drive.turn(end - drive.now());) {
   }
 }
 

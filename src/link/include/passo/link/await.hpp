@@ -14,7 +14,7 @@ inline constexpr Seconds endless{std::numeric_limits<double>::infinity()};
 template <class Done>
 bool await(BoardSession& session, Done done, Seconds within = endless) {
   const Seconds end = session.now() + within;
-  while (!done() && !session.error() && session.now() < end) session.poll(end - session.now());
+  while (!done() && !session.error() && end - session.now() > hardly_any) session.poll(end - session.now());
   return done();
 }
 

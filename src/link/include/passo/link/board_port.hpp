@@ -10,6 +10,10 @@
 
 namespace passo {
 
+// Less than a tick of a board may be none: whoever waits for a time is there when so little is left, for a port may let
+// none pass.
+inline constexpr Seconds hardly_any{1e-6};
+
 class BoardPort {
  public:
   virtual ~BoardPort() = default;
