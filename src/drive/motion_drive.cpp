@@ -119,7 +119,7 @@ MotionDrive::Turn MotionDrive::advance() {
   if (state_ == State::ended) return Turn::ended;
   if (state_ == State::held) return board_.error() ? end() : Turn::waits;
   look_at_probe();
-  if (!follow()) return Turn::waits;
+  if (feed_->plans() && !follow()) return Turn::waits;
   return take(feed_->advance());
 }
 

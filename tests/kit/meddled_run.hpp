@@ -71,7 +71,7 @@ struct Meddling {
         }
         break;
       case MotionDrive::State::holding:
-        if (random.chance(0.02)) drive.resume();
+        if (random.chance(0.008)) drive.resume();
         break;
       case MotionDrive::State::held:
         ++acts.rests;

@@ -34,6 +34,7 @@ class DirectFeed final : public Feed {
   void commit(const Commitment& live);
 
   Turn advance() override;
+  bool plans() const override { return !action_ && !ended_; }
   Action take_action() override { return *std::exchange(action_, std::nullopt); }
   void watch(const MotionItem& motion) override;
   void attend(Attention attention) override;

@@ -51,6 +51,8 @@ class Feed {
   Feed& operator=(const Feed&) = delete;
 
   virtual Turn advance() = 0;
+  // advance() may plan more motion. False: what was given is only waited for.
+  virtual bool plans() const = 0;
   virtual Action take_action() = 0;
   // To be told of all motion that the planner gives.
   virtual void watch(const MotionItem& motion) = 0;

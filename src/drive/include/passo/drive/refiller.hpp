@@ -65,6 +65,7 @@ class Refiller final : public Feed {
 
   // Sends a refill, or tells what it waits for.
   Turn advance() override;
+  bool plans() const override { return true; }
   Action take_action() override;
   void watch(const MotionItem& motion) override;
   void attend(Attention attention) override;
