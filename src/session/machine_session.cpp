@@ -56,12 +56,17 @@ void MachineSession::name_session(std::uint16_t number) {
   board_.name_session(number);
 }
 
+// With its door open the machine may be busy or not.
+bool MachineSession::busy() const {
+  return work_ && !work_->ended;
+}
+
 void MachineSession::turn(Seconds most) {
   if (state_ == MachineState::offline) {
     go_online(most);
   } else if (state_ == MachineState::check) {
     turn_check();
-  } else if (busy() && work_) {
+  } else if (busy()) {
     turn_work(most);
   } else {
     board_.poll(std::isinf(most.value()) ? Seconds(0) : most);
@@ -89,14 +94,16 @@ void MachineSession::go_online(Seconds most) {
     move_to(MachineEvent::lose_board);
     return;
   }
+  place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);
 }
 
-// From here on the board's counts are those of that place.
+// From here on the board's counts are those of that place. Without a hello the board keeps what it has below a step.
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
-  place_.reset();
+  const MotorSteps steps = steps_at(machine_, position.place);
+  for (std::size_t m = 0; place_ && m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
   count_from_here();
   ++version_;
 }
@@ -297,10 +304,10 @@ void MachineSession::compare_counts() {
 void MachineSession::mind_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
-  if (work_ && !work_->ended && is_of_work(error)) return;  // the drive ends by itself
+  if (busy() && is_of_work(error)) return;  // the drive ends by itself
   trouble_ = error;
   trouble_words_ = message_of(error);
-  if (work_ && !work_->ended) end_work();
+  if (busy()) end_work();
   trust_before_ = position_.trust;
   position_.trust = Trust::unknown;
   place_.reset();
@@ -309,8 +316,8 @@ void MachineSession::mind_board() {
 
 void MachineSession::look_at_panel() {
   if (!options_.over_a_line || board_.error() || !board_.ready()) return;
-  const bool runs = busy() && work_ && work_->drive && !work_->ended && !work_->finishing;
-  if (!work_ || !work_->finishing || work_->ended) {
+  const bool runs = busy() && work_->drive && !work_->finishing;
+  if (!busy() || !work_->finishing) {
     panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
   }
   const Panel::Pressed pressed = panel_->take();
@@ -373,7 +380,7 @@ MachineStatus MachineSession::status() const {
   status.overrides = overrides_;
   status.trouble = trouble_;
   status.trouble_words = trouble_words_;
-  if (!work_ || work_->ended || !work_->drive) return status;
+  if (!busy() || !work_->drive) return status;
   const MotionDrive& drive = *work_->drive;
   status.holds = drive.holds();
   status.rests = drive.state() == MotionDrive::State::held || drive.state() == MotionDrive::State::ended;

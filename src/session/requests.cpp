@@ -278,7 +278,7 @@ MachineSession::Answer MachineSession::take(request::OperatorDone&) {
 }
 
 MachineSession::Answer MachineSession::take(request::SetPosition& set) {
-  if (state_ != MachineState::idle) return Failure{*refuse(MachineEvent::wake)};
+  if (auto refused = refuse(MachineEvent::fall_asleep)) return Failure{*refused};  // as that: only when idle
   if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
   stand_at(set.position);
   return at_once();

@@ -64,8 +64,8 @@ class MachineSession {
   MachineState state() const { return state_; }
   // The board's time.
   Seconds now() const { return board_.now(); }
-  // Something is going on.
-  bool busy() const { return row_of(state_).has_activity; }
+  // Something is going on, or rests and goes on later.
+  bool busy() const;
   // What keeps the machine from being driven by this board, as a sentence without a full stop.
   const std::string& trouble_words() const { return trouble_words_; }
 
