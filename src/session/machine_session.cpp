@@ -123,14 +123,21 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
   return steps;
 }
 
+// Until the board has told where it stands. Nobody has asked it since the last doubt: what was known then counts.
+void MachineSession::doubt_place() {
+  if (!asks_place_) trust_before_ = position_.trust;
+  position_.trust = Trust::unknown;
+  place_.reset();
+}
+
 void MachineSession::begin_reset() {
+  if (state_ == MachineState::idle) doubt_place();
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
   greeted_ = unsuited_ = false;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
-  if (!options_.over_a_line) position_.trust = Trust::unknown;
   move_to(MachineEvent::reset);
 }
 
@@ -308,9 +315,7 @@ void MachineSession::mind_board() {
   trouble_ = error;
   trouble_words_ = message_of(error);
   if (busy()) end_work();
-  trust_before_ = position_.trust;
-  position_.trust = Trust::unknown;
-  place_.reset();
+  doubt_place();
   move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
 }
 

@@ -41,8 +41,8 @@ class SoakWorld {
 
   Seconds now() const { return machine.elapsed(); }
   Truth truth() { return plant_.truth_at(now()); }
-  // Lets happen what is due; `homes`: nobody fools the machine about where it is.
-  void act(bool homes) {
+  // Lets happen what is due, and says what has. `homes`: nobody fools the machine about where it is.
+  const char* act(bool homes) {
     for (std::size_t i = 0; i < due_.size();) {
       if (due_[i].at > now()) {
         ++i;
@@ -52,9 +52,9 @@ class SoakWorld {
       due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(i));
       happen();
     }
-    if (now() < next_) return;
+    if (now() < next_) return nullptr;
     next_ = now() + wait();
-    trouble(homes);
+    return trouble(homes);
   }
   // A limit switch is closed by hand: what homing finds now may be wrong.
   bool fools() const { return fools_; }
@@ -93,43 +93,53 @@ class SoakWorld {
     later(shortest, longest, [this, which] { machine.set_switch(which, false); });
   }
 
-  void trouble(bool homes) {
+  const char* trouble(bool homes) {
     const double kind = random_.between(0, 1);
     if (kind < 0.25) {
       ++presses;
-      return close(input_hold, 0.02, 0.5);
+      close(input_hold, 0.02, 0.5);
+      return "--- hold is pressed";
     }
     if (kind < 0.55) {
       ++presses;
-      return close(input_start, 0.02, 0.5);
+      close(input_start, 0.02, 0.5);
+      return "--- start is pressed";
     }
     if (kind < 0.65) {
       ++doors;
-      return close(input_door, 0.05, 10);
+      close(input_door, 0.05, 10);
+      return "--- the door opens";
     }
     if (kind < 0.80) {
       ++cuts;
-      return line.cut(now() + Seconds(random_.between(0, 0.1)), Seconds(std::exp(random_.between(-5, 2.2))));
+      line.cut(now() + Seconds(random_.between(0, 0.1)), Seconds(std::exp(random_.between(-5, 2.2))));
+      return "--- the line is cut";
     }
-    if (kind < 0.90) return spoil();
+    if (kind < 0.90) {
+      spoil();
+      return "--- the line spoils bytes";
+    }
     if (kind < 0.94) {
       ++emergency_stops;
-      return close(input_emergency_stop, 0.05, 5);
+      close(input_emergency_stop, 0.05, 5);
+      return "--- emergency stop";
     }
     if (kind < 0.97) {
-      if (homes) return;
+      if (homes) return nullptr;
       ++limit_presses;
       fools_ = true;
       const auto which = static_cast<std::uint16_t>(input_limit << static_cast<unsigned>(random_.between(0, 2.999)));
       machine.set_switch(which, true);
-      return later(0.02, 0.5, [this, which] {
+      later(0.02, 0.5, [this, which] {
         machine.set_switch(which, false);
         fools_ = false;
       });
+      return "--- a limit switch is pressed";
     }
     ++resets;
     machine.reset_board();
     limits.forget(machine.now());
+    return "--- the board is reset";
   }
 
   void spoil() {

@@ -1,10 +1,12 @@
 // A soak: three clients, one session, a line that breaks and people who press what they find, for hours of virtual time.
 // PASSO_SOAK_HOURS says how many; what must be true is looked at after each turn.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +24,9 @@
 namespace passo::test {
 namespace {
 
+constexpr std::array names = {"start", "jog",      "renew", "home",         "probe", "check", "hold", "resume",
+                              "stop",  "override", "done",  "set position", "reset", "sleep", "wake"};
+
 constexpr LineCare care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
 // What somebody has asked to end is at an end after so long, however bad the line.
 constexpr Seconds longest_stop{60};
@@ -38,7 +43,7 @@ class SessionSoak : public testing::Test {
 
   void soak(Seconds time) {
     while (session_.now() < time && !HasFailure()) {
-      world_.act(session_.state() == MachineState::home);
+      if (const char* const happened = world_.act(session_.state() == MachineState::home)) tell(happened);
       fooled_ = fooled_ || (world_.fools() && session_.state() == MachineState::home);
       for (SoakClient& client : clients_) {
         if (std::optional<Request> wanted = client.act(session_.status())) ask(std::move(*wanted));
@@ -104,6 +109,7 @@ class SessionSoak : public testing::Test {
     const auto* set = std::get_if<request::SetPosition>(&wanted);
     const std::optional<Point> place = set != nullptr ? std::optional(set->position.place) : std::nullopt;
     const auto answer = session_.request(std::move(wanted));
+    tell(fmt::format("{} {}", names[kind], answer ? "taken" : answer.error().message));
     if (!answer) {
       ++refused_;
       EXPECT_FALSE(answer.error().message.empty());
@@ -122,14 +128,19 @@ class SessionSoak : public testing::Test {
       if (change.kind == MachineChange::Kind::state) {
         EXPECT_TRUE(follows(state_, change.state)) << name_of(state_) << " to " << name_of(change.state) << at();
         state_ = change.state;
+        tell(fmt::format("{}, {} {}", name_of(state_), name_of(session_.status().position.trust),
+                         session_.status().trouble_words));
         ++entered_[static_cast<std::size_t>(state_)];
       } else if (change.kind == MachineChange::Kind::answered) {
         const auto open = open_.find(change.ticket);
         ASSERT_NE(open, open_.end()) << "ticket " << change.ticket << " was not open" << at();
+        tell(fmt::format("answered {}: {}, {}", names[open->second.kind], static_cast<int>(change.outcome),
+                         change.fault ? change.fault->code : ""));
         ++outcomes_[open->second.kind][static_cast<std::size_t>(change.outcome)];
         if (open->second.kind == index_of<request::Home>() && change.outcome == Outcome::done) mind_homed();
         open_.erase(open);
       } else if (change.kind == MachineChange::Kind::position_lost) {
+        tell("position lost");
         ADD_FAILURE() << "counts differ from what was commanded: motor " << session_.mismatch()->motor << " counted "
                       << session_.mismatch()->counted << ", commanded " << session_.mismatch()->commanded << at();
       }
@@ -156,9 +167,9 @@ class SessionSoak : public testing::Test {
     EXPECT_EQ(outputs.switches, 0) << at();
   }
 
-  double steps_of(std::size_t motor, const Point& place) const {
+  double steps_a_unit(std::size_t motor) const {
     const AxisDescription& axis = description_.axes[motor];
-    return place[axis.axis] * axis.steps_per_unit * (axis.inverted ? -1 : 1);
+    return axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
   }
   // A place that somebody has told need not be the true one: what it is wrong by it is wrong by from then on.
   void measure(const Point& place) {
@@ -182,14 +193,15 @@ class SessionSoak : public testing::Test {
       const AxisDescription& axis = description_.axes[m];
       const double stands = truth.positions[m] - wrong_by_[m];
       if (!session_.busy()) {
-        EXPECT_NEAR(stands, steps_of(m, status.position.place), 0.5 + 1e-6)
+        EXPECT_NEAR(stands, steps_a_unit(m) * status.position.place[axis.axis], 0.5 + 1e-6)
             << "motor " << m << ", " << name_of(status.position.trust) << at();
       }
       if (status.activity != ActivityKind::program && status.activity != ActivityKind::jog) continue;
-      const double low = axis.travel_low * axis.steps_per_unit - 1;
-      const double high = axis.travel_high * axis.steps_per_unit + 1;
-      EXPECT_TRUE((axis.inverted ? -stands : stands) >= low && (axis.inverted ? -stands : stands) <= high)
-          << "motor " << m << " left its travel: " << stands << at();
+      // From out of the travel, where a probe move or homing ends, it may only go back.
+      const double began = status.position.place[axis.axis];
+      const double place = stands / steps_a_unit(m);
+      EXPECT_GE(place, std::min(axis.travel_low, began) - 1 / axis.steps_per_unit) << "motor " << m << at();
+      EXPECT_LE(place, std::max(axis.travel_high, began) + 1 / axis.steps_per_unit) << "motor " << m << at();
     }
   }
 
@@ -201,7 +213,15 @@ class SessionSoak : public testing::Test {
     return fmt::format("\n  PASSO_SEED={}, at {:.4f} s, turn {}, state {}", random_.seed(), session_.now().value(),
                        turns_, name_of(session_.state()));
   }
+  // The last of what has happened, for whoever looks for the cause of a failure.
+  void tell(std::string what) {
+    if (told_.size() == 60) told_.pop_front();
+    told_.push_back(fmt::format("{:.4f} s: {}", session_.now().value(), std::move(what)));
+  }
   void print() const {
+    for (const std::string& what : told_) {
+      if (HasFailure()) std::printf("%s\n", what.c_str());
+    }
     std::printf("%.2f virtual hours, %llu turns, %llu requests, %llu refused, %lld steps\n",
                 session_.now().value() / 3600, turns_, requests_, refused_,
                 static_cast<long long>(world_.limits.steps()));
@@ -212,8 +232,6 @@ class SessionSoak : public testing::Test {
                 static_cast<unsigned long long>(world_.emergency_stops),
                 static_cast<unsigned long long>(world_.limit_presses), static_cast<unsigned long long>(world_.resets),
                 static_cast<unsigned long long>(world_.stops));
-    constexpr std::array names = {"start", "jog",      "renew", "home",         "probe", "check", "hold", "resume",
-                                  "stop",  "override", "done",  "set position", "reset", "sleep", "wake"};
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
       const auto& of = outcomes_[kind];
       std::printf("%s: taken %llu, done %llu, stopped %llu, failed %llu\n", names[kind], taken_[kind], of[0], of[1],
@@ -240,6 +258,7 @@ class SessionSoak : public testing::Test {
   bool fooled_ = false;
   MachineState state_ = MachineState::offline;
   std::map<Ticket, Open> open_;
+  std::deque<std::string> told_;
   Count turns_ = 0;
   Count requests_ = 0;
   Count refused_ = 0;

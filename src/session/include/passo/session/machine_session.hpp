@@ -113,6 +113,7 @@ class MachineSession {
 
   void go_online(Seconds most);
   void begin_reset();
+  void doubt_place();
   void find_place_again();
   void stand_at(const KnownPosition& position);
   void count_from_here();
