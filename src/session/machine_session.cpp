@@ -94,6 +94,10 @@ void MachineSession::go_online(Seconds most) {
     move_to(MachineEvent::lose_board);
     return;
   }
+  // What was going on may have left something switched on.
+  if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
+  if (board_.busy()) board_.poll(most);
+  if (board_.busy() || board_.error()) return;
   place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);
@@ -136,6 +140,7 @@ void MachineSession::begin_reset() {
   trouble_.reset();
   trouble_words_.clear();
   greeted_ = unsuited_ = false;
+  switches_off_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
   move_to(MachineEvent::reset);
@@ -328,7 +333,7 @@ void MachineSession::look_at_panel() {
   const Panel::Pressed pressed = panel_->take();
   if (state_ == MachineState::idle && panel_->door_is_open()) {
     move_to(MachineEvent::open_door);
-  } else if (state_ == MachineState::door && !runs && !panel_->door_is_open()) {
+  } else if (state_ == MachineState::door && !busy() && !panel_->door_is_open()) {
     move_to(MachineEvent::close_door);
   }
   if (!runs) return;

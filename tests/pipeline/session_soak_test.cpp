@@ -200,8 +200,8 @@ class SessionSoak : public testing::Test {
       // From out of the travel, where a probe move or homing ends, it may only go back.
       const double began = status.position.place[axis.axis];
       const double place = stands / steps_a_unit(m);
-      EXPECT_GE(place, std::min(axis.travel_low, began) - 1 / axis.steps_per_unit) << "motor " << m << at();
-      EXPECT_LE(place, std::max(axis.travel_high, began) + 1 / axis.steps_per_unit) << "motor " << m << at();
+      EXPECT_GE(place, std::min(axis.travel_low, began) - description_.path_tolerance.value()) << "motor " << m << at();
+      EXPECT_LE(place, std::max(axis.travel_high, began) + description_.path_tolerance.value()) << "motor " << m << at();
     }
   }
 
@@ -216,6 +216,7 @@ class SessionSoak : public testing::Test {
   // The last of what has happened, for whoever looks for the cause of a failure.
   void tell(std::string what) {
     if (told_.size() == 60) told_.pop_front();
+    if (std::getenv("TRACE")) { std::printf("%.4f %s\n", session_.now().value(), what.c_str()); std::fflush(stdout); }
     told_.push_back(fmt::format("{:.4f} s: {}", session_.now().value(), std::move(what)));
   }
   void print() const {

@@ -144,6 +144,7 @@ class MachineSession {
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
   bool asks_place_ = false;  // before another hello
+  bool switches_off_ = false;  // after another hello
   bool unsuited_ = false;
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the board was lost

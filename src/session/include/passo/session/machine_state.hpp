@@ -65,9 +65,10 @@ struct StateRow {
   bool program_has_outputs;  // spindle and coolant are as the program says; in all others they are off
 };
 
-// A fault may still move: a board that the host cannot hear plays its tail to the end.
+// A board that the host cannot hear plays its tail to the end, and leaves on what is on, until it has heard the next
+// hello: so it is in a fault, and offline.
 inline constexpr std::array<StateRow, state_count> state_rows = {{
-    {MachineState::offline, "Offline", false, false, false},
+    {MachineState::offline, "Offline", false, true, true},
     {MachineState::idle, "Idle", false, false, false},
     {MachineState::run, "Run", true, true, true},
     {MachineState::hold, "Hold", true, true, true},
