@@ -27,6 +27,12 @@ bool is_finite(const Point& point) {
   return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
 }
 
+bool leaves_travel(const MachineDescription& machine, const Point& place) {
+  return std::ranges::any_of(machine.axes, [&](const AxisDescription& axis) {
+    return place[axis.axis] < axis.travel_low || place[axis.axis] > axis.travel_high;
+  });
+}
+
 Failure<Refusal> refusal(RefusalCode code, const char* message) {
   return Failure{Refusal{.code = code, .message = message}};
 }
@@ -200,6 +206,9 @@ MachineSession::Answer MachineSession::take(request::Probe& probe) {
   if (auto refused = refuse(MachineEvent::begin_probe)) return Failure{*refused};
   if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
     return refusal(RefusalCode::bad_value, "a probe move needs a place to go to, and a speed above 0");
+  }
+  if (position_.trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
+    return refusal(RefusalCode::bad_value, "the probe move would leave the machine's travel");
   }
   auto work = std::make_unique<Work>();
   work->activity = std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->answers);

@@ -114,6 +114,7 @@ class MachineSession {
 
   void go_online(Seconds most);
   void begin_reset();
+  void doubt_place();
   void find_place_again();
   void stand_at(const KnownPosition& position);
   void count_from_here();
@@ -144,7 +145,7 @@ class MachineSession {
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
   bool asks_place_ = false;  // before another hello
-  bool leaves_outputs_ = false;  // on, perhaps, what was going on when the board was lost
+  bool switches_off_ = false;  // after another hello: what was going on may have left something on
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the board was lost
   std::optional<BoardPlace> place_;        // where the board stands, below a step too; nothing: as after a hello
