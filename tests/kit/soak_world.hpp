@@ -1,5 +1,5 @@
-// SoakWorld: a virtual machine at the end of a line, the plant behind it, and all that may happen to the three: the line
-// is cut or spoils bytes, somebody opens the door, presses buttons, closes limit switches, or resets the board.
+// SoakWorld: a virtual machine at the end of a line, the plant behind it, and all that may happen to the three: the
+// line is cut or spoils bytes, somebody opens the door, presses buttons, closes limit switches, or resets the board.
 #pragma once
 
 #include <algorithm>
@@ -85,8 +85,8 @@ class SoakWorld {
   }
   Seconds wait() { return Seconds(std::exp(random_.between(-1, 4.2))); }
   void later(double from, double to, std::function<void()> happen) {
-    due_.push_back({.at = now() + Seconds(std::exp(random_.between(std::log(from), std::log(to)))),
-                    .happen = std::move(happen)});
+    due_.push_back(
+        {.at = now() + Seconds(std::exp(random_.between(std::log(from), std::log(to)))), .happen = std::move(happen)});
   }
   void close(std::uint16_t which, double shortest, double longest) {
     machine.set_switch(which, true);

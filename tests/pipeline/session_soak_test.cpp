@@ -1,5 +1,5 @@
-// A soak: three clients, one session, a line that breaks and people who press what they find, for hours of virtual time.
-// PASSO_SOAK_HOURS says how many; what must be true is looked at after each turn.
+// A soak: three clients, one session, a line that breaks and people who press what they find, for hours of virtual
+// time. PASSO_SOAK_HOURS says how many; what must be true is looked at after each turn.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -116,7 +116,8 @@ class SessionSoak : public testing::Test {
       EXPECT_TRUE(refuses || answer.error().code == RefusalCode::bad_value) << answer.error().message << at();
     } else {
       EXPECT_FALSE(refuses) << "request " << kind << " was taken" << at();
-      EXPECT_TRUE(open_.emplace(*answer, Open{.kind = kind, .since = session_.now()}).second) << "a ticket twice" << at();
+      EXPECT_TRUE(open_.emplace(*answer, Open{.kind = kind, .since = session_.now()}).second)
+          << "a ticket twice" << at();
       ++taken_[kind];
       if (place) measure(*place);
     }
@@ -201,7 +202,8 @@ class SessionSoak : public testing::Test {
       const double began = status.position.place[axis.axis];
       const double place = stands / steps_a_unit(m);
       EXPECT_GE(place, std::min(axis.travel_low, began) - description_.path_tolerance.value()) << "motor " << m << at();
-      EXPECT_LE(place, std::max(axis.travel_high, began) + description_.path_tolerance.value()) << "motor " << m << at();
+      EXPECT_LE(place, std::max(axis.travel_high, began) + description_.path_tolerance.value())
+          << "motor " << m << at();
     }
   }
 
@@ -216,7 +218,10 @@ class SessionSoak : public testing::Test {
   // The last of what has happened, for whoever looks for the cause of a failure.
   void tell(std::string what) {
     if (told_.size() == 60) told_.pop_front();
-    if (std::getenv("TRACE")) { std::printf("%.4f %s\n", session_.now().value(), what.c_str()); std::fflush(stdout); }
+    if (std::getenv("TRACE")) {
+      std::printf("%.4f %s\n", session_.now().value(), what.c_str());
+      std::fflush(stdout);
+    }
     told_.push_back(fmt::format("{:.4f} s: {}", session_.now().value(), std::move(what)));
   }
   void print() const {
@@ -226,13 +231,13 @@ class SessionSoak : public testing::Test {
     std::printf("%.2f virtual hours, %llu turns, %llu requests, %llu refused, %lld steps\n",
                 session_.now().value() / 3600, turns_, requests_, refused_,
                 static_cast<long long>(world_.limits.steps()));
-    std::printf("cuts %llu, spoiled %llu, presses %llu, doors %llu, emergency stops %llu, limits pressed %llu, "
-                "resets %llu; stopped at once %llu\n",
-                static_cast<unsigned long long>(world_.cuts), static_cast<unsigned long long>(world_.spoiled),
-                static_cast<unsigned long long>(world_.presses), static_cast<unsigned long long>(world_.doors),
-                static_cast<unsigned long long>(world_.emergency_stops),
-                static_cast<unsigned long long>(world_.limit_presses), static_cast<unsigned long long>(world_.resets),
-                static_cast<unsigned long long>(world_.stops));
+    std::printf(
+        "cuts %llu, spoiled %llu, presses %llu, doors %llu, emergency stops %llu, limits pressed %llu, "
+        "resets %llu; stopped at once %llu\n",
+        static_cast<unsigned long long>(world_.cuts), static_cast<unsigned long long>(world_.spoiled),
+        static_cast<unsigned long long>(world_.presses), static_cast<unsigned long long>(world_.doors),
+        static_cast<unsigned long long>(world_.emergency_stops), static_cast<unsigned long long>(world_.limit_presses),
+        static_cast<unsigned long long>(world_.resets), static_cast<unsigned long long>(world_.stops));
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
       const auto& of = outcomes_[kind];
       std::printf("%s: taken %llu, done %llu, stopped %llu, failed %llu\n", names[kind], taken_[kind], of[0], of[1],

@@ -1,5 +1,5 @@
-// SoakClient: somebody who asks a machine for random things at random instants: often what makes sense in the state that
-// the machine is in, at times anything.
+// SoakClient: somebody who asks a machine for random things at random instants: often what makes sense in the state
+// that the machine is in, at times anything.
 #pragma once
 
 #include <algorithm>

@@ -144,7 +144,7 @@ class MachineSession {
   BoardSession board_;
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
-  bool asks_place_ = false;  // before another hello
+  bool asks_place_ = false;    // before another hello
   bool switches_off_ = false;  // after another hello: what was going on may have left something on
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the board was lost
