@@ -21,7 +21,7 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
-// So many moves after a probe move are checked.
+// How many moves after a probe move the check follows.
 constexpr std::uint64_t most_moves_after_a_probe = 10'000'000;
 
 bool is_probe(const PathItem& item) {
@@ -29,7 +29,7 @@ bool is_probe(const PathItem& item) {
   return action != nullptr && action->kind == Action::Kind::probe_end;
 }
 
-// The check is not the whole program's.
+// Warns that the check does not cover the whole program.
 void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
   const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
   diagnostics.add({.severity = Severity::warning,

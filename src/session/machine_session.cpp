@@ -14,12 +14,12 @@
 namespace passo {
 namespace {
 
-// Path items of a check in one turn.
+// How many path items a check takes in one turn.
 constexpr std::uint64_t items_a_turn = 2000;
-// Changes that nobody has taken; then the oldest are dropped.
+// How many changes are kept until somebody takes them. Beyond that the oldest are dropped.
 constexpr std::size_t most_changes = 4096;
 
-// The board is as it was: whoever used the link has found that the work cannot go on.
+// True: the error is one of the work, found by a user of the link. The board itself is as it was.
 constexpr bool is_of_work(LinkError error) {
   switch (error) {
     case LinkError::too_few_places:
@@ -75,7 +75,7 @@ void MachineSession::turn(Seconds most) {
   look_at_panel();
 }
 
-// Hello, and before a second one: how is the board, and where does it stand?
+// Says hello. Before a second hello, asks the board for its status and its place.
 void MachineSession::go_online(Seconds most) {
   if (asks_place_) {
     if (!board_.settled()) board_.poll(most);
@@ -146,7 +146,7 @@ void MachineSession::begin_reset() {
   move_to(MachineEvent::reset);
 }
 
-// A board that knows the session, and has lost no step, has counted on.
+// A board that knows the session and has lost no step has gone on counting. Then its counts tell the place.
 void MachineSession::find_place_again() {
   const BoardStatus& status = *board_.status();
   const bool knows = status.session == options_.greeting.session && status.motors == machine_.axes.size() &&
@@ -187,14 +187,14 @@ void MachineSession::turn_work(Seconds most) {
   work_->drive->wait(most);
 }
 
-// The moves that one step asks for may not end after the lease: they are committed then.
+// Stops the jog in time. The moves that one step commits may not end after the lease.
 void MachineSession::mind_lease() {
   if (!work_->lease_end) return;
   const Seconds pulled = 3 * live_commitment.longest_move;
   if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
 }
 
-// The state of a program is that of its strongest reason to rest.
+// Sets the state of a program by its strongest reason to rest.
 void MachineSession::mind_holds() {
   if (work_->program == nullptr || !work_->drive) return;
   const MotionDrive& drive = *work_->drive;
@@ -226,7 +226,7 @@ void MachineSession::note_tails() {
   }
 }
 
-// The drive has ended. Over a line the board tells where it stands.
+// The drive has ended. Over a line, the board is asked where it stands.
 void MachineSession::finish_work() {
   note_tails();
   if (!options_.over_a_line || board_.error()) return end_work();
@@ -268,7 +268,7 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
   return {fault ? Outcome::failed : Outcome::done, std::move(fault)};
 }
 
-// At rest, unless the board was lost: then nobody knows until it answers again.
+// Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
 void MachineSession::note_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_ = work_->drive->place();
@@ -285,7 +285,7 @@ void MachineSession::note_place() {
   count_from_here();
 }
 
-// The switches have told where the homed axes stand; the others keep their places.
+// The switches have told where the homed axes stand. The other axes keep their places.
 Point MachineSession::home_place() {
   Point place = position_.place;
   const StepOptions steps = passo::step_options(machine_);
@@ -316,7 +316,7 @@ bool MachineSession::counts_agree() {
   return true;
 }
 
-// An error of the board ends what is going on, and the machine is in alarm or in fault until a reset.
+// An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
 void MachineSession::mind_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
