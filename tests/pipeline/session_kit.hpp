@@ -1,6 +1,6 @@
 // A machine session on a virtual machine, in this process or at the end of a virtual line, and what is true of every
-// turn: the states follow the table, each ticket is answered once, nothing moves in a state of rest, and the outputs are
-// off where no program has them.
+// turn: the states follow the table, each ticket is answered once, nothing moves in a state of rest, and the outputs
+// are off where no program has them.
 #pragma once
 
 #include <cmath>
@@ -74,6 +74,7 @@ class SessionRun {
   const MachineDescription& description() const { return description_; }
   MachineSession& session() { return session_; }
   VirtualMachine& board() { return board_; }
+  const VirtualMachine& board() const { return board_; }
   VirtualLine& line() { return line_; }
   IdealPlant& plant() { return plant_; }
   MachineState state() const { return session_.state(); }
@@ -186,7 +187,8 @@ class SessionRun {
         EXPECT_TRUE(follows) << name_of(last_) << " -> " << name_of(change.state);
         last_ = change.state;
       } else if (change.kind == MachineChange::Kind::answered) {
-        EXPECT_EQ(waiting_.erase(change.ticket), 1U) << "ticket " << change.ticket << " was answered before, or never given";
+        EXPECT_EQ(waiting_.erase(change.ticket), 1U)
+            << "ticket " << change.ticket << " was answered before, or never given";
         answers_[change.ticket] = change;
       }
       changes.push_back(std::move(change));

@@ -96,8 +96,7 @@ bool follows(const Situation& situation) {
   return next_state(situation.state, event).has_value();
 }
 bool is_active(const Situation& situation) {
-  return row_of(situation.state).has_activity &&
-         (situation.state != MachineState::door || *situation.program != '\0');
+  return row_of(situation.state).has_activity && (situation.state != MachineState::door || *situation.program != '\0');
 }
 
 const std::vector<Asked> requests = {
@@ -190,7 +189,8 @@ TEST(SessionStates, without_switches_there_is_no_homing) {
 // While a program has its outputs they stay as the program says: in a hold, at an open door, at a tool change.
 TEST(SessionStates, keep_the_outputs_of_a_program_that_rests) {
   for (const char* name : {"run", "hold", "door_in_program"}) {
-    const auto found = std::ranges::find_if(situations, [&](const Situation& one) { return one.name == std::string(name); });
+    const auto found =
+        std::ranges::find_if(situations, [&](const Situation& one) { return one.name == std::string(name); });
     const auto run = in(*found);
     EXPECT_EQ(run->board().counts().outputs.switches, spindle_on | flood_on) << name;
     EXPECT_TRUE(run->session().status().outputs.flood) << name;
@@ -219,8 +219,8 @@ TEST(SessionStates, a_check_moves_nothing_and_tells_what_it_finds) {
   run.to_end();
   EXPECT_EQ(run.outcome(good), Outcome::done);
   Diagnostics findings;
-  const Ticket bad = run.taken(
-      request::Check{.program = ProgramReader::from_text("t", "G1 F100 X9999\n"), .options = {}, .findings = &findings});
+  const Ticket bad = run.taken(request::Check{
+      .program = ProgramReader::from_text("t", "G1 F100 X9999\n"), .options = {}, .findings = &findings});
   run.to_end();
   EXPECT_EQ(run.outcome(bad), Outcome::failed);
   EXPECT_TRUE(findings.any_error());
@@ -247,8 +247,9 @@ TEST(SessionStates, a_probe_move_ends_at_what_it_touches) {
     EXPECT_NEAR(found->probe->contact[Axis::z], -3, 1.0 / 640);
     run.expect_at_place();
     // Free again, and from there nothing is met.
-    EXPECT_EQ(run.outcome(run.taken(request::Probe{.target = test::xyz(0, 0, 5), .speed = MmPerSecond(5), .toward = false})),
-              std::nullopt);
+    EXPECT_EQ(
+        run.outcome(run.taken(request::Probe{.target = test::xyz(0, 0, 5), .speed = MmPerSecond(5), .toward = false})),
+        std::nullopt);
     run.to_end();
     const Ticket missed = run.taken(request::Probe{.target = test::xyz(5, 0, 5), .speed = MmPerSecond(5)});
     run.to_end();

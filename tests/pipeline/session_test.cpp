@@ -108,8 +108,7 @@ TEST_P(Session, stops_a_program_at_rest_with_its_outputs_off) {
 TEST_P(Session, waits_for_the_operator_at_stops_and_tool_changes) {
   SessionRun run(test::short_router(), on());
   run.make_ready();
-  const Ticket program =
-      run.taken(start_of("G21 G1 F1200\nX3\nM0\nX6\nM1\nX9\nT2 M6\nX12\nM2\n"));
+  const Ticket program = run.taken(start_of("G21 G1 F1200\nX3\nM0\nX6\nM1\nX9\nT2 M6\nX12\nM2\n"));
   struct Stop {
     MachineState state;
     Action::Kind kind;
