@@ -36,8 +36,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
                steps.clock.tick_rate) {
   watched_path_.watch([this](const PathItem& item) { watch(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
-  if (!options.guards_by_probe) return;
-  probe_.guard_other_moves();
+  if (options.guards_by_probe) probe_.guard_other_moves();
+  // The drive before may have been stopped amid a probe move: the board still watches, perhaps a limit switch.
   script_.then([this] { probe_.ask_to_watch_others(); });
   script_.until([this] { return board_.settled(); });
   script_.then([this] { feed_->attend(attention()); });
