@@ -74,6 +74,7 @@ class SessionRun {
   const MachineDescription& description() const { return description_; }
   MachineSession& session() { return session_; }
   VirtualMachine& board() { return board_; }
+  const VirtualMachine& board() const { return board_; }
   VirtualLine& line() { return line_; }
   IdealPlant& plant() { return plant_; }
   MachineState state() const { return session_.state(); }
