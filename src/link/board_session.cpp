@@ -343,7 +343,7 @@ void BoardSession::note_answer(std::uint8_t taken) {
 }
 
 void BoardSession::take(const ErrorReport& error) {
-  if (phase_ == Phase::before_hello) return;
+  if (phase_ == Phase::before_hello || error_) return;
   switch (error.reason) {
     case WireError::bad_frame:
     case WireError::out_of_sequence:

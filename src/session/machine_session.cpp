@@ -56,11 +56,6 @@ void MachineSession::name_session(std::uint16_t number) {
   board_.name_session(number);
 }
 
-// With its door open the machine may be busy or not.
-bool MachineSession::busy() const {
-  return work_ && !work_->ended;
-}
-
 void MachineSession::turn(Seconds most) {
   if (state_ == MachineState::offline) {
     go_online(most);
@@ -90,12 +85,10 @@ void MachineSession::go_online(Seconds most) {
   const bool wants_encoder = options_.over_a_line && machine_.spindle.counts_per_turn > 0;
   if (const auto words = unsuited(board_, passo::step_options(machine_), wants_encoder)) {
     trouble_words_ = *words;
-    unsuited_ = true;
     move_to(MachineEvent::lose_board);
     return;
   }
-  // What was going on may have left something switched on.
-  if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
+  if (std::exchange(leaves_outputs_, false)) board_.send(BoardOutputs{});
   if (board_.busy()) board_.poll(most);
   if (board_.busy() || board_.error()) return;
   place_.reset();
@@ -103,11 +96,14 @@ void MachineSession::go_online(Seconds most) {
   move_to(MachineEvent::ready);
 }
 
-// From here on the board's counts are those of that place. Without a hello the board keeps what it has below a step.
+// From here on the board's counts are those of that place. What the board has below a step stays.
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
-  const MotorSteps steps = steps_at(machine_, position.place);
-  for (std::size_t m = 0; place_ && m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
+  mismatch_.reset();
+  if (place_) {
+    const MotorSteps steps = steps_at(machine_, position.place);
+    for (std::size_t m = 0; m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
+  }
   count_from_here();
   ++version_;
 }
@@ -127,22 +123,16 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
   return steps;
 }
 
-// Until the board has told where it stands. Nobody has asked it since the last doubt: what was known then counts.
-void MachineSession::doubt_place() {
-  if (!asks_place_) trust_before_ = position_.trust;
-  position_.trust = Trust::unknown;
-  place_.reset();
-}
-
 void MachineSession::begin_reset() {
-  if (state_ == MachineState::idle) doubt_place();
+  if (state_ == MachineState::idle) trust_before_ = position_.trust;
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
-  greeted_ = unsuited_ = false;
-  switches_off_ = true;
+  greeted_ = false;
+  leaves_outputs_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
+  if (!options_.over_a_line) position_.trust = Trust::unknown;
   move_to(MachineEvent::reset);
 }
 
@@ -153,7 +143,7 @@ void MachineSession::find_place_again() {
                      (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
   place_.reset();
   if (!knows || !zero_counts_) {
-    position_.trust = Trust::unknown;
+    position_.trust = trust_before_ = Trust::unknown;
     return;
   }
   position_.trust = trust_before_;
@@ -164,7 +154,9 @@ void MachineSession::find_place_again() {
   }
 }
 
+// A check needs no board, but hears what the board says.
 void MachineSession::turn_check() {
+  board_.poll(Seconds(0));
   if (!work_->stopped && !work_->checker->go_on(items_a_turn)) return;
   end_work();
 }
@@ -275,13 +267,12 @@ void MachineSession::note_place() {
     const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
     position_.place[steps.motors[m].axis] = exact / steps.motors[m].steps_per_unit;
   }
-  if (work_->finishing) compare_counts();
-  const bool homed = work_->homing != nullptr && work_->homing->done();
-  if (homed) {
-    position_.place = home_place();
-    position_.trust = Trust::homed;
-    count_from_here();
-  }
+  if (work_->finishing && !counts_agree()) return;
+  if (work_->homing == nullptr || !work_->homing->done()) return;
+  position_.place = home_place();
+  position_.trust = Trust::homed;
+  mismatch_.reset();
+  count_from_here();
 }
 
 // The switches have told where the homed axes stand; the others keep their places.
@@ -298,8 +289,9 @@ Point MachineSession::home_place() {
   return place;
 }
 
-void MachineSession::compare_counts() {
-  if (!board_.status() || !zero_counts_) return;
+// Counts that differ are told once: what comes after is compared from there on.
+bool MachineSession::counts_agree() {
+  if (!board_.status() || !zero_counts_) return true;
   const BoardStatus& status = *board_.status();
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     const std::int64_t counted = std::int64_t{status.positions[m]} - (*zero_counts_)[m];
@@ -307,9 +299,11 @@ void MachineSession::compare_counts() {
     mismatch_ = CountMismatch{.motor = m, .counted = counted, .commanded = place_->steps(m)};
     position_.trust = Trust::unknown;
     note({.kind = MachineChange::Kind::position_lost});
-    return;
+    count_from_here();
+    return false;
   }
   if (position_.trust == Trust::commanded) position_.trust = Trust::counted;
+  return true;
 }
 
 // An error of the board ends what is going on, and the machine is in alarm or in fault until a reset.
@@ -320,16 +314,18 @@ void MachineSession::mind_board() {
   trouble_ = error;
   trouble_words_ = message_of(error);
   if (busy()) end_work();
-  doubt_place();
+  // A reset that fails does not change what the next one may find.
+  if (state_ != MachineState::offline) trust_before_ = position_.trust;
+  position_.trust = Trust::unknown;
+  place_.reset();
   move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
 }
 
 void MachineSession::look_at_panel() {
   if (!options_.over_a_line || board_.error() || !board_.ready()) return;
-  const bool runs = busy() && work_->drive && !work_->finishing;
-  if (!busy() || !work_->finishing) {
-    panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
-  }
+  const bool finishing = busy() && work_->finishing;
+  const bool runs = busy() && work_->drive && !finishing;
+  if (!finishing) panel_->ask(runs && work_->drive->state() == MotionDrive::State::held);
   const Panel::Pressed pressed = panel_->take();
   if (state_ == MachineState::idle && panel_->door_is_open()) {
     move_to(MachineEvent::open_door);
@@ -377,6 +373,10 @@ std::vector<MachineChange> MachineSession::take_changes() {
   std::vector<MachineChange> taken(changes_.begin(), changes_.end());
   changes_.clear();
   return taken;
+}
+
+bool MachineSession::busy() const {
+  return work_ && !work_->ended;
 }
 
 MachineStatus MachineSession::status() const {

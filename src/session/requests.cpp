@@ -61,17 +61,20 @@ Result<Ticket, Refusal> MachineSession::request(Request wanted) {
 // Why an event is not to happen now; nothing: the table has it.
 std::optional<Refusal> MachineSession::refuse(MachineEvent event) const {
   if (next_state(state_, event)) return {};
+  return why_not();
+}
+
+Refusal MachineSession::why_not() const {
   switch (state_) {
-    case MachineState::offline: return Refusal{RefusalCode::not_ready, "the board has not answered yet"};
-    case MachineState::alarm:
-      return Refusal{RefusalCode::alarm, "the motors were stopped at once: reset the machine first"};
-    case MachineState::fault: return Refusal{RefusalCode::alarm, "the board was lost: reset the machine first"};
-    case MachineState::sleep: return Refusal{RefusalCode::asleep, "the machine sleeps: wake it first"};
-    case MachineState::door: return Refusal{RefusalCode::door_open, "the door is open"};
+    case MachineState::offline: return {RefusalCode::not_ready, "the board has not answered yet"};
+    case MachineState::alarm: return {RefusalCode::alarm, "the motors were stopped at once: reset the machine first"};
+    case MachineState::fault: return {RefusalCode::alarm, "the board was lost: reset the machine first"};
+    case MachineState::sleep: return {RefusalCode::asleep, "the machine sleeps: wake it first"};
+    case MachineState::door: return {RefusalCode::door_open, "the door is open"};
     default: break;
   }
-  if (busy()) return Refusal{RefusalCode::busy, "the machine is busy"};
-  return Refusal{RefusalCode::nothing_runs, "nothing is going on"};
+  if (busy()) return {RefusalCode::busy, "the machine is busy"};
+  return {RefusalCode::nothing_runs, "nothing is going on"};
 }
 
 MachineSession::Answer MachineSession::at_once() {
@@ -153,6 +156,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
     if (watchers.executed) refiller->watch_executed(watchers.executed);
     if (watchers.rests) refiller->watch_rests(watchers.rests);
   }
+  if (work.program == nullptr) return;
   if (overrides_.feed != 1) drive.set_feed_override(overrides_.feed);
   if (overrides_.adaptive_feed != 1) drive.set_adaptive_feed(overrides_.adaptive_feed);
   if (overrides_.spindle != 1) drive.set_spindle_override(overrides_.spindle);
@@ -162,7 +166,8 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
   if (auto refused = refuse(MachineEvent::begin_jog)) return Failure{*refused};
   const double speed = jog.way.speed.value();
   const bool good = std::isfinite(speed) && speed > 0 && is_finite(jog.way.direction) &&
-                    std::isfinite(jog.way.distance.value()) && length_of(jog.way.direction) > 0;
+                    std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
+                    length_of(jog.way.direction) > 0;
   if (!good) return refusal(RefusalCode::bad_value, "a jog needs a direction, and a speed above 0");
   if (!(jog.lease >= shortest_lease && jog.lease <= longest_lease)) {
     return refusal(RefusalCode::bad_value, "the lease of a jog is 0.1 to 10 s");
@@ -239,12 +244,13 @@ MachineSession::Answer MachineSession::take(request::Resume&) {
   if (!busy() || work_->program == nullptr) return refusal(RefusalCode::nothing_runs, "no program is held");
   MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
-  if (!holds.any_of({HoldReason::operator_hold, HoldReason::door})) {
+  if (drive.stopped() || !holds.any_of({HoldReason::operator_hold, HoldReason::door})) {
     return refusal(RefusalCode::nothing_runs, "no program is held");
   }
   if (panel_->door_is_open()) return refusal(RefusalCode::door_open, "the door is open");
   drive.resume(HoldReason::operator_hold);
   drive.resume(HoldReason::door);
+  answer_holds(Outcome::stopped);  // those that were called off before the machine came to rest
   mind_holds();
   return at_once();
 }
@@ -287,7 +293,7 @@ MachineSession::Answer MachineSession::take(request::OperatorDone&) {
 }
 
 MachineSession::Answer MachineSession::take(request::SetPosition& set) {
-  if (auto refused = refuse(MachineEvent::fall_asleep)) return Failure{*refused};  // as that: only when idle
+  if (state_ != MachineState::idle) return Failure{why_not()};
   if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
   stand_at(set.position);
   return at_once();

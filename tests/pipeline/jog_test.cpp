@@ -2,118 +2,132 @@
 #include <cmath>
 #include <string>
 
-#include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
-
-#include "passo/activity/jog_line.hpp"
+#include "pipeline/session_kit.hpp"
 
 namespace passo {
 namespace {
 
 using test::example_machine;
+using test::SessionRun;
 
-VirtualMachine machine_of(const MachineDescription& description) {
-  return VirtualMachine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,
-                        description.board.highest_event_rate);
+Point jog(SessionRun& run, const request::Jog& wanted, bool renews = false) {
+  run.taken(wanted);
+  while (run.session().busy()) {
+    if (renews) run.taken(request::RenewLease{});
+    run.turn(Seconds(0.005));
+  }
+  EXPECT_EQ(run.state(), MachineState::idle);
+  return run.session().status().position.place;
 }
 
-void expect_at(const MachineDescription& description, const VirtualMachine& machine, const Point& place) {
-  const MachineCounts counts = machine.counts();
-  for (std::size_t m = 0; m < description.axes.size(); ++m) {
-    const AxisDescription& axis = description.axes[m];
-    const double steps = place[axis.axis] * (axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
-    EXPECT_NEAR(static_cast<double>(counts.motors[m].position), steps, 0.5 + 1e-6) << letter_of(axis.axis);
+class Jog : public testing::TestWithParam<bool> {
+ protected:
+  test::SessionOn on() const { return {.line = GetParam()}; }
+  // Where the machine stands when nobody knows a fraction of a step.
+  static constexpr double within = 1e-3;
+};
+INSTANTIATE_TEST_SUITE_P(, Jog, testing::Bool(),
+                         [](const auto& line) { return std::string(line.param ? "over_a_line" : "direct"); });
+
+TEST_P(Jog, by_a_distance_goes_just_so_far) {
+  SessionRun run(example_machine("router"), on());
+  run.make_ready();
+  const Point place = jog(run, {.way = {.direction = test::xyz(3, 4), .speed = MmPerSecond(20), .distance = Mm(10)},
+                                .lease = Seconds(10)});
+  EXPECT_NEAR(place[Axis::x], 6, within);
+  EXPECT_NEAR(place[Axis::y], 8, within);
+  run.expect_at_place();
+}
+
+TEST_P(Jog, ends_at_the_travel_at_rest_however_long_it_is_renewed) {
+  test::SessionOn from = on();
+  from.start.place = from.stands_at = test::xyz(0, 290);
+  SessionRun run(example_machine("router"), from);
+  run.make_ready();
+  const Point place = jog(run, {.way = {.direction = test::xyz(1, 1), .speed = MmPerSecond(500)}}, true);
+  EXPECT_NEAR(place[Axis::y], 300, within);
+  EXPECT_NEAR(place[Axis::x], 10, within);
+  run.expect_at_place();
+}
+
+TEST_P(Jog, that_is_not_renewed_brakes_at_the_end_of_its_lease_at_the_latest) {
+  for (const bool jerk : {false, true}) {
+    SCOPED_TRACE(jerk);
+    const MachineDescription router = example_machine("router");
+    SessionRun run(jerk ? test::with_jerk_limits(router) : router, on());
+    run.make_ready();
+    const Seconds begun = run.now();
+    const Ticket ticket =
+        run.taken(request::Jog{.way = {.direction = test::xyz(-1, 0), .speed = MmPerSecond(40)}, .lease = Seconds(0.2)});
+    run.to_end();
+    // With jerk the deceleration rises and falls for 20 ms each; the lease ends where braking begins all the same. Over
+    // a line the board may play the tail behind what is committed, and tells then.
+    const double braking = 40.0 / 800 + (jerk ? 0.02 + 1e-3 : 0) + (GetParam() ? 0.06 : 0);
+    const double took = (run.now() - begun).value();
+    EXPECT_LE(took, 0.2 + braking + 1e-3);
+    EXPECT_GE(took, 0.2 - 0.02 - (GetParam() ? 0.06 : 0));
+    EXPECT_EQ(run.outcome(ticket), Outcome::stopped);
+    run.expect_at_place();
   }
 }
 
-TEST(Jog, by_a_distance_goes_just_so_far) {
-  const MachineDescription router = example_machine("router");
-  VirtualMachine machine = machine_of(router);
-  Jog jog(router, machine, Point(),
-          {.direction = test::xyz(3, 4), .speed = MmPerSecond(20), .distance = Mm(10), .lease = Seconds(60)});
-  while (jog.advance()) {
-  }
-  EXPECT_NEAR(jog.place()[Axis::x], 6, 1e-9);
-  EXPECT_NEAR(jog.place()[Axis::y], 8, 1e-9);
-  expect_at(router, machine, jog.place());
-}
-
-TEST(Jog, ends_at_the_travel_at_rest_however_long_it_is_renewed) {
-  const MachineDescription router = example_machine("router");
-  VirtualMachine machine = machine_of(router);
-  Jog jog(router, machine, test::xyz(0, 290), {.direction = test::xyz(1, 1), .speed = MmPerSecond(500)});
-  while (jog.advance()) jog.renew();
-  EXPECT_EQ(jog.place()[Axis::y], 300);
-  EXPECT_NEAR(jog.place()[Axis::x], 10, 1e-9);
-}
-
-TEST(Jog, that_is_not_renewed_brakes_at_the_end_of_its_lease_at_the_latest) {
-  const MachineDescription router = example_machine("router");
-  VirtualMachine machine = machine_of(router);
-  Jog jog(router, machine, Point(), {.direction = test::xyz(-1, 0), .speed = MmPerSecond(40)});
-  while (jog.advance()) {
-  }
-  const double braking = 40.0 / 800;
-  EXPECT_LE(jog.drive().now().value(), 0.2 + braking + 1e-3);
-  EXPECT_GE(jog.drive().now().value(), 0.2 - 0.02);
-  expect_at(router, machine, jog.place());
-}
-
-// With jerk the deceleration rises and falls for 20 ms each; the lease ends where braking begins all the same.
-TEST(Jog, brakes_at_the_end_of_its_lease_where_the_jerk_is_limited) {
-  MachineDescription router = example_machine("router");
-  for (AxisDescription& axis : router.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
-  VirtualMachine machine = machine_of(router);
-  Jog jog(router, machine, Point(), {.direction = test::xyz(-1, 0), .speed = MmPerSecond(40)});
-  while (jog.advance()) {
-  }
-  EXPECT_LE(jog.drive().now().value(), 0.2 + 40.0 / 800 + 0.02 + 2e-3);
-  EXPECT_GE(jog.drive().now().value(), 0.2 - 0.02);
-  expect_at(router, machine, jog.place());
-}
-
-TEST(Jog, with_random_renewals_never_outlives_its_lease_nor_leaves_the_travel) {
+TEST_P(Jog, with_random_renewals_never_outlives_its_lease_nor_leaves_the_travel) {
   test::Random random;
   for (const char* name : {"bench", "router", "pantograph", "forty-eight"}) {
     SCOPED_TRACE(name);
     const MachineDescription description = example_machine(name);
-    VirtualMachine machine = machine_of(description);
-    Point place;
-    for (int i = 0; i < 100; ++i) {
+    SessionRun run(description, on());
+    run.make_ready();
+    for (int i = 0; i < (GetParam() ? 25 : 100); ++i) {
       const Point direction =
           test::xyz(random.between(-1, 1), random.between(-1, 1), random.chance(0.5) ? random.between(-1, 1) : 0);
-      const double speed = random.between(1, 120);
-      const std::int64_t x_before = machine.counts().motors[0].position;
-      Jog jog(description, machine, place,
-              {.direction = direction,
-               .speed = MmPerSecond(speed),
-               .distance = random.chance(0.3) ? Mm(random.between(0.01, 20)) : Mm(0),
-               .lease = Seconds(random.between(0.08, 0.5))});
-      const double lease = 0.5;
-      double renewed = jog.drive().now().value();
+      const double lease = random.between(0.1, 0.5);
+      run.taken(request::Jog{.way = {.direction = direction,
+                                     .speed = MmPerSecond(random.between(1, 120)),
+                                     .distance = random.chance(0.3) ? Mm(random.between(0.01, 20)) : Mm(0)},
+                             .lease = Seconds(lease)});
+      double renewed = run.now().value();
       bool holds = true;
-      while (jog.advance()) {
+      while (run.session().busy()) {
+        run.turn(Seconds(0.005));
         holds = holds && random.chance(0.97);
-        if (!holds) continue;
-        jog.renew();
-        renewed = jog.drive().now().value();
+        if (!holds || !run.session().busy()) continue;
+        run.taken(request::RenewLease{});
+        renewed = run.now().value();
       }
       // The slowest of the axes brakes with 30 mm/s².
-      double braking = 0;
+      double braking = GetParam() ? 0.06 : 0;
       for (const AxisDescription& axis : description.axes)
         braking = std::max(braking, axis.velocity / axis.acceleration / Seconds(1));
-      EXPECT_LE(jog.drive().now().value(), renewed + lease + braking + 1e-3);
+      EXPECT_LE(run.now().value(), renewed + lease + braking + 1e-3);
+      const Point place = run.session().status().position.place;
       for (const AxisDescription& axis : description.axes) {
-        EXPECT_GE(jog.place()[axis.axis], axis.travel_low);
-        EXPECT_LE(jog.place()[axis.axis], axis.travel_high);
+        EXPECT_GE(place[axis.axis], axis.travel_low - Jog::within);
+        EXPECT_LE(place[axis.axis], axis.travel_high + Jog::within);
       }
-      const AxisDescription& x = description.axes[0];
-      const auto steps = static_cast<double>(machine.counts().motors[0].position - x_before);
-      EXPECT_EQ(steps,
-                std::round(jog.place()[x.axis] * x.steps_per_unit) - std::round(place[x.axis] * x.steps_per_unit));
-      place = jog.place();
+      run.expect_at_place();
     }
   }
+}
+
+TEST_P(Jog, without_a_known_place_goes_anywhere_but_no_further_than_the_travel_is_long) {
+  test::SessionOn lost = on();
+  lost.start = {.place = test::xyz(35, 0), .trust = Trust::unknown};
+  SessionRun run(test::short_router(), lost);
+  run.make_ready();
+  const Point place = jog(run, {.way = {.direction = test::xyz(1, 0), .speed = MmPerSecond(60)}}, true);
+  EXPECT_NEAR(place[Axis::x], 115, within);
+  EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
+}
+
+TEST_P(Jog, is_not_slowed_by_the_overrides_of_programs) {
+  SessionRun run(example_machine("router"), on());
+  run.make_ready();
+  run.taken(request::Override{.feed = 0.0});
+  const Point place = jog(run, {.way = {.direction = test::xyz(1, 0), .speed = MmPerSecond(20), .distance = Mm(10)},
+                                .lease = Seconds(10)});
+  EXPECT_NEAR(place[Axis::x], 10, within);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ class SessionSoak : public testing::Test {
       bool operator()(const request::Check&) const { return lacks(MachineEvent::begin_check); }
       bool operator()(const request::Hold&) const { return !busy || status.state == MachineState::check; }
       bool operator()(const request::Resume&) const {
-        return !runs || !status.holds.any_of({HoldReason::operator_hold, HoldReason::door}) ||
+        return !runs || status.holds.has(HoldReason::stop) || !status.holds.any_of({HoldReason::operator_hold, HoldReason::door}) ||
                (status.inputs & input_door) != 0;
       }
       bool operator()(const request::Stop&) const { return !busy; }
@@ -216,7 +216,6 @@ class SessionSoak : public testing::Test {
   // The last of what has happened, for whoever looks for the cause of a failure.
   void tell(std::string what) {
     if (told_.size() == 60) told_.pop_front();
-    if (std::getenv("TRACE")) { std::printf("%.4f %s\n", session_.now().value(), what.c_str()); std::fflush(stdout); }
     told_.push_back(fmt::format("{:.4f} s: {}", session_.now().value(), std::move(what)));
   }
   void print() const {

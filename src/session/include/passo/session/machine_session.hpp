@@ -104,6 +104,7 @@ class MachineSession {
   Answer take(request::Sleep& sleep);
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
+  Refusal why_not() const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
   DriveOptions drive_options() const;
@@ -113,7 +114,6 @@ class MachineSession {
 
   void go_online(Seconds most);
   void begin_reset();
-  void doubt_place();
   void find_place_again();
   void stand_at(const KnownPosition& position);
   void count_from_here();
@@ -126,7 +126,7 @@ class MachineSession {
   std::pair<Outcome, std::optional<ActivityFault>> judge_work() const;
   void note_place();
   Point home_place();
-  void compare_counts();
+  [[nodiscard]] bool counts_agree();
   void mind_lease();
   void mind_holds();
   void note_tails();
@@ -144,8 +144,7 @@ class MachineSession {
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
   bool asks_place_ = false;  // before another hello
-  bool switches_off_ = false;  // after another hello
-  bool unsuited_ = false;
+  bool leaves_outputs_ = false;  // on, perhaps, what was going on when the board was lost
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the board was lost
   std::optional<BoardPlace> place_;        // where the board stands, below a step too; nothing: as after a hello

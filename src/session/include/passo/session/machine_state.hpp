@@ -65,8 +65,8 @@ struct StateRow {
   bool program_has_outputs;  // spindle and coolant are as the program says; in all others they are off
 };
 
-// A board that the host cannot hear plays its tail to the end, and leaves on what is on, until it has heard the next
-// hello: so it is in a fault, and offline.
+// In a fault, and after it until the board has answered, nobody knows: a board that the host cannot hear plays its tail to
+// the end, and keeps its outputs. An open door may have stopped something, or nothing.
 inline constexpr std::array<StateRow, state_count> state_rows = {{
     {MachineState::offline, "Offline", false, true, true},
     {MachineState::idle, "Idle", false, false, false},

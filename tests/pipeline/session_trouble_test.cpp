@@ -1,0 +1,306 @@
+// What a machine session does when something breaks: the line, the board, the counts; and how it gets up again.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "kit/stage_test.hpp"
+#include "pipeline/session_kit.hpp"
+
+#include "passo/wire/decoder.hpp"
+
+namespace passo {
+namespace {
+
+using test::SessionRun;
+using test::start_of;
+using test::xyz;
+
+constexpr const char* along = "G21 G90 M3 S1000 G1 F1200\nX30\nX0 Y10\nM2\n";
+// More than a line is waited for.
+constexpr Seconds long_cut{3};
+
+void expect_refuses_all_but_a_reset(SessionRun& run) {
+  EXPECT_EQ(run.refusal_of(start_of("M2\n")), "machine.alarm");
+  EXPECT_EQ(run.refusal_of(request::Home{}), "machine.alarm");
+  EXPECT_EQ(run.refusal_of(request::Jog{.way = {.direction = xyz(1, 0), .speed = MmPerSecond(1)}}), "machine.alarm");
+  EXPECT_EQ(run.refusal_of(request::SetPosition{}), "machine.alarm");
+  EXPECT_EQ(run.refusal_of(request::Hold{}), "machine.nothing-runs");
+  EXPECT_EQ(run.refusal_of(request::Stop{}), "machine.nothing-runs");
+  EXPECT_FALSE(run.session().status().trouble_words.empty());
+  EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
+}
+
+// It moves, and its counts are compared with what was commanded from where it stands.
+void expect_works(SessionRun& run) {
+  const Ticket ticket = run.taken(start_of("G21 G91 G1 F1200 X2\nX-1 Y1\nM2\n"));
+  run.to_end();
+  EXPECT_EQ(run.outcome(ticket), Outcome::done);
+  EXPECT_EQ(run.state(), MachineState::idle);
+  EXPECT_EQ(run.count(MachineChange::Kind::position_lost), 0U);
+}
+
+class Trouble : public testing::TestWithParam<bool> {
+ protected:
+  test::SessionOn on() const { return {.line = GetParam()}; }
+};
+INSTANTIATE_TEST_SUITE_P(, Trouble, testing::Bool(),
+                         [](const auto& line) { return std::string(line.param ? "over_a_line" : "direct"); });
+
+TEST_P(Trouble, an_emergency_stop_is_an_alarm_until_it_is_released_and_reset) {
+  for (const bool amid_run : {false, true}) {
+    SCOPED_TRACE(amid_run);
+    SessionRun run(test::short_router(), on());
+    run.make_ready();
+    Ticket program = 0;
+    Ticket hold = 0;
+    if (amid_run) {
+      program = run.taken(start_of(along));
+      run.pass(Seconds(0.7));
+      hold = run.taken(request::Hold{});
+    }
+    run.board().set_switch(input_emergency_stop, true);
+    ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(0.5)));
+    EXPECT_EQ(run.session().status().trouble, LinkError::stopped);
+    if (amid_run) {
+      EXPECT_EQ(run.outcome(program), Outcome::failed);
+      EXPECT_EQ(run.answer(program)->fault->code, "board.stopped");
+      EXPECT_EQ(run.outcome(hold), Outcome::failed);
+    }
+    expect_refuses_all_but_a_reset(run);
+    // The button is still pressed.
+    run.taken(request::ResetMachine{});
+    EXPECT_EQ(run.state(), MachineState::offline);
+    ASSERT_TRUE(run.turn_until([&] { return run.state() != MachineState::offline; }, Seconds(1)));
+    ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(1)));
+    run.board().set_switch(input_emergency_stop, false);
+    run.taken(request::ResetMachine{});
+    ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+    run.pass(Seconds(0.5));
+    EXPECT_EQ(run.state(), MachineState::idle);
+    EXPECT_EQ(run.session().status().position.trust, Trust::unknown) << "steps may be lost";
+    EXPECT_FALSE(run.session().status().trouble);
+    expect_works(run);
+    const Ticket home = run.taken(request::Home{});
+    run.to_end();
+    EXPECT_EQ(run.outcome(home), Outcome::done);
+    EXPECT_EQ(run.session().status().position.trust, Trust::homed);
+    run.expect_at_place();
+  }
+}
+
+TEST_P(Trouble, a_limit_switch_amid_motion_is_an_alarm) {
+  test::SessionOn wrong = on();
+  wrong.stands_at = xyz(-30, 0);  // and is thought to stand at 0
+  SessionRun run(test::short_router(), wrong);
+  run.make_ready();
+  const Ticket program = run.taken(start_of("G21 G90 G1 F1200 X-30\nM2\n"));
+  ASSERT_TRUE(run.turn_until(MachineState::alarm, Seconds(5)));
+  EXPECT_EQ(run.outcome(program), Outcome::failed);
+  expect_refuses_all_but_a_reset(run);
+  run.taken(request::ResetMachine{});
+  ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+  const Ticket home = run.taken(request::Home{});
+  run.to_end();
+  EXPECT_EQ(run.outcome(home), Outcome::done);
+  run.expect_at_place();
+}
+
+// At any moment of a run. The board plays its tail to the end, and has counted all.
+TEST(LineTrouble, a_cut_is_a_fault_and_after_a_reset_the_place_is_what_the_board_has_counted) {
+  for (const double at : {-1.0, 0.0, 0.3, 0.711, 1.5, 2.2}) {
+    SCOPED_TRACE(at);
+    SessionRun run(test::short_router(), {.line = true});
+    run.make_ready();
+    run.taken(request::Home{});
+    run.to_end();
+    Ticket program = 0;
+    if (at >= 0) program = run.taken(start_of(along));
+    if (at > 0) run.pass(Seconds(at));
+    run.line().cut(run.now(), long_cut);
+    ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
+    if (at >= 0) {
+      EXPECT_EQ(run.outcome(program), Outcome::failed);
+      EXPECT_EQ(run.answer(program)->fault->code, "board.lost");
+    }
+    expect_refuses_all_but_a_reset(run);
+    // Too early: still cut. That forgets nothing.
+    run.taken(request::ResetMachine{});
+    EXPECT_EQ(run.state(), MachineState::offline);
+    ASSERT_TRUE(run.turn_until([&] { return run.state() != MachineState::offline; }, Seconds(4)));
+    if (run.state() == MachineState::fault) {
+      run.pass(Seconds(1));
+      run.taken(request::ResetMachine{});
+    }
+    ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+    EXPECT_EQ(run.session().status().position.trust, Trust::homed);
+    run.expect_at_place();
+    expect_works(run);
+    run.expect_at_place();
+  }
+}
+
+TEST(LineTrouble, a_reset_that_comes_to_a_line_that_is_still_cut_forgets_nothing) {
+  SessionRun run(test::short_router(), {.line = true, .start = {.place = Point(), .trust = Trust::homed}});
+  run.make_ready();
+  run.taken(start_of(along));
+  run.pass(Seconds(0.7));
+  run.line().cut(run.now(), Seconds(10));
+  ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
+  for (int i = 0; i < 2; ++i) {
+    run.taken(request::ResetMachine{});
+    ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
+    expect_refuses_all_but_a_reset(run);
+  }
+  run.pass(Seconds(10));
+  run.taken(request::ResetMachine{});
+  ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+  EXPECT_EQ(run.session().status().position.trust, Trust::homed);
+  run.expect_at_place();
+  expect_works(run);
+}
+
+TEST(LineTrouble, a_reset_out_of_idle_keeps_the_place_that_the_counts_prove) {
+  SessionRun run(test::short_router(), {.line = true});
+  run.make_ready();
+  run.taken(request::Home{});
+  run.to_end();
+  run.taken(start_of("G21 G90 G1 F1200 X1.2345 Y3\nM2\n"));
+  run.to_end();
+  run.taken(request::ResetMachine{});
+  ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+  EXPECT_EQ(run.session().status().position.trust, Trust::homed);
+  EXPECT_NEAR(run.session().status().position.place[Axis::x], 1.2345, 1.0 / 640);
+  run.expect_at_place();
+  expect_works(run);
+  run.expect_at_place();
+}
+
+// A cut that is shorter than the patience: the session goes on by itself.
+TEST(LineTrouble, a_short_cut_is_survived) {
+  SessionRun run(test::short_router(), {.line = true});
+  run.make_ready();
+  const Ticket program = run.taken(start_of(along));
+  run.pass(Seconds(0.7));
+  run.line().cut(run.now(), Seconds(1));
+  run.to_end();
+  EXPECT_EQ(run.outcome(program), Outcome::done);
+  EXPECT_EQ(run.count(MachineChange::Kind::rested_by_tail), 1U);
+  EXPECT_EQ(run.session().status().position.trust, Trust::counted);
+  run.expect_at_place();
+}
+
+// As after a reset of the board: it knows no session, and where the motors are is no longer certain.
+void make_board_forget(SessionRun& run) {
+  std::uint8_t frame[largest_frame];
+  const Hello hello{.version = protocol_version, .motors = static_cast<std::uint8_t>(run.description().axes.size())};
+  const std::uint8_t size = encode(hello, 0, frame);
+  run.board().receive({frame, size});
+}
+
+TEST(LineTrouble, a_board_that_was_reset_is_a_fault_and_its_place_is_unknown) {
+  for (const bool in_hold : {false, true}) {
+    SCOPED_TRACE(in_hold);
+    SessionRun run(test::short_router(), {.line = true, .start = {.place = Point(), .trust = Trust::homed}});
+    run.make_ready();
+    Ticket program = 0;
+    if (in_hold) {
+      program = run.taken(start_of("G21 G1 F1200 X3\nM0\nX6\nM2\n"));
+      ASSERT_TRUE(run.turn_until(MachineState::hold));
+    }
+    make_board_forget(run);
+    ASSERT_TRUE(run.turn_until(MachineState::fault, Seconds(3)));
+    EXPECT_EQ(run.session().status().trouble, LinkError::was_reset);
+    if (in_hold) {
+      EXPECT_EQ(run.outcome(program), Outcome::failed);
+    }
+    expect_refuses_all_but_a_reset(run);
+    run.taken(request::ResetMachine{});
+    ASSERT_TRUE(run.turn_until(MachineState::idle, Seconds(1)));
+    EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
+    expect_works(run);
+    EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
+  }
+}
+
+// What the board says of its first motor's place is off by so many steps.
+class WrongCounts {
+ public:
+  explicit WrongCounts(std::uint8_t motors) : motors_(motors) { decoder_.set_motors(motors); }
+  std::int32_t off = 0;
+
+  VirtualLine::Bytes operator()(bool to_board, const VirtualLine::Bytes& bytes) {
+    if (to_board) return bytes;
+    VirtualLine::Bytes passed;
+    for (const std::uint8_t byte : bytes) {
+      frame_.push_back(byte);
+      if (decoder_.feed(byte) != Decoded::frame) continue;
+      if (decoder_.frame().type == MessageType::status) {
+        BoardStatus status;
+        decode(decoder_.frame(), motors_, status);
+        status.positions[0] += off;
+        std::uint8_t again[largest_frame];
+        const std::uint8_t size = encode(status, motors_, decoder_.frame().sequence, again);
+        frame_.assign(again, again + size);
+      }
+      passed.insert(passed.end(), frame_.begin(), frame_.end());
+      frame_.clear();
+    }
+    return passed;
+  }
+
+ private:
+  std::uint8_t motors_;
+  Decoder decoder_;
+  VirtualLine::Bytes frame_;
+};
+
+TEST(LineTrouble, counts_that_differ_are_a_lost_position) {
+  SessionRun run(test::short_router(), {.line = true});
+  WrongCounts counts(static_cast<std::uint8_t>(run.description().axes.size()));
+  run.line().set_trouble([&](bool to_board, const VirtualLine::Bytes& bytes) { return counts(to_board, bytes); });
+  run.make_ready();
+  run.taken(request::Home{});
+  run.to_end();
+  EXPECT_EQ(run.session().status().position.trust, Trust::homed);
+  run.taken(start_of("G21 G91 G1 F1200 X1\n"));
+  counts.off = -3;
+  run.to_end();
+  EXPECT_EQ(run.count(MachineChange::Kind::position_lost), 1U);
+  EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
+  ASSERT_TRUE(run.session().mismatch());
+  EXPECT_EQ(run.session().mismatch()->motor, 0U);
+  EXPECT_EQ(run.session().mismatch()->counted - run.session().mismatch()->commanded, -3);
+  // The same loss is not told again, and homing finds the place again.
+  run.taken(start_of("G21 G91 G1 F1200 X1\n"));
+  run.to_end();
+  EXPECT_EQ(run.count(MachineChange::Kind::position_lost), 1U);
+  EXPECT_EQ(run.session().status().position.trust, Trust::unknown);
+  run.taken(request::Home{});
+  run.to_end();
+  EXPECT_EQ(run.session().status().position.trust, Trust::homed);
+  EXPECT_FALSE(run.session().mismatch());
+}
+
+TEST(LineTrouble, a_board_that_does_not_suit_is_a_fault) {
+  const MachineDescription router = test::short_router();
+  MachineDescription other = router;
+  other.board.clock = Hertz(router.board.clock.value() / 2);
+  VirtualMachine board(3, router.board.clock);
+  MachineSession session(other, board);
+  for (int i = 0; i < 10; ++i) session.turn(Seconds(0.1));
+  EXPECT_EQ(session.state(), MachineState::fault);
+  EXPECT_NE(session.trouble_words().find("its clock"), std::string::npos) << session.trouble_words();
+}
+
+TEST(LineTrouble, a_session_that_nobody_turns_forgets_the_oldest_changes_and_no_state) {
+  SessionRun run(test::short_router());
+  run.make_ready();
+  for (int i = 0; i < 10'000; ++i) {
+    EXPECT_TRUE(run.session().request(request::Override{.feed = 1.0}));
+  }
+  EXPECT_EQ(run.session().take_changes().size(), 4096U);
+  EXPECT_EQ(run.state(), MachineState::idle);
+}
+
+}  // namespace
+}  // namespace passo
