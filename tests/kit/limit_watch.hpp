@@ -67,8 +67,9 @@ class LimitWatch final : public MachineObserver {
       const double longest = axis.velocity.value() * scale * apart * 1.01 + 2;
       const double most = axis.acceleration.value() * scale * apart * apart * 1.02 + slack;
       if ((way <= longest && bend <= most) || violation_) continue;
-      violation_ = fmt::format("motor {} at tick {}: {} steps in {} s, at most {:.1f}; they differ by {}, at most {:.1f}",
-                               m, next_, way, apart, longest, bend, most);
+      violation_ =
+          fmt::format("motor {} at tick {}: {} steps in {} s, at most {:.1f}; they differ by {}, at most {:.1f}", m,
+                      next_, way, apart, longest, bend, most);
     }
   }
 
