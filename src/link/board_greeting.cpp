@@ -44,7 +44,7 @@ void BoardSession::forget_what_was() {
 
 void BoardSession::hang_up() {
   forget_what_was();
-  taken_ = executed_ = sent_;  // of what was under way nothing is expected any more, and patience begins anew
+  sent_ = taken_ = asked_behind_ = executed_;  // nothing is under way any more
   phase_ = Phase::before_hello;
   decoder_.set_motors(max_motors);
 }

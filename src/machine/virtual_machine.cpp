@@ -101,14 +101,10 @@ void VirtualMachine::heed(unsigned now) {
   const unsigned on = changed & now;
   board_.set_inputs(told_, static_cast<std::uint16_t>((changed & board_.watched()) | (on & by_people)));
   const unsigned stops = on & board_.stopping();
-  if ((stops & input_emergency_stop) != 0) return stop_at_once(FaultReason::emergency_stop);
-  if (stops != 0 && !board_.idle()) stop_at_once(FaultReason::limit);
-}
-
-// As a board does it: the outputs are safe before the host hears of it.
-void VirtualMachine::stop_at_once(FaultReason reason) {
-  hardware_.make_safe();
-  board_.stop_at_once(reason);
+  const bool pressed = (stops & input_emergency_stop) != 0;
+  if (!pressed && (stops == 0 || board_.idle())) return;
+  hardware_.switch_off();
+  board_.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
 }
 
 void VirtualMachine::reset_board() {
@@ -117,7 +113,7 @@ void VirtualMachine::reset_board() {
   std::construct_at(&board_, hardware_, identity_);
   waits_ = false;
   hardware_.to_host.clear();
-  hardware_.make_safe();
+  hardware_.switch_off();
   told_ = 0;
   look_at_plant();
 }
@@ -164,8 +160,8 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
 }
 
-void VirtualMachine::Hardware::make_safe() {
-  if (outputs_now.switches != 0 || outputs_now.spindle_rpm != 0) outputs({});
+void VirtualMachine::Hardware::switch_off() {
+  if (outputs_now.switches != 0) outputs({});
 }
 
 SpindleCount VirtualMachine::Hardware::spindle() const {

@@ -56,11 +56,6 @@ void MachineSession::name_session(std::uint16_t number) {
   board_.name_session(number);
 }
 
-// With its door open the machine may be busy or not.
-bool MachineSession::busy() const {
-  return work_ && !work_->ended;
-}
-
 void MachineSession::turn(Seconds most) {
   if (state_ == MachineState::offline) {
     go_online(most);
@@ -93,8 +88,7 @@ void MachineSession::go_online(Seconds most) {
     move_to(MachineEvent::lose_board);
     return;
   }
-  // What was going on may have left something switched on.
-  if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
+  if (std::exchange(leaves_outputs_, false)) board_.send(BoardOutputs{});
   if (board_.busy()) board_.poll(most);
   if (board_.busy() || board_.error()) return;
   place_.reset();
@@ -102,12 +96,14 @@ void MachineSession::go_online(Seconds most) {
   move_to(MachineEvent::ready);
 }
 
-// From here on the board's counts are those of that place. Without a hello the board keeps what it has below a step.
+// From here on the board's counts are those of that place. What the board has below a step stays.
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
   mismatch_.reset();
-  const MotorSteps steps = steps_at(machine_, position.place);
-  for (std::size_t m = 0; place_ && m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
+  if (place_) {
+    const MotorSteps steps = steps_at(machine_, position.place);
+    for (std::size_t m = 0; m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
+  }
   count_from_here();
   ++version_;
 }
@@ -127,22 +123,16 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
   return steps;
 }
 
-// Until the board has told where it stands. Nobody has asked it since the last doubt: what was known then counts.
-void MachineSession::doubt_place() {
-  if (!asks_place_) trust_before_ = position_.trust;
-  position_.trust = Trust::unknown;
-  place_.reset();
-}
-
 void MachineSession::begin_reset() {
-  if (state_ == MachineState::idle) doubt_place();
+  if (state_ == MachineState::idle) trust_before_ = position_.trust;
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
   greeted_ = false;
-  switches_off_ = true;
+  leaves_outputs_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
+  if (!options_.over_a_line) position_.trust = Trust::unknown;
   move_to(MachineEvent::reset);
 }
 
@@ -324,7 +314,10 @@ void MachineSession::mind_board() {
   trouble_ = error;
   trouble_words_ = message_of(error);
   if (busy()) end_work();
-  doubt_place();
+  // A reset that fails does not change what the next one may find.
+  if (state_ != MachineState::offline) trust_before_ = position_.trust;
+  position_.trust = Trust::unknown;
+  place_.reset();
   move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
 }
 

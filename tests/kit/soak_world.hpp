@@ -28,6 +28,7 @@ class SoakWorld {
         machine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,
                 description.board.highest_event_rate, static_cast<std::size_t>(description.board.held_items)),
         line(machine, description.board.clock, LineOptions()),
+        description_(description),
         random_(std::move(random)),
         plant_(plant_of(description, stands_at, {plate()})) {
     machine.connect(plant_);
@@ -56,6 +57,18 @@ class SoakWorld {
     next_ = now() + wait();
     return trouble(homes);
   }
+  // At rest: somebody turns those axes back that are beyond their travel.
+  void turn_back() {
+    MotorSteps steps{};
+    for (std::size_t m = 0; m < description_.axes.size(); ++m) {
+      const AxisDescription& axis = description_.axes[m];
+      const double scale = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+      const double place = truth().positions[m] / scale;
+      steps[m] = std::llround(std::clamp(place, axis.travel_low, axis.travel_high) * scale);
+    }
+    plant_.stand_at(steps);
+    machine.set_switch(0, false);  // looks at the plant
+  }
   // A limit switch is closed by hand: what homing finds now may be wrong.
   bool fools() const { return fools_; }
 
@@ -80,7 +93,7 @@ class SoakWorld {
   // Under the whole table, for the probe to touch.
   static TouchBox plate() {
     TouchBox box;
-    box.ranges[Axis::z].high = -40;
+    box.ranges[Axis::z].high = -25;
     return box;
   }
   Seconds wait() { return Seconds(std::exp(random_.between(-1, 4.2))); }
@@ -159,6 +172,7 @@ class SoakWorld {
     return spoiler_ ? (*spoiler_)(to_board, bytes) : bytes;
   }
 
+  const MachineDescription& description_;
   Random random_;
   IdealPlant plant_;
   std::vector<Due> due_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <map>
@@ -17,6 +16,7 @@
 #include "kit/soak_world.hpp"
 #include "soak_client.hpp"
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "passo/activity/stage_options.hpp"
 #include "passo/session/machine_session.hpp"
@@ -31,9 +31,16 @@ constexpr LineCare care{.answer_within = Seconds(0.05), .patience = Seconds(3)};
 // What somebody has asked to end is at an end after so long, however bad the line.
 constexpr Seconds longest_stop{60};
 
+// Kilobytes that the process has had at most.
+long most_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
 class SessionSoak : public testing::Test {
  protected:
-  explicit SessionSoak()
+  SessionSoak()
       : random_(),
         world_(description_, Random::of(random_.seed() + 1), xyz(20, -30, 10)),
         session_(description_, world_.line,
@@ -88,8 +95,8 @@ class SessionSoak : public testing::Test {
       bool operator()(const request::Check&) const { return lacks(MachineEvent::begin_check); }
       bool operator()(const request::Hold&) const { return !busy || status.state == MachineState::check; }
       bool operator()(const request::Resume&) const {
-        return !runs || !status.holds.any_of({HoldReason::operator_hold, HoldReason::door}) ||
-               (status.inputs & input_door) != 0;
+        return !runs || status.holds.has(HoldReason::stop) ||
+               !status.holds.any_of({HoldReason::operator_hold, HoldReason::door}) || (status.inputs & input_door) != 0;
       }
       bool operator()(const request::Stop&) const { return !busy; }
       bool operator()(const request::Override&) const { return false; }
@@ -106,8 +113,15 @@ class SessionSoak : public testing::Test {
     ++requests_;
     const std::size_t kind = wanted.index();
     const bool refuses = *must_refuse(wanted, session_);
-    const auto* set = std::get_if<request::SetPosition>(&wanted);
-    const std::optional<Point> place = set != nullptr ? std::optional(set->position.place) : std::nullopt;
+    if (std::holds_alternative<request::Home>(wanted) && session_.state() == MachineState::idle &&
+        session_.status().position.trust == Trust::unknown) {
+      world_.turn_back();
+    }
+    std::optional<Point> place;
+    if (auto* const set = std::get_if<request::SetPosition>(&wanted)) {
+      if (random_.chance(0.7)) set->position.place = true_place();
+      place = set->position.place;
+    }
     const auto answer = session_.request(std::move(wanted));
     tell(fmt::format("{} {}", names[kind], answer ? "taken" : answer.error().message));
     if (!answer) {
@@ -172,6 +186,14 @@ class SessionSoak : public testing::Test {
     const AxisDescription& axis = description_.axes[motor];
     return axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
   }
+  Point true_place() {
+    Point place;
+    const Truth truth = world_.truth();
+    for (std::size_t m = 0; m < description_.axes.size(); ++m) {
+      place[description_.axes[m].axis] = truth.positions[m] / steps_a_unit(m);
+    }
+    return place;
+  }
   // A place that somebody has told need not be the true one: what it is wrong by it is wrong by from then on.
   void measure(const Point& place) {
     const Truth truth = world_.truth();
@@ -218,44 +240,46 @@ class SessionSoak : public testing::Test {
   // The last of what has happened, for whoever looks for the cause of a failure.
   void tell(std::string what) {
     if (told_.size() == 60) told_.pop_front();
-    if (std::getenv("TRACE")) {
-      std::printf("%.4f %s\n", session_.now().value(), what.c_str());
-      std::fflush(stdout);
-    }
     told_.push_back(fmt::format("{:.4f} s: {}", session_.now().value(), std::move(what)));
   }
   void print() const {
     for (const std::string& what : told_) {
-      if (HasFailure()) std::printf("%s\n", what.c_str());
+      if (HasFailure()) fmt::print("{}\n", what);
     }
-    std::printf("%.2f virtual hours, %llu turns, %llu requests, %llu refused, %lld steps\n",
-                session_.now().value() / 3600, turns_, requests_, refused_,
-                static_cast<long long>(world_.limits.steps()));
-    std::printf(
-        "cuts %llu, spoiled %llu, presses %llu, doors %llu, emergency stops %llu, limits pressed %llu, "
-        "resets %llu; stopped at once %llu\n",
-        static_cast<unsigned long long>(world_.cuts), static_cast<unsigned long long>(world_.spoiled),
-        static_cast<unsigned long long>(world_.presses), static_cast<unsigned long long>(world_.doors),
-        static_cast<unsigned long long>(world_.emergency_stops), static_cast<unsigned long long>(world_.limit_presses),
-        static_cast<unsigned long long>(world_.resets), static_cast<unsigned long long>(world_.stops));
+    fmt::print("{:.2f} virtual hours, {} turns, {} requests, {} refused, {} steps\n", session_.now().value() / 3600,
+               turns_, requests_, refused_, world_.limits.steps());
+    fmt::print("cuts {}, spoiled {}, presses {}, doors {}, emergency stops {}, limits pressed {}, resets {}; ",
+               world_.cuts, world_.spoiled, world_.presses, world_.doors, world_.emergency_stops, world_.limit_presses,
+               world_.resets);
+    fmt::print("stopped at once {}\n", world_.stops);
     for (std::size_t kind = 0; kind < names.size(); ++kind) {
       const auto& of = outcomes_[kind];
-      std::printf("%s: taken %llu, done %llu, stopped %llu, failed %llu\n", names[kind], taken_[kind], of[0], of[1],
-                  of[2]);
+      fmt::print("{}: taken {}, done {}, stopped {}, failed {}\n", names[kind], taken_[kind], of[0], of[1], of[2]);
     }
     for (const StateRow& row : state_rows) {
-      std::printf("%s %llu  ", std::string(row.name).c_str(), entered_[static_cast<std::size_t>(row.state)]);
+      fmt::print("{} {}  ", row.name, entered_[static_cast<std::size_t>(row.state)]);
     }
-    std::printf("\n");
+    fmt::print("\n");
   }
 
   struct Open {
     std::size_t kind = 0;
     Seconds since{0};
   };
-  using Count = unsigned long long;
+  using Count = std::uint64_t;
 
-  MachineDescription description_ = homing_machine("uno");
+  // Small, so that homing takes seconds.
+  static MachineDescription small_machine() {
+    MachineDescription machine = homing_machine("uno");
+    for (AxisDescription& axis : machine.axes) {
+      axis.travel_low = axis.axis == Axis::z ? -50 : -60;
+      axis.travel_high = axis.axis == Axis::z ? 30 : 60;
+      axis.home->switch_at = axis.home->toward_high ? axis.travel_high + 0.4 : axis.travel_low - 0.4;
+    }
+    return machine;
+  }
+
+  MachineDescription description_ = small_machine();
   Random random_;
   SoakWorld world_;
   MachineSession session_;
@@ -275,8 +299,12 @@ class SessionSoak : public testing::Test {
 
 TEST_F(SessionSoak, holds_what_it_promises) {
   const char* const hours = std::getenv("PASSO_SOAK_HOURS");
-  soak(Seconds(3600 * (hours != nullptr ? std::strtod(hours, nullptr) : 0.05)));
+  const Seconds time(3600 * (hours != nullptr ? std::strtod(hours, nullptr) : 0.05));
+  soak(time / 8);
+  const long before = most_memory();
+  soak(time);
   print();
+  EXPECT_LT(most_memory() - before, 16'384) << "kilobytes more than after an eighth of the time";
 }
 
 }  // namespace

@@ -41,6 +41,8 @@ class SoakClient {
       case MachineState::fault: return request::ResetMachine{};
       case MachineState::sleep: return request::Wake{};
       case MachineState::check: return {};
+      case MachineState::home:
+      case MachineState::probe: return random_.chance(0.95) ? std::nullopt : amid(status);
       default: return amid(status);
     }
   }
@@ -114,7 +116,7 @@ class SoakClient {
   Request probe(const MachineStatus& status) {
     Point target = status.position.place;
     target[Axis::x] += random_.between(-5, 5);
-    target[Axis::z] += random_.between(-60, 20);
+    target[Axis::z] += random_.between(-50, 10);
     return request::Probe{
         .target = target, .speed = MmPerSecond(random_.between(2, 40)), .toward = random_.chance(0.8)};
   }
@@ -157,10 +159,10 @@ class SoakClient {
     if (kind < 0.91) return fmt::format("M6 T{:.0f}", random_.between(1, 9));
     if (kind < 0.93) return random_.chance(0.5) ? "M49" : "M48";
     if (kind < 0.98) return probe_line();
-    return "G1 X2000";  // out of the travel
+    return "G1 X200";  // out of the travel
   }
   std::string move(const char* word) {
-    const double size = random_.chance(0.1) ? 100 : 15;
+    const double size = random_.chance(0.1) ? 60 : 15;
     std::string words = word;
     for (const AxisDescription& axis : machine_.axes) {
       if (!random_.chance(0.6)) continue;
@@ -176,7 +178,7 @@ class SoakClient {
   }
   // Nobody knows where it ends: what follows begins at a place that is known.
   std::string probe_line() {
-    const double bottom = std::max(-110.0, place_[Axis::z] - random_.between(5, 60));
+    const double bottom = std::max(-49.0, place_[Axis::z] - random_.between(5, 60));
     return fmt::format("G38.{} Z{:.4f}\nG1 Z{:.4f}", random_.chance(0.3) ? 2 : 3, bottom, place_[Axis::z]);
   }
   double one() { return random_.between(-1, 1); }

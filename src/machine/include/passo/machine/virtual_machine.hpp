@@ -79,7 +79,7 @@ class VirtualMachine final : public BoardPort {
 
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
-    void make_safe();
+    void switch_off();
     void send(std::uint8_t byte) { to_host.push_back(byte); }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
@@ -102,7 +102,6 @@ class VirtualMachine final : public BoardPort {
   void look_at_plant();
   void look_at_inputs();
   void heed(unsigned inputs);
-  void stop_at_once(FaultReason reason);
 
   IdealPlant own_plant_;
   Hardware hardware_;
