@@ -375,6 +375,10 @@ std::vector<MachineChange> MachineSession::take_changes() {
   return taken;
 }
 
+bool MachineSession::busy() const {
+  return work_ && !work_->ended;
+}
+
 MachineStatus MachineSession::status() const {
   MachineStatus status;
   status.version = version_;

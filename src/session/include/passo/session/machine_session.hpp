@@ -146,7 +146,7 @@ class MachineSession {
   BoardSession board_;
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
-  bool asks_place_ = false;  // before another hello
+  bool asks_place_ = false;      // before another hello
   bool leaves_outputs_ = false;  // on, perhaps, what was going on when the board was lost
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the trust before the board was lost
