@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "passo/firmware/player.hpp"
-#include "passo/link/board_session.hpp"
+#include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/report/trace_csv.hpp"
 #include "passo/report/trace_vcd.hpp"
@@ -75,9 +75,10 @@ void play(benchmark::State& state, MachineObserver* observer) {
   for (auto _ : state) {
     VirtualMachine machine(3, Hertz(16e6));
     if (observer != nullptr) machine.add_observer(*observer);
-    BoardLink link(machine, 3);
-    for (const BoardSegment& segment : segments) link.send(segment);
-    link.drain();
+    BoardSession link(machine);
+    greet(link, {.motors = 3});
+    for (const BoardSegment& segment : segments) send(link, segment);
+    drain(link);
     bytes = link.bytes_sent();
     benchmark::DoNotOptimize(machine.counts());
   }

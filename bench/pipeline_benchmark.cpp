@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "cost.hpp"
+#include "kit/driven.hpp"
 #include <unistd.h>
-
-#include "passo/activity/program.hpp"
-#include "passo/activity/stage_options.hpp"
 
 namespace {
 
@@ -55,7 +53,7 @@ void measure(const std::string& path, const MachineDescription& machine) {
     return;
   }
   const double start = cpu_seconds(RUSAGE_SELF);
-  Job job(std::move(*program), machine, InterpreterOptions(), diagnostics);
+  test::DrivenProgram job(std::move(*program), machine, InterpreterOptions(), diagnostics);
   while (job.advance()) {
   }
   const double whole = cpu_seconds(RUSAGE_SELF) - start;

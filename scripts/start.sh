@@ -13,7 +13,7 @@ cmake --preset release "${tests_off[@]}"
 cmake --build build/release --target passo --parallel "$(nproc)"
 
 mkdir -p out
-first_job=(build/release/passo run examples/engrave.ngc
+first_job=(build/release/passo run --yes examples/engrave.ngc
   --machine examples/machines/pantograph.toml
   --picture out/engrave.png
   --report out/report.json)

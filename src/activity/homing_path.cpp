@@ -8,7 +8,7 @@ namespace {
 
 constexpr double travels_to_seek = 1.1;
 constexpr double pull_offs_to_latch = 3;
-// So often a switch may turn round on the way off it.
+// How often a switch may open and close on the way off.
 constexpr int most_turns = 8;
 
 const AxisDescription* find(const MachineDescription& machine, Axis axis) {
@@ -20,7 +20,7 @@ double in_steps(const AxisDescription& axis, double place) {
   return std::round(place * axis.steps_per_unit);
 }
 
-// Whole steps, so that it rests on one.
+// Rounds to whole steps, so that the axis rests on a step.
 double pull_off_of(const AxisDescription& axis) {
   return in_steps(axis, axis.home->pull_off) / axis.steps_per_unit;
 }
@@ -108,7 +108,7 @@ void HomingPath::begin(HomingStage stage, double target) {
   step_ = Step::begin;
 }
 
-// The machine rests behind a move, and the outcome has been told.
+// The machine rests after a move, and the outcome is known.
 void HomingPath::judge() {
   if (!outcome().refused) position_ = outcome().rest;
   const bool approaches = stage_ == HomingStage::seek || stage_ == HomingStage::latch;
@@ -118,7 +118,7 @@ void HomingPath::judge() {
 void HomingPath::judge_approach() {
   const double contact = outcome().contact[axis_->axis];
   if (outcome().refused) {
-    // It is closed: from the beginning, or it has closed by itself since it was backed off.
+    // The switch is closed: from the beginning, or because it has closed by itself after the axis backed off.
     if (stage_ == HomingStage::seek) return retreat(HomingStage::back_off, off(stands()));
     turn_watch();
     return retreat(HomingStage::back_off, stands());
@@ -133,14 +133,14 @@ void HomingPath::judge_approach() {
   retreat(HomingStage::pull_off, off(contact));
 }
 
-// Off the switch, which is closed at first.
+// Moves off the switch, which is closed at first.
 void HomingPath::retreat(HomingStage stage, double target) {
   until_closed_ = false;
   begin(stage, target);
 }
 
-// Whether the switch is open there, and on the way it may turn round more than once, is told by one watch after the
-// other: each ends where the switch is not as it was.
+// Tells whether the switch is open at the end of a retreat. The switch may open and close more than once on the way. So
+// one watch follows the other, and each ends when the switch changes.
 void HomingPath::judge_retreat() {
   if (outcome().refused || outcome().touched) {
     if (!knows_switch_ && outcome().touched) {

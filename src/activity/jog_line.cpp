@@ -22,7 +22,7 @@ JogLine::JogLine(const MachineDescription& machine, const Point& start, const Jo
   for (const AxisDescription& axis : machine.axes) {
     const double part = jog.direction[axis.axis] / length;
     if (part == 0) continue;
-    // Of a machine that does not know its place: no further than the travel is long.
+    // A machine that does not know its place jogs no further than the length of its travel.
     const double end = part > 0 ? axis.travel_high : axis.travel_low;
     const double left = within_travel ? std::max(0.0, (end - start[axis.axis]) / part)
                                       : (axis.travel_high - axis.travel_low) / std::abs(part);
@@ -31,7 +31,7 @@ JogLine::JogLine(const MachineDescription& machine, const Point& start, const Jo
   for (const AxisDescription& axis : machine.axes) {
     const double reached = start[axis.axis] + jog.direction[axis.axis] / length * way;
     if (jog.direction[axis.axis] == 0 || !(way > 0)) continue;
-    // Rounding does not leave the travel either.
+    // The clamp keeps rounding from leaving the travel.
     target_[axis.axis] = within_travel ? std::clamp(reached, axis.travel_low, axis.travel_high) : reached;
   }
 }

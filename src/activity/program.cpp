@@ -21,7 +21,7 @@ Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
   return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
 }
 
-// So many moves after a probe move are checked.
+// How many moves after a probe move the check follows.
 constexpr std::uint64_t most_moves_after_a_probe = 10'000'000;
 
 bool is_probe(const PathItem& item) {
@@ -29,7 +29,7 @@ bool is_probe(const PathItem& item) {
   return action != nullptr && action->kind == Action::Kind::probe_end;
 }
 
-// The check is not the whole program's.
+// Warns that the check does not cover the whole program.
 void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem& item) {
   const std::uint32_t line = std::visit([](const auto& what) { return what.source.line; }, item);
   diagnostics.add({.severity = Severity::warning,
@@ -41,14 +41,8 @@ void tell_end(Diagnostics& diagnostics, const std::string& file, const PathItem&
                    .text = {}});
 }
 
-InterpreterOptions answered_by(const MachineAnswers& answers, InterpreterOptions options) {
-  options.probe = answers.probe();
-  return options;
-}
-
-PathOptions answered_by(const MachineAnswers& answers, PathOptions options, const MachineDescription& machine) {
-  options.probe = answers.probe();
-  options.tap_rest = answers.tap_rest();
+PathOptions path_options_of(const MachineDescription& machine, const std::string& program, const Point& start) {
+  PathOptions options = path_options(machine, program, start);
   options.spindle_run_up = machine.spindle.run_up;
   return options;
 }
@@ -104,10 +98,10 @@ ProgramCheck check_program(ProgramReader program, const MachineDescription& mach
 
 Program::Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole)
-    : path_options_(answered_by(answers, path_options(machine, program.name(), options.start), machine)),
+    : path_options_(path_options_of(machine, program.name(), options.start)),
       limits_(motion_limits(machine)),
-      interpreter_(std::move(program), answered_by(answers, options), diagnostics),
-      path_builder_(interpreter_, path_options_, diagnostics),
+      interpreter_(std::move(program), options, diagnostics, answers),
+      path_builder_(interpreter_, path_options_, diagnostics, answers),
       good_path_(path_builder_, diagnostics),
       watched_path_(good_path_),
       smoother_(watched_path_, smoothness(machine)),

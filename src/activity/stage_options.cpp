@@ -33,7 +33,7 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
   return AccelerationCurve::below(all, axis.acceleration);
 }
 
-// The exact curve: the referee does not take the planner's samples for it.
+// The exact curve. The referee does not rely on the planner's samples.
 std::function<MmPerSecond2(MmPerSecond)> proven_limit(const AxisDescription& axis) {
   if (!axis.motor) return {};
   return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };

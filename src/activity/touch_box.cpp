@@ -5,10 +5,10 @@
 namespace passo {
 namespace {
 
-// Of a step: what is left of millimetres after rounding.
+// In steps: the rounding error when millimetres become steps.
 constexpr double rounding = 1e-6;
 
-// Beyond it no machine goes.
+// In steps: no machine goes beyond this.
 constexpr double far_away = 1e15;
 
 }  // namespace

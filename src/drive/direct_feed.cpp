@@ -9,13 +9,13 @@
 namespace passo {
 namespace {
 
-// Where nothing hurries.
+// For motion that need not react soon.
 constexpr Seconds longest_wait{1000};
 
-// In a probe move: the tool goes on so long into what it touched, before it brakes.
+// In a probe move, the tool goes on into what it touched for as long as the horizon before it brakes.
 constexpr Commitment probing{.horizon = Seconds(0.004), .longest_move = Seconds(0.001)};
 
-// Following a spindle: how far ahead is committed.
+// How far ahead to commit while motion follows a spindle.
 constexpr double moves_a_horizon = 5;
 Seconds horizon_of(SpindleLock lock) {
   switch (lock) {
@@ -54,7 +54,7 @@ void DirectFeed::commit(const Commitment& live) {
   apply(commitment());
 }
 
-// Without a spindle to follow.
+// The commitment for motion that does not follow a spindle.
 Commitment DirectFeed::commitment() const {
   return attention_ == Attention::probes ? probing : live_;
 }
@@ -66,7 +66,7 @@ void DirectFeed::apply(const Commitment& wanted) {
   stages_.generator.limit_waiting_to(std::min(wanted.longest_move, longest_wait));
 }
 
-// What follows the spindle is told by watch().
+// watch() sets the commitment for motion that follows the spindle.
 void DirectFeed::attend(Attention attention) {
   attention_ = attention;
   if (attention == Attention::follows) return;
@@ -81,7 +81,7 @@ void DirectFeed::expect_thread() {
 void DirectFeed::watch(const MotionItem& motion) {
   planned_ += time_of(motion);
   if (!options_.follows_spindle) return;
-  // What is committed is blind to what the spindle does.
+  // Committed motion cannot react to the spindle, so little is committed.
   if (const auto* move = std::get_if<PlannedMove>(&motion)) {
     apply(with_horizon(commitment(), move->segment.lock));
   } else if (std::get<Action>(motion).kind == Action::Kind::await_index) {
@@ -116,7 +116,7 @@ Feed::Turn DirectFeed::advance() {
   return Turn::goes_on;
 }
 
-// False: what is to be sent waits for room.
+// False: something still waits for room on the board.
 bool DirectFeed::send_waiting() {
   for (; !waiting_.empty() && stages_.link.room() > 0; waiting_.pop_front()) {
     std::visit([this](const auto& one) { stages_.link.send(one); }, waiting_.front());

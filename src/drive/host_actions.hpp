@@ -1,4 +1,4 @@
-// Which actions of a path are the drive's to do, at rest, before the path goes on. Private to drive/.
+// Which actions of a path the drive carries out at rest, before the path goes on. Private to drive/.
 #pragma once
 
 #include "passo/path/segment.hpp"
@@ -10,7 +10,7 @@ constexpr bool is_program_stop(const Action& action) {
   return action.kind == Kind::program_stop || action.kind == Kind::optional_stop || action.kind == Kind::tool_change;
 }
 
-// What the action says is in its outputs, which the board switches in passing.
+// True: the action only changes outputs, which the board switches in passing.
 constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {
   using Kind = Action::Kind;
   switch (action.kind) {

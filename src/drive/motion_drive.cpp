@@ -14,7 +14,7 @@ namespace {
 
 constexpr double no_feed = 0.01;
 
-// A feed of nothing ends by itself when there is more.
+// The holds that somebody has to take back. A hold for a feed of zero ends by itself when the feed rises.
 constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::program_stop,
                                   HoldReason::tool_change, HoldReason::stop};
 
@@ -37,7 +37,7 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
   watched_path_.watch([this](const PathItem& item) { watch(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
   if (options.guards_by_probe) probe_.guard_other_moves();
-  // The drive before may have been stopped amid a probe move: the board still watches, perhaps a limit switch.
+  // Whoever used the board before may have been stopped amid a probe move.
   script_.then([this] { probe_.ask_to_watch_others(); });
   script_.until([this] { return board_.settled(); });
   script_.then([this] { feed_->attend(attention()); });
@@ -78,7 +78,7 @@ void MotionDrive::go_live(const Commitment& live) {
   if (direct_ != nullptr) direct_->commit(live);
 }
 
-// Where something follows the spindle nothing is read far ahead from there on.
+// From the first segment that follows the spindle, the feed no longer reads far ahead.
 void MotionDrive::watch(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
   if (segment == nullptr || segment->lock == SpindleLock::none || !spindle_.exists()) return;
@@ -90,7 +90,7 @@ void MotionDrive::watch(const MotionItem& item) {
   if (move != nullptr && spindle_.exists()) spindle_.watch(*move);
   feed_->watch(item);
   if (move == nullptr) return;
-  // Over a line not all that is given is done.
+  // Over a line, not all given motion is executed, so the end is not known here.
   if (probe_.is_running() && !feed_->is_remote()) end_of_probe_ = move->segment.curve.at(move->to);
   if (spindle_.exists() && move->segment.reverse_at > Mm(0)) watch_tap(*move);
   if (move->segment.heeds.spindle_override == outputs_.heeds_override()) return;
@@ -102,7 +102,8 @@ void MotionDrive::pass_on_outputs() {
   if (outputs_.is_news()) feed_->pass_on_outputs();
 }
 
-// On its way down: at the end of the thread the spindle is reversed, and the tool goes on with it.
+// On the tap's way down. At the end of the thread the spindle is reversed, and the tool follows the spindle as it slows
+// down.
 void MotionDrive::watch_tap(const PlannedMove& move) {
   end_of_tap_ = move.segment.curve.at(move.to);
   if (spindle_.expects_turn() || holds_.has(HoldReason::tap) || move.to < move.segment.reverse_at) return;
@@ -137,13 +138,13 @@ void MotionDrive::wait(Seconds most) {
   if (held || !script_.empty()) feed_->note_rest(now() - from);
 }
 
-// When the drive looks again though there is no news.
+// When the drive must look again even without news.
 Seconds MotionDrive::due() const {
   const Seconds next = std::max(awaits_index_ ? spindle_.looks_at() : Seconds(0), pause_end_);
   return next - now() > hardly_any ? next : Seconds(std::numeric_limits<double>::infinity());
 }
 
-// False: an answer has to be waited for.
+// False: the board has to answer first.
 bool MotionDrive::follow() {
   if (spindle_.lock() == SpindleLock::none) {
     if (spindle_.let_go()) feed_->attend(attention());
@@ -168,7 +169,7 @@ MotionDrive::Turn MotionDrive::take(Feed::Turn turn) {
   return Turn::goes_on;
 }
 
-// All that came before the action is done, and the machine rests.
+// Carries out an action. All that came before is executed, and the machine rests.
 void MotionDrive::act(const Action& action) {
   switch (action.kind) {
     case Action::Kind::probe_begin: return begin_probe(action);
@@ -202,7 +203,7 @@ void MotionDrive::end_probe(const Action& action) {
     probe_.end();
     feed_->attend(attention());
     contact_seen_ = false;
-    // The contact may have come when the path was at its end already.
+    // The contact may have come when the path had already ended.
     change_holds(HoldReason::probe_contact, false);
   });
 }
@@ -220,7 +221,7 @@ void MotionDrive::await_index(const Action& action) {
   });
 }
 
-// At rest, as the spindle does for a moment.
+// The machine rests, and so does the spindle for a moment.
 void MotionDrive::turn_tap(const Action& action) {
   outputs_.order(action.outputs);
   pass_on_outputs();
@@ -258,7 +259,7 @@ void MotionDrive::look_at_probe() {
   stop();
 }
 
-// What the board is watched for now.
+// What the drive watches the board for now.
 Attention MotionDrive::attention() const {
   if (probe_.is_running()) return Attention::probes;
   if (spindle_.follows()) return Attention::follows;
@@ -271,7 +272,7 @@ void MotionDrive::change_holds(HoldReason reason, bool holds) {
   tell_planner();
 }
 
-// Of the planner's two holds it takes back both at once.
+// The planner takes back both of its holds at once, so the one that remains is told again.
 void MotionDrive::tell_planner() {
   const bool holds = holds_.any_of(heeded_holds);
   const bool stops = holds_.any_of(sure_holds);
@@ -283,7 +284,7 @@ void MotionDrive::tell_planner() {
   if (stops && !std::exchange(planner_stops_, stops)) planner_.stop();
 }
 
-// A hold that was taken back before the motion came to rest is none.
+// The motion has come to rest. If the hold was taken back meanwhile, the machine does not stay at rest.
 void MotionDrive::come_to_rest() {
   if (holds_.any_of({HoldReason::probe_contact, HoldReason::tap})) {
     planner_.drop_to_action();
@@ -309,7 +310,7 @@ void MotionDrive::rest_in_hold() {
   if (state_ == State::held) state_ = State::holding;
 }
 
-// At rest in a thread, whose next turn would not be where the ones before are.
+// The machine rests in a thread. The next turn of the thread would not be where the turns before are.
 void MotionDrive::lose_thread() {
   script_.then([this] { feed_->switch_outputs({}); });
   script_.until([this] { return feed_->settled(); });
@@ -394,7 +395,7 @@ void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
 
 std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder) {
   const auto& hello = board.board();
-  if (board.error() || !hello) return {};  // the session says it
+  if (board.error() || !hello) return {};  // the session reports the error
   const double clock = steps.clock.tick_rate.value();
   if (static_cast<double>(hello->clock) != clock) {
     return fmt::format("its clock has {} ticks a second, and the machine file says {:.0f}", hello->clock, clock);

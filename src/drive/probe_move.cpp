@@ -35,7 +35,7 @@ void ProbeMove::end() {
   for (const auto& watcher : watchers_) watcher(outcome_);
 }
 
-// An axis that made no step stands where it stood, between two steps or not.
+// An axis that made no step stands where it stood, even if that is between two steps.
 Point ProbeMove::contact_place(const ProbeReport& report) const {
   Point place = start_;
   for (std::size_t m = 0; m < steps_.motor_count; ++m) {

@@ -10,38 +10,32 @@
 namespace passo {
 namespace {
 
-// Between two places where a refill may end lies at least so much motion, or so many items: a tail takes time to find.
+// At least this much motion, or this many items, lie between two places where a refill may end, because finding a tail
+// takes time.
 constexpr Seconds between_tails{0.0025};
 constexpr std::size_t items_between_tails = 3;
-// As long as there is time, a refill has so many at least, and leaves as many places for the next.
+// While there is time, a refill has at least this many items, and leaves as many places for the next refill.
 constexpr std::size_t worth_sending = 8;
 
-// Where a tail is too long the speed is limited to this part of what it is there: again after so much motion, in which
-// the planner has braked; and where tails are short enough for so long, it may rise by this part.
-constexpr double slower = 0.7;
-constexpr double slower_from_rest = 0.5;
-constexpr Seconds to_settle{0.03};
-constexpr double faster = 1.3;
-constexpr Seconds to_go_on_so{0.1};
-constexpr double least_limit = 0.05;  // mm/s
-// Of the questions before refills. A refill that goes before one takes the longer by so much; answers that were slow
-// are forgotten at this rate; a chip makes events of so much motion ahead.
+// Waiting for answers between refills. `behind_a_refill`: an answer takes this many times longer when a refill goes
+// before the question. `patience`: the rate at which slow answers are forgotten. `made_ahead`: how far ahead a chip
+// makes its events.
 constexpr double behind_a_refill = 3;
 constexpr double patience = 0.9;
 constexpr double late_answer = 2;
 constexpr double slower_answer = 1.5;
 constexpr double moves_an_answer = 3;
 constexpr Seconds shortest_answer{0.003};
-// Behind what follows the spindle refills become longer bit by bit: a long one would come too late where little is
-// ahead.
+// After motion that followed the spindle, refills become longer bit by bit. Little motion is ahead there, so a long
+// refill would come too late.
 constexpr double longer = 1.5;
 constexpr Seconds longest_following{0.01};
 constexpr double answers_ahead = 2.5;
-constexpr Seconds spare{0.003};  // a tail may have many items more than the one before
+constexpr Seconds spare{0.003};  // a tail may have many more items than the tail before
 constexpr double patience_following = 0.95;
 constexpr Seconds made_ahead{0.002};
 
-// The planner's braking, handed out as motion.
+// Hands out the planner's braking plan as motion.
 class Braking final : public Source<MotionItem> {
  public:
   explicit Braking(const std::vector<PlannedMove>& plan) : plan_(plan) {}
@@ -65,7 +59,7 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
       behind_(stages.link.executed()),
       places_(static_cast<std::size_t>(std::max(stages.link.places(), 0))),
       given_(stages.path.place()),
-      long_tail_((places_ - std::min(places_, worth_sending + 1)) / 2),
+      speed_(stages.planner, places_, worth_sending),
       waits_for_operator_(waits_for_operator) {
   stages.path.keep();
   commit();
@@ -76,8 +70,7 @@ void Refiller::watch(const MotionItem& motion) {
   const auto* move = std::get_if<PlannedMove>(&motion);
   given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
   if (move == nullptr || move->phase_count == 0) return;
-  speed_ = move->exit_velocity().value();
-  fastest_ = std::max(fastest_, speed_);
+  speed_.note_speed(move->exit_velocity().value());
 }
 
 Refiller::Turn Refiller::advance() {
@@ -115,17 +108,17 @@ Refiller::Turn Refiller::advance() {
   return Turn::waits;
 }
 
-// What follows the spindle is planned when it is due, by the newest answer.
+// Motion that follows the spindle is planned only when it is due, from the newest answer.
 bool Refiller::may_plan() {
   if (attention_ != Attention::follows) return true;
   if (waits_for_answer()) return false;
   if (known_ahead() < refill_at()) return true;
-  // A later answer tells better.
+  // A later answer is more accurate.
   stages_.link.ask();
   return false;
 }
 
-// What was sent and is not executed: as told with the spindle's place, or by whole items.
+// How much motion is sent and not executed: as the board told with the spindle's place, or counted in whole items.
 Seconds Refiller::known_ahead() const {
   return attention_ == Attention::follows ? told_ahead_.value_or(ahead_) : ahead_;
 }
@@ -137,14 +130,14 @@ void Refiller::attend(Attention attention) {
   attention_ = attention;
   stages_.link.ask_for_spindle(attention == Attention::follows);
   if (in_haste()) {
-    // Before a thread it was asked behind as much as a refill.
+    // Before a thread, the question was sent after as many bytes as a refill has.
     const double times = attention == Attention::follows ? 1 : behind_a_refill;
     answer_ = std::max(slowest_answer_, std::min(times * stages_.link.answer_time(), options_.refill_at));
   }
   commit();
 }
 
-// As much as it takes to ask and to be answered.
+// Sets how long moves may be, by the time that a question and its answer take.
 void Refiller::commit() {
   answer_ = std::max(answer_, shortest_answer);
   const Seconds longest = attention_ == Attention::follows ? longest_following : options_.longest_move;
@@ -154,12 +147,12 @@ void Refiller::commit() {
   stages_.generator.limit_waiting_to(longest_move_);
 }
 
-// The fewer the better.
+// True: fewer items are better than more exact ones.
 bool Refiller::counts_items() const {
   return in_haste() || places_ < options_.few_places;
 }
 
-// While one refill is on its way and answered, the next one not yet there, the board has enough.
+// The board has enough motion while one refill is sent and answered and the next one has not arrived yet.
 Seconds Refiller::horizon() const {
   if (attention_ == Attention::follows) return answers_ahead * answer_ + longest_move_ + made_ahead + spare;
   return in_haste() ? 2 * answer_ + longest_move_ + made_ahead : std::min(options_.horizon, reach_);
@@ -168,7 +161,8 @@ Seconds Refiller::refill_at() const {
   return in_haste() ? horizon() - longest_move_ : std::min(options_.refill_at, reach_ - longest_move_);
 }
 
-// One that has taken too long tells of a time that is too long ago: the board is asked again, and trusted to be slower.
+// An answer that took too long tells of a time too long ago. Then the board is asked again, and slower answers are
+// expected.
 bool Refiller::waits_for_answer() {
   if (!in_haste()) return false;
   if (!stages_.link.answered()) return true;
@@ -191,7 +185,8 @@ std::optional<Point> Refiller::drop() {
   return stages_.path.point_at(rest);
 }
 
-// What is played of the item at hand is known to an event; all answers of one motion together tell better.
+// The answer tells the event at which the board is in the current item. All answers of one motion together give a
+// better time.
 Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {
   Seconds played = sent_time_;
   Seconds next{0};
@@ -208,10 +203,10 @@ Seconds Refiller::ahead_of(const Turned& turned, Seconds time) {
   return given_time_ - (time - *began_);
 }
 
-// What the board has told of how far it is.
+// Takes note of how far the board has told that it is.
 void Refiller::note_executed() {
   const ItemNumber executed = stages_.link.executed();
-  show_executed(executed);
+  played_.show_executed(executed);
   for (; !motion_.empty() && later_by(motion_.front().number, executed) <= 0; motion_.pop_front()) {
     ahead_ -= motion_.front().time;
   }
@@ -219,7 +214,7 @@ void Refiller::note_executed() {
   while (under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0) under_way.pop_front();
   if (under_way.empty()) return;
   if (later_by(executed, under_way.front().first) < 0) {
-    // From a rest on nothing has begun, and never will if it was dropped.
+    // From the rest on, the board has begun nothing of the refill. If the board dropped the refill, it never will.
     if (!stages_.link.rests()) return;
     behind_ = executed;
     take_up();
@@ -231,30 +226,22 @@ void Refiller::note_executed() {
   if (executed != under_way.front().last) return;
   rested_ = std::move(under_way.front().rest);
   under_way.pop_front();
-  fastest_ = speed_;
+  speed_.forget_fastest();
   if (!on_tail_) return;
   behind_ = executed;
   take_up();
   if (!brakes_) ++recoveries_;
 }
 
-// A tail was played if the board is in it, or at its end, where it waits; if it is further, another refill had come.
-void Refiller::show_executed(ItemNumber executed) {
-  for (; !sent_.empty() && later_by(sent_.front().number, executed) <= 0; sent_.pop_front()) {
-    const Sent& sent = sent_.front();
-    if (!sent.end_of_tail || later_by(executed, *sent.end_of_tail) <= 0) executed_watcher_(sent.item);
-  }
-}
-
-// The board rests. All that was sent behind it came too late, and all that was pulled is pulled again.
+// The board rests. All that was sent after the rest came too late, and all that was pulled is pulled again.
 void Refiller::take_up() {
   refills_under_way_.clear();
-  sent_.clear();
+  played_.forget();
   motion_.clear();
   pulled_.clear();
   ahead_ = pulled_time_ = Seconds(0);
   on_tail_ = holds_ = ended_ = false;
-  speed_ = fastest_ = 0;
+  speed_.rest();
   action_.reset();
   given_ = rested_.place;
   stages_.path.rewind(given_);
@@ -263,38 +250,14 @@ void Refiller::take_up() {
   stages_.outputs = rested_.outputs;
 }
 
-// At rest, where nothing fits.
+// The machine rests, and no refill fits into the board. False: the path cannot begin more slowly.
 bool Refiller::begin_more_slowly() {
-  const double limit = std::min(speed_limit_, fastest_) * slower_from_rest;
-  if (limit < least_limit) return false;
-  limit_speed_to(limit);
+  if (!speed_.begin_more_slowly()) return false;
   take_up();
   return !(guards_threads_ && stages_.path.is_in_thread());
 }
 
-void Refiller::limit_speed_to(double speed) {
-  if (speed < speed_limit_) ++slowdowns_;
-  speed_limit_ = speed;
-  limited_for_ = Seconds(0);
-  stages_.planner.limit_speed_to(MmPerSecond(speed));
-}
-
-// What comes is limited before the tails are too long to be sent.
-void Refiller::mind_length_of(const Tail& tail) {
-  const bool is_long = tail.items.size() > long_tail_;
-  if (is_long && speed_ > least_limit && (std::isinf(speed_limit_) || limited_for_ > to_settle)) {
-    limit_speed_to(std::min(speed_limit_, speed_) * slower);
-  } else if (!is_long && !std::isinf(speed_limit_)) {
-    const bool is_short = 2 * tail.items.size() < long_tail_;
-    if (is_short && limited_for_ > to_settle) {
-      limit_speed_to(std::numeric_limits<double>::infinity());
-    } else if (limited_for_ > to_go_on_so) {
-      limit_speed_to(speed_limit_ * faster);
-    }
-  }
-}
-
-// Motion up to the horizon, and further to where a refill may end.
+// Pulls motion up to the horizon, and further to a place where a refill may end.
 void Refiller::pull() {
   const auto wanted = [&] {
     if (!pulled_.empty() && !pulled_.back().tail) return true;
@@ -323,16 +286,17 @@ void Refiller::pull() {
 void Refiller::add(const LinkItem& item) {
   pulled_.push_back({.item = item, .time = time_of(item)});
   pulled_time_ += pulled_.back().time;
-  limited_for_ += pulled_.back().time;
+  speed_.note_motion(pulled_.back().time);
   const StepGenerator& generator = stages_.generator;
-  // A long dwell has more items than a board has places: it may end amid it, and go on with the next refill.
+  // A long dwell has more items than a board has places. So a refill may end within a dwell, and the next refill goes
+  // on with it.
   if (generator.at_rest() || generator.waits_at_rest()) {
     pulled_.back().tail = tail_of_nothing();
   } else if (generator.ends_at_rest()) {
-    return;  // it is to come to rest by itself
+    return;  // the motion comes to rest by itself soon
   } else if (is_far_from_last_tail()) {
     pulled_.back().tail = find_tail();
-    mind_length_of(*pulled_.back().tail);
+    speed_.note_tail(pulled_.back().tail->items.size());
   }
 }
 
@@ -343,7 +307,7 @@ bool Refiller::is_far_from_last_tail() const {
   return items >= items_between_tails || time >= between_tails;
 }
 
-// How the machine would come to rest behind what was pulled.
+// Finds how the machine would come to rest after the pulled items.
 Refiller::Tail Refiller::find_tail() {
   stages_.planner.braking_plan(plan_);
   Tail tail{.from = given_, .rest = {.place = given_, .outputs = stages_.outputs}};
@@ -360,7 +324,7 @@ Refiller::Tail Refiller::tail_of_nothing() {
   return {.from = given_, .rest = {.place = given_, .generator = fork(), .outputs = stages_.outputs}};
 }
 
-// The generator as it is; what it would be given is not its own.
+// A copy of the generator's state. The copy has no motion to read.
 std::unique_ptr<StepGenerator> Refiller::fork() {
   plan_.clear();
   Braking nothing(plan_);
@@ -369,13 +333,13 @@ std::unique_ptr<StepGenerator> Refiller::fork() {
   return fork;
 }
 
-// One is for what replaces.
+// One place is for the frame that replaces.
 std::size_t Refiller::free_places() const {
   return static_cast<std::size_t>(std::max(stages_.link.places() - 1, 0));
 }
 
-// How many of those that were pulled are sent now. The more the better, but the next refill needs places before this
-// one's tail begins.
+// How many of the pulled items to send now. More is better, but the next refill needs places before the tail of this
+// one begins.
 std::size_t Refiller::size_of_refill() {
   if (pulled_.empty() || known_ahead() >= refill_at()) return 0;
   if (waits_for_answer()) return 0;
@@ -406,7 +370,7 @@ void Refiller::send(std::size_t items) {
   items_.insert(items_.end(), tail.items.begin(), tail.items.end());
   Refill refill;
   if (rest_watcher_) {
-    // Behind the frame that replaces.
+    // The items come after the frame that replaces.
     const auto last = static_cast<ItemNumber>(stages_.link.sent() + 1 + items_.size());
     rest_watcher_({.executed = last, .place = tail.rest.place});
   }
@@ -424,10 +388,9 @@ void Refiller::send(std::size_t items) {
   refill.last_of_motion = behind_ = static_cast<ItemNumber>(refill.first + items - 1);
   refill.last = static_cast<ItemNumber>(refill.first + items_.size() - 1);
   assert(refill.last == stages_.link.sent());
-  for (std::size_t i = 0; executed_watcher_ && i < items_.size(); ++i) {
-    Sent sent{.number = static_cast<ItemNumber>(refill.first + i), .item = items_[i]};
-    if (i >= items) sent.end_of_tail = refill.last;
-    sent_.push_back(sent);
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    played_.note_sent(static_cast<ItemNumber>(refill.first + i), items_[i],
+                      i < items ? std::nullopt : std::optional(refill.last));
   }
   reach_ = reach_ * longer;
   tail_items_ += tail.items.size();
@@ -450,7 +413,8 @@ Action Refiller::take_action() {
   return *std::exchange(action_, std::nullopt);
 }
 
-// A host that is started anew meets an action again that the drive has taken and not done.
+// An action that the drive has taken and not carried out must come again when a new host goes on. So the rest is before
+// the action.
 void Refiller::switch_outputs(const BoardOutputs& outputs) {
   assert(refills_under_way_.empty() && pulled_.empty());
   if (rest_watcher_)
@@ -464,7 +428,7 @@ bool Refiller::settled() {
   if (stages_.link.error()) return true;
   if (stages_.link.busy()) return false;
   behind_ = stages_.link.executed();
-  if (switched_ && executed_watcher_) executed_watcher_(*switched_);
+  if (switched_) played_.show(*switched_);
   switched_.reset();
   return true;
 }

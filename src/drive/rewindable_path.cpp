@@ -24,7 +24,7 @@ bool RewindablePath::next(PathItem& item) {
   return true;
 }
 
-// The next item that is any.
+// Pulls the next item, and skips segments without length.
 bool RewindablePath::pull(PathItem& item) {
   do {
     if (!path_.next(item)) return false;

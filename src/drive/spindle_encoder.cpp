@@ -6,16 +6,16 @@
 namespace passo {
 namespace {
 
-// A board may be off by so much: it looks at the count behind the index.
+// How much an index may be off, because the board reads the count after the index.
 constexpr double good_turn = 0.02;
 constexpr Seconds good_time{0.002};
 constexpr double good_counts = 2;
 constexpr double worst_turn = 0.3;
-// One may be missed. Damage that looks like a reading is rare, but not never: two in a row must be wrong, or
-// every second one.
+// An index may be missed. A damaged message rarely looks like a good reading, but that does happen. So two readings in
+// a row must be wrong, or every second one.
 constexpr double turns_without_index = 4;
 constexpr int surely_wrong = 4;
-// A shaft at rest may tremble on the edge of a count.
+// In counts. A shaft at rest may tremble on the edge of a count.
 constexpr double trembling = 1.5;
 
 double difference(std::uint32_t a, std::uint32_t b) {
@@ -43,7 +43,7 @@ void SpindleEncoder::read(const SpindleCount& count) {
   last_ = count;
 }
 
-// Since the first index, so that what is lost bit by bit adds up.
+// `turns` counts from the first index, so that counts lost bit by bit add up.
 void SpindleEncoder::note_turns(double turns, double speed) {
   const double most = std::max(good_turn + speed * good_time.value(), good_counts / counts_per_turn_);
   const bool good = std::abs(turns - std::round(turns)) <= std::min(most, worst_turn);

@@ -8,24 +8,26 @@
 namespace passo {
 namespace {
 
-// The speed is measured over so long: less is rough, for the encoder counts, more is late.
+// In seconds: the time over which the speed is measured. A shorter time is rough, because the encoder gives whole
+// counts. A longer time is late.
 constexpr double measured_over = 0.03;
 constexpr std::size_t least_readings = 4;  // a slow line brings no more in that time
 
-// What is missing is made up for at this rate, in 1/s: slow against the time from a reading to its effect.
+// The rate, in 1/s, at which an error of place is made up for. The rate is slow compared with the time from a reading
+// to its effect.
 constexpr double eagerness = 15;
 
-// What is planned next takes so long.
+// Half the time that the move planned next takes.
 constexpr Seconds half_a_move{0.001};
 
-// In turns: what has made up for its start by then.
+// In turns: after this way the tool has made up for its start.
 constexpr double lead_in = 4;
 
-// From this part of the spindle's speed on the tool's place counts.
+// The tool is up to speed, and its place counts, from this part of the spindle's speed on.
 constexpr double up_to_speed = 0.95;
 constexpr double most_of_it = 0.8;
 
-// With jerk: changes that are worth it, while it speeds up and then.
+// Under a limit of jerk, the smallest changes of the ratio that are made: while the tool speeds up, and after that.
 constexpr double coarse = 0.05;
 constexpr double fine = 0.002;
 
@@ -77,7 +79,7 @@ double SpindleFollower::turns_a_second() const {
   return (to.turns - from.turns) / (to.time - from.time).value();
 }
 
-// At an even acceleration, or with jerk at an even mean one, half of the way is lost.
+// At an even acceleration, or with a limit of jerk at an even mean one, the tool loses half of the way.
 double SpindleFollower::lag_of(const PlannedMove& move) const {
   const Point direction = move.segment.curve.tangent(move.from());
   double acceleration = strongest;
@@ -105,7 +107,7 @@ std::optional<double> SpindleFollower::ratio(Seconds committed) {
   return ratio_ = wanted;
 }
 
-// A parabola through the readings, by least squares: a spindle that is reversed changes its speed evenly.
+// Fits a parabola to the readings by least squares, because a spindle that is reversed changes its speed evenly.
 SpindleFollower::Course SpindleFollower::course(Seconds later) const {
   const double last = readings_.back().time.value();
   const auto turns_of = [this](const SpindleReading& reading) { return way_ * (reading.turns - index_); };
@@ -138,7 +140,7 @@ bool SpindleFollower::turns_back(Seconds committed) const {
 }
 
 double SpindleFollower::missing(Seconds committed) const {
-  const bool goes_with_it = in_place_ && reached_ > most_of_it * speed();  // and does not brake for its end
+  const bool goes_with_it = in_place_ && reached_ > most_of_it * speed();  // and does not brake for the end of the move
   if (!goes_with_it || followed_ < lead_in || readings_.size() < least_readings) return 0;
   return course(committed).turns - lag_ - followed_;
 }

@@ -10,20 +10,20 @@
 namespace passo {
 namespace {
 
-// A spindle is at speed when a turn takes as long as it should, or hardly less than the one before.
+// A spindle is at speed when a turn takes as long as ordered, or nearly as long as the turn before.
 constexpr double near_speed = 0.1;
 constexpr double steady = 0.02;
 constexpr int most_turns = 1000;
-// While the spindle is waited for, the encoder is looked at so often; and the spindle may stand so long, running up and
-// in a thread.
+// How often the tracker reads the encoder while it waits for the spindle, and how long the spindle may stand while
+// running up and in a thread.
 constexpr Seconds between_looks{0.005};
 constexpr Seconds longest_run_up{5};
 constexpr Seconds longest_stand{0.25};
 constexpr double counts_at_least = 8;
-// A thread that begins later than by so many turns has no lead-in that makes up for it.
+// A thread that begins more than this many turns late has no lead-in long enough to make up for the delay.
 constexpr double latest_start = 0.25;
 constexpr int sure_of_start = 3;
-// Where the tool is off by so much of a turn after its lead-in, the line is too slow to follow this spindle.
+// If the tool is off by this part of a turn after its lead-in, the line is too slow to follow this spindle.
 constexpr double most_missing = 0.1;
 constexpr Seconds longest_lead{0.2};
 constexpr std::size_t bytes_of_a_start = 460;  // twenty items
@@ -44,7 +44,7 @@ bool SpindleTracker::let_go() {
   return follower_.lock() == SpindleLock::none && follows_ && !index_time_ && !(follows_ = false);
 }
 
-// Over a line the delay of what is sent is measured first.
+// Over a line, the delay of what is sent is measured first.
 void SpindleTracker::begin_await(double revolutions_per_minute) {
   wanted_ = seconds_per_minute / revolutions_per_minute;
   turn_begun_ = {};
@@ -109,7 +109,8 @@ void SpindleTracker::look_for_index() {
   looks_at_ = stages_.link.now() + (begins_ ? left : between_looks);
 }
 
-// The tracker is told where the thread begins; the answer has taken so much time, and so does what is sent.
+// The time until the motion has to be sent. The follower is told the index at which the thread begins. `answer`: the
+// time that the answer took, which is also the time that sending takes.
 Seconds SpindleTracker::time_to_index(Seconds answer) {
   const double speed = follower_.turns_a_second();
   if (!encoder_.index() || speed == 0) return Seconds(std::numeric_limits<double>::infinity());
@@ -127,8 +128,8 @@ void SpindleTracker::note(const Turned& turned) {
   follower_.read(encoder_.now());
 }
 
-// What was pulled last is followed by what is pulled next. Over a line the follower goes by what the answer after the
-// last refill tells, when that has come.
+// Sets the ratio for the motion that is pulled next. Over a line, the follower uses the answer after the last refill,
+// once that answer has come.
 bool SpindleTracker::follow() {
   begin_following();
   const bool remote = stages_.feed.is_remote();
@@ -153,7 +154,7 @@ bool SpindleTracker::follow() {
   return true;
 }
 
-// The thread has begun: by what the board tells later than it should, the next one is begun sooner.
+// The thread has begun. The next thread is begun sooner by as much as the board tells that this one was late.
 void SpindleTracker::mind_start() {
   if (stages_.feed.is_remote()) {
     const auto began = stages_.feed.began();
@@ -165,7 +166,7 @@ void SpindleTracker::mind_start() {
   index_time_.reset();
 }
 
-// A feed a revolution needs no index.
+// Feed per revolution needs no index.
 bool SpindleTracker::mind_encoder(Seconds longest) {
   if (trouble_) return false;
   if (follower_.lock() != SpindleLock::speed && encoder_.is_wrong()) {

@@ -14,13 +14,20 @@
 namespace passo {
 
 struct BlockContext {
-  BlockContext(ProgramState& machine, Parameters& values, OperationQueue& queue, Reporter& findings)
-      : state(machine), parameters(values), operations(queue), reporter(findings), cutter(queue) {}
+  BlockContext(ProgramState& machine, Parameters& values, OperationQueue& queue, Reporter& findings,
+               const MachineAnswers& machine_answers)
+      : state(machine),
+        parameters(values),
+        operations(queue),
+        reporter(findings),
+        answers(machine_answers),
+        cutter(queue) {}
 
   ProgramState& state;
   Parameters& parameters;
   OperationQueue& operations;
   Reporter& reporter;
+  const MachineAnswers& answers;
   CutterCompensation cutter;
   InterpreterOptions options;
 

@@ -9,12 +9,13 @@ namespace passo {
 
 class Interpreter::Implementation {
  public:
-  Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
+  Implementation(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
+                 const MachineAnswers& answers)
       : saved_(options.parameters),
         parameters_(symbols_, state_, options.machine_units, options.settings),
         reporter_(diagnostics),
         flow_(std::move(reader), flow_options(options), state_, parameters_, symbols_, reporter_),
-        block_(state_, parameters_, operations_, reporter_),
+        block_(state_, parameters_, operations_, reporter_, answers),
         executor_(block_, symbols_) {
     parameters_.load(options.parameters);
     executor_.start(options);
@@ -129,8 +130,9 @@ class Interpreter::Implementation {
   BlockWatcher* watcher_ = nullptr;
 };
 
-Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics)
-    : implementation_(std::make_unique<Implementation>(std::move(reader), options, diagnostics)) {}
+Interpreter::Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
+                         const MachineAnswers& answers)
+    : implementation_(std::make_unique<Implementation>(std::move(reader), options, diagnostics, answers)) {}
 Interpreter::~Interpreter() = default;
 
 bool Interpreter::next(Operation& operation) {

@@ -37,7 +37,7 @@ bool ProbeCodes::probe(CodeNumber number) {
   emit(operation::TurnProbe{true});
   emit(operation::StraightProbe{end, is_toward(number), must_touch(number)});
   emit(operation::TurnProbe{false});
-  if (block_.options.probe != nullptr) {
+  if (block_.answers.probe() != nullptr) {
     awaited_ = number;
     return true;
   }
@@ -49,7 +49,7 @@ bool ProbeCodes::probe(CodeNumber number) {
 // The machine stands behind the probe move: the program goes on from there, or ends.
 void ProbeCodes::take_outcome() {
   const CodeNumber number = *std::exchange(awaited_, std::nullopt);
-  const ProbeOutcome& outcome = *block_.options.probe;
+  const ProbeOutcome& outcome = *block_.answers.probe();
   const std::string name = spelling('G', number);
   state_.position = state_.frame.work_from_machine(outcome.rest);
   keep_result(state_.frame.work_from_machine(outcome.contact), outcome.touched);

@@ -24,7 +24,7 @@ std::string check_of(std::string_view text) {
   return fmt::format("{:016x}", fingerprint.value());
 }
 
-// A name on one line.
+// A file name, made to fit on one line.
 std::string escaped(std::string_view name) {
   std::string text;
   for (const char c : name) {
@@ -37,7 +37,7 @@ std::string escaped(std::string_view name) {
   return text;
 }
 
-// Words of a text, one after the other; the first that is wrong makes it bad.
+// Reads words of a text, one after the other. The first wrong word makes the whole text bad.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
@@ -58,7 +58,7 @@ class Words {
     return value;
   }
   void expect(std::string_view word) { take(next() == word); }
-  // To the end of the line, behind one blank.
+  // Reads to the end of the line, after one blank.
   std::string name() {
     const std::size_t end = text_.find('\n');
     take(end != std::string_view::npos && text_.starts_with(' '));
@@ -220,7 +220,8 @@ std::optional<Journal> Journal::read(std::string_view text) {
 
 Journal::State Journal::state_of(const BoardStatus& status) const {
   if (status.session == head_.session) return State::in_session;
-  // Something was sent only after the board had heard both. That it now seems to have not is a reset.
+  // Items are sent only after the board has heard the hello and the session's number. If the board now seems not to
+  // have heard them, it was reset.
   if (!rests_.empty() || torn_ > 0) return State::another;
   const bool greeted = head_.greeting != 0 && status.session == 0 && status.motors != 0;
   if (greeted && status.executed == head_.greeting) return State::before_session;
@@ -238,7 +239,7 @@ std::optional<PathPlace> Journal::place_of(const BoardStatus& status) const {
   const auto found = std::find_if(rests_.begin(), rests_.end(),
                                   [&](const BoardRest& rest) { return rest.executed == status.executed; });
   if (found != rests_.end()) return found->place;
-  // Nothing was sent, or nothing arrived.
+  // No items were sent, or none arrived.
   const ItemNumber first = head_.greeting != 0 ? head_.greeting : head_.executed_before;
   if (status.executed == first) return head_.place;
   return {};

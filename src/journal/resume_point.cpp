@@ -9,7 +9,7 @@
 namespace passo {
 namespace {
 
-// What was passed.
+// Keeps what the passed items have set.
 class Passed {
  public:
   explicit Passed(ResumePoint& point) : point_(point) {}

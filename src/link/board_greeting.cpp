@@ -9,7 +9,7 @@ void BoardSession::inquire(Question question) {
   assert(question == Question::about || question == Question::status);
   about_.reset();
   status_.reset();
-  answered_ = true;  // what went before is over
+  answered_ = true;  // earlier questions no longer count
   await(question);
 }
 
@@ -26,7 +26,7 @@ void BoardSession::greet(const Greeting& greeting) {
   say_hello();
 }
 
-// A hello begins anew, also after an error.
+// Forgets everything of the conversation so far, including an error.
 void BoardSession::forget_what_was() {
   board_.reset();
   error_.reset();
@@ -44,7 +44,7 @@ void BoardSession::forget_what_was() {
 
 void BoardSession::hang_up() {
   forget_what_was();
-  sent_ = taken_ = asked_behind_ = executed_;  // nothing is under way any more
+  taken_ = executed_ = sent_;  // of what was under way nothing is expected any more, and patience begins anew
   phase_ = Phase::before_hello;
   decoder_.set_motors(max_motors);
 }
@@ -67,7 +67,7 @@ void BoardSession::say_session() {
   ask(Question::status);
 }
 
-// What has come may be what the greeting waits for.
+// Goes on with the greeting if the answer that it waits for has come.
 void BoardSession::look_at_greeting() {
   if (phase_ == Phase::greeting && board_) {
     free_ = board_->capacity;

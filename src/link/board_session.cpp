@@ -12,10 +12,11 @@
 namespace passo {
 namespace {
 
-// Frames that are sent again before the board is asked what it has of them.
+// How many frames are repeated before the board is asked what it has of them.
 constexpr std::size_t repeated_at_once = 16;
 
-// The board may hear what was never sent, and so may we: both are believed when they come again.
+// Because of damage, the board may hear what was never sent, and so may the host. Both are believed only when they come
+// again.
 constexpr int most_refusals = 8;  // of one frame
 constexpr int sure_of_status = 2;
 
@@ -33,7 +34,7 @@ BoardSession::Progress BoardSession::poll(Seconds most) {
   const Seconds end = port_.elapsed() + most;
   Progress progress;
   news_ = false;
-  if (error_) {  // nothing is expected any more, but time passes
+  if (error_) {  // nothing is expected any more, but time still passes
     progress.heard = hear(endless ? Seconds(0) : most);
     return progress;
   }
@@ -48,18 +49,18 @@ BoardSession::Progress BoardSession::poll(Seconds most) {
   return progress;
 }
 
-// Something is to come from the board.
+// True: the board has to say something.
 bool BoardSession::expects() const {
   return awaited_ || phase_ == Phase::greeting || phase_ == Phase::naming || busy() ||
          (may_lose() && (!kept_.empty() || !answered_));
 }
 
-// Silence counts from here on.
+// Silence counts from now on, if nothing was expected before.
 void BoardSession::begin_to_expect() {
   if (!expects()) heard_ = quiet_since_ = port_.elapsed();
 }
 
-// Whoever waits without end expects something in any case.
+// Asks again, or gives up, after a silence. An endless wait expects something in any case.
 void BoardSession::mind_silence(bool heard, bool endless) {
   const Seconds now = port_.elapsed();
   if (error_) return;
@@ -76,7 +77,7 @@ void BoardSession::mind_silence(bool heard, bool endless) {
   }
 }
 
-// It takes too long until the board has what was sent, or the hello is answered.
+// True: the board takes too long to take what was sent, or to answer the hello.
 bool BoardSession::overdue() const {
   const Seconds now = port_.elapsed();
   if (phase_ == Phase::greeting || phase_ == Phase::naming) return now - greeted_ > care_.answer_within;
@@ -127,7 +128,7 @@ void BoardSession::await(Question question) {
   ask(question);
 }
 
-// An answer to an earlier question may come first: it counts if it tells of the same rest.
+// An answer to an earlier question may come first. That answer counts if it tells of the same rest.
 void BoardSession::watch_probe(ProbeUntil until, std::uint8_t limit) {
   if (!probe_.wish(until, limit)) return;
   status_.reset();
@@ -153,7 +154,7 @@ void BoardSession::rehearse(std::size_t bytes) {
   read_spindle();
 }
 
-// What was waited for has come.
+// Ends the wait, if this is the answer that was awaited.
 void BoardSession::settle(Question answered) {
   if (awaited_ != answered) return;
   awaited_.reset();
@@ -199,7 +200,7 @@ void BoardSession::take(const WireFrame& frame) {
       decode(frame, credit);
       if (phase_ == Phase::before_hello || !board_) return;
       take(credit);
-      // The board has dropped what was sent. Is that so?
+      // The board seems to have dropped what was sent. Ask to be sure.
       if (may_lose() && holds_nothing_of(credit) && executed_ != sent_) ask(Question::status);
       return;
     }
@@ -233,7 +234,7 @@ void BoardSession::take(const WireFrame& frame) {
   }
 }
 
-// One that was overtaken by a later one tells nothing, and neither does one that cannot be.
+// Ignores a credit that a later credit has overtaken, and a credit that is impossible.
 void BoardSession::take(const Credit& credit) {
   const int more = later_by(credit.executed, executed_);
   const auto more_taken = static_cast<std::uint8_t>(credit.taken - static_cast<std::uint8_t>(taken_));
@@ -274,7 +275,7 @@ void BoardSession::take(const BoardStatus& status) {
   }
   if (status.answers == question_) settle(Question::status);
   if (session_ == 0 || status.session != session_) {
-    // Before the board has heard of the session it is no wonder.
+    // While the session's number is still on its way, another number is no error.
     if (session_ != 0 && phase_ == Phase::ready) doubt(LinkError::was_reset);
     return;
   }
@@ -289,9 +290,9 @@ void BoardSession::take(const BoardStatus& status) {
 void BoardSession::note_progress(const Credit& credit, std::uint8_t answers) {
   take(credit);
   if (answers != question_ && !(repeating_ && answers == repeated_before_)) return;
-  // What was sent before the question, and has not arrived before it, is lost.
+  // A frame that was sent before the question and has not arrived before it is lost.
   if (std::exchange(repeating_, false) || later_by(asked_behind_, taken_) > 0) return repeat();
-  // An answer that told where the spindle is was lost, or the question.
+  // The answer that tells where the spindle is was lost, or the question was.
   if (!answered_ && usual_question_ == Question::spindle) ask();
 }
 
@@ -349,10 +350,10 @@ void BoardSession::take(const ErrorReport& error) {
     case WireError::out_of_sequence:
     case WireError::queue_full: break;
     case WireError::too_late:
-    case WireError::wrong_sums: return;  // what is executed will tell
+    case WireError::wrong_sums: return;  // the executed items will tell
     case WireError::manual: error_ = LinkError::manual; return;
     default:
-      // Of what we sent, or of what it heard in its place?
+      // The board may complain of what was sent, or of damage that it heard instead.
       refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;
       refused_ = error.expected;
       if (refusals_ == most_refusals) error_ = LinkError::refused;
@@ -360,11 +361,13 @@ void BoardSession::take(const ErrorReport& error) {
   }
   if (!may_lose()) error_ = LinkError::refused;
   note_taken(static_cast<std::uint8_t>(error.expected - 1));
-  // What it complains of while something is being repeated is older, or else the answer to the question behind tells.
+  // A complaint during a repetition is about older frames. If it is not, the answer to the question after the
+  // repetition tells.
   if (!repeating_) repeat();
 }
 
-// `sequence`: the low byte of a number between the last one known to be taken and the last one sent; else it is old.
+// `sequence`: the low byte of a number. A number that is not between the last frame known to be taken and the last
+// frame sent is old, and ignored.
 void BoardSession::note_taken(std::uint8_t sequence) {
   const auto more = static_cast<std::uint8_t>(sequence - static_cast<std::uint8_t>(taken_));
   if (more == 0 || more > later_by(sent_, taken_)) return;
@@ -374,16 +377,16 @@ void BoardSession::note_taken(std::uint8_t sequence) {
   while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
 }
 
-// Some of what the board does not have, in order, and a question behind, whose answer tells what is to be repeated
-// next. Nothing else is sent meanwhile. All of it each time that the board complains: on a bad line each of many frames
-// would bring many more.
+// Repeats the first of the frames that the board does not have, in order. A question after them tells what to repeat
+// next. Nothing else is sent meanwhile. Repeating all frames at each complaint would be worse: on a bad line, each of
+// many frames would bring many more.
 void BoardSession::repeat() {
   if (error_ || kept_.empty()) return;
   const std::size_t count = std::min(kept_.size(), repeated_at_once);
   for (std::size_t i = 0; i < count; ++i) put_on_wire(kept_[i].bytes, kept_[i].size);
   frames_repeated_ += count;
   ask();
-  repeating_ = session_ != 0;  // else nobody tells
+  repeating_ = session_ != 0;  // without a session no answer tells the progress
   repeated_before_ = question_;
 }
 
@@ -395,7 +398,7 @@ void BoardSession::send_counted(const Message& message, More... more) {
   send_frame(frame);
 }
 
-// The next one that is counted.
+// Sends the next frame that is counted.
 void BoardSession::send_frame(const Frame& frame) {
   if (error_) return;
   begin_to_expect();

@@ -34,8 +34,8 @@ void ProbeWatch::confirm(const BoardStatus& status) {
   std::copy_n(status.positions, from_.size(), from_.begin());
 }
 
-// A captured may be lost; what it told shows in every status. Where the probe was at the beginning as it is to become,
-// its first change is away from that, and the watch begins again.
+// A Captured message may be lost, but every status shows the same. If the probe was at the beginning already as it is
+// to become, its first change is away from that. Then the watch begins again.
 ProbeWatch::News ProbeWatch::note(const BoardStatus& status) {
   const bool touched = (status.inputs & input()) != 0;
   const bool came = std::exchange(report_.touched, touched) != touched;

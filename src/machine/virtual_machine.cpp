@@ -4,6 +4,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace passo {
@@ -23,7 +24,10 @@ BoardIdentity identity_of(std::uint8_t motors, Hertz clock, Hertz highest_event_
 }  // namespace
 
 VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate, std::size_t places)
-    : board_(hardware_, identity_of(motors, clock, highest_event_rate, places)), clock_(clock), motor_count_(motors) {
+    : identity_(identity_of(motors, clock, highest_event_rate, places)),
+      board_(hardware_, identity_),
+      clock_(clock),
+      motor_count_(motors) {
   hardware_.seconds_a_tick = 1 / clock.value();
   hardware_.plant = &own_plant_;
 }
@@ -97,10 +101,25 @@ void VirtualMachine::heed(unsigned now) {
   const unsigned on = changed & now;
   board_.set_inputs(told_, static_cast<std::uint16_t>((changed & board_.watched()) | (on & by_people)));
   const unsigned stops = on & board_.stopping();
-  const bool pressed = (stops & input_emergency_stop) != 0;
-  if (!pressed && (stops == 0 || board_.idle())) return;
-  if (hardware_.outputs_now.switches != 0) hardware_.outputs({});
-  board_.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  if ((stops & input_emergency_stop) != 0) return stop_at_once(FaultReason::emergency_stop);
+  if (stops != 0 && !board_.idle()) stop_at_once(FaultReason::limit);
+}
+
+// As a board does it: the outputs are safe before the host hears of it.
+void VirtualMachine::stop_at_once(FaultReason reason) {
+  hardware_.make_safe();
+  board_.stop_at_once(reason);
+}
+
+void VirtualMachine::reset_board() {
+  hardware_.pulse_plant();
+  std::destroy_at(&board_);
+  std::construct_at(&board_, hardware_, identity_);
+  waits_ = false;
+  hardware_.to_host.clear();
+  hardware_.make_safe();
+  told_ = 0;
+  look_at_plant();
 }
 
 void VirtualMachine::wait(Ticks time) {
@@ -143,6 +162,10 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
   plant->command_spindle(time(), reverse ? -rpm : rpm);
   ++output_changes;
   for (MachineObserver* observer : observers) observer->on_outputs(Ticks{now}, wanted);
+}
+
+void VirtualMachine::Hardware::make_safe() {
+  if (outputs_now.switches != 0 || outputs_now.spindle_rpm != 0) outputs({});
 }
 
 SpindleCount VirtualMachine::Hardware::spindle() const {

@@ -58,10 +58,12 @@ Overloaded(Handlers...) -> Overloaded<Handlers...>;
 
 }  // namespace
 
-PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics)
+PathBuilder::PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics,
+                         const MachineAnswers& answers)
     : operations_(operations),
       options_(options),
       diagnostics_(diagnostics),
+      answers_(answers),
       spline_(std::make_unique<SplinePieces>()),
       position_(options.start),
       tolerance_(options.tolerance),
@@ -195,7 +197,7 @@ bool PathBuilder::take_probe(const operation::StraightProbe& probe, PathItem& it
 bool PathBuilder::take_probe_step(PathItem& item) {
   if (probe_step_ == ProbeStep::move) {
     probe_step_ = ProbeStep::end;
-    const bool refused = options_.probe != nullptr && options_.probe->refused;
+    const bool refused = answers_.probe() != nullptr && answers_.probe()->refused;
     if (!refused && take_line(probe_end_, false, item)) {
       std::get<Segment>(item).mode = PathMode::exact_stop;
       return true;
@@ -207,7 +209,7 @@ bool PathBuilder::take_probe_step(PathItem& item) {
         Action{.kind = Action::Kind::probe_end, .outputs = outputs(), .place = position_, .source = operation_.source};
     return true;
   }
-  if (probe_step_ == ProbeStep::rest && options_.probe != nullptr) position_ = options_.probe->rest;
+  if (probe_step_ == ProbeStep::rest && answers_.probe() != nullptr) position_ = answers_.probe()->rest;
   probe_step_ = ProbeStep::none;
   return false;
 }

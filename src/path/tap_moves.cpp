@@ -16,7 +16,7 @@ constexpr double more_turns = 2;
 
 // In step with the spindle down, on until it has turned round, and in step back to where it began.
 bool PathBuilder::take_tap(const operation::RigidTap& tap, PathItem& item) {
-  if (options_.tap_rest == nullptr) return expand(tap), false;
+  if (answers_.tap_rest() == nullptr) return expand(tap), false;
   tap_start_ = position_;
   if (!take_line(tap.end, false, item)) return false;
   auto& down = std::get<Segment>(item);
@@ -41,7 +41,7 @@ bool PathBuilder::take_tap_step(PathItem& item) {
     }
     case TapStep::back: {
       followed_tap_ = TapStep::end;
-      position_ = *options_.tap_rest;
+      position_ = *answers_.tap_rest();
       if (take_curve(Curve::line(position_, tap_start_), false, item)) {
         std::get<Segment>(item).mode = PathMode::exact_stop;
         return true;

@@ -14,12 +14,12 @@
 namespace passo {
 namespace {
 
-// Path items of a check in one turn.
+// How many path items a check takes in one turn.
 constexpr std::uint64_t items_a_turn = 2000;
-// Changes that nobody has taken; then the oldest are dropped.
+// How many changes are kept until somebody takes them. Beyond that the oldest are dropped.
 constexpr std::size_t most_changes = 4096;
 
-// The board is as it was: whoever used the link has found that the work cannot go on.
+// True: the error is one of the work, found by a user of the link. The board itself is as it was.
 constexpr bool is_of_work(LinkError error) {
   switch (error) {
     case LinkError::too_few_places:
@@ -56,6 +56,11 @@ void MachineSession::name_session(std::uint16_t number) {
   board_.name_session(number);
 }
 
+// With its door open the machine may be busy or not.
+bool MachineSession::busy() const {
+  return work_ && !work_->ended;
+}
+
 void MachineSession::turn(Seconds most) {
   if (state_ == MachineState::offline) {
     go_online(most);
@@ -70,7 +75,7 @@ void MachineSession::turn(Seconds most) {
   look_at_panel();
 }
 
-// Hello, and before a second one: how is the board, and where does it stand?
+// Says hello. Before a second hello, asks the board for its status and its place.
 void MachineSession::go_online(Seconds most) {
   if (asks_place_) {
     if (!board_.settled()) board_.poll(most);
@@ -88,7 +93,8 @@ void MachineSession::go_online(Seconds most) {
     move_to(MachineEvent::lose_board);
     return;
   }
-  if (std::exchange(leaves_outputs_, false)) board_.send(BoardOutputs{});
+  // What was going on may have left something switched on.
+  if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
   if (board_.busy()) board_.poll(most);
   if (board_.busy() || board_.error()) return;
   place_.reset();
@@ -96,14 +102,12 @@ void MachineSession::go_online(Seconds most) {
   move_to(MachineEvent::ready);
 }
 
-// From here on the board's counts are those of that place. What the board has below a step stays.
+// From here on the board's counts are those of that place. Without a hello the board keeps what it has below a step.
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
   mismatch_.reset();
-  if (place_) {
-    const MotorSteps steps = steps_at(machine_, position.place);
-    for (std::size_t m = 0; m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
-  }
+  const MotorSteps steps = steps_at(machine_, position.place);
+  for (std::size_t m = 0; place_ && m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
   count_from_here();
   ++version_;
 }
@@ -123,20 +127,26 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
   return steps;
 }
 
+// Until the board has told where it stands. Nobody has asked it since the last doubt: what was known then counts.
+void MachineSession::doubt_place() {
+  if (!asks_place_) trust_before_ = position_.trust;
+  position_.trust = Trust::unknown;
+  place_.reset();
+}
+
 void MachineSession::begin_reset() {
-  if (state_ == MachineState::idle) trust_before_ = position_.trust;
+  if (state_ == MachineState::idle) doubt_place();
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
   greeted_ = false;
-  leaves_outputs_ = true;
+  switches_off_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
-  if (!options_.over_a_line) position_.trust = Trust::unknown;
   move_to(MachineEvent::reset);
 }
 
-// A board that knows the session, and has lost no step, has counted on.
+// A board that knows the session and has lost no step has gone on counting. Then its counts tell the place.
 void MachineSession::find_place_again() {
   const BoardStatus& status = *board_.status();
   const bool knows = status.session == options_.greeting.session && status.motors == machine_.axes.size() &&
@@ -177,14 +187,14 @@ void MachineSession::turn_work(Seconds most) {
   work_->drive->wait(most);
 }
 
-// The moves that one step asks for may not end after the lease: they are committed then.
+// Stops the jog in time. The moves that one step commits may not end after the lease.
 void MachineSession::mind_lease() {
   if (!work_->lease_end) return;
   const Seconds pulled = 3 * live_commitment.longest_move;
   if (now() + work_->drive->committed() + pulled > *work_->lease_end) work_->drive->stop();
 }
 
-// The state of a program is that of its strongest reason to rest.
+// Sets the state of a program by its strongest reason to rest.
 void MachineSession::mind_holds() {
   if (work_->program == nullptr || !work_->drive) return;
   const MotionDrive& drive = *work_->drive;
@@ -216,7 +226,7 @@ void MachineSession::note_tails() {
   }
 }
 
-// The drive has ended. Over a line the board tells where it stands.
+// The drive has ended. Over a line, the board is asked where it stands.
 void MachineSession::finish_work() {
   note_tails();
   if (!options_.over_a_line || board_.error()) return end_work();
@@ -258,7 +268,7 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
   return {fault ? Outcome::failed : Outcome::done, std::move(fault)};
 }
 
-// At rest, unless the board was lost: then nobody knows until it answers again.
+// Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
 void MachineSession::note_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_ = work_->drive->place();
@@ -275,7 +285,7 @@ void MachineSession::note_place() {
   count_from_here();
 }
 
-// The switches have told where the homed axes stand; the others keep their places.
+// The switches have told where the homed axes stand. The other axes keep their places.
 Point MachineSession::home_place() {
   Point place = position_.place;
   const StepOptions steps = passo::step_options(machine_);
@@ -306,7 +316,7 @@ bool MachineSession::counts_agree() {
   return true;
 }
 
-// An error of the board ends what is going on, and the machine is in alarm or in fault until a reset.
+// An error of the board ends what is going on. The machine is then in alarm or in fault until a reset.
 void MachineSession::mind_board() {
   if (!board_.error() || state_ == MachineState::alarm || state_ == MachineState::fault) return;
   const LinkError error = *board_.error();
@@ -314,10 +324,7 @@ void MachineSession::mind_board() {
   trouble_ = error;
   trouble_words_ = message_of(error);
   if (busy()) end_work();
-  // A reset that fails does not change what the next one may find.
-  if (state_ != MachineState::offline) trust_before_ = position_.trust;
-  position_.trust = Trust::unknown;
-  place_.reset();
+  doubt_place();
   move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
 }
 
@@ -373,10 +380,6 @@ std::vector<MachineChange> MachineSession::take_changes() {
   std::vector<MachineChange> taken(changes_.begin(), changes_.end());
   changes_.clear();
   return taken;
-}
-
-bool MachineSession::busy() const {
-  return work_ && !work_->ended;
 }
 
 MachineStatus MachineSession::status() const {

@@ -14,7 +14,7 @@ std::string_view name_of(MachineEvent event) {
 
 namespace {
 
-// Two states may have several ways from the one to the other: one arrow for all of them.
+// Several events may lead from one state to another. One arrow stands for all of them.
 std::string drawing() {
   std::string text = "```mermaid\nstateDiagram-v2\n  [*] --> Offline\n";
   for (const StateRow& from : state_rows) {

@@ -1,8 +1,8 @@
-// Panel: the buttons and the door of a board, and what they ask for. Private to session/.
+// Panel: the buttons and the door of a board, and the requests that they stand for. Private to session/.
 //
-// The board tells at once what is pressed; the panel asks besides, for a message may be lost. Feed hold brakes on the
-// path; cycle start goes on. An open door is a hold too: the machine goes on when the door is closed and somebody
-// presses cycle start.
+// The board tells at once what is pressed. The panel also asks from time to time, because a message may be lost. Feed
+// hold brakes on the path; cycle start goes on. An open door is a hold too: the machine goes on when the door is closed
+// and somebody presses cycle start.
 #pragma once
 
 #include "passo/session/machine_session.hpp"
@@ -12,7 +12,7 @@ namespace passo {
 
 class MachineSession::Panel {
  public:
-  // In a hold somebody is near, and a start is to be heard soon.
+  // In a hold somebody is near, so the panel asks more often, to hear a start soon.
   static constexpr Seconds between_questions{0.2};
   static constexpr Seconds in_a_hold{0.05};
 
@@ -27,7 +27,7 @@ class MachineSession::Panel {
   struct Pressed {
     bool hold = false;
     bool door = false;
-    bool start = false;  // and neither hold is pressed nor the door open
+    bool start = false;  // cycle start, while hold is not pressed and the door is closed
   };
   Pressed take() {
     const unsigned pressed = board_.take_pressed();

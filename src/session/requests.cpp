@@ -1,4 +1,4 @@
-// What a session does when it is asked.
+// MachineSession: how the session answers each request.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,7 +14,8 @@
 namespace passo {
 namespace {
 
-// A lease has to be longer than what is committed; and who does not renew one for so long is not there.
+// A lease has to be longer than the committed motion. An operator who does not renew a lease for `longest_lease` is
+// gone.
 constexpr Seconds shortest_lease{0.1};
 constexpr Seconds longest_lease{10};
 constexpr double highest_factor = 2;
@@ -25,6 +26,12 @@ bool is_factor(const std::optional<double>& value, double highest) {
 
 bool is_finite(const Point& point) {
   return std::ranges::all_of(all_axes, [&](Axis axis) { return std::isfinite(point[axis]); });
+}
+
+bool leaves_travel(const MachineDescription& machine, const Point& place) {
+  return std::ranges::any_of(machine.axes, [&](const AxisDescription& axis) {
+    return place[axis.axis] < axis.travel_low || place[axis.axis] > axis.travel_high;
+  });
 }
 
 Failure<Refusal> refusal(RefusalCode code, const char* message) {
@@ -52,7 +59,7 @@ Result<Ticket, Refusal> MachineSession::request(Request wanted) {
   return std::visit([this](auto& one) { return take(one); }, wanted);
 }
 
-// Why an event is not to happen now; nothing: the table has it.
+// Why an event may not happen now. Empty: the table allows the event.
 std::optional<Refusal> MachineSession::refuse(MachineEvent event) const {
   if (next_state(state_, event)) return {};
   return why_not();
@@ -103,8 +110,9 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   if (start.from) stand_at({.place = start.from->point, .trust = position_.trust});
   if (start.findings != nullptr) work->findings = start.findings;
   const int counts = machine_.spindle.counts_per_turn;
-  // Over a line no tap turns round with the spindle: the spindle rests meanwhile, and its holder floats. With a limit
-  // of jerk a change of speed is made before the next is asked for: too slow to turn round with a spindle.
+  // Over a line, a tap does not follow the spindle while it reverses: the tool rests meanwhile, and a floating holder
+  // makes up the difference. Under a limit of jerk, a change of speed must be complete before the next one, which is
+  // too slow to follow a reversing spindle.
   work->answers = AnswerBook(
       {.probes = start.answers_probes, .taps = !options_.over_a_line && counts > 0 && !has_jerk_limit(machine_)});
   InterpreterOptions interpretation = start.options;
@@ -127,7 +135,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   return begin(MachineEvent::begin_run, std::move(work));
 }
 
-// What is below depends on what is above; those who watch are told of both.
+// Puts the work's activity on a drive, and connects all watchers.
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
   work.drive = std::make_unique<MotionDrive>(*work.activity, motion_limits(machine_), step_options(), board_,
                                              work.answers, options);
@@ -174,7 +182,7 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
   return begin(MachineEvent::begin_jog, std::move(work));
 }
 
-// Without effect on a jog that has begun to brake.
+// Has no effect on a jog that has begun to brake.
 MachineSession::Answer MachineSession::take(request::RenewLease&) {
   if (state_ != MachineState::jog) return refusal(RefusalCode::nothing_runs, "no jog is going on");
   work_->lease_end = now() + work_->lease;
@@ -201,6 +209,9 @@ MachineSession::Answer MachineSession::take(request::Probe& probe) {
   if (!is_finite(probe.target) || !(probe.speed > MmPerSecond(0)) || !std::isfinite(probe.speed.value())) {
     return refusal(RefusalCode::bad_value, "a probe move needs a place to go to, and a speed above 0");
   }
+  if (position_.trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
+    return refusal(RefusalCode::bad_value, "the probe move would leave the machine's travel");
+  }
   auto work = std::make_unique<Work>();
   work->activity = std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->answers);
   put_on_drive(*work, drive_options(), true);
@@ -216,7 +227,7 @@ MachineSession::Answer MachineSession::take(request::Check& check) {
   return begin(MachineEvent::begin_check, std::move(work));
 }
 
-// What is no program ends by a hold.
+// A hold ends an activity that is not a program.
 MachineSession::Answer MachineSession::take(request::Hold&) {
   if (!busy() || state_ == MachineState::check) return refusal(RefusalCode::nothing_runs, "nothing moves");
   const Ticket ticket = ++last_ticket_;

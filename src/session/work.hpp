@@ -1,4 +1,4 @@
-// Work: what a session is busy with: an activity on a drive of its own, or a check. Private to session/.
+// Work: what a session is busy with: either an activity on its own drive, or a check. Private to session/.
 #pragma once
 
 #include <memory>
@@ -20,26 +20,26 @@ class MachineSession::Work {
 
   Ticket ticket = 0;
   bool ended = false;
-  bool stopped = false;    // somebody asked for that
-  bool finishing = false;  // the drive has ended, and the board's counts are asked for
-  bool rest_told = false;  // of the hold at hand
+  bool stopped = false;    // somebody asked to stop
+  bool finishing = false;  // the drive has ended, and the board is asked for its counts
+  bool rest_told = false;  // the rest of the current hold has been reported
   int recoveries_told = 0;
 
-  // For a jog: when the lease is over, and for how long it is renewed.
+  // For a jog: when the lease is over, and how long each renewal lasts.
   std::optional<Seconds> lease_end;
   Seconds lease{0};
 
-  // In this order: each uses what is above it.
-  Diagnostics own_findings;  // where nobody else wants them
+  // The order matters: each member uses members above it.
+  Diagnostics own_findings;  // used where nobody else wants the findings
   Diagnostics* findings = &own_findings;
   AnswerBook answers;
   Watchers watchers;
   std::unique_ptr<Activity> activity;
-  Program* program = nullptr;  // of the activity, where it is one
+  Program* program = nullptr;  // the activity, if it is a program
   HomingPath* homing = nullptr;
   std::unique_ptr<MotionDrive> drive;
-  std::unique_ptr<ProgramChecker> checker;  // of a check, which has no activity
-  Point ahead;                              // the end of what is planned, of live motion
+  std::unique_ptr<ProgramChecker> checker;  // for a check, which has no activity
+  Point ahead;                              // the end of the planned path, for live motion
 };
 
 }  // namespace passo

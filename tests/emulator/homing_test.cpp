@@ -40,9 +40,8 @@ Homed home(const Kind& kind, const MachineDescription& machine, const std::vecto
     log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
   };
   BadLine line(**board);
-  VirtualMachine nothing(3, machine.board.clock);
-  Homing homing(machine, nothing, BoardLine::to_board(line));
-  EXPECT_FALSE(homing.drive().unsuited());
+  test::DrivenHoming homing(machine, {.board = &line});
+  EXPECT_FALSE(homing.unsuited());
   spoil(line);
   const std::uint64_t before = line.frames();
   while (homing.advance()) {

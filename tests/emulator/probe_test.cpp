@@ -5,13 +5,12 @@
 #include <string>
 
 #include "emulator/bad_line.hpp"
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
-#include "passo/activity/machine_plant.hpp"
-#include "passo/activity/program.hpp"
 #include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
@@ -57,7 +56,7 @@ LineProbing run(const Kind& kind, const MachineDescription& machine, const Spoil
     log.on_steps(time, bit, down ? bit : std::uint8_t{0});
   };
   BadLine line(**board);
-  Job job(ProgramReader::from_text("t", touches), machine, {}, result.diagnostics, {.board = &line});
+  test::DrivenProgram job(ProgramReader::from_text("t", touches), machine, {}, result.diagnostics, {.board = &line});
   EXPECT_FALSE(job.unsuited());
   job.drive().probe().watch([&](const ProbeOutcome& outcome) { result.outcomes.push_back(outcome); });
   spoil(line);
@@ -111,8 +110,8 @@ TEST(EmulatedProbing, finds_the_step_of_contact_on_the_mega) {
   finds_the_step(mega);
 }
 TEST(EmulatedProbing, finds_it_where_the_line_was_cut) {
-  cut_before_frames(uno, 389);
-  cut_before_frames(mega, 839);
+  cut_before_frames(uno, 97);
+  cut_before_frames(mega, 211);
 }
 TEST(EmulatedProbingInFull, cut_before_every_frame) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";

@@ -62,7 +62,7 @@ TurnedPart turn(const std::string& program, const MachineDescription& machine, c
   };
   BadLine line(**board);
   Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), machine, {}, diagnostics, {.board = &line});
+  test::DrivenProgram job(ProgramReader::from_text("t", program), machine, {}, diagnostics, {.board = &line});
   EXPECT_FALSE(job.unsuited()) << *job.unsuited();
   spoil(line);
   while (job.advance()) {

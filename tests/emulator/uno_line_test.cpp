@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "emulator/bad_line.hpp"
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/activity/program.hpp"
 #include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
@@ -41,7 +41,7 @@ struct Outcome {
 const StepLog::Steps& reference() {
   static const StepLog::Steps steps = [] {
     Diagnostics diagnostics;
-    Job job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics);
+    test::DrivenProgram job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics);
     StepLog log;
     job.machine().add_observer(log);
     while (job.advance()) {
@@ -61,7 +61,8 @@ Outcome run_on_uno(const Spoil& spoil) {
   };
   BadLine line(**board);
   Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics, {.board = &line});
+  test::DrivenProgram job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics,
+                          {.board = &line});
   EXPECT_FALSE(job.unsuited()) << *job.unsuited();
   spoil(line);
   while (job.advance()) {

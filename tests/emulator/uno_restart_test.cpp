@@ -29,7 +29,7 @@ const MachineDescription& uno() {
 
 StepLog log_of_virtual_machine() {
   Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics);
+  test::DrivenProgram job(ProgramReader::from_text("t", program), uno(), InterpreterOptions(), diagnostics);
   StepLog log;
   job.machine().add_observer(log);
   while (job.advance()) {

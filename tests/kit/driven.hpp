@@ -42,7 +42,7 @@ struct DriveOn {
   std::uint16_t session = 1;
   std::uint8_t greeting = 0;
   std::optional<ResumePoint> resume_at = {};
-  Plant* plant = nullptr;  // behind the virtual machine; null: the one that the machine file describes
+  Plant* plant = nullptr;  // behind the virtual machine where that is the board; null: as the machine file says
   bool answers_probes = true;
   bool waits_for_operator = false;
   Commitment live = endless_commitment;
@@ -56,7 +56,7 @@ class DrivenBoard {
                  static_cast<std::size_t>(machine.board.held_items)),
         plant_(plant_of(machine, start)) {
     if (on.line) line_.emplace(machine_, machine.board.clock, *on.line);
-    machine_.connect(on.plant != nullptr ? *on.plant : plant_);
+    if (on.board == nullptr) machine_.connect(on.plant != nullptr ? *on.plant : plant_);
     machine_.stand_at(steps_at(machine, start));
     remote_ = line_ || on.board != nullptr;
     if (on.board != nullptr) {
@@ -167,9 +167,11 @@ class DrivenHoming {
       : board_(machine, Point(), on),
         path_(machine, answers_),
         steps_(step_options(machine)),
+        unsuited_(passo::unsuited(board_.session(), steps_, false)),
         drive_(path_, motion_limits(machine), steps_, board_.session(), answers_, drive_options()) {}
 
   [[nodiscard]] bool advance() { return drive_.turn(); }
+  const std::optional<std::string>& unsuited() const { return unsuited_; }
   const HomingPath& path() const { return path_; }
   bool done() const { return path_.done() && !drive_.link().error(); }
   Point place() const { return path_.place(); }
@@ -182,7 +184,7 @@ class DrivenHoming {
  private:
   DriveOptions drive_options() const {
     DriveOptions options;
-    if (board_.is_remote() && !board_.session().error()) options.tails.emplace();
+    if (board_.is_remote() && !board_.session().error() && !unsuited_) options.tails.emplace();
     return options;
   }
 
@@ -190,7 +192,37 @@ class DrivenHoming {
   DrivenBoard board_;
   HomingPath path_;
   StepOptions steps_;
+  std::optional<std::string> unsuited_;
   MotionDrive drive_;
+};
+
+// A jog without a lease: to its end, or until somebody stops it.
+class DrivenJog {
+ public:
+  DrivenJog(const MachineDescription& machine, const Point& start, const JogWay& way, const DriveOn& on = {})
+      : board_(machine, start, on),
+        path_(machine, start, way),
+        drive_(path_, motion_limits(machine), steps_from(machine, start), board_.session(), answers_,
+               {.live = live_commitment}),
+        place_(start) {
+    drive_.motion().watch([this](const MotionItem& item) {
+      if (const auto* move = std::get_if<PlannedMove>(&item)) place_ = move->segment.curve.at(move->to);
+    });
+  }
+
+  [[nodiscard]] bool advance() { return drive_.turn(); }
+  const Point& target() const { return path_.target(); }
+  // The end of the motion that is committed.
+  const Point& place() const { return place_; }
+  MotionDrive& drive() { return drive_; }
+  VirtualMachine& machine() { return board_.machine(); }
+
+ private:
+  AnswerBook answers_;
+  DrivenBoard board_;
+  JogLine path_;
+  MotionDrive drive_;
+  Point place_;
 };
 
 }  // namespace passo::test

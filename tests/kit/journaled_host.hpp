@@ -8,12 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "kit/driven.hpp"
 #include "kit/memory_store.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/activity/program.hpp"
 #include "passo/journal/resumption.hpp"
-#include "passo/transport/inquiry.hpp"
 
 namespace passo::test {
 
@@ -75,11 +74,11 @@ class JournaledHost {
 
  private:
   void work(MortalPort& port, bool& done) {
-    Inquiry inquiry(port);
-    const std::optional<BoardStatus> status = inquiry.status_at_rest(Seconds(5));
+    BoardSession asking(port, real_line_care);
+    const std::optional<BoardStatus> status = ask_status_at_rest(asking, Seconds(5));
     ASSERT_TRUE(status);
     const auto reader = ProgramReader::from_text("t", program_);
-    JournalHead head = head_of_beginning({}, *status, machine_.axes.size());
+    JournalHead head = head_of_beginning({}, *status, {}, machine_.axes.size());
     std::optional<ResumePoint> point;
     if (!store.bytes.empty()) {
       const auto journal = Journal::read(store.bytes);
@@ -95,8 +94,8 @@ class JournaledHost {
     JournalWriter writer(store);
     writer.begin(head);
     Diagnostics diagnostics;
-    Job job(reader.again(), machine_, InterpreterOptions(), diagnostics,
-            {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
+    DrivenProgram job(reader.again(), machine_, InterpreterOptions(), diagnostics,
+                      {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
     if (fails(job)) return;
     ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
     job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });
@@ -106,7 +105,7 @@ class JournaledHost {
     }
     done = !fails(job) && !job.drive().stopped();
   }
-  bool fails(const Job& job) const {
+  bool fails(const DrivenProgram& job) const {
     const auto error = job.link().error();
     EXPECT_TRUE(!error || may_fail) << message_of(*error);
     return error.has_value();

@@ -1,4 +1,4 @@
-// A program runs with its board at the other end of a line, and a saboteur spoils what goes over the line.
+// A program run with its board at the other end of a line, and someone who spoils what goes over it.
 #pragma once
 
 #include <functional>
@@ -7,30 +7,29 @@
 #include <utility>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/line_trouble.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
-
-#include "passo/activity/program.hpp"
 
 namespace passo::test {
 
 struct Outcome {
   StepLog::Steps steps;
   std::vector<int> outputs;
-  std::uint64_t frames = 0;  // in both directions
+  std::uint64_t frames = 0;  // both ways
   int recoveries = 0;
 };
 
-// Gets each frame with its number, and returns the bytes that pass.
-using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
+// Sees each frame with its number, and gives back what passes.
+using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, Bytes bytes)>;
 
 inline Outcome run(const MachineDescription& machine, const std::string& program, bool with_line,
                    const Trouble& trouble = nullptr) {
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
-  // Trouble begins with the first frame after the greeting, because a job that does not find its board never begins.
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
+  // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
+  DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
   StepLog log;
   job.machine().add_observer(log);
   Outcome outcome;

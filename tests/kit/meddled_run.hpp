@@ -8,11 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/stage_test.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/activity/program.hpp"
-#include "passo/activity/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 
 namespace passo::test {
@@ -20,12 +19,12 @@ namespace passo::test {
 // Watches a job, filters out what the proof does not know, and checks each hold.
 class Watch {
  public:
-  Watch(Job& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
+  Watch(DrivenProgram& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
     job.path().watch([this](const PathItem& item) {
       prover_.watch(item);
       if (const auto* segment = std::get_if<Segment>(&item)) place_ = segment->curve.end();
     });
-    job.board().watch([this](const BoardItem& item) { prover_.watch(item); });
+    job.items().watch([this](const BoardItem& item) { prover_.watch(item); });
     job.motion().watch([this](const MotionItem& item) {
       const auto* action = std::get_if<Action>(&item);
       if (action != nullptr && action->kind == Action::Kind::feed_hold) {
@@ -71,12 +70,13 @@ struct Meddling {
         }
         break;
       case MotionDrive::State::holding:
+        // Seldom: it takes many turns to come to rest.
         if (random.chance(0.008)) drive.resume();
         break;
       case MotionDrive::State::held:
         ++acts.rests;
         EXPECT_NEAR(drive.committed().value(), 0, 0.02);
-        if (random.chance(0.5)) drive.wait(Seconds(random.between(0, 1)));
+        if (random.chance(0.5)) let_pass(drive, Seconds(random.between(0, 1)));
         drive.resume();
         break;
       case MotionDrive::State::ended: break;
@@ -89,7 +89,7 @@ struct Meddling {
 };
 
 struct RunOptions {
-  std::optional<LiveOptions> live = LiveOptions();
+  std::optional<Commitment> live = live_commitment;
   Meddling* meddling = nullptr;
 };
 
@@ -101,7 +101,7 @@ struct Ending {
 
 inline Ending run(const std::string& program, const MachineDescription& machine, const RunOptions& options = {}) {
   Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+  DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
   Watch watch(job, machine);
   if (options.live) job.drive().go_live(*options.live);
   while (job.advance()) {

@@ -18,12 +18,11 @@
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/activity/program.hpp"
-
 namespace passo {
 namespace {
 
 using test::Bytes;
+using test::DrivenProgram;
 using test::expect_same_way;
 using test::expect_within_limits;
 using test::Outcome;
@@ -76,7 +75,7 @@ int cut_at_frame_boundaries(const std::string& machine, std::size_t program, std
       SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", cut before frame " + std::to_string(at) +
                    " for " + std::to_string(seconds) + " s");
       const Outcome cut = run(machine_named(machine), programs()[program], true,
-                              [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
+                              [&](DrivenProgram& job, std::uint64_t number, bool, Bytes bytes) {
                                 if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
                                 return bytes;
                               });
@@ -102,7 +101,7 @@ void random_faults(const std::string& machine, int trials) {
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
     const Outcome outcome =
         run(machine_named(machine), programs()[program], true,
-            [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); });
+            [&](DrivenProgram&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); });
     expect_as_if_nothing_had_been(machine, program, outcome);
     faults += trouble.faults;
     recoveries += outcome.recoveries;
@@ -122,13 +121,14 @@ void forge_frames(const std::string& machine, std::size_t program, std::uint64_t
   for (std::uint64_t at = 0; at < whole.frames; at += stride) {
     SCOPED_TRACE(machine + ", program " + std::to_string(program) + ", frame " + std::to_string(at) + " forged");
     bool forged = false;
-    const Outcome outcome = run(
-        machine_named(machine), programs()[program], true, [&](Job&, std::uint64_t number, bool to_board, Bytes bytes) {
-          if (forged || number < at || !to_board) return bytes;
-          const std::optional<Bytes> other = test::forged(bytes, static_cast<std::uint8_t>(number));
-          forged = other.has_value();
-          return other.value_or(bytes);
-        });
+    const Outcome outcome = run(machine_named(machine), programs()[program], true,
+                                [&](DrivenProgram&, std::uint64_t number, bool to_board, Bytes bytes) {
+                                  if (forged || number < at || !to_board) return bytes;
+                                  const std::optional<Bytes> other =
+                                      test::forged(bytes, static_cast<std::uint8_t>(number));
+                                  forged = other.has_value();
+                                  return other.value_or(bytes);
+                                });
     expect_as_if_nothing_had_been(machine, program, outcome);
     recoveries += outcome.recoveries;
     ++trials;

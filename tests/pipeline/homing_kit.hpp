@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/step_log.hpp"
 
-#include "passo/activity/homing_path.hpp"
 #include "passo/plant/ideal_plant.hpp"
 
 namespace passo::test {
@@ -79,9 +79,9 @@ struct Homed {
   Seconds longest_ahead{0};
 };
 
-inline void note(const Homing& homing, Homed& result) {
+inline void note(const DrivenHoming& homing, Homed& result) {
   result.done = homing.done();
-  result.fault = homing.path().fault();
+  result.fault = homing.path().homing_fault();
   result.error = homing.drive().link().error();
   result.place = homing.place();
   result.axes = homing.path().homed();

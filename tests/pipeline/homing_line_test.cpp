@@ -24,15 +24,13 @@ using Trouble = std::function<Bytes(VirtualMachine&, VirtualLine&, std::uint64_t
 
 Homed home(const MachineDescription& machine, const Distances& distances, const LineOptions& options,
            const Trouble& trouble) {
-  VirtualMachine board(3, machine.board.clock, machine.board.highest_event_rate,
-                       static_cast<std::size_t>(machine.board.held_items));
+  IdealPlant plant = test::plant_with(test::switches_of(machine, distances));
+  test::DrivenHoming homing(machine, {.line = options, .plant = &plant});
+  VirtualMachine& board = homing.machine();
+  VirtualLine& line = homing.line();
   StepLog log;
   board.add_observer(log);
-  IdealPlant plant = test::plant_with(test::switches_of(machine, distances));
-  board.connect(plant);
-  VirtualLine line(board, machine.board.clock, options);
   Homed result;
-  Homing homing(machine, board, BoardLine::to(line));
   line.set_trouble([&](bool to_board, Bytes bytes) {
     const std::uint64_t number = result.frames++;
     return trouble ? trouble(board, line, number, to_board, std::move(bytes)) : bytes;

@@ -8,6 +8,7 @@ namespace passo {
 namespace {
 
 using test::Distances;
+using test::DrivenHoming;
 using test::expect_homed;
 using test::Homed;
 using test::homing_machine;
@@ -21,14 +22,12 @@ struct Setting {
 };
 
 Homed home(const MachineDescription& machine, const Setting& setting) {
-  VirtualMachine board(3, machine.board.clock, machine.board.highest_event_rate,
-                       static_cast<std::size_t>(machine.board.held_items));
+  IdealPlant plant = plant_with(setting.switches);
+  const auto line = setting.over_a_line ? std::optional(LineOptions{}) : std::nullopt;
+  DrivenHoming homing(machine, {.line = line, .plant = &plant});
+  VirtualMachine& board = homing.machine();
   StepLog log;
   board.add_observer(log);
-  IdealPlant plant = plant_with(setting.switches);
-  board.connect(plant);
-  VirtualLine line(board, machine.board.clock, {});
-  Homing homing(machine, board, setting.over_a_line ? BoardLine::to(line) : BoardLine());
   while (homing.advance()) {
   }
   Homed result;
@@ -169,13 +168,12 @@ Homed home_by(const MachineDescription& machine, const Closed& closed) {
       board.set_switch(4, closed_at(place));
     }
   };
-  VirtualMachine board(3, machine.board.clock, machine.board.highest_event_rate, 31);
-  Switch of_z(board, closed);
-  board.add_observer(of_z);
   const std::vector<TravelSwitch> switches = switches_of(machine, Distances());
   IdealPlant plant = plant_with({switches[0], switches[1]});
-  board.connect(plant);
-  Homing homing(machine, board);
+  DrivenHoming homing(machine, {.plant = &plant});
+  VirtualMachine& board = homing.machine();
+  Switch of_z(board, closed);
+  board.add_observer(of_z);
   while (homing.advance()) {
   }
   Homed result;
@@ -203,17 +201,15 @@ TEST(HomingTest, tells_a_switch_that_never_comes_to_rest) {
 
 TEST(HomingTest, an_operators_stop_ends_it_at_rest) {
   const MachineDescription machine = homing_machine();
-  VirtualMachine board(3, machine.board.clock, machine.board.highest_event_rate, 31);
   IdealPlant plant = plant_with(switches_of(machine, Distances()));
-  board.connect(plant);
-  Homing homing(machine, board);
+  DrivenHoming homing(machine, {.plant = &plant});
   for (int i = 0; i < 30; ++i) ASSERT_TRUE(homing.advance());
   homing.drive().stop();
   while (homing.advance()) {
   }
   EXPECT_FALSE(homing.done());
-  EXPECT_FALSE(homing.path().fault());
-  EXPECT_LT(board.counts().motors[2].position, 1000);
+  EXPECT_FALSE(homing.path().homing_fault());
+  EXPECT_LT(homing.machine().counts().motors[2].position, 1000);
 }
 
 TEST(HomeSwitches, close_where_the_machine_file_says) {

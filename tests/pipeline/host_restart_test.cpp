@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
 #include "kit/journaled_host.hpp"
@@ -72,8 +73,8 @@ const Way& reference_of(const std::string& machine, std::size_t program) {
   const auto found = known.find({machine, program});
   if (found != known.end()) return found->second;
   Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", programs()[program]), machine_named(machine), InterpreterOptions(),
-          diagnostics);
+  test::DrivenProgram job(ProgramReader::from_text("t", programs()[program]), machine_named(machine),
+                          InterpreterOptions(), diagnostics);
   StepLog log;
   Way way;
   job.machine().add_observer(log);

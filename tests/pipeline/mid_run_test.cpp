@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/meddled_run.hpp"
 #include "kit/stage_test.hpp"
 
-#include "passo/activity/program.hpp"
-#include "passo/activity/stage_options.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
 
 namespace passo {
 namespace {
 
+using test::DrivenProgram;
 using test::Ending;
 using test::example_machine;
 using test::Meddling;
@@ -114,10 +114,10 @@ Reaction reaction_to_hold(const std::string& program, const MachineDescription& 
   double asked = 0;
   for (const bool held : {false, true}) {
     Diagnostics diagnostics;
-    Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+    DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
     job.machine().add_observer(steps[held ? 1 : 0]);
     MotionDrive& drive = job.drive();
-    drive.go_live({});
+    drive.go_live();
     while (job.advance() && drive.state() != State::held) {
       if (!held || asked > 0 || drive.now().value() < at) continue;
       drive.hold();
@@ -137,7 +137,6 @@ Reaction reaction_to_hold(const std::string& program, const MachineDescription& 
 
 TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
   test::Random random;
-  const LiveOptions live;
   for (std::size_t n = 0; n < 2 * machines.size(); ++n) {
     const char* name = machines[n / 2];
     const bool jerk = n % 2 == 1;
@@ -149,7 +148,7 @@ TEST(MidRun, a_hold_slows_the_machine_within_10_ms_beyond_what_is_committed) {
     for (const char* program : {"G21 G90 G1 X100 F1200\nM2\n", "G21 G90 G2 I40 F900\nM2\n"}) {
       for (int i = 0; i < 3; ++i) {
         const Reaction reaction = reaction_to_hold(program, machine, random.between(1, 4));
-        EXPECT_LE(reaction.committed, live.horizon.value() + 3 * live.longest_move.value());
+        EXPECT_LE(reaction.committed, live_commitment.horizon.value() + 3 * live_commitment.longest_move.value());
         EXPECT_GT(reaction.seen, 0) << name;
         EXPECT_LE(reaction.seen, reaction.committed + 0.010) << name;
         most_committed = std::max(most_committed, reaction.committed);
@@ -169,9 +168,9 @@ TEST(MidRun, a_stop_ends_at_rest_on_the_path_with_the_outputs_off_and_the_place_
   for (const std::string& program : {lines(), arcs(), dense(), cycles()}) {
     for (int i = 0; i < 5; ++i) {
       Diagnostics diagnostics;
-      Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
+      DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics);
       MotionDrive& drive = job.drive();
-      drive.go_live({});
+      drive.go_live();
       Point place;
       double speed = 0;
       job.motion().watch([&](const MotionItem& item) {
@@ -199,7 +198,8 @@ TEST(MidRun, a_stop_ends_at_rest_on_the_path_with_the_outputs_off_and_the_place_
 
 TEST(MidRun, a_drive_at_rest_is_held_at_once_and_goes_on) {
   Diagnostics diagnostics;
-  Job job(ProgramReader::from_text("t", lines()), example_machine("router"), InterpreterOptions(), diagnostics);
+  DrivenProgram job(ProgramReader::from_text("t", lines()), example_machine("router"), InterpreterOptions(),
+                    diagnostics);
   MotionDrive& drive = job.drive();
   drive.hold();
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(job.advance());
@@ -217,7 +217,7 @@ class Switched {
   explicit Switched(const std::string& program, bool jerk = false)
       : machine_(jerk ? with_jerk_limits(example_machine("router")) : example_machine("router")),
         job_(ProgramReader::from_text("t", program), machine_, InterpreterOptions(), diagnostics_) {
-    job_.drive().go_live({});
+    job_.drive().go_live();
   }
   MotionDrive& drive() { return job_.drive(); }
   const VirtualMachine& machine() { return job_.machine(); }
@@ -234,7 +234,7 @@ class Switched {
  private:
   MachineDescription machine_;
   Diagnostics diagnostics_;
-  Job job_;
+  DrivenProgram job_;
 };
 
 TEST(MidRunSwitches, feed_overrides_count_between_m50_and_m50_p0_only) {
@@ -273,7 +273,7 @@ TEST(MidRunSwitches, a_feed_of_nothing_stands_until_there_is_more) {
     run.run_to();
     EXPECT_EQ(run.drive().state(), State::held);
     EXPECT_LT(run.x(), 11.5);
-    run.drive().wait(Seconds(1));
+    test::let_pass(run.drive(), Seconds(1));
     run.drive().set_feed_override(1);
     run.run_to();
     EXPECT_EQ(run.drive().state(), State::ended);

@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "canon_end.hpp"
+#include "kit/driven.hpp"
 #include "kit/stage_test.hpp"
 #include "kit/step_oracle.hpp"
 
-#include "passo/activity/program.hpp"
-#include "passo/activity/stage_options.hpp"
 #include "passo/interpreter/canon.hpp"
 
 namespace passo {
@@ -44,7 +43,7 @@ struct Ending {
 
 Ending run(ProgramReader program, const MachineDescription& machine) {
   Diagnostics diagnostics;
-  Job job(std::move(program), machine, InterpreterOptions(), diagnostics);
+  test::DrivenProgram job(std::move(program), machine, InterpreterOptions(), diagnostics);
   while (job.advance()) {
   }
   Ending ending;
@@ -134,7 +133,7 @@ TEST(Pipeline, the_same_program_gives_the_same_bytes) {
   const MachineDescription router = example_machine("router");
   const auto bytes = [&] {
     Diagnostics diagnostics;
-    Job job(open(source_dir / "examples" / "pocket.ngc"), router, InterpreterOptions(), diagnostics);
+    test::DrivenProgram job(open(source_dir / "examples" / "pocket.ngc"), router, InterpreterOptions(), diagnostics);
     while (job.advance()) {
     }
     return std::pair(job.link().bytes_sent(), job.machine().now().count);

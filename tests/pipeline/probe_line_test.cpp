@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
 #include "kit/line_trouble.hpp"
@@ -15,8 +16,6 @@
 #include "kit/step_log.hpp"
 #include "pipeline/probe_line_kit.hpp"
 
-#include "passo/activity/machine_plant.hpp"
-#include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {
@@ -24,6 +23,7 @@ namespace {
 
 using test::below;
 using test::ContactOracle;
+using test::DrivenProgram;
 using test::example_machine;
 using test::expect_as_the_oracle_saw;
 using test::plate;
@@ -35,7 +35,7 @@ using Probed = test::LineProbing;
 
 using Bytes = VirtualLine::Bytes;
 // Sees each frame with its number, and gives back what passes.
-using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, Bytes bytes)>;
+using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, Bytes bytes)>;
 
 struct Setting {
   LineOptions line = {};
@@ -68,8 +68,8 @@ Probed run(const std::string& program, const MachineDescription& machine, const 
            const Setting& setting = {}) {
   Probed result;
   IdealPlant plant = plant_of(machine, Point(), {box});
-  Job job(ProgramReader::from_text("t", program), machine, {}, result.diagnostics,
-          {.line = setting.line, .plant = &plant});
+  DrivenProgram job(ProgramReader::from_text("t", program), machine, {}, result.diagnostics,
+                    {.line = setting.line, .plant = &plant});
   ContactOracle oracle(machine, box);
   StepLog log;
   job.machine().add_observer(oracle);
@@ -149,7 +149,7 @@ TEST(ProbingOverALine, does_without_the_message_of_the_contact) {
     const MachineDescription machine = example_machine(name);
     int lost = 0;
     const Probed result = run(touches, machine, below(Axis::z, plate),
-                              {.trouble = [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) {
+                              {.trouble = [&](DrivenProgram&, std::uint64_t, bool to_board, const Bytes& bytes) {
                                 const bool captured = !to_board && bytes[2] == 0x99 && (bytes[5] & 0x40) == 0;
                                 lost += captured ? 1 : 0;
                                 return captured ? Bytes() : bytes;
@@ -168,7 +168,7 @@ void cut_before_frames(const char* name, std::uint64_t stride) {
     for (std::uint64_t at = 0; at < whole.frames && !testing::Test::HasFatalFailure(); at += stride, ++trials) {
       SCOPED_TRACE(name + std::string(", cut before frame ") + std::to_string(at) + " for " + std::to_string(seconds));
       const Probed cut = run(touches, machine, below(Axis::z, plate),
-                             {.trouble = [&](Job& job, std::uint64_t number, bool, Bytes bytes) {
+                             {.trouble = [&](DrivenProgram& job, std::uint64_t number, bool, Bytes bytes) {
                                if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
                                return bytes;
                              }});
@@ -188,9 +188,10 @@ void random_faults(const char* name, int trials) {
   for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
     SCOPED_TRACE(name + std::string(", PASSO_SEED=") + std::to_string(seed) + ", trial " + std::to_string(i));
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
-    const Probed result = run(
-        touches, machine, below(Axis::z, plate),
-        {.trouble = [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); }});
+    const Probed result = run(touches, machine, below(Axis::z, plate),
+                              {.trouble = [&](DrivenProgram&, std::uint64_t, bool to_board, const Bytes& bytes) {
+                                return trouble(to_board, bytes);
+                              }});
     expect_as_the_oracle_saw(machine, result);
     faults += trouble.faults;
     recoveries += result.recoveries;
@@ -223,7 +224,7 @@ TEST(ProbingOverALine, guards_stop_at_a_contact_in_any_other_move) {
   const std::string program = "G21 G90 F600\nG38.2 Z-5\nG0 Z5\nM3 S1000\nG0 X50\nG1 Z-5\nX0\nM2\n";
   for (const bool told : {true, false}) {
     const Probed result = run(program, router, below(Axis::z, -2),
-                              {.trouble = [&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) {
+                              {.trouble = [&](DrivenProgram&, std::uint64_t, bool to_board, const Bytes& bytes) {
                                 const bool captured = !to_board && bytes[2] == 0x99 && (bytes[5] & 0x40) == 0;
                                 return captured && !told ? Bytes() : bytes;
                               }});

@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/probe_kit.hpp"
 
-#include "passo/activity/machine_plant.hpp"
-#include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 
 namespace passo {
@@ -35,12 +34,13 @@ Probed run(const std::string& program, const MachineDescription& machine, const 
            test::Random* random = nullptr, const InterpreterOptions& options = {}) {
   Probed result;
   IdealPlant plant = plant_of(machine, options.start, {box});
-  Job job(ProgramReader::from_text("t", program), machine, options, result.diagnostics, {.plant = &plant});
+  test::DrivenProgram job(ProgramReader::from_text("t", program), machine, options, result.diagnostics,
+                          {.plant = &plant});
   ContactOracle oracle(machine, box);
   job.machine().add_observer(oracle);
   MotionDrive& drive = job.drive();
   drive.probe().watch([&](const ProbeOutcome& outcome) { result.outcomes.push_back(outcome); });
-  if (random != nullptr) drive.go_live({});
+  if (random != nullptr) drive.go_live();
   while (job.advance()) {
     if (random == nullptr) continue;
     if (drive.state() == MotionDrive::State::running && random->chance(0.01)) drive.hold();
@@ -58,8 +58,8 @@ Probed run(const std::string& program, const MachineDescription& machine, const 
     const auto steps = static_cast<double>(counts.motors[m].position);
     result.end[axis.axis] = (axis.inverted ? -steps : steps) / axis.steps_per_unit;
   }
-  result.parameters = job.saved_parameters();
-  result.tools = job.tools();
+  result.parameters = job.program().saved_parameters();
+  result.tools = job.program().tools();
   return result;
 }
 

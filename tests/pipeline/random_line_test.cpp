@@ -24,11 +24,12 @@ TEST(RandomLine, faults_and_cuts_change_no_step) {
     test::RandomTrouble trouble(number);
     const auto cut_at = static_cast<std::uint64_t>(random.between(0, static_cast<double>(whole.frames)));
     const double cut_for = random.between(0.02, 0.6);
-    const test::Outcome troubled = test::run(
-        machine, job.program, true, [&](Job& running, std::uint64_t frame, bool to_board, const test::Bytes& bytes) {
-          if (frame == cut_at) running.line().cut(running.machine().elapsed(), Seconds(cut_for));
-          return trouble(to_board, bytes);
-        });
+    const test::Outcome troubled =
+        test::run(machine, job.program, true,
+                  [&](test::DrivenProgram& running, std::uint64_t frame, bool to_board, const test::Bytes& bytes) {
+                    if (frame == cut_at) running.line().cut(running.machine().elapsed(), Seconds(cut_for));
+                    return trouble(to_board, bytes);
+                  });
     test::expect_same_way(troubled.steps, reference.steps, most_touches);
     test::expect_within_limits(machine, troubled.steps);
     frames += troubled.frames;

@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include <gtest/gtest.h>
-
-#include "passo/activity/machine_plant.hpp"
-#include "passo/activity/program.hpp"
 
 namespace passo::test {
 
@@ -62,12 +60,12 @@ struct Played {
   int rests = 0;  // for want of what came too late
   BoardOutputs outputs = {};
 };
-inline Played play(const std::string& program, const MachineDescription& machine, Job::Options options,
+inline Played play(const std::string& program, const MachineDescription& machine, DriveOn options,
                    bool both_ways = false) {
   Diagnostics diagnostics;
   IdealPlant plant = plant_of(machine);
   options.plant = &plant;
-  Job job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, options);
+  DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, options);
   Thread thread(machine, plant);
   thread.both_ways = both_ways;
   job.machine().add_observer(thread);

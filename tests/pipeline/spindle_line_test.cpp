@@ -18,6 +18,7 @@ namespace {
 
 using test::Bytes;
 using test::Cut;
+using test::DrivenProgram;
 using test::expect_within_limits;
 using test::grooves_at;
 using test::ideal;
@@ -118,15 +119,15 @@ struct Troubled {
   std::uint64_t frames = 0;
 };
 // Sees each frame with its number, and gives back what passes.
-using Trouble = std::function<Bytes(Job& job, std::uint64_t number, bool to_board, const Bytes& bytes)>;
+using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, const Bytes& bytes)>;
 
 Troubled run_with(const Trouble& trouble, const SpindleModel* fitted = nullptr, double fitted_at = 0) {
   Troubled result;
   Diagnostics diagnostics;
   const MachineDescription machine = lathe(rippling);
   IdealPlant plant = plant_of(machine);
-  Job job(ProgramReader::from_text("t", passes), machine, InterpreterOptions(), diagnostics,
-          {.line = LineOptions{}, .plant = &plant});
+  DrivenProgram job(ProgramReader::from_text("t", passes), machine, InterpreterOptions(), diagnostics,
+                    {.line = LineOptions{}, .plant = &plant});
   StepLog log;
   Thread thread(machine, plant);
   job.machine().add_observer(log);
@@ -205,7 +206,7 @@ TEST(SpindleOverABadLine, a_pass_is_cut_whole_in_its_groove_or_ends_where_the_li
   for (const double seconds : {0.02, 0.5}) {
     for (std::uint64_t at = 7; at < reference.frames; at += in_full != nullptr ? 3 : 61) {
       SCOPED_TRACE("cut before frame " + std::to_string(at) + " for " + std::to_string(seconds) + " s");
-      expect_whole_or_lost(run_with([&](Job& job, std::uint64_t number, bool, const Bytes& bytes) {
+      expect_whole_or_lost(run_with([&](DrivenProgram& job, std::uint64_t number, bool, const Bytes& bytes) {
                              if (number == at) job.line().cut(job.machine().elapsed(), Seconds(seconds));
                              return bytes;
                            }),
@@ -228,9 +229,10 @@ TEST(SpindleOverABadLine, random_faults_make_no_wrong_step_and_no_second_groove)
   for (int i = 0; i < trials; ++i) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
     RandomTrouble trouble(seed + static_cast<std::uint64_t>(i));
-    expect_whole_or_lost(
-        run_with([&](Job&, std::uint64_t, bool to_board, const Bytes& bytes) { return trouble(to_board, bytes); }),
-        reference, lost);
+    expect_whole_or_lost(run_with([&](DrivenProgram&, std::uint64_t, bool to_board, const Bytes& bytes) {
+                           return trouble(to_board, bytes);
+                         }),
+                         reference, lost);
     faults += trouble.faults;
     if (testing::Test::HasFailure()) return;
   }

@@ -22,7 +22,7 @@ using test::spread;
 using test::thread_program;
 
 Played run(const std::string& program, const MachineDescription& machine, bool both_ways = false) {
-  const Played played = play(program, machine, Job::Options(), both_ways);
+  const Played played = play(program, machine, test::DriveOn(), both_ways);
   EXPECT_FALSE(played.error);
   return played;
 }

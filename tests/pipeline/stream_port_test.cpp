@@ -12,11 +12,13 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
-#include "passo/transport/inquiry.hpp"
 
 namespace passo {
 namespace {
+
+constexpr LineCare care{.answer_within = Seconds(0.3)};
 
 // Plays the board on a descriptor until it is told to stop.
 class Player {
@@ -62,11 +64,11 @@ TEST_F(StreamPorts, a_board_on_a_serial_line_says_what_it_is_and_how_it_is) {
   ASSERT_TRUE(port) << port.error();
   {
     const Player player(machine_, board);
-    Inquiry inquiry(**port);
-    const auto about = inquiry.about(Seconds(10));
+    BoardSession session(**port, care);
+    const auto about = ask_about(session, Seconds(10));
     ASSERT_TRUE(about);
     EXPECT_NE(about->name[0], 0);
-    const auto status = inquiry.status(Seconds(10));
+    const auto status = ask_status(session, Seconds(10));
     ASSERT_TRUE(status);
     EXPECT_EQ(status->positions[0], 0);
   }
@@ -91,8 +93,8 @@ TEST_F(StreamPorts, a_board_in_the_network_answers_and_one_that_has_gone_is_know
   ASSERT_GE(board, 0);
   {
     const Player player(machine_, board);
-    Inquiry inquiry(**port);
-    EXPECT_TRUE(inquiry.status(Seconds(10)));
+    BoardSession session(**port, care);
+    EXPECT_TRUE(ask_status(session, Seconds(10)));
   }
   close(board);
   close(listening);

@@ -129,7 +129,9 @@ class KeyJog {
       const Key key = terminal.read_key(real_time_ ? Seconds(0) : a_turn);
       if (key.kind == Key::Kind::quit) break;
       act(key);
-      session_.turn(a_turn);
+      for (const Seconds end = session_.now() + a_turn; end - session_.now() > hardly_any;) {
+        session_.turn(end - session_.now());
+      }
       show();
       if (!session_.status().trouble_words.empty()) break;
     }

@@ -130,7 +130,6 @@ Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& 
     hold.place = place_of(machine, description);
     resume_at_ = now(session) + pause_.value_or(Seconds(0));
   }
-  constexpr Seconds hardly_any{1e-6};  // less than a tick may be none
   if (pause_ && *resume_at_ - now(session) > hardly_any) return *resume_at_ - now(session);
   holds_now_ = false;
   resume_at_.reset();

@@ -13,7 +13,7 @@ namespace {
 
 using test::xyz;
 
-// A board as docs/wire.md has it, without a wire: it plays an item at each wait().
+// A board as docs/wire.md has it, without a wire: it plays an item at each go_on().
 class ListedBoard final : public Link {
  public:
   explicit ListedBoard(std::size_t places) : places_(places) {}
@@ -41,10 +41,9 @@ class ListedBoard final : public Link {
   ItemNumber executed() const override { return executed_; }
   int room() const override { return std::min(places(), 127); }
   int places() const override { return static_cast<int>(places_ - list_.size()); }
-  void drain() override {}
   bool rests() const override { return list_.empty(); }
   bool busy() const override { return !list_.empty(); }
-  void wait() override {
+  void go_on() {
     if (list_.empty()) return;  // what was sent was dropped
     play(list_.front().item);
     executed_ = list_.front().number;
@@ -54,11 +53,15 @@ class ListedBoard final : public Link {
   void watch_probe(ProbeUntil, std::uint8_t) override {}
   const ProbeReport& probe_report() const override { return report_; }
   void recall_contact() override {}
+  void read_spindle() override {}
+  void rehearse(std::size_t) override {}
+  bool settled() const override { return true; }
   void ask() override {}
   void ask_for_spindle(bool) override {}
   std::optional<Turned> take_turned() override { return {}; }
   bool answered() const override { return true; }
   Seconds answer_time() const override { return Seconds(0); }
+  Seconds now() const override { return Seconds(0); }
   std::optional<LinkError> error() const override { return error_; }
   void fail(LinkError error) override { error_ = error; }
   std::uint64_t frames_sent() const override { return 0; }
@@ -142,7 +145,12 @@ class RefillerTest : public testing::TestWithParam<double> {
       watched.watch([this](const MotionItem& item) { refiller.watch(item); });
     }
     Refiller::Stages stages() {
-      return {.path = path, .planner = planner, .generator = generator, .items = generator, .link = board};
+      return {.path = path,
+              .planner = planner,
+              .generator = generator,
+              .items = generator,
+              .link = board,
+              .outputs = outputs};
     }
     test::ListSource<PathItem> source;
     RewindablePath path{source};
@@ -150,27 +158,32 @@ class RefillerTest : public testing::TestWithParam<double> {
     ListedBoard board;
     Tap<MotionItem> watched;
     StepGenerator generator{watched, steps()};
+    OutputsOrder outputs;
     Refiller refiller;
   };
 
   template <class Each>
-  static Refiller::Turn play(Street& street, const Each& each) {
+  static Feed::Turn play(Street& street, const Each& each) {
     for (int turn = 0; turn < 1'000'000; ++turn) {
       each(turn);
-      const Refiller::Turn told = street.refiller.advance();
-      if (told != Refiller::Turn::goes_on) return told;
+      const Feed::Turn told = street.refiller.advance();
+      if (told == Feed::Turn::waits) {
+        street.board.go_on();
+      } else if (told != Feed::Turn::goes_on) {
+        return told;
+      }
     }
     ADD_FAILURE() << "it never ends";
-    return Refiller::Turn::ended;
+    return Feed::Turn::ended;
   }
-  static Refiller::Turn play(Street& street) {
+  static Feed::Turn play(Street& street) {
     return play(street, [](int) {});
   }
 };
 
 TEST_P(RefillerTest, keeps_a_board_with_many_places_going_without_a_rest) {
   Street street({line(0, 30, 80), line(30, 60, 40)}, 240);
-  EXPECT_EQ(play(street), Refiller::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.refiller.recoveries(), 0);
@@ -182,7 +195,7 @@ TEST_P(RefillerTest, takes_up_again_where_the_tail_came_to_rest) {
   Street street({line(0, 30, 80), line(30, 60, 40)}, 240);
   // Deaf for 200 turns, three times.
   const auto each = [&](int turn) { street.board.deaf = turn % 400 > 100 && turn % 400 < 300 && turn < 1200; };
-  EXPECT_EQ(play(street, each), Refiller::Turn::ended);
+  EXPECT_EQ(play(street, each), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.board.reversals(), 0);
@@ -193,7 +206,7 @@ TEST_P(RefillerTest, never_sends_more_than_a_board_with_few_places_holds) {
   for (const std::size_t places : {16U, 24U, 31U}) {
     SCOPED_TRACE(places);
     Street street({line(0, 30, 80), line(30, 60, 40)}, places);
-    EXPECT_EQ(play(street), Refiller::Turn::ended);
+    EXPECT_EQ(play(street), Feed::Turn::ended);
     EXPECT_FALSE(street.board.error());
     EXPECT_EQ(street.board.steps(), 6000);
     EXPECT_LE(street.board.most_held(), places);
@@ -209,7 +222,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long) {
     circles.emplace_back(circle);
   }
   Street street(circles, 14);
-  EXPECT_EQ(play(street), Refiller::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 0);
   EXPECT_GT(street.refiller.slowdowns(), 0);
@@ -217,7 +230,7 @@ TEST_P(RefillerTest, goes_slower_where_tails_are_long) {
 
 TEST_P(RefillerTest, sends_a_dwell_of_hours_to_a_board_with_few_places) {
   Street street({line(0, 10, 80), Action{.kind = Action::Kind::dwell, .dwell = Seconds(7200)}, line(10, 20, 80)}, 16);
-  EXPECT_EQ(play(street), Refiller::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_FALSE(street.board.error());
   EXPECT_EQ(street.board.steps(), 2000);
   EXPECT_NEAR(street.board.ticks() / 1e6, 7205, 5);
@@ -225,7 +238,7 @@ TEST_P(RefillerTest, sends_a_dwell_of_hours_to_a_board_with_few_places) {
 
 TEST_P(RefillerTest, says_so_where_a_board_has_too_few_places_at_any_speed) {
   Street street({line(0, 10, 80)}, 2);
-  EXPECT_EQ(play(street), Refiller::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_EQ(street.board.error(), LinkError::too_few_places);
 }
 
@@ -234,12 +247,12 @@ TEST_P(RefillerTest, rests_in_a_hold_and_goes_on) {
   const auto hold = [&](int turn) {
     if (turn == 40) street.planner.hold();
   };
-  ASSERT_EQ(play(street, hold), Refiller::Turn::rests_in_hold);
+  ASSERT_EQ(play(street, hold), Feed::Turn::rests_in_hold);
   EXPECT_FALSE(street.board.busy());
   EXPECT_GT(street.board.steps(), 100);
   EXPECT_LT(street.board.steps(), 5900);
   street.planner.resume();
-  EXPECT_EQ(play(street), Refiller::Turn::ended);
+  EXPECT_EQ(play(street), Feed::Turn::ended);
   EXPECT_EQ(street.board.steps(), 6000);
   EXPECT_EQ(street.refiller.recoveries(), 0);
 }

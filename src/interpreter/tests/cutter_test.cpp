@@ -202,7 +202,7 @@ TEST(CutterCompensation, radius_and_orientation_come_from_the_tool_table_and_the
     Parameters parameters(symbols, copy);
     Reporter reporter(diagnostics);
     OperationQueue operations;
-    BlockContext context(copy, parameters, operations, reporter);
+    BlockContext context(copy, parameters, operations, reporter, no_answers());
     BlockExecutor executor(context, symbols);
     const BlockParser parser("test.ngc", symbols);
     const std::string file = "test.ngc";

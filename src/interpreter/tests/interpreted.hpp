@@ -36,8 +36,9 @@ struct Interpreted {
   }
 };
 
-inline void interpret(ProgramReader reader, const InterpreterOptions& options, Interpreted& result) {
-  Interpreter interpreter(std::move(reader), options, result.diagnostics);
+inline void interpret(ProgramReader reader, const InterpreterOptions& options, Interpreted& result,
+                      const MachineAnswers& answers = no_answers()) {
+  Interpreter interpreter(std::move(reader), options, result.diagnostics, answers);
   CanonPrinter printer(options.machine_units);
   Operation operation;
   while (interpreter.next(operation)) {
@@ -55,9 +56,10 @@ inline void interpret(ProgramReader reader, const InterpreterOptions& options, I
   }
 }
 
-inline Interpreted interpret_text(const std::string& text, const InterpreterOptions& options = {}) {
+inline Interpreted interpret_text(const std::string& text, const InterpreterOptions& options = {},
+                                  const MachineAnswers& answers = no_answers()) {
   Interpreted result;
-  interpret(ProgramReader::from_text("test.ngc", text), options, result);
+  interpret(ProgramReader::from_text("test.ngc", text), options, result, answers);
   return result;
 }
 

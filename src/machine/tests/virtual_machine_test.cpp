@@ -10,7 +10,7 @@
 
 #include "kit/seed.hpp"
 
-#include "passo/link/board_session.hpp"
+#include "passo/link/await.hpp"
 
 namespace passo {
 namespace {
@@ -21,6 +21,15 @@ constexpr Seconds forever{std::numeric_limits<double>::infinity()};
 // Motor 0 steps at every event, up or down.
 BoardSegment every_event(std::uint8_t events, std::uint32_t ticks, bool down = false) {
   return {.events = events, .directions = down, .flips = 1, .interval = ticks << 16};
+}
+
+void watch(BoardSession& link, ProbeUntil until, std::uint8_t limit = 0) {
+  link.watch_probe(until, limit);
+  await(link, [&] { return link.settled(); });
+}
+void recall(BoardSession& link) {
+  link.recall_contact();
+  await(link, [&] { return link.settled(); });
 }
 
 struct Step {
@@ -57,11 +66,12 @@ TEST(VirtualMachine, stands_still_until_it_is_told_to_move) {
 
 TEST(VirtualMachine, counts_net_and_total_steps_reversals_and_intervals) {
   VirtualMachine machine(1, clock);
-  BoardLink link(machine, 1);
-  link.send(every_event(200, 160));
-  link.send(every_event(50, 100, true));
-  link.send(every_event(10, 500));
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, every_event(200, 160));
+  send(link, every_event(50, 100, true));
+  send(link, every_event(10, 500));
+  drain(link);
   ASSERT_FALSE(link.error());
   const MachineCounts counts = machine.counts();
   EXPECT_EQ(counts.motors[0].position, 160);
@@ -77,13 +87,14 @@ TEST(VirtualMachine, counts_net_and_total_steps_reversals_and_intervals) {
 
 TEST(VirtualMachine, a_first_step_downwards_is_no_reversal) {
   VirtualMachine machine(1, clock);
-  BoardLink link(machine, 1);
-  link.send(every_event(1, 100, true));
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, every_event(1, 100, true));
+  drain(link);
   EXPECT_EQ(machine.counts().motors[0].reversals, 0);
   EXPECT_EQ(machine.counts().motors[0].shortest_interval.count, 0);
-  link.send(every_event(1, 100));
-  link.drain();
+  send(link, every_event(1, 100));
+  drain(link);
   EXPECT_EQ(machine.counts().motors[0].reversals, 1);
 }
 
@@ -91,10 +102,11 @@ TEST(VirtualMachine, events_without_steps_take_time_and_are_not_shown) {
   VirtualMachine machine(1, clock);
   Recorder recorder;
   machine.add_observer(recorder);
-  BoardLink link(machine, 1);
-  link.send(BoardSegment{.events = 100, .interval = 32768U << 16});
-  link.send(every_event(1, 10));
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, BoardSegment{.events = 100, .interval = 32768U << 16});
+  send(link, every_event(1, 10));
+  drain(link);
   EXPECT_THAT(recorder.steps, testing::ElementsAre(Step{3276810, 0, 1}));
   EXPECT_EQ(machine.counts().events, 101);
 }
@@ -109,34 +121,35 @@ TEST(VirtualMachine, tells_at_which_step_it_got_into_a_body) {
   plant.add(far);
   plant.add(body);
   machine.connect(plant);
-  BoardLink link(machine, 1);
-  link.send(every_event(20, 100));
-  link.drain();
-  link.watch_probe(ProbeUntil::touched);
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, every_event(20, 100));
+  drain(link);
+  watch(link, ProbeUntil::touched);
   EXPECT_FALSE(link.probe_report().touched);
-  link.send(every_event(200, 100));
-  while (link.busy() && !link.probe_report().happened) link.wait();
+  send(link, every_event(200, 100));
+  await(link, [&] { return link.probe_report().happened; });
   EXPECT_TRUE(link.probe_report().happened);
   EXPECT_EQ(machine.counts().motors[0].position, 120) << "told at once";
   EXPECT_TRUE(link.busy());
-  link.drain();
+  drain(link);
   EXPECT_EQ(machine.counts().motors[0].position, 220);
   EXPECT_FALSE(link.probe_report().touched);
-  link.recall_contact();
+  recall(link);
   EXPECT_TRUE(link.probe_report().happened);
   EXPECT_EQ(link.probe_report().steps[0], 100) << "kept";
   EXPECT_FALSE(link.error());
-  link.send(every_event(95, 100, true));
-  link.drain();
-  link.watch_probe(ProbeUntil::released);
+  send(link, every_event(95, 100, true));
+  drain(link);
+  watch(link, ProbeUntil::released);
   EXPECT_TRUE(link.probe_report().touched);
-  link.send(every_event(5, 100, true));
-  link.drain();
+  send(link, every_event(5, 100, true));
+  drain(link);
   EXPECT_FALSE(link.probe_report().happened) << "it waits for the change to free, which was not yet";
-  link.send(every_event(5, 100, true));
-  link.drain();
+  send(link, every_event(5, 100, true));
+  drain(link);
   EXPECT_TRUE(link.probe_report().happened);
-  link.recall_contact();
+  recall(link);
   EXPECT_EQ(link.probe_report().steps[0], -6);
 }
 
@@ -145,32 +158,36 @@ TEST(VirtualMachine, a_limit_switch_stops_it_and_captures_where_it_is_watched) {
   IdealPlant plant;
   plant.add(TravelSwitch{.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 120, .opens_at = 110});
   machine.connect(plant);
-  const auto session = [&] { return std::make_unique<BoardLink>(machine, std::uint8_t{1}); };
+  const auto session = [&] {
+    auto greeted = std::make_unique<BoardSession>(machine);
+    greet(*greeted, {.motors = 1});
+    return greeted;
+  };
   auto link = session();
-  link->watch_probe(ProbeUntil::touched, input_limit);
+  watch(*link, ProbeUntil::touched, input_limit);
   EXPECT_FALSE(link->error());
   EXPECT_FALSE(link->probe_report().touched);
-  link->send(every_event(200, 100));
-  link->drain();
+  send(*link, every_event(200, 100));
+  drain(*link);
   EXPECT_EQ(machine.counts().motors[0].position, 200) << "watched, it stops nothing";
-  link->recall_contact();
+  recall(*link);
   EXPECT_TRUE(link->probe_report().happened);
   EXPECT_EQ(link->probe_report().steps[0], 120);
-  link->watch_probe(ProbeUntil::released, input_limit);
+  watch(*link, ProbeUntil::released, input_limit);
   EXPECT_TRUE(link->probe_report().touched);
-  link->send(every_event(150, 100, true));
-  link->drain();
-  link->recall_contact();
+  send(*link, every_event(150, 100, true));
+  drain(*link);
+  recall(*link);
   EXPECT_EQ(link->probe_report().steps[0], -90);
-  link->watch_probe(ProbeUntil::off);
-  link->send(every_event(200, 100));
-  link->drain();
+  watch(*link, ProbeUntil::off);
+  send(*link, every_event(200, 100));
+  drain(*link);
   EXPECT_EQ(link->error(), LinkError::stopped);
   EXPECT_EQ(machine.counts().motors[0].position, 120);
   // Closed already, it does not stop; that it closes does.
   link = session();
-  link->send(every_event(5, 100, true));
-  link->drain();
+  send(*link, every_event(5, 100, true));
+  drain(*link);
   EXPECT_FALSE(link->error());
   EXPECT_EQ(machine.counts().motors[0].position, 115);
 }
@@ -203,13 +220,14 @@ TEST(VirtualMachine, counts_what_it_commands_and_its_plant_knows_what_is_true) {
   SlippingPlant plant;
   plant.add(TravelSwitch{.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 100, .opens_at = 100});
   machine.connect(plant);
-  BoardLink link(machine, 1);
-  link.send(every_event(50, 100));
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, every_event(50, 100));
+  drain(link);
   EXPECT_EQ(machine.counts().motors[0].position, 50);
   EXPECT_EQ(plant.truth_at(machine.elapsed()).positions[0], 40);
-  link.send(every_event(200, 100));
-  link.drain();
+  send(link, every_event(200, 100));
+  drain(link);
   EXPECT_EQ(link.error(), LinkError::stopped) << "by the switch, which closes where the motor truly is";
   EXPECT_EQ(machine.counts().motors[0].position, 124);
   EXPECT_EQ(plant.truth_at(machine.elapsed()).positions[0], 100);
@@ -221,10 +239,11 @@ TEST(VirtualMachine, its_plant_is_up_to_date_behind_each_run) {
   plant.stand_at({1000});
   machine.stand_at({7});
   machine.connect(plant);
-  BoardLink link(machine, 1);
-  link.send(every_event(30, 100));
-  link.send(every_event(20, 100, true));
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, every_event(30, 100));
+  send(link, every_event(20, 100, true));
+  drain(link);
   EXPECT_EQ(machine.counts().motors[0].position, 17);
   EXPECT_EQ(plant.truth_at(machine.elapsed()).positions[0], 1010);
 }
@@ -233,7 +252,8 @@ TEST(VirtualMachine, heeds_a_switch_that_somebody_closes) {
   VirtualMachine machine(1, clock);
   IdealPlant plant;
   machine.connect(plant);
-  BoardLink link(machine, 1);
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
   machine.set_switch(input_hold, true);
   EXPECT_EQ(machine.board().inputs(), input_hold);
   EXPECT_EQ(plant.inputs_at(machine.elapsed()), input_hold);
@@ -245,9 +265,10 @@ TEST(VirtualMachine, heeds_a_switch_that_somebody_closes) {
 
 TEST(VirtualMachine, time_goes_on_past_32_bits) {
   VirtualMachine machine(1, clock);
-  BoardLink link(machine, 1);
-  for (int i = 0; i < 1000; ++i) link.send(BoardSegment{.events = 255, .interval = largest_interval});
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  for (int i = 0; i < 1000; ++i) send(link, BoardSegment{.events = 255, .interval = largest_interval});
+  drain(link);
   // 65535.99998 ticks each; the fractions of all the intervals make whole ticks too.
   const std::int64_t intervals = 255 * 1000;
   EXPECT_EQ(machine.now().count, (intervals * largest_interval + 0x8000) >> 16);
@@ -257,13 +278,14 @@ TEST(VirtualMachine, switches_outputs_between_segments) {
   VirtualMachine machine(1, clock);
   Recorder recorder;
   machine.add_observer(recorder);
-  BoardLink link(machine, 1);
-  link.send(BoardOutputs{.switches = spindle_on, .spindle_rpm = 9000});
-  link.send(every_event(3, 100));
-  link.send(BoardOutputs{.switches = spindle_on | mist_on, .spindle_rpm = 9000});
-  link.send(every_event(3, 100));
-  link.send(BoardOutputs());
-  link.drain();
+  BoardSession link(machine);
+  greet(link, {.motors = 1});
+  send(link, BoardOutputs{.switches = spindle_on, .spindle_rpm = 9000});
+  send(link, every_event(3, 100));
+  send(link, BoardOutputs{.switches = spindle_on | mist_on, .spindle_rpm = 9000});
+  send(link, every_event(3, 100));
+  send(link, BoardOutputs());
+  drain(link);
   EXPECT_THAT(recorder.switched,
               testing::ElementsAre(testing::Pair(0, 1), testing::Pair(300, 5), testing::Pair(600, 0)));
   EXPECT_EQ(machine.counts().output_changes, 3);
@@ -275,13 +297,14 @@ TEST(VirtualMachine, does_the_same_whether_or_not_it_is_watched) {
     VirtualMachine machine(2, clock);
     Recorder recorder;
     if (watched) machine.add_observer(recorder);
-    BoardLink link(machine, 2);
+    BoardSession link(machine);
+    greet(link, {.motors = 2});
     for (std::uint32_t i = 0; i < 500; ++i) {
       BoardSegment segment = every_event(static_cast<std::uint8_t>(1 + i % 255), 160 + i % 9, i % 3 == 0);
       segment.increments[1] = static_cast<std::uint16_t>(i * 131);
-      link.send(segment);
+      send(link, segment);
     }
-    link.drain();
+    drain(link);
     return std::tuple(machine.counts().time, machine.counts().motors, link.bytes_sent());
   };
   EXPECT_EQ(run(true), run(false));
@@ -324,7 +347,8 @@ TEST(VirtualMachine, makes_the_very_steps_that_random_segments_ask_for) {
     VirtualMachine machine(motors, clock);
     Recorder recorder;
     machine.add_observer(recorder);
-    BoardLink link(machine, motors);
+    BoardSession link(machine);
+    greet(link, {.motors = motors});
     Oracle oracle(motors);
     for (int i = 0; i < 300; ++i) {
       BoardSegment segment{.events = static_cast<std::uint8_t>(1 + random() % 255),
@@ -345,10 +369,10 @@ TEST(VirtualMachine, makes_the_very_steps_that_random_segments_ask_for) {
             break;
         }
       }
-      link.send(segment);
+      send(link, segment);
       oracle.play(segment);
     }
-    link.drain();
+    drain(link);
     ASSERT_FALSE(link.error());
     ASSERT_EQ(recorder.steps, oracle.steps) << int{motors} << " motors";
     const MachineCounts counts = machine.counts();

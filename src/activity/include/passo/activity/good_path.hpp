@@ -1,5 +1,5 @@
-// GoodPath: the path as long as nothing is wrong with it. At an error it ends before the item at hand, with everything
-// switched off: what was given already ends at rest there.
+// GoodPath: passes a path on as long as there is no error. At an error the path ends before the current item, with
+// everything switched off. The motion already given ends there at rest.
 #pragma once
 
 #include "passo/base/source.hpp"
@@ -10,7 +10,7 @@ namespace passo {
 
 class GoodPath final : public Source<PathItem> {
  public:
-  // Both outlive it.
+  // `path` and `diagnostics` outlive the GoodPath.
   GoodPath(Source<PathItem>& path, const Diagnostics& diagnostics) : path_(path), diagnostics_(diagnostics) {}
 
   [[nodiscard]] bool next(PathItem& item) override {

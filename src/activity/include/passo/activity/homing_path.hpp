@@ -1,11 +1,12 @@
 // HomingPath: finds out where a machine stands, by the limit switches of its axes, one axis after the other.
 //
-// An axis seeks its switch, backs off until it is open, comes back slowly (where it closes then is the axis's place, to
-// the step), and pulls off. Each of these is a probe move with that switch in the probe's place: it brakes on the path
-// within the limits, over any line, and nothing depends on a single message. All other limit switches stop the machine
-// at once. A switch that is closed at the beginning is backed off first.
+// An axis seeks its switch, backs off until the switch is open, comes back slowly, and pulls off. The point where the
+// switch closes during the slow return is the axis's place, to the step. Each of these moves is a probe move with that
+// switch in the probe's place. So each move brakes on the path within the limits, over any line, and no move depends on
+// a single message. All other limit switches stop the machine at once. If the switch is closed at the beginning, the
+// axis first backs off.
 //
-// Until an axis is homed nobody knows its place: the path counts from where the machine stood.
+// The place of an axis is unknown until the axis is homed. Until then the path counts from where the machine stood.
 #pragma once
 
 #include <cstdint>
@@ -22,42 +23,42 @@ namespace passo {
 enum class HomingStage : std::uint8_t { seek, back_off, latch, pull_off };
 
 enum class HomingFault : std::uint8_t {
-  not_met,       // the switch did not close within 1.1 of the travel; slowly, within three times the pull-off
-  still_closed,  // it did not open within the pull-off
-  unsteady,      // it opened and closed again and again
+  not_met,       // the switch did not close within 1.1 of the travel, or, on the slow return, within three times the
+                 // pull-off
+  still_closed,  // the switch did not open within the pull-off
+  unsteady,      // the switch opened and closed again and again
 };
-// Stable, and a sentence without a full stop.
+// The code is stable. The message is a sentence without a full stop.
 std::string_view code_of(HomingFault fault);
 std::string_view message_of(HomingFault fault);
 
-// Where a machine rests when it has been homed; axes that are not stand where `start` has
-// them. Machine coordinates.
+// Where a machine rests after homing, in machine coordinates. Axes that are not homed keep their places of `start`.
 Point home_rest(const MachineDescription& machine, const Point& start = {});
 
 struct HomedAxis {
   Axis axis = Axis::x;
-  double way = 0;    // from where it stood to where the switch closed
-  double place = 0;  // where it rests, machine coordinates
+  double way = 0;    // from where the axis stood to where the switch closed
+  double place = 0;  // where the axis rests, in machine coordinates
 };
 
 class HomingPath final : public Activity {
  public:
-  // Both outlive it. `answers` tell what the probe move at hand has found. `start`: where the machine stands; axes that
-  // are not homed keep their places.
+  // `machine` and `answers` outlive the path. `answers` tell what the current probe move has found. `start`: where the
+  // machine stands. Axes that are not homed keep their places.
   HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start = {});
   ActivityKind kind() const override { return ActivityKind::homing; }
   [[nodiscard]] bool next(PathItem& item) override;
   std::optional<double> progress() const override;
   std::optional<ActivityFault> fault() const override;
 
-  // The axis at hand; nothing behind the last one.
+  // The axis that is being homed; null after the last one.
   const AxisDescription* axis() const { return axis_; }
   HomingStage stage() const { return stage_; }
   const std::vector<HomedAxis>& homed() const { return homed_; }
   std::optional<HomingFault> homing_fault() const { return fault_; }
   // All axes are homed.
   bool done() const { return axis_ == nullptr; }
-  // Where the machine stands then, in machine coordinates.
+  // Where the machine stands when all axes are homed, in machine coordinates.
   Point place() const;
 
  private:
@@ -66,9 +67,9 @@ class HomingPath final : public Activity {
   const HomeDescription& home() const { return *axis_->home; }
   const ProbeOutcome& outcome() const { return *answers_.probe(); }
   double direction() const { return home().toward_high ? 1 : -1; }
-  // Of the axis at hand.
+  // Where the current axis stands.
   double stands() const { return position_[axis_->axis]; }
-  // The place where the switch is to be open, off another one.
+  // The place, a pull-off away from `place`, where the switch is to be open.
   double off(double place) const;
   Action action(Action::Kind kind, const Point& place) const;
   void begin_axis();
@@ -86,12 +87,12 @@ class HomingPath final : public Activity {
   const AxisDescription* axis_ = nullptr;
   HomingStage stage_ = HomingStage::seek;
   Step step_ = Step::begin;
-  bool until_closed_ = true;  // what the move waits for
+  bool until_closed_ = true;  // the move ends when the switch closes; else when it opens
   double target_ = 0;
-  bool knows_switch_ = false;  // about where it closes
+  bool knows_switch_ = false;  // knows roughly where the switch closes
   double found_ = 0;
   int turns_ = 0;
-  Point position_;  // at rest
+  Point position_;  // where the machine rests
   std::vector<HomedAxis> homed_;
   std::optional<HomingFault> fault_;
 };

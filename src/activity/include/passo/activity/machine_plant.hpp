@@ -11,14 +11,14 @@
 
 namespace passo {
 
-// The limit switches by which a machine is homed, where the machine file says that they close. In steps from machine
-// zero. They open `hysteresis` further off.
+// The limit switches by which a machine is homed. They close where the machine file says, in steps from machine zero.
+// They open `hysteresis` further off.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
-// With the machine's spindle and its limit switches; `stands_at`: where it truly stands, machine coordinates; `boxes`:
-// what its probe can touch.
+// A plant with the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
+// coordinates. `boxes`: what its probe can touch.
 IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at = {},
                     const std::vector<TouchBox>& boxes = {});
 

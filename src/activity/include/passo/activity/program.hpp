@@ -1,7 +1,7 @@
 // Program: the upper half of the street, from text to a smooth path, as an activity.
 //
-// A program is gone through twice. The check interprets it and builds the path, so that everything that is wrong with
-// it is said before anything turns, and so that the time that is left can be told. The second time it is run.
+// A program is interpreted twice: once to check it, once to run it. The check also builds the path. So every error is
+// reported before anything turns, and the remaining time can be told.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +23,28 @@
 
 namespace passo {
 
-// What a program amounts to before it is planned.
+// What is known of a program before it is planned.
 struct ProgramCheck {
-  bool good = false;        // no error: it may run
-  Seconds nominal_time{0};  // at the programmed speeds, without ramps: good for progress only
+  bool good = false;        // no error: the program may run
+  Seconds nominal_time{0};  // at the programmed speeds, without ramps: only for progress
   std::uint64_t moves = 0;
-  bool tools_change = false;  // the program sets some in the tool table
-  bool probes = false;        // and what comes after was checked as if probe moves were touched at their ends
+  bool tools_change = false;  // the program changes the tool table
+  bool probes = false;        // the check took probe moves to be touched at their ends
 };
 
-// Interprets a program and builds its path, a bounded piece at a time; what is wrong is in `diagnostics`.
+// Interprets a program and builds its path, a bounded piece at a time. Errors and warnings go to `diagnostics`.
 //
-// What a probe will find is not known yet. Probe moves are taken to be touched at their ends; so the path may be
-// another in the run, and after the first probe move what is wrong with it is told as a warning. Errors in how the
-// program is written remain errors. A loop that only a probe can end is not followed for ever.
+// The check does not know what a probe will find, and takes probe moves to be touched at their ends. So the path of the
+// run may differ, and errors of the path after the first probe move are reported as warnings. Errors in how the program
+// is written remain errors. A loop that only a probe can end is not followed for ever.
 class ProgramChecker {
  public:
   // `diagnostics` outlives the checker.
   ProgramChecker(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                  Diagnostics& diagnostics);
-  // Who wants to see the path.
+  // The watcher gets each item of the path.
   void watch(std::function<void(const PathItem&)> watcher) { watcher_ = std::move(watcher); }
-  // Goes on by so many path items. True at the end: result() is whole.
+  // Checks up to `items` more path items. True: the check has ended, and result() is complete.
   [[nodiscard]] bool go_on(std::uint64_t items);
   const ProgramCheck& result() const { return check_; }
 
@@ -55,7 +55,7 @@ class ProgramChecker {
   Diagnostics& diagnostics_;
   PathOptions path_options_;
   MotionLimits limits_;
-  ToolTable tools_;  // as they were before
+  ToolTable tools_;  // the tools before the check
   Interpreter interpreter_;
   PathBuilder builder_;
   std::function<void(const PathItem&)> watcher_;
@@ -65,15 +65,15 @@ class ProgramChecker {
   bool done_ = false;
 };
 
-// All at once. `watch` gets the path.
+// Checks the whole program at once. `watch` gets each item of the path.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                            Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch = {});
 
 class Program final : public Activity {
  public:
-  // `answers` and `diagnostics` outlive the program. `diagnostics` gets what is still found amid the run: nothing after
-  // a good check, if nothing was probed. An error there ends the path, at rest before the move that is wrong. `whole`:
-  // the nominal time of the check, for progress().
+  // `answers` and `diagnostics` outlive the program. `diagnostics` gets what is found during the run: nothing after a
+  // good check, unless the program probes. An error during the run ends the path, at rest before the wrong move.
+  // `whole`: the nominal time of the check, for progress().
   Program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
           const MachineAnswers& answers, Diagnostics& diagnostics, Seconds whole = Seconds(0));
 
@@ -81,12 +81,12 @@ class Program final : public Activity {
   [[nodiscard]] bool next(PathItem& item) override { return smoother_.next(item); }
   std::optional<double> progress() const override;
 
-  // Who wants to watch the path as the program means it, before the first next().
+  // For watchers of the path as the program means it. Watchers are added before the first next().
   Tap<PathItem>& path() { return watched_path_; }
   const Frame& frame() const { return path_builder_.frame(); }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
   const ToolTable& tools() const { return interpreter_.tools(); }
-  // Of what has been planned so far.
+  // The nominal time of the path planned so far.
   Seconds nominal_time() const { return nominal_time_; }
 
  private:
@@ -94,7 +94,7 @@ class Program final : public Activity {
   MotionLimits limits_;
   Interpreter interpreter_;   // text -> blocks -> operations
   PathBuilder path_builder_;  // operations -> segments
-  GoodPath good_path_;        // as long as nothing is wrong
+  GoodPath good_path_;        // as long as there is no error
   Tap<PathItem> watched_path_;
   PathSmoother smoother_;  // corners -> curves within the tolerance
   Seconds whole_;

@@ -1,4 +1,4 @@
-// What each stage needs to know of the machine, taken from its description. The only place where the two meet.
+// The options of each stage, taken from the machine's description. Nowhere else do stages meet the description.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
-// The steps of each motor from machine zero to the nearest to that place.
+// The steps of each motor from machine zero, rounded to the step nearest to `place`.
 std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place);
 ProofOptions proof_options(const MachineDescription& machine);
 

@@ -1,4 +1,4 @@
-// TouchBox: something that the probe of a plant can touch, as its user describes it: a box in machine coordinates.
+// TouchBox: something that the probe of a plant can touch, as a user describes it: a box in machine coordinates.
 #pragma once
 
 #include <limits>
@@ -9,7 +9,7 @@
 
 namespace passo {
 
-// From where to where on each axis; without an end there it goes on for ever.
+// The box's range on each axis. A range without an end goes on for ever.
 struct TouchBox {
   struct Range {
     double low = -std::numeric_limits<double>::infinity();
@@ -18,7 +18,7 @@ struct TouchBox {
   PerAxis<Range> ranges;
 };
 
-// The steps at which the machine is in it. An axis that the machine has not stands at 0.
+// The box as ranges of motor steps. Axes that the machine does not have are left out.
 TouchBody touch_body(const TouchBox& box, const MachineDescription& machine);
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// DirectFeed: board items go to a board in this process, in order, as far ahead as is committed. Nothing is lost on the
-// way, so nothing is kept.
+// DirectFeed: sends board items to a board in this process, in order, as far ahead as the commitment says. Nothing is
+// lost on the way, so the feed keeps nothing for later.
 #pragma once
 
 #include <deque>
@@ -24,17 +24,17 @@ class DirectFeed final : public Feed {
   };
   struct Options {
     Commitment live;
-    bool follows_spindle = false;     // where the path says so
-    bool waits_for_operator = false;  // the program's stops are the drive's to do
+    bool follows_spindle = false;     // in the parts of the path that say so
+    bool waits_for_operator = false;  // the drive carries out the program's stops
   };
   // All stages outlive the feed.
   DirectFeed(const Stages& stages, const Options& options);
 
-  // Without something to attend to: so far ahead is committed.
+  // Sets how far ahead to commit while there is nothing to attend to.
   void commit(const Commitment& live);
 
   Turn advance() override;
-  bool plans() const override { return !action_ && !ended_; }
+  bool plans() const override { return waiting_.empty() && !action_ && !ended_; }
   Action take_action() override { return *std::exchange(action_, std::nullopt); }
   void watch(const MotionItem& motion) override;
   void attend(Attention attention) override;
@@ -51,7 +51,7 @@ class DirectFeed final : public Feed {
   std::optional<Point> drop() override { return {}; }
   void cut_dwell() override;
 
-  // The path comes to where something follows the spindle: nothing is read far ahead from here on.
+  // The path comes to a part that follows the spindle. From here on the feed does not read far ahead.
   void expect_thread();
 
  private:
@@ -62,14 +62,15 @@ class DirectFeed final : public Feed {
   Stages stages_;
   Options options_;
   Commitment live_;
-  Commitment ahead_;  // as the stages were told
+  Commitment ahead_;  // what the stages were told last
   Attention attention_ = Attention::none;
   BoardItem item_;
-  std::deque<LinkItem> waiting_;  // for room: an item, and outputs that were changed while it was made
+  std::deque<LinkItem>
+      waiting_;  // for room on the board: an item, and outputs that were changed while the item was made
   std::optional<Action> action_;
   bool ended_ = false;
   Seconds planned_{0};  // time of all motion given by the planner
-  Seconds rested_;      // time of the board that was no motion of this drive
+  Seconds rested_;      // the board's time in which this drive moved nothing
 };
 
 }  // namespace passo

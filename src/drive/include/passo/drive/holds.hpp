@@ -1,7 +1,8 @@
-// HoldReasons: why the machine is to rest on the path, as a set. A hold ends when the set is empty.
+// HoldReasons: the set of reasons why the machine is to rest on the path. A hold ends when the set is empty.
 //
-// The only place where a hold is kept. The planner is told what the set demands, and gives an action of kind feed_hold
-// when the motion has come to rest; the reasons are read from the set, not guessed from the action.
+// A hold is kept nowhere else. The drive tells the planner what the set demands. The planner gives an action of kind
+// feed_hold when the motion has come to rest. The drive reads the reasons from the set, and never guesses them from the
+// action.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,13 @@ namespace passo {
 
 enum class HoldReason : std::uint8_t {
   operator_hold,  // somebody pressed hold
-  door,           // the door is open, or was and nobody has pressed start since
+  door,           // the door is open, or was open and nobody has pressed start since
   program_stop,   // the program waits for the operator: M0, M1
   tool_change,    // the program waits for another tool: M6
   zero_feed,      // the overrides leave less than a hundredth of the feed
-  probe_contact,  // the probe has found what it was to find; the rest of the move is dropped
-  tap,            // the spindle turns round at the end of a tap
-  line_lost,      // the board brakes by itself, since no refill reached it in time
+  probe_contact,  // the probe move has found its contact; the rest of the move is dropped
+  tap,            // the spindle reverses at the end of a tap
+  line_lost,      // the board brakes by itself, because no refill reached it in time
   stop,           // the activity is to end here
 };
 inline constexpr int hold_reason_count = 9;
@@ -42,10 +43,10 @@ class HoldReasons {
   std::uint16_t bits_ = 0;
 };
 
-// The planner brakes for these where the program heeds holds (M53), and for those wherever it is.
+// The planner brakes for `heeded_holds` only where the program heeds holds (M53), and for `sure_holds` everywhere.
 inline constexpr HoldReasons heeded_holds{HoldReason::operator_hold, HoldReason::door};
 inline constexpr HoldReasons sure_holds{HoldReason::probe_contact, HoldReason::tap, HoldReason::stop};
-// With these the machine stays at rest once it rests; the others end there.
+// A machine that has come to rest stays at rest for these reasons. The other reasons end when it rests.
 inline constexpr HoldReasons lasting_holds{HoldReason::operator_hold, HoldReason::door,      HoldReason::program_stop,
                                            HoldReason::tool_change,   HoldReason::zero_feed, HoldReason::stop};
 

@@ -8,12 +8,12 @@
 
 namespace passo {
 
-// What the outputs of a path's action are on the wire.
+// Converts the outputs of a path's action to the message for the wire.
 BoardOutputs board_outputs(const OutputState& state, double spindle_factor = 1);
 
 class OutputsOrder {
  public:
-  // What the program orders by an action. The board hears of it in any case.
+  // Takes the outputs that the program orders by an action. The board hears of the order in any case.
   void take_over(const Action& action) {
     ordered_ = action.outputs;
     heeds_override_ = action.heeds.spindle_override;
@@ -23,17 +23,17 @@ class OutputsOrder {
   // Whether the program heeds the override from here on (M48, M49, M51).
   void heed_override(bool heeds) { heeds_override_ = heeds; }
   bool heeds_override() const { return heeds_override_; }
-  // The operator's, 0 to 2.
+  // The operator's factor, 0 to 2.
   void set_override(double factor) { override_ = factor; }
   const OutputState& ordered() const { return ordered_; }
 
-  // The spindle turns, and is not as the board was told.
+  // True: the spindle is ordered to turn, and the board was told something else.
   bool is_news() const {
     const BoardOutputs wanted = for_board();
     const bool same = told_ && told_->switches == wanted.switches && told_->spindle_rpm == wanted.spindle_rpm;
     return ordered_.spindle != SpindleDirection::off && !same;
   }
-  // For who sends it.
+  // The message for the board. The caller sends it.
   BoardOutputs tell() { return *(told_ = for_board()); }
 
  private:

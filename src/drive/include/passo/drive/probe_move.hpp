@@ -1,7 +1,7 @@
-// ProbeMove: a probe move as a drive runs it: the board's probe is watched from the beginning to the end of the move,
-// and what is heard of it becomes places on the machine.
+// ProbeMove: a probe move as a drive runs it. The board watches its probe from the beginning to the end of the move.
+// ProbeMove turns what the board tells into places on the machine.
 //
-// The board tells the motors' positions at the very event of the contact; so the place is exact to the step, however
+// The board tells the motors' positions at the very event of the contact. So the place is exact to the step, however
 // much later the machine comes to rest.
 #pragma once
 
@@ -18,30 +18,32 @@ namespace passo {
 
 class ProbeMove {
  public:
-  // Both outlive it. The outcome is written at the beginning of a move (whether it is refused) and at its end.
+  // `link` and `answers` outlive the ProbeMove. The outcome is written into `answers` at the beginning of a move
+  // (whether the move is refused) and at the end.
   ProbeMove(Link& link, AnswerBook& answers, const StepOptions& steps)
       : link_(link), answers_(answers), steps_(steps) {}
 
-  // Who wants to know at the end.
+  // Adds a watcher that gets the outcome at the end of each probe move.
   void watch(std::function<void(const ProbeOutcome&)> watcher) { watchers_.push_back(std::move(watcher)); }
 
-  // Also in other moves: contact() tells that the probe, which was free, was touched.
+  // Watches the probe in other moves too: contact() then tells that the probe, which was free, was touched.
   void guard_other_moves() { guards_ = true; }
   bool guards() const { return guards_; }
-  // At rest, between probe moves; and before one. The board has to answer before the next step.
+  // Two questions to the board, at rest: the first between probe moves, the second before a probe move. The board has
+  // to answer before the next step.
   void ask_to_watch_others() { link_.watch_probe(guards_ ? ProbeUntil::touched : ProbeUntil::off); }
   void ask_to_watch(const Action& action);
 
-  // The board watches. At rest, at the place that the action tells.
+  // The board watches now. The machine rests at the place that the action names.
   void begin(const Action& action);
   bool is_running() const { return running_; }
-  // What the board watches for has happened.
+  // True: what the board watches for has happened.
   bool contact() const { return link_.probe_report().happened; }
-  // At rest again: asks what the board has kept, if something moved; and what that means, when the board has answered.
-  // `rest`: where the machine stands.
+  // After the move, at rest: recall() asks what the board has kept, unless the move was refused. When the board has
+  // answered, find() works out the outcome. `rest`: where the machine stands.
   void recall();
   void find(const Point& rest);
-  // Tells the outcome.
+  // Tells the outcome to `answers` and to the watchers.
   void end();
 
  private:

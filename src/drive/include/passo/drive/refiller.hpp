@@ -1,18 +1,19 @@
-// Refiller: keeps the board's list filled so that it always ends at rest, and goes on where the machine came to rest
-// when it could not.
+// Refiller: keeps the board's list of items filled, so that the list always ends at rest. When a refill comes too late,
+// the machine comes to rest, and the refiller goes on from there.
 //
-// Place on the street: between the step generator and the link. A refill is some more motion and a tail: how the
-// machine would brake to rest on the path from there. It takes the place of the tail before, as a whole or not at all.
-// For the tail the planner tells how it would brake, and a fork of the step generator what that would be on the board;
-// both go on as if nothing had been asked.
+// Place on the street: between the step generator and the link. A refill is some more motion and a tail. The tail is
+// the motion that brakes the machine to rest on the path from there. The refill replaces the tail before, as a whole or
+// not at all. For the tail, the planner tells how it would brake, and a fork of the step generator makes that into
+// items. Planner and generator then go on as if nothing had been asked.
 //
-// A tail must fit into the board. Where it is long, round tight bends or over many short segments, the speed is limited
-// before it no longer fits; and where not even the first of a stretch fits, the machine waits and begins it more
-// slowly.
+// A tail must fit into the board. A tail is long round tight bends or over many short segments. There the refiller
+// limits the speed before the tail no longer fits. When not even the first tail of a stretch fits, the machine waits
+// and begins the stretch more slowly.
 //
-// Which tail was played, if one was, the board tells by the numbers of the items that it has executed. The refiller
-// remembers of each tail that may be played where on the path it ends and the fork's state there. From that place it
-// plans anew, from rest: no step is lost or made twice. Why a refill was late, or a line broken, makes no difference.
+// The board tells the numbers of the items that it has executed. From them the refiller knows which tail was played, if
+// any. For each tail that may be played, the refiller remembers where on the path the tail ends and the fork's state
+// there. The refiller plans anew from that place, from rest, so no step is lost or made twice. Why a refill was late or
+// a line was broken makes no difference.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,9 @@
 #include "passo/base/source.hpp"
 #include "passo/drive/feed.hpp"
 #include "passo/drive/outputs_order.hpp"
+#include "passo/drive/played_items.hpp"
 #include "passo/drive/rewindable_path.hpp"
+#include "passo/drive/speed_for_tails.hpp"
 #include "passo/link/link.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
@@ -35,23 +38,24 @@
 namespace passo {
 
 struct TailOptions {
-  Seconds horizon{0.1};          // of motion before the tail, behind a refill
-  Seconds refill_at{0.06};       // so much of it being left, the next one is sent
-  Seconds time_an_item{0.0005};  // on the line: one with many items is sent sooner
-  Seconds longest_move{0.005};   // the planner's moves end after this time: what the tail plays before it brakes
-  // Exact to the tick, the first milliseconds behind a rest would take hundreds of segments a second more than a line
-  // can carry; and more than a board has places for that has few.
+  Seconds horizon{0.1};          // motion before the tail, after a refill
+  Seconds refill_at{0.06};       // the next refill is sent when this much motion is left
+  Seconds time_an_item{0.0005};  // time on the line; a refill with many items is sent sooner
+  Seconds longest_move{0.005};   // no planned move is longer
+  // How exact the segments are. Segments exact to the tick would, in the first milliseconds after a rest, be hundreds a
+  // second more than a line can carry. They would also be more than a board with few places can hold. Boards with fewer
+  // places than `few_places`, and motion in haste, get the kind "in few places".
   std::size_t few_places = 100;
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
-  // Off by a whole interval, a segment may brake twice as hard where it begins as where it ends.
+  // A segment that is off by a whole interval may brake twice as hard where it begins as where it ends.
   Exactness tail{.one_in = 4, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
   Exactness tail_in_few_places{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
 };
 
 class Refiller final : public Feed {
  public:
-  // What is above and below the refiller. All outlive it.
+  // The stages above and below the refiller. All outlive the refiller.
   struct Stages {
     RewindablePath& path;
     Planner& planner;
@@ -60,10 +64,10 @@ class Refiller final : public Feed {
     Link& link;
     OutputsOrder& outputs;
   };
-  // `waits_for_operator`: the program's stops are the drive's to do.
+  // `waits_for_operator`: the drive carries out the program's stops.
   Refiller(const Stages& stages, const StepOptions& steps, const TailOptions& options, bool waits_for_operator = false);
 
-  // Sends a refill, or tells what it waits for.
+  // Sends a refill, or tells what the refiller waits for.
   Turn advance() override;
   bool plans() const override { return true; }
   Action take_action() override;
@@ -73,7 +77,7 @@ class Refiller final : public Feed {
   void switch_outputs(const BoardOutputs& outputs) override;
   bool settled() override;
 
-  // The tail does not count.
+  // The time of the motion ahead, without the tail.
   Seconds ahead() const override { return ahead_ + pulled_time_; }
   // Before the next advance().
   Seconds ahead_of(const Turned& turned, Seconds time) override;
@@ -81,27 +85,28 @@ class Refiller final : public Feed {
   bool is_remote() const override { return true; }
   void note_rest(Seconds /*time*/) override {}
 
-  // No refill takes the place of the tail that the board has now, and the path is taken up again where the tail ends.
+  // From here on no refill replaces the tail that the board has. The board plays that tail, and the path is taken up
+  // again where the tail ends.
   void brake() override { brakes_ = true; }
   bool plays_tail() const override { return on_tail_ && !brakes_; }
   std::optional<Point> drop() override;
   void cut_dwell() override { stages_.generator.cut_dwell(); }
 
-  // Where a tail is played in what follows the spindle by place, all ends.
+  // A tail that is played in a part that follows the spindle by place ends the whole path.
   void guard_threads() { guards_threads_ = true; }
-  // The longest motion that the board had, its tail besides, when questions came before refills. What the board had
-  // behind a contact is at most twice as long: the answer that the probe is free is no older than that.
+  // The longest motion, without the tail, that the board had while each refill waited for an answer. After a contact
+  // the board has at most twice as much: the answer that the probe is free is no older than that.
   Seconds longest_ahead() const { return longest_ahead_; }
 
-  // Who wants to see each item that the board has told to have executed, tails that were played included.
-  void watch_executed(std::function<void(const LinkItem&)> watcher) { executed_watcher_ = std::move(watcher); }
-  // Who wants to be told, before a refill is sent, where the board may come to rest from then on.
+  // The watcher sees each item that the board has reported as executed, including tails that were played.
+  void watch_executed(std::function<void(const LinkItem&)> watcher) { played_.watch(std::move(watcher)); }
+  // The watcher is told before each refill where the board may come to rest from then on.
   void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
-  // How often a tail was played to its end, and the path taken up again there.
+  // How often a tail was played to its end and the path was taken up again there.
   int recoveries() const { return recoveries_; }
-  // How often the speed was limited since a tail was long.
-  int slowdowns() const { return slowdowns_; }
-  // Of the items sent, those that were tails.
+  // How often the speed was limited because a tail was long.
+  int slowdowns() const { return speed_.slowdowns(); }
+  // How many of the items sent belonged to tails.
   std::uint64_t tail_items() const { return tail_items_; }
   std::uint64_t refills() const { return refills_; }
 
@@ -112,11 +117,6 @@ class Refiller final : public Feed {
     Seconds end{0};  // since the last rest
     LinkItem item = {};
   };
-  struct Sent {
-    ItemNumber number = 0;
-    LinkItem item;
-    std::optional<ItemNumber> end_of_tail = {};  // none: motion
-  };
   // A place on the path where the machine rests, and the generator and the outputs there.
   struct Rest {
     PathPlace place = {};
@@ -126,12 +126,12 @@ class Refiller final : public Feed {
   struct Refill {
     ItemNumber first = 0;
     ItemNumber last_of_motion = 0;
-    ItemNumber last = 0;  // of the tail; without one, of the motion
-    PathPlace from = {};  // where its tail begins; no later one rests before
-    Rest rest = {};       // behind it
+    ItemNumber last = 0;  // the tail's last item; without a tail, the motion's
+    PathPlace from = {};  // where its tail begins; no later refill rests before this place
+    Rest rest = {};       // after the refill
   };
 
-  // How the machine would come to rest. At rest there is nothing to it.
+  // How the machine would come to rest. At rest the tail has no items.
   struct Tail {
     PathPlace from = {};
     Rest rest = {};
@@ -140,7 +140,7 @@ class Refiller final : public Feed {
   struct Pulled {
     LinkItem item;
     Seconds time{0};
-    std::optional<Tail> tail = {};  // behind it; none: no refill ends here
+    std::optional<Tail> tail = {};  // after the item; empty: no refill may end here
   };
 
   void commit();
@@ -152,7 +152,6 @@ class Refiller final : public Feed {
   Seconds refill_at() const;
   bool waits_for_answer();
   void note_executed();
-  void show_executed(ItemNumber executed);
   void take_up();
   void pull();
   void add(const LinkItem& item);
@@ -160,14 +159,12 @@ class Refiller final : public Feed {
   Tail find_tail();
   Tail tail_of_nothing();
   std::unique_ptr<StepGenerator> fork();
-  void mind_length_of(const Tail& tail);
   bool begin_more_slowly();
-  void limit_speed_to(double speed);
   std::size_t free_places() const;
   std::size_t size_of_refill();
   void send(std::size_t items);
   void ask();
-  // Of so many events of it.
+  // The time of the item's first `of_events` events.
   Seconds time_of(const LinkItem& item, int of_events = most_events) const;
 
   Stages stages_;
@@ -175,50 +172,44 @@ class Refiller final : public Feed {
   TailOptions options_;
 
   std::deque<Motion> motion_;             // sent and not executed
-  std::deque<Refill> refills_under_way_;  // the first is being played; of the others, nothing yet
-  ItemNumber behind_ = 0;                 // the next refill goes behind this item
-  std::size_t places_;                    // that the board has for items, as far as we use them
-  std::function<void(const LinkItem&)> executed_watcher_;
+  std::deque<Refill> refills_under_way_;  // the board plays the first, and has begun no other
+  ItemNumber behind_ = 0;                 // the next refill goes after this item
+  std::size_t places_;                    // the places for items that we use on the board
+  PlayedItems played_;
   std::function<void(const BoardRest&)> rest_watcher_;
-  std::deque<Sent> sent_;  // and not executed, for who watches
   Seconds ahead_{0};
-  Seconds given_time_{0};  // of all motion since the last rest, by the planner
-  Seconds sent_time_{0};   // and of what of that was sent
+  Seconds given_time_{0};  // all motion since the last rest that the planner gave
+  Seconds sent_time_{0};   // the part of given_time_ that was sent
   std::optional<Seconds> told_ahead_;
-  std::optional<Seconds> began_;                                  // by the board's clock
-  PathPlace given_;                                               // by the planner
-  double speed_ = 0;                                              // there
-  double fastest_ = 0;                                            // since the last rest
-  Rest rested_;                                                   // the last one
-  std::size_t long_tail_;                                         // items: longer ones leave too few places
-  double speed_limit_ = std::numeric_limits<double>::infinity();  // for the sake of them
-  Seconds limited_for_{0};                                        // of motion that was pulled
-  int slowdowns_ = 0;
-  bool on_tail_ = false;  // the board plays one: nothing is sent before it rests
+  std::optional<Seconds> began_;  // by the board's clock
+  PathPlace given_;               // up to here the planner has given motion
+  Rest rested_;                   // the last rest
+  SpeedForTails speed_;
+  bool on_tail_ = false;  // the board plays a tail: nothing is sent before it rests
 
-  std::deque<Pulled> pulled_;  // and not sent
+  std::deque<Pulled> pulled_;  // pulled and not sent
   Seconds pulled_time_{0};
-  bool holds_ = false;            // behind it, the planner holds
-  bool ended_ = false;            // behind it, the path has ended
-  std::optional<Action> action_;  // behind it, this is to be done
+  bool holds_ = false;            // after the pulled items, the planner holds
+  bool ended_ = false;            // after the pulled items, the path has ended
+  std::optional<Action> action_;  // after the pulled items, this is to be done
 
   Attention attention_ = Attention::none;
-  Seconds answer_{0};  // within which a question that comes with a refill is answered
+  Seconds answer_{0};  // how long the answer takes to a question sent with a refill
   Seconds slowest_answer_{0};
-  bool asked_ = false;                                      // and the answer not seen
-  Seconds longest_move_{0};                                 // as the planner was told
+  bool asked_ = false;                                      // a question was asked, and its answer is not yet seen
+  Seconds longest_move_{0};                                 // what the planner was told
   Seconds reach_{std::numeric_limits<double>::infinity()};  // a shorter horizon, for a while
   bool brakes_ = false;
   bool guards_threads_ = false;
-  std::optional<PathPlace> before_action_;  // that was taken last, while nothing has been sent since
+  std::optional<PathPlace> before_action_;  // the action taken last, while nothing was sent since
   bool waits_for_operator_;
-  bool outputs_changed_ = false;               // and the board is to hear of it
-  std::optional<BoardOutputs> switched_ = {};  // sent by themselves, and not known to be done
+  bool outputs_changed_ = false;               // the board still has to hear of the change
+  std::optional<BoardOutputs> switched_ = {};  // sent alone, and not known to be switched
   Seconds longest_ahead_{0};
 
   BoardItem item_;
   std::vector<PlannedMove> plan_;
-  std::vector<LinkItem> items_;  // of a refill
+  std::vector<LinkItem> items_;  // the items of a refill
   int recoveries_ = 0;
   std::uint64_t tail_items_ = 0;
   std::uint64_t refills_ = 0;

@@ -1,8 +1,8 @@
 // RewindablePath: a path that can be taken up again from a place that was passed already.
 //
-// Stands before the planner. What was handed on is kept until the board has executed it, for after a broken line the
-// machine rests at a place that the planner has long left. The rest of a segment that was begun is a segment of its
-// own. Without keep() nothing is kept.
+// Place on the street: before the planner. The path keeps each item until the board has executed it, because after a
+// broken line the machine rests at a place that the planner has long left. The rest of a segment that was begun is a
+// segment of its own. Without keep() the path keeps nothing.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace passo {
 
-// Between two items of the path (those before `item` are done) and s on the curve of the one that comes.
+// A place on the path: all items before `item` are done, and `s` of the curve of `item`.
 struct PathPlace {
   std::uint64_t item = 0;
   Mm s{0};
@@ -26,25 +26,25 @@ class RewindablePath final : public Source<PathItem> {
  public:
   explicit RewindablePath(Source<PathItem>& path) : path_(path) {}
 
-  // Before the first next().
+  // Keeps items from now on. Call before the first next().
   void keep() { keeps_ = true; }
-  // Also before it, of a path that is kept: all in front of that place was done in another session, and is left out.
+  // Leaves out all before `place`, because another session has done it. Call after keep() and before the first next().
   void begin_at(const PathPlace& place);
-  // Of what next() gives.
+  // The place of the item that the next call of next() gives.
   PathPlace place() const { return {.item = next_, .s = next_ == rewound_.item ? rewound_.s : Mm(0)}; }
   [[nodiscard]] bool next(PathItem& item) override;
 
-  // Where the path is behind a motion that begins at `place`. Holds for what was planned since the last rewind().
+  // The place after a motion that begins at `place`. Valid for motion planned since the last rewind().
   PathPlace behind(const PathPlace& place, const MotionItem& motion) const;
-  // Hands out again what comes from there on.
+  // From now on next() hands out the path from `place` again.
   void rewind(const PathPlace& place);
-  // Where that is; of what was handed out and is kept.
+  // The point at `place`. The item must have been handed out and be kept.
   Point point_at(const PathPlace& place) const;
-  // What comes there is known, and follows the spindle by place.
+  // True: the item that next() gives next is known, and follows the spindle by place.
   bool is_in_thread() const;
-  // Of the item handed out last.
+  // The place of the item handed out last.
   PathPlace last() const { return {.item = next_ - 1}; }
-  // There will be no way back before this item.
+  // Forgets the items before this one. No rewind() goes back before it.
   void forget_before(std::uint64_t item);
   std::size_t items_kept() const { return kept_.size(); }
 
@@ -55,8 +55,8 @@ class RewindablePath final : public Source<PathItem> {
   bool keeps_ = false;
   std::uint64_t left_out_ = 0;  // items to leave out before the first one
   std::deque<PathItem> kept_;
-  std::uint64_t first_ = 0;  // number of the first one kept
-  std::uint64_t next_ = 0;   // and of the next one to hand out
+  std::uint64_t first_ = 0;  // number of the first item kept
+  std::uint64_t next_ = 0;   // number of the next item to hand out
   PathPlace rewound_;        // the item of which only the rest was handed out
 };
 

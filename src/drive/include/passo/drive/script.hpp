@@ -1,5 +1,5 @@
-// Script: what is to be done at rest, one thing after the other, with waits between. Nothing in a script blocks: a wait
-// is a condition that is looked at again each time go_on() is called.
+// Script: things to do at rest, one after the other, with waits between. Nothing in a script blocks: a wait is a
+// condition that each call of go_on() checks again.
 #pragma once
 
 #include <deque>
@@ -13,7 +13,7 @@ class Script {
   using Act = std::function<void()>;
   using Condition = std::function<bool()>;
 
-  // Behind what the script holds already. An act may add to the script.
+  // Adds an act after all that the script already holds. An act may add to the script.
   void then(Act act) {
     steps_.push_back([act = std::move(act)] {
       act();

@@ -1,12 +1,13 @@
-// SpindleFollower: how fast a feed must be that follows the spindle, from what the spindle's encoder says.
+// SpindleFollower: works out how fast a feed must be to follow the spindle, from the readings of the spindle's encoder.
 //
-// The motion behind what is committed is planned for the speed that the spindle has, and where the lock is one of
-// place, a little faster or slower until the tool is where the spindle's angle wants it:
+// Motion after the committed motion is planned for the speed that the spindle has. Where the lock is one of place, the
+// motion is planned a little faster or slower, until the tool is where the spindle's angle wants it:
 //
 //     turns wanted = turns of the spindle since its index - lag
 //
-// at the time when the committed motion ends, as the last readings go on. The lag is what speeding up to the programmed
-// speed costs: the same in each pass, so that all passes of a thread lie in one groove.
+// at the time when the committed motion ends, extrapolated from the last readings. The lag is the way that the tool
+// loses while it speeds up to the programmed speed. The lag is the same in each pass, so that all passes of a thread
+// lie in one groove.
 #pragma once
 
 #include <cmath>
@@ -23,37 +24,38 @@ class SpindleFollower {
  public:
   explicit SpindleFollower(const MotionLimits& limits);
 
-  // Readings begin anew, at any time.
+  // Forgets the readings. May be called at any time.
   void restart();
-  // The next locked move begins when the spindle has turned so far: to an index.
+  // The next locked move begins when the spindle has turned to `index`, in turns.
   void begin(double index);
-  // From now on the moves go back the way that they came, as the spindle does.
+  // From now on the moves go back the way they came, and the spindle turns back.
   void turn_round() { direction_ = -1; }
-  // Of the spindle, by the last readings; below 0: down.
+  // The spindle's speed, by the last readings. Negative: the count goes down.
   double turns_a_second() const;
-  // As the readings go on, so long after the last one the spindle stands or turns back.
+  // True: by the readings, the spindle stands or turns back at `committed` after the last reading.
   bool turns_back(Seconds committed) const;
   // A move was committed.
   void watch(const PlannedMove& move);
   // A new reading.
   void read(const SpindleReading& reading);
-  // Of the move that was committed last.
+  // The lock of the move that was committed last.
   SpindleLock lock() const { return lock_; }
-  // The multiple of the programmed speed that follows the spindle; `committed`: how long after the reading it counts.
-  // Nothing where it is to stay: a change of speed under a limit of jerk is not to be changed before it is made.
+  // The multiple of the programmed speed that follows the spindle. `committed`: how long after the last reading the
+  // ratio takes effect. Empty: the ratio stays as it is, because under a limit of jerk a change of speed must be
+  // complete before the next one.
   std::optional<double> ratio(Seconds committed);
 
-  // Turns by which the tool is not where it should be when what is committed ends, once it has had a lead-in.
+  // By how many turns the tool is off when the committed motion ends. 0 until the tool has had a lead-in.
   double missing(Seconds committed) const;
-  // Below it a spindle is not followed.
+  // The least and the greatest ratio that ratio() gives. A spindle slower than `least_ratio` is not followed.
   static constexpr double least_ratio = 0.02;
   static constexpr double most_ratio = 2;
 
  private:
-  // What the readings make of a time after the last of them.
+  // What the readings predict for a time after the last reading.
   struct Course {
     double turns = 0;  // since the index
-    double speed = 0;  // turns a second; below 0: back
+    double speed = 0;  // turns a second; negative: back
   };
   Course course(Seconds later) const;
   double speed() const { return std::abs(turns_a_second()); }
@@ -64,16 +66,16 @@ class SpindleFollower {
   double patience_ = 0;  // seconds between two changes
   double changed_at_ = -1;
   double ratio_ = 1;
-  std::deque<SpindleReading> readings_;  // of the last few hundredths of a second
+  std::deque<SpindleReading> readings_;  // the last few hundredths of a second
   SpindleLock lock_ = SpindleLock::none;
   double programmed_ = 0;  // turns a second
-  double reached_ = 0;     // turns a second, at the end of what is committed
-  double index_ = 0;       // turns of the spindle there
-  double way_ = 1;         // that it turned then; -1: down
-  double lag_ = -1;        // turns; below 0: not known yet
-  double followed_ = 0;    // turns, by what is committed
-  double direction_ = 1;   // of the moves; -1: back
-  bool in_place_ = false;  // has once been as fast as the spindle
+  double reached_ = 0;     // turns a second, at the end of the committed motion
+  double index_ = 0;       // turns of the spindle where the locked move begins
+  double way_ = 1;         // the spindle's direction then; -1: down
+  double lag_ = -1;        // turns; negative: not known yet
+  double followed_ = 0;    // turns made by the committed motion
+  double direction_ = 1;   // direction of the moves; -1: back
+  bool in_place_ = false;  // the tool has once been as fast as the spindle
 };
 
 }  // namespace passo

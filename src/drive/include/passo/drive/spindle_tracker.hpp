@@ -1,7 +1,9 @@
-// SpindleTracker: keeps motion in step with the spindle, by what the board's encoder tells: waits for the index, sets
-// the ratio of the feed, finds out when a tap turns round, and gives up where nothing can be followed.
+// SpindleTracker: keeps motion in step with the spindle, by what the board's encoder tells. The tracker waits for the
+// index, sets the ratio of the feed, finds out when the spindle reverses in a tap, and gives up where it cannot follow
+// the spindle.
 //
-// Between the feed, which knows how far ahead motion is committed, and the planner, which is told how fast to go.
+// The tracker stands between the feed, which knows how far ahead motion is committed, and the planner, which is told
+// how fast to go.
 #pragma once
 
 #include <cstdint>
@@ -23,35 +25,37 @@ class SpindleTracker {
     Feed& feed;
     Link& link;
   };
-  // All stages outlive the tracker. `counts_per_turn`: 0, there is no encoder, and nothing follows.
+  // All stages outlive the tracker. `counts_per_turn` 0: there is no encoder, and nothing follows the spindle.
   SpindleTracker(const Stages& stages, const MotionLimits& limits, int counts_per_turn, Hertz clock);
   bool exists() const { return encoder_.exists(); }
 
   void watch(const PlannedMove& move) { follower_.watch(move); }
-  // What was planned last follows the spindle.
+  // How the motion planned last follows the spindle.
   SpindleLock lock() const { return follower_.lock(); }
-  // Motion follows, or is about to.
+  // True: motion follows the spindle, or is about to.
   bool follows() const { return follows_; }
 
-  // Between two steps of the drive. False: an answer of the board has to be waited for first.
+  // Called between two steps of the drive. False: the board has to answer first.
   [[nodiscard]] bool follow();
-  // Nothing follows any more, from here on; whether something did.
+  // Stops following where the motion planned last does not follow and no thread is about to begin. True: motion
+  // followed until now.
   [[nodiscard]] bool let_go();
 
-  // At rest: the spindle gets up to speed, so many revolutions a minute, and its index comes by.
+  // Begins, at rest, to wait for the spindle to reach this speed and for its index to come by.
   void begin_await(double revolutions_per_minute);
-  // Whether the motion is to begin now, or tracking has given up. Else look again when the board has answered, or at
+  // True: the motion is to begin now, or the tracker has given up. False: call again when the board has answered, or at
   // looks_at().
   [[nodiscard]] bool await_index();
   Seconds looks_at() const { return looks_at_; }
 
-  // A tap is on its way down, and the spindle was told to turn round; turned_back() tells, once, that the spindle does.
+  // A tap is on its way down, and the spindle was told to reverse. turned_back() tells, once, that the spindle has
+  // reversed.
   void expect_turn() { turn_expected_ = true; }
   bool expects_turn() const { return turn_expected_; }
   [[nodiscard]] bool turned_back() { return std::exchange(turned_back_, false); }
   void turn_round();
 
-  // Why nothing can be followed.
+  // Why the tracker cannot follow the spindle. Empty: no trouble.
   const std::optional<LinkError>& trouble() const { return trouble_; }
 
  private:
@@ -67,10 +71,10 @@ class SpindleTracker {
   Stages stages_;
   SpindleEncoder encoder_;
   SpindleFollower follower_;
-  bool encoder_known_ = false;  // to be right
+  bool encoder_known_ = false;  // the encoder is known to be right
   bool follows_ = false;
-  bool asked_ = false;  // and the answer not yet taken
-  // By the board's clock, when the next thread is to begin; and how much later than by that the one before did.
+  bool asked_ = false;  // a reading was asked for, and the answer not yet taken
+  // When the next thread is to begin, by the board's clock. late_: how much later than planned the thread before began.
   std::optional<Seconds> index_time_;
   Seconds late_{0};
   int looks_at_start_ = 0;
@@ -78,7 +82,7 @@ class SpindleTracker {
   bool turned_back_ = false;
   std::optional<LinkError> trouble_;
 
-  // While the index is awaited.
+  // State while the tracker waits for the index.
   AwaitStep step_ = AwaitStep::ask;
   double wanted_ = 0;  // seconds a turn
   SpindleReading turn_begun_;
@@ -86,7 +90,7 @@ class SpindleTracker {
   int turns_ = 0;
   bool at_speed_ = false;
   bool begins_ = false;
-  Seconds alone_{0};  // the answer's time without a refill before it
+  Seconds alone_{0};  // how long an answer takes without a refill before it
   Seconds looks_at_{0};
 };
 

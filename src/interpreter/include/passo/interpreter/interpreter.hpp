@@ -11,9 +11,9 @@
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
+#include "passo/interpreter/machine_answers.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/interpreter/parameter_file.hpp"
-#include "passo/interpreter/probe_outcome.hpp"
 #include "passo/interpreter/settings_file.hpp"
 #include "passo/interpreter/tool_table.hpp"
 
@@ -40,11 +40,8 @@ struct InterpreterOptions {
   std::uint64_t idle_passes = 1'000'000;
   // Who answers when the program asks the machine (probe, inputs, #<_task>): a preview as LinuxCNC's `rs274` does,
   // where a probe move ends 0.254 mm before its end and inputs are 0; or a machine without inputs, where a probe move
-  // is touched at its very end if `probe` does not say otherwise.
+  // is touched at its very end if the machine's answers do not say otherwise.
   bool on_machine = false;
-  // Of a machine that runs the program now: what its last probe move has found. Looked at when an operation behind
-  // that move is asked for. Outlives the interpreter.
-  const ProbeOutcome* probe = nullptr;
   // How often a main program that ends with M99 runs; 0: without end.
   std::uint64_t main_passes = 1;
   int spindles = 1;          // 1 to 8
@@ -54,7 +51,10 @@ struct InterpreterOptions {
 
 class Interpreter final : public Source<Operation> {
  public:
-  Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics);
+  // `answers`: of a machine that runs the program now. Looked at when an operation after the question is asked for.
+  // Both outlive the interpreter.
+  Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
+              const MachineAnswers& answers = no_answers());
   ~Interpreter() override;
 
   [[nodiscard]] bool next(Operation& operation) override;

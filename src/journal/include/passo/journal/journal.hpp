@@ -1,16 +1,17 @@
-// Journal: what a host that is started anew must know to go on with a job: of which program it is, under which
-// numbers the board knows it, and of every place at which the board may have come to rest by itself, where that is on
-// the path.
+// Journal: what a restarted host must know to go on with a job. The journal tells which program the job runs and under
+// which numbers the board knows the job. For every place at which the board may have come to rest by itself, the
+// journal tells where on the path that place is.
 //
-// A text: a head, written when the session begins, and a ring of as many lines of one length as there can be rests to
-// choose from, each written before the refill is sent that makes it possible. So a host that is killed at any instant
-// leaves a journal that knows the rest to which the board comes. Head and lines carry a check each: what was torn in
-// writing is noticed.
+// A journal is a text: a head, and a ring of lines of equal length, one for each rest that may still count. The head is
+// written when the session begins. A line is written before the refill is sent that makes its rest possible. So a host
+// that is killed at any instant leaves a journal that knows the rest to which the board comes. The head and each line
+// carry a check, so a torn write is noticed.
 //
-// A session begins in four steps, between any two of which the host may be killed: the head is written, the board
-// hears hello (and forgets the session before), hears the session's number, and gets its first items. The board's
-// status tells which it was: a hello has a number that is not 0, which the board has nowhere else from. A program that
-// is not the first of its host begins without a hello, and goes by the session's number alone.
+// A session begins in four steps: the head is written, the board hears hello (and forgets the session before), the
+// board hears the session's number, and the board gets its first items. The host may be killed between any two of them.
+// The board's status tells which step was the last: a hello has a number that is not 0, and the board has that number
+// from nowhere else. A program that is not the first of its host begins without a hello, and is known by the session's
+// number alone.
 #pragma once
 
 #include <cstddef>
@@ -36,39 +37,39 @@ struct FileStamp {
 
 struct JournalHead {
   std::string made_by;          // version of the program that runs the job
-  FileStamp program;            // without a name: from no file
+  FileStamp program;            // no name: the program is from no file
   FileStamp machine;            // the machine's file
-  std::uint64_t path = 0;       // fingerprint of all that the program means
-  std::vector<int> job_counts;  // the board's, of each motor, where the machine's zero is
-  // The board as it was before this session's hello, and what it gets to hear.
+  std::uint64_t path = 0;       // fingerprint of the program's path
+  std::vector<int> job_counts;  // the board's count of each motor at machine zero
+  // The board's numbers before this session's hello, and the numbers that the board is told.
   std::uint16_t session_before = 0;
   ItemNumber executed_before = 0;
-  std::uint8_t greeting = 0;  // 0: no hello, the board hears of the session alone
+  std::uint8_t greeting = 0;  // 0: no hello, the board hears only the session's number
   std::uint16_t session = 0;  // not 0
   PathPlace place;            // where this session begins
   friend bool operator==(const JournalHead&, const JournalHead&) = default;
 };
 
-// Where a journal is kept. Knows nothing of what is in it.
+// Where a journal is kept. The store knows nothing of the contents.
 class JournalStore {
  public:
   virtual ~JournalStore() = default;
-  // In the place of all that there is, as a whole or not at all. False: it cannot be written.
+  // Replaces the whole contents by `text`, completely or not at all. False: `text` cannot be written.
   [[nodiscard]] virtual bool replace(std::string_view text) = 0;
-  // Bytes amid it.
+  // Overwrites bytes within the contents.
   [[nodiscard]] virtual bool overwrite(std::size_t offset, std::string_view bytes) = 0;
 };
 
 class JournalWriter {
  public:
-  // A board has fewer places than that for items, and so for rests.
+  // A board has fewer places than this for items, and so for rests.
   static constexpr std::size_t rests = 256;
 
-  // The store outlives it.
+  // The store outlives the writer.
   explicit JournalWriter(JournalStore& store) : store_(store) {}
   void begin(const JournalHead& head);
   void note(const BoardRest& rest);
-  // Something could not be written: the journal is not to be relied on.
+  // True: something could not be written, so the journal cannot be relied on.
   bool failed() const { return failed_; }
 
  private:
@@ -80,22 +81,22 @@ class JournalWriter {
 
 class Journal {
  public:
-  // Nothing where the head is not whole.
+  // Empty if the head is damaged.
   static std::optional<Journal> read(std::string_view text);
 
   const JournalHead& head() const { return head_; }
-  // Whether it is this job that the board was last at.
+  // True: the board last worked on this job.
   bool is_of(const BoardStatus& status) const { return state_of(status) != State::another; }
-  // Where on the path the board rests; it does rest. Nothing where the journal does not know that rest.
+  // Where on the path the board rests. The status must be one at rest. Empty: the journal does not know that rest.
   std::optional<PathPlace> place_of(const BoardStatus& status) const;
   // Lines that were torn in writing.
   std::size_t torn() const { return torn_; }
 
  private:
   enum class State : std::uint8_t {
-    another,         // it was reset, or has heard of another session
-    before_hello,    // as it was before this session
-    before_session,  // it has heard this one's hello
+    another,         // the board was reset, or has heard of another session
+    before_hello,    // the board is as it was before this session
+    before_session,  // the board has heard this session's hello
     in_session,
   };
   State state_of(const BoardStatus& status) const;

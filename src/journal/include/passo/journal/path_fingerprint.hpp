@@ -1,4 +1,5 @@
-// PathFingerprint: by which the path of a program is known again, whatever its text, its tools and its parameters are.
+// PathFingerprint: a number that identifies the path of a program, whatever the text, tools and parameters it comes
+// from.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace passo {
 
 class PathFingerprint {
  public:
-  // In the path's order.
+  // Adds the items in the path's order.
   void add(const PathItem& item);
   std::uint64_t value() const { return of_all_.value(); }
 

@@ -1,6 +1,6 @@
 // ResumePoint: a place on the path of a program from which a job goes on, and all that was set on the way there.
 //
-// Found by going through the program again: what it means, and so where its path leads, is the same each time.
+// The place is found by interpreting the program again: its meaning, and so its path, is the same each time.
 #pragma once
 
 #include <array>
@@ -18,15 +18,15 @@ namespace passo {
 struct ResumePoint {
   PathPlace place;
   Point point;                                   // machine coordinates
-  std::array<std::int64_t, max_motors> steps{};  // of each motor from machine zero, at rest there
-  OutputState outputs;                           // as they are there
-  // As long as the program itself has waited after it had switched the spindle, before it went on.
+  std::array<std::int64_t, max_motors> steps{};  // steps of each motor from machine zero, at rest there
+  OutputState outputs;                           // the outputs at that place
+  // How long the program itself waited after it had switched the spindle, before it went on.
   Seconds spindle_wait{0};
-  bool in_thread = false;  // what comes there follows an encoder by place: it cannot begin there
-  std::uint32_t line = 0;  // of the program, where it goes on; 0: at its end
+  bool in_thread = false;  // the path there follows an encoder by place, and cannot begin there
+  std::uint32_t line = 0;  // the program's line where the job goes on; 0: at its end
 };
 
-// Of a program that was checked and does not probe. Nothing where its path has no such place.
+// Finds `place` in a program that was checked and does not probe. Empty: the path has no such place.
 std::optional<ResumePoint> find_resume_point(ProgramReader program, const MachineDescription& machine,
                                              const InterpreterOptions& options, const PathPlace& place);
 

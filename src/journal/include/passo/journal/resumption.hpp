@@ -1,8 +1,9 @@
-// Resumption: whether and from where a job goes on that another host has begun, by its journal and what the board says.
+// Resumption: decides whether, and from where, a host goes on with a job that another host has begun. The journal and
+// the board's status decide.
 //
-// Refused is what is not certain: a board that has forgotten its session, or may have lost steps; a rest that the
-// journal does not know; counts of the board that are not those of the place. Each check stands for itself: the
-// counts must fit even where the journal is sure.
+// Whatever is not certain is refused: a board that has forgotten its session or may have lost steps, a rest that the
+// journal does not know, or board counts that do not match the place. Each check stands alone: the counts must match
+// even where the journal is sure.
 #pragma once
 
 #include <array>
@@ -18,32 +19,32 @@
 namespace passo {
 
 enum class ResumeRefusal : std::uint8_t {
-  board_reset,    // it has started anew since
-  other_session,  // another host has said hello to it since
-  not_trusted,    // it has stopped its motors at once
-  rest_unknown,   // the journal does not know where it rests
+  board_reset,    // the board has restarted since
+  other_session,  // another host has said hello to the board since
+  not_trusted,    // the board has stopped its motors at once
+  rest_unknown,   // the journal does not know where the board rests
   path_changed,   // the program's path has no such place
-  counts_differ,  // its motors stand elsewhere
-  in_thread,      // what follows the spindle by place has no other beginning than its own
+  counts_differ,  // the motors stand elsewhere
+  in_thread,      // a thread can begin only at its own beginning
 };
-// For scripts; never changes.
+// A code for scripts. A code never changes.
 std::string_view code_of(ResumeRefusal refusal);
 // A sentence without a full stop.
 std::string_view message_of(ResumeRefusal refusal);
 
-// Why this board cannot be the one that the journal's job was last at, moving or not. Nothing: it is.
+// Why this board, moving or not, cannot be the one that last worked on the journal's job. Empty: the board is that one.
 std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const BoardStatus& status);
 
-// The board rests.
+// Where the job goes on. The status must be one of a board at rest.
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
                                                    const ProgramReader& program, const MachineDescription& machine,
                                                    const InterpreterOptions& options);
-// Its motors are where the job of that journal has them at that point.
+// True: the board's motors are where the journal's job has them at that point.
 bool stands_at(const JournalHead& head, const ResumePoint& point, const BoardStatus& status);
 
-// The head of a journal, before the board's new session: of a job that begins where the board rests, or of one that
-// goes on from that point.
-// `steps`: of each motor from machine zero, where the job begins.
+// The head of a journal, before the board's new session. head_of_beginning() is for a job that begins where the board
+// rests, head_of_resumption() for a job that goes on from `point`. `steps`: steps of each motor from machine zero where
+// the job begins.
 JournalHead head_of_beginning(JournalHead job, const BoardStatus& status,
                               const std::array<std::int64_t, max_motors>& steps, std::size_t motors);
 JournalHead head_of_resumption(JournalHead before, const BoardStatus& status, const ResumePoint& point);

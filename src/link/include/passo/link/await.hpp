@@ -1,5 +1,5 @@
-// Waiting for a board, for callers that have nothing else to do meanwhile: tests, benchmarks, short commands. What a
-// machine does besides goes through MachineSession, which never waits.
+// Functions that wait for a board, for callers that have nothing else to do: tests, benchmarks, short commands. All
+// other work with a machine goes through MachineSession, which never waits.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@ namespace passo {
 
 inline constexpr Seconds endless{std::numeric_limits<double>::infinity()};
 
-// Polls until `done()`, an error, or the end of the time. Whether it is done.
+// Polls until `done()`, an error, or the end of the time. Returns the last `done()`.
 template <class Done>
 bool await(BoardSession& session, Done done, Seconds within = endless) {
   const Seconds end = session.now() + within;
@@ -23,14 +23,14 @@ inline bool greet(BoardSession& session, const Greeting& greeting) {
   session.greet(greeting);
   return await(session, [&] { return session.ready(); });
 }
-// Before the hello: asks, and waits for the answer. Empty: the board is silent.
+// Asks the board before the hello, and waits for the answer. Empty: the board is silent.
 std::optional<About> ask_about(BoardSession& session, Seconds within);
 std::optional<BoardStatus> ask_status(BoardSession& session, Seconds within);
-// The same until the board rests, however long that takes, as long as the board answers. Two answers must be alike: a
-// chip that has made its last event may not have counted the item yet.
+// Asks again until the board rests, however long that takes, as long as the board answers. Two answers must be alike,
+// because a chip that has made its last event may not have counted the item yet.
 std::optional<BoardStatus> ask_status_at_rest(BoardSession& session, Seconds within);
 
-// Sends when there is room.
+// Waits for room, then sends.
 inline void send(BoardSession& session, const LinkItem& item) {
   await(session, [&] { return session.room() > 0; });
   if (session.error()) return;

@@ -1,6 +1,6 @@
-// BoardPort: what a link sees of a board: a place for bytes, and bytes that come back.
+// BoardPort: the view that a link has of a board. The port takes bytes, and gives the bytes that come back.
 //
-// A virtual machine is one, and a line to one. Its time passes only in run().
+// A virtual machine is a port, and so is a line to one. The port's time passes only in run().
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace passo {
 
-// Less than a tick of a board may be none: whoever waits for a time is there when so little is left, for a port may let
-// none pass.
+// A wait is over when no more than this time is left. A port may let no time pass for less than a tick of the board, so
+// waiting for the rest might never end.
 inline constexpr Seconds hardly_any{1e-6};
 
 class BoardPort {
@@ -19,10 +19,10 @@ class BoardPort {
   virtual ~BoardPort() = default;
 
   virtual void receive(std::span<const std::uint8_t> bytes) = 0;
-  // Lets time pass until the board has said something, but no more than `most`. False when it has said nothing: the
-  // time is over; or, where that is infinite, it has come to rest and is silent.
+  // Lets time pass until the board has said something, but no more than `most`. False: the board has said nothing, and
+  // the time is over. With an infinite `most`, false: the board has come to rest and is silent.
   [[nodiscard]] virtual bool run(Seconds most) = 0;
-  // Takes what the board has said since the last call; valid until the next call of any kind.
+  // Takes what the board has said since the last call. The bytes are valid until the next call of any kind.
   virtual std::span<const std::uint8_t> replies() = 0;
   // The time on this side, from any start.
   virtual Seconds elapsed() const = 0;

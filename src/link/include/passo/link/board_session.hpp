@@ -1,19 +1,21 @@
-// BoardSession: all that a host has with a board behind a port, in this process or at the end of a line: one hello, and
-// the only reader of what the board says. The bytes are the same in both.
+// BoardSession: a host's whole conversation with a board. The board is reached through a port, in this process or at
+// the end of a line; the bytes are the same in both. The session says the one hello, and is the only reader of what the
+// board says.
 //
-// No function waits but poll(), and poll() no longer than it is told. So one thread serves any number of boards, and
-// virtual time passes only where its owner lets it pass.
+// Only poll() waits, and never longer than it is told. So one thread serves any number of boards, and virtual time
+// passes only where its owner lets it pass.
 //
-// Before the hello a board may be asked what it is and how it is, amid motion too: nothing about the board changes by
-// that. greet() then says hello, until ready().
+// Before the hello, the session may ask the board about itself and for its status, even while the board moves. These
+// questions change nothing on the board. Then greet() says hello, and ready() tells when the greeting is complete.
 //
-// Where nothing is lost on the way an error that the board reports is a bug on one of the two sides, and final. Where
-// something may be lost, what was sent is kept until the board has taken it, and repeated from where the board says
-// that something is missing: a few frames, and a question how far the board is now, and so on until it has all. After a
-// silence the session asks the board how it is, again and again while patience lasts: a line that comes back is found
-// by that, and what the line had swallowed is sent again.
+// Where nothing is lost on the way, an error that the board reports is a bug on one of the two sides, and final. Where
+// something may be lost, the session keeps what it sent until the board has taken it. When the board says that
+// something is missing, the session repeats from there: a few frames, then a question how far the board is now, and so
+// on until the board has all. After a silence the session asks for the board's status again and again while patience
+// lasts. So the session notices when a line comes back, and sends again what the line had swallowed.
 //
-// Damage that looks like a message is rare, but not never: what would end the job is believed when it comes again.
+// A damaged frame that looks like a message is rare, but does happen. So a message that would end the job is believed
+// only when it comes again.
 #pragma once
 
 #include <algorithm>
@@ -32,17 +34,17 @@
 
 namespace passo {
 
-// Of a line on which bytes may get lost. The default is one that loses nothing.
+// How to handle a line on which bytes may get lost. The default is for a line that loses nothing.
 struct LineCare {
   Seconds answer_within{std::numeric_limits<double>::infinity()};  // after so long without an answer, ask again
-  Seconds patience{3600};                                          // and after so long, give up
+  Seconds patience{3600};                                          // after so long without any word, give up
 };
 
 // How a host begins with a board.
 struct Greeting {
   std::uint8_t motors = 0;
-  std::uint16_t session = 0;  // by which the board is known again; 0: the line loses nothing, and needs no number
-  std::uint8_t number = 0;    // of the hello: where the counting of items begins
+  std::uint16_t session = 0;  // identifies the session to the board; 0: none, for a line that loses nothing
+  std::uint8_t number = 0;    // the hello's number: where the counting of items begins
 };
 
 class BoardSession final : public Link {
@@ -53,29 +55,30 @@ class BoardSession final : public Link {
     bool heard = false;
   };
 
-  // Says nothing yet. The port outlives the session.
+  // The constructor sends nothing. The port outlives the session.
   explicit BoardSession(BoardPort& port, const LineCare& care = {});
 
-  // Hears what the board says and asks again what was not answered, until there is news, but no longer than `most`. An
-  // endless poll is a wait for news: a board that stays silent is an error then.
+  // Hears what the board says, and repeats questions that were not answered, until there is news, but no longer than
+  // `most`. An endless poll waits for news, and a board that stays silent is then an error.
   Progress poll(Seconds most);
 
-  // `about` or `status`, before the hello or after it. settled() tells that the answer is there.
+  // Asks `about` or `status`, before the hello or after. settled() tells when the answer has come.
   void inquire(Question question);
-  // What the board said when it was asked; nothing: it has not answered.
+  // The board's answer to `about`. Empty: the board has not answered.
   const std::optional<About>& about() const { return about_; }
-  // What came instead of an answer, as far as it can be read: the greeting of other firmware.
+  // Readable characters that came before the hello: perhaps the greeting of other firmware.
   const std::string& gibberish() const { return gibberish_; }
 
-  // Says hello: from here on both sides count the motors' fractions from the start.
+  // Says hello. From here on both sides count the motors' fractions of steps from the start.
   void greet(const Greeting& greeting);
-  // After the hello, at rest: the board is known by another number from now on, as of a new job.
+  // Gives the board another session number, for instance for a new job. Call after the hello, at rest.
   void name_session(std::uint16_t number);
-  // After an error: another hello is to follow, and before it questions.
+  // Goes back to the state before the hello, after an error. Questions and another hello may follow.
   void hang_up();
-  // Whoever uses the link had found that the work could not go on; the board is as it was, and at rest.
+  // Clears the error after a user of the link has failed it because the work could not go on. The board itself is as it
+  // was, and at rest.
   void forgive() { error_.reset(); }
-  // The hello was answered, the board suits, and the board knows the session's number.
+  // True: the board has answered the hello, suits, and knows the session's number.
   bool ready() const { return phase_ == Phase::ready && !error_; }
 
   void send(const BoardSegment& segment) override;
@@ -100,9 +103,9 @@ class BoardSession final : public Link {
   std::optional<Turned> take_turned() override { return std::exchange(turned_, std::nullopt); }
   bool answered() const override { return answered_; }
   Seconds answer_time() const override { return answer_time_; }
-  // What has been switched on, as the board told or its status shows, since the last call. Bits of BoardInput.
+  // The inputs that were switched on since the last call, as the board told or its status shows. Bits of BoardInput.
   std::uint16_t take_pressed() { return std::exchange(pressed_, std::uint16_t{0}); }
-  // What is switched on now, as far as the board has told.
+  // The inputs that are on now, as far as the board has told.
   std::uint16_t inputs() const { return inputs_; }
   Seconds now() const override { return port_.elapsed(); }
   std::optional<LinkError> error() const override { return error_; }
@@ -111,11 +114,11 @@ class BoardSession final : public Link {
   std::uint64_t frames_sent() const override { return frames_sent_; }
   std::uint64_t bytes_sent() const override { return bytes_sent_; }
   std::uint64_t frames_repeated() const { return frames_repeated_; }
-  // How many motors were greeted; 0 before the hello.
+  // The number of motors in the hello; 0 before the hello.
   std::uint8_t motors() const { return motors_; }
-  // What the board said to the hello; nothing where it did not answer.
+  // The board's answer to the hello. Empty: the board has not answered.
   const std::optional<HelloReply>& board() const { return board_; }
-  // What the board said when it was last asked, and when that was heard.
+  // The board's last status, and when it was heard.
   const std::optional<BoardStatus>& status() const { return status_; }
   Seconds status_time() const { return status_time_; }
 
@@ -127,7 +130,7 @@ class BoardSession final : public Link {
     std::uint8_t bytes[largest_frame] = {};
   };
 
-  // A sequence number is a byte, and half of them are for frames that come again.
+  // A sequence number is a byte. Half of the numbers are reserved for frames that come again.
   static constexpr int most_untaken = 127;
 
   bool may_lose() const { return care_.answer_within < Seconds(std::numeric_limits<double>::infinity()); }
@@ -184,33 +187,33 @@ class BoardSession final : public Link {
   Seconds status_time_{0};
   std::optional<LinkError> error_;
   ItemNumber sent_ = 0;              // number of the last frame sent
-  ItemNumber taken_ = 0;             // of the last one that the board told to have
-  ItemNumber executed_ = 0;          // of the last item that it told to be done
-  ItemNumber asked_behind_ = 0;      // the last one sent when the board was last asked
+  ItemNumber taken_ = 0;             // number of the last frame that the board has, as it told
+  ItemNumber executed_ = 0;          // number of the last item that is done, as the board told
+  ItemNumber asked_behind_ = 0;      // the last frame sent when the board was last asked
   std::optional<Question> awaited_;  // the host goes on when this is answered
   std::uint8_t question_ = 0;        // the number of the last question
   Question last_question_ = Question::status;
   Question usual_question_ = Question::status;
   std::optional<Turned> turned_;
-  std::optional<Seconds> rehearsed_;  // since when
-  std::uint8_t repeated_before_ = 0;  // the question behind what was repeated last
-  bool repeating_ = false;            // and not heard the answer since
+  std::optional<Seconds> rehearsed_;  // when the rehearsal began
+  std::uint8_t repeated_before_ = 0;  // the question after the frames that were repeated last
+  bool repeating_ = false;            // frames were repeated, and the answer after them was not heard
   std::uint8_t refused_ = 0;          // sequence number of the frame that the board refused last
-  int refusals_ = 0;                  // so many times in a row
+  int refusals_ = 0;                  // how many times in a row
   int doubts_ = 0;                    // statuses in a row that would end the job
-  int free_ = 0;                      // room that the board had when it told so
+  int free_ = 0;                      // the room that the board last told
   bool rests_ = false;
   ProbeWatch probe_;
-  bool answered_ = true;  // since the last frame was sent
+  bool answered_ = true;  // the board has answered since the last frame was sent
   Seconds unanswered_since_{0};
   std::uint16_t inputs_ = 0;
   std::uint16_t pressed_ = 0;
   Seconds answer_time_{0};
   bool news_ = false;          // since poll() began
-  std::vector<Frame> frames_;  // of a replacement that is put together
-  std::deque<Frame> kept_;     // those that were sent and, as far as the host knows, not taken
+  std::vector<Frame> frames_;  // the frames of a replacement while it is put together
+  std::deque<Frame> kept_;     // frames sent and, as far as the host knows, not taken
   Seconds heard_{0};           // when the board last said anything
-  Seconds quiet_since_{0};     // when it did, or was asked again
+  Seconds quiet_since_{0};     // when the board did, or was asked again
   Seconds moved_on_{0};        // when the board last took something, or the host asked or sent
   std::uint64_t frames_sent_ = 0;
   std::uint64_t bytes_sent_ = 0;

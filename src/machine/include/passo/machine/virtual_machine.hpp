@@ -44,6 +44,8 @@ class VirtualMachine final : public BoardPort {
   // Closes switches of the plant, or opens them, and heeds that at once: bits of BoardInput, not the probe's. What
   // somebody else does to the plant the machine sees in its next run().
   void set_switch(std::uint16_t which, bool closed);
+  // As its reset button: the board forgets all, the motors stop where they are, and the outputs are off.
+  void reset_board();
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
@@ -77,6 +79,7 @@ class VirtualMachine final : public BoardPort {
 
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
+    void make_safe();
     void send(std::uint8_t byte) { to_host.push_back(byte); }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
@@ -99,9 +102,11 @@ class VirtualMachine final : public BoardPort {
   void look_at_plant();
   void look_at_inputs();
   void heed(unsigned inputs);
+  void stop_at_once(FaultReason reason);
 
   IdealPlant own_plant_;
   Hardware hardware_;
+  BoardIdentity identity_;
   Board<Hardware, items_held> board_;
   Hertz clock_;
   std::uint8_t motor_count_;

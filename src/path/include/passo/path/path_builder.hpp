@@ -21,7 +21,7 @@
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/interpreter/frame.hpp"
-#include "passo/interpreter/probe_outcome.hpp"
+#include "passo/interpreter/machine_answers.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
@@ -39,19 +39,15 @@ struct PathOptions {
   Mm tolerance{0.01};           // of junctions, where the program gives none (G64 P)
   double spindle_limit = 0;     // fastest spindle, revolutions a minute; 0: no spindle speed is refused
   Point start;                  // machine position at the start
-  // What the machine has found in its last probe move, which is where the path goes on; null: it came to its end.
-  const ProbeOutcome* probe = nullptr;
-  // Where the tool rested when the spindle turned round in its last tap; null: nothing follows that, and a tap goes
-  // back from its end.
-  const Point* tap_rest = nullptr;
-  Seconds spindle_run_up{0};  // from rest to 1000 turns a minute: so much room is left for a tap to turn round
-  std::string file;           // names the program in diagnostics
+  Seconds spindle_run_up{0};    // from rest to 1000 turns a minute: so much room is left for a tap to turn round
+  std::string file;             // names the program in diagnostics
 };
 
 class PathBuilder final : public Source<PathItem> {
  public:
   // `options` outlives the builder.
-  PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics);
+  PathBuilder(Source<Operation>& operations, const PathOptions& options, Diagnostics& diagnostics,
+              const MachineAnswers& answers = no_answers());
   ~PathBuilder() override;
 
   [[nodiscard]] bool next(PathItem& item) override;
@@ -102,6 +98,7 @@ class PathBuilder final : public Source<PathItem> {
   Source<Operation>& operations_;
   const PathOptions& options_;
   Diagnostics& diagnostics_;
+  const MachineAnswers& answers_;
   Frame frame_;
 
   // An arc in the turned work frame, of which pieces are still to come.

@@ -1,4 +1,4 @@
-// KnownPosition: where a machine stands, and how far that can be trusted.
+// KnownPosition: where a machine stands, and how far that position can be trusted.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace passo {
 
 enum class Trust : std::uint8_t {
   unknown,    // nobody knows: the machine was never homed, or the motors were stopped at once
-  commanded,  // what was sent has been played, as far as the host knows
+  commanded,  // the board has played what was sent, as far as the host knows
   counted,    // the board's counts agree with what was commanded
-  homed,      // counted, from a place that the switches have told
+  homed,      // counted, from a place that the switches have shown
 };
 constexpr std::string_view name_of(Trust trust) {
   switch (trust) {

@@ -1,13 +1,13 @@
-// MachineSession: the object that is the machine. Everything that moves one goes through it.
+// MachineSession: the object that stands for the machine. Everything that moves a machine goes through its session.
 //
-// Requests go in, bounded turns pass, a status and an ordered list of changes come out. The session owns the board's
-// session, what the machine is busy with, where it stands and how far that can be trusted. It waits for nothing, has no
-// thread and no clock: its owner turns it, in the board's virtual time or in real time.
+// Requests go in; a status and an ordered list of changes come out. The session owns the board's session, the work that
+// the machine is busy with, and the position with its trust. A session waits for nothing, and has no thread and no
+// clock. Its owner calls turn() again and again, in the board's virtual time or in real time.
 //
 //   owner:  session.request(…);  while (…) { session.turn(Seconds(0.02));  session.status();  session.take_changes(); }
 //
-// Invariant: the state changes only as the table in machine_state.hpp says. A position whose trust is not `unknown` is
-// true as far as the board's counts are. Each request is answered, once.
+// Invariants: the state changes only as the table in machine_state.hpp says. A position whose trust is not `unknown` is
+// as true as the board's counts. Each request is answered exactly once.
 #pragma once
 
 #include <cstdint>
@@ -30,33 +30,36 @@
 namespace passo {
 
 struct SessionOptions {
-  // The board is at the end of a line: what it holds always ends at rest, its counts are compared with what was
-  // commanded, and its buttons and its door are heeded. Without, it is in this process.
+  // True: the board is at the end of a line. The motion that it holds always ends at rest, its counts are compared with
+  // what was commanded, and its buttons and its door are heeded. False: the board is in this process.
   bool over_a_line = false;
   LineCare care = {};
-  Greeting greeting = {};    // `motors` is the session's to say
+  Greeting greeting = {};    // the session sets `motors`
   KnownPosition start = {};  // where the machine stands, as far as the owner knows
 };
 
 class MachineSession {
  public:
-  // Machine and port outlive the session. Nothing is said to the board before greet() or the first turn().
+  // `machine` and `port` outlive the session. The session sends nothing to the board before greet() or the first
+  // turn().
   MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options = {});
   ~MachineSession();
   MachineSession(const MachineSession&) = delete;
   MachineSession& operator=(const MachineSession&) = delete;
 
-  // Before the first turn(): how the board is. Nothing about the board changes by that.
+  // The board's session, for questions to the board before the first turn(). These questions change nothing on the
+  // board.
   BoardSession& board() { return board_; }
   const BoardSession& board() const { return board_; }
-  // Before the first turn(), where the greeting depends on how the board was: SessionOptions have it otherwise.
+  // Greets the board before the first turn(), if the greeting depends on the board's status. Otherwise the greeting
+  // comes from SessionOptions.
   void greet(const Greeting& greeting);
-  // Between two programs: from now on the board is known by another number.
+  // Gives the board another session number, between two programs.
   void name_session(std::uint16_t number);
 
   [[nodiscard]] Result<Ticket, Refusal> request(Request wanted);
-  // One bounded step. Where there is nothing to do but to wait for the board, time passes until something is new, but
-  // no longer than `most`; endless only while something moves.
+  // Does one bounded step. Where the session can only wait for the board, time passes until there is news, but no
+  // longer than `most`. `most` may be endless only while something moves.
   void turn(Seconds most);
 
   MachineStatus status() const;
@@ -66,15 +69,15 @@ class MachineSession {
   Seconds now() const { return board_.now(); }
   // Something is going on, or rests and goes on later.
   bool busy() const;
-  // What keeps the machine from being driven by this board, as a sentence without a full stop.
+  // Why this board cannot drive the machine, as a sentence without a full stop.
   const std::string& trouble_words() const { return trouble_words_; }
 
-  // What is going on, or what ended last until something else begins, for whoever reports it; null: there was nothing.
+  // What is going on, or else what ended last, for reports. Null: nothing of this kind.
   const MotionDrive* drive() const;
   const Program* program() const;
   const HomingPath* homing() const;
   const Refiller* refiller() const;
-  // How the board's counts have differed from what was commanded, if they did: the position is lost.
+  // How the board's counts differed from what was commanded, if they did. The position is then lost.
   struct CountMismatch {
     std::size_t motor = 0;
     std::int64_t counted = 0;  // from machine zero
@@ -86,7 +89,7 @@ class MachineSession {
   class Work;
   class Panel;
 
-  // Requests, one each.
+  // One function for each request.
   using Answer = Result<Ticket, Refusal>;
   Answer take(request::Start& start);
   Answer take(request::Jog& jog);
@@ -114,6 +117,7 @@ class MachineSession {
 
   void go_online(Seconds most);
   void begin_reset();
+  void doubt_place();
   void find_place_again();
   void stand_at(const KnownPosition& position);
   void count_from_here();
@@ -143,14 +147,14 @@ class MachineSession {
   BoardSession board_;
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
-  bool asks_place_ = false;      // before another hello
-  bool leaves_outputs_ = false;  // on, perhaps, what was going on when the board was lost
+  bool asks_place_ = false;    // the board is asked for its place before another hello
+  bool switches_off_ = false;  // after another hello: what was going on may have left something on
   KnownPosition position_;
-  Trust trust_before_ = Trust::unknown;    // the board was lost
-  std::optional<BoardPlace> place_;        // where the board stands, below a step too; nothing: as after a hello
+  Trust trust_before_ = Trust::unknown;    // the trust before the board was lost
+  std::optional<BoardPlace> place_;        // where the board stands, exact below a step; empty: as after a hello
   std::optional<MotorSteps> zero_counts_;  // the board's counts at machine zero
   std::optional<CountMismatch> mismatch_;
-  std::unique_ptr<Work> work_;  // what is going on, or has ended last
+  std::unique_ptr<Work> work_;  // what is going on, or what ended last
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
   std::optional<LinkError> trouble_;

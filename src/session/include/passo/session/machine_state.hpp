@@ -1,7 +1,7 @@
-// MachineState: what a machine is doing, and the one table of what may follow what.
+// MachineState: what a machine is doing, and the one table of transitions between states.
 //
-// The table is data. MachineSession goes by it, docs/machine-states.md is drawn from it, and a test walks each of its
-// cells. A cell that is not in the table is no transition: the session refuses a request that would need it.
+// The table is data. MachineSession follows the table, docs/machine-states.md is made from it, and a test walks each
+// cell. A transition that is not in the table does not exist: the session refuses a request that would need it.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@ enum class MachineState : std::uint8_t {
   offline,      // no board has answered yet, or the next hello is on its way
   idle,         // at rest, ready
   run,          // a program runs
-  hold,         // a program brakes or rests: the operator's hold, or a stop of the program (M0, M1)
-  jog,          // axes are moved by hand
+  hold,         // a program brakes or rests, for the operator's hold or the program's stop (M0, M1)
+  jog,          // the operator moves axes
   home,         // the machine finds its place by switches
-  probe,        // one probe move
+  probe,        // one probe move is made
   tool_change,  // a program waits for another tool (M6)
-  check,        // a program is gone through without motion
-  door,         // the door is open, or was, and nobody has pressed start since
+  check,        // a program is checked without motion
+  door,         // the door is open, or was open and nobody has pressed start since
   alarm,        // the motors were stopped at once: the place is not certain
   fault,        // the board does not answer, or does not suit
-  sleep,        // at rest, nothing is accepted but waking
+  sleep,        // at rest; only waking is accepted
 };
 inline constexpr std::size_t state_count = 13;
 
@@ -36,15 +36,15 @@ enum class MachineEvent : std::uint8_t {
   begin_home,
   begin_probe,
   begin_check,
-  hold,       // somebody wants a rest, or the program does (M0, M1)
-  resume,     // no reason is left to rest
+  hold,       // somebody asks for a hold, or the program does (M0, M1)
+  resume,     // no reason to rest is left
   want_tool,  // the program comes to a tool change
   open_door,
-  close_door,    // and nothing was going on
+  close_door,    // the door closes, and nothing was going on
   end,           // what was going on is done, or was stopped
   stop_at_once,  // a limit, an emergency stop: steps may be lost
   lose_board,    // no answer, a reset, another protocol
-  reset,         // begin anew with a hello
+  reset,         // begin again with a hello
   fall_asleep,
   wake,
 };
@@ -60,9 +60,9 @@ struct Transition {
 struct StateRow {
   MachineState state;
   std::string_view name;     // as people and status lines read it
-  bool has_activity;         // something is going on, or rests and goes on later
-  bool may_move;             // motors may turn: all others are states of rest
-  bool program_has_outputs;  // spindle and coolant are as the program says; in all others they are off
+  bool has_activity;         // something is going on, or is held and goes on later
+  bool may_move;             // motors may turn; in all other states the machine rests
+  bool program_has_outputs;  // spindle and coolant are as the program says; in all other states they are off
 };
 
 // In a fault, and after it until the board has answered, nobody knows: a board that the host cannot hear plays its tail
@@ -156,7 +156,7 @@ inline constexpr auto transitions = [] {
   };
 }();
 
-// Where an event leads from a state; nothing: the event is not to happen there.
+// The state to which an event leads. Empty: the event may not happen in this state.
 constexpr std::optional<MachineState> next_state(MachineState from, MachineEvent event) {
   for (const Transition& one : transitions) {
     if (one.from == from && one.event == event) return one.to;

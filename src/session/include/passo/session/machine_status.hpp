@@ -1,5 +1,5 @@
-// MachineStatus: all that is to be known of a machine at one moment, as a value. MachineChange: what has happened
-// since.
+// MachineStatus: all that there is to know of a machine at one moment, as a value. MachineChange: one thing that has
+// happened since.
 #pragma once
 
 #include <cstdint>
@@ -26,46 +26,46 @@ struct Overrides {
 // What the program waits for.
 struct OperatorWait {
   Action::Kind kind = Action::Kind::program_stop;
-  std::int32_t tool = 0;   // of a tool change
-  std::uint32_t line = 0;  // of the program
+  std::int32_t tool = 0;   // the tool, for a tool change
+  std::uint32_t line = 0;  // the program's line
   friend bool operator==(const OperatorWait&, const OperatorWait&) = default;
 };
 
 struct MachineStatus {
   std::uint64_t version = 0;  // grows with each change
-  Seconds time{0};            // of the board's side
+  Seconds time{0};            // on the board's side
   MachineState state = MachineState::offline;
   HoldReasons holds;       // why the machine rests or brakes
   bool rests = true;       // no motion is under way
-  KnownPosition position;  // at rest where the machine stands; in motion where it last rested
+  KnownPosition position;  // at rest: where the machine stands; in motion: where it last rested
   Point ahead;             // in motion: the end of what has been planned
   std::optional<ActivityKind> activity;
   std::optional<double> progress;  // of the activity, 0 to 1
-  Seconds committed{0};            // motion that nothing can change any more
-  std::uint16_t inputs = 0;        // bits of BoardInput: what is closed
-  OutputState outputs;             // as the program has ordered them
+  Seconds committed{0};            // time of the motion that nothing can change any more
+  std::uint16_t inputs = 0;        // bits of BoardInput: the closed inputs
+  OutputState outputs;             // the outputs as the program has ordered them
   Overrides overrides;
   std::optional<OperatorWait> waits_for;
-  std::optional<HomingStage> homing;  // and of which axis
+  std::optional<HomingStage> homing;  // the stage of homing; the next member is its axis
   std::optional<Axis> homing_axis;
-  std::optional<LinkError> trouble;  // of an alarm or a fault
+  std::optional<LinkError> trouble;  // the error of an alarm or a fault
   std::string trouble_words;         // a sentence without a full stop
 };
 
-// What has become of a request.
+// The result of a request.
 enum class Outcome : std::uint8_t {
   done,
-  stopped,  // somebody asked for that, or a lease was over
+  stopped,  // somebody asked to stop, or a lease was over
   failed,   // the fault tells why
 };
 
 struct MachineChange {
   enum class Kind : std::uint8_t {
-    state,           // the machine is in `state` from now on
-    answered,        // `ticket` came to its end, as `outcome` says
+    state,           // the machine is now in `state`
+    answered,        // the request of `ticket` has ended with `outcome`
     came_to_rest,    // in a hold
-    rested_by_tail,  // nothing had come to the board in time; the path is taken up again
-    position_lost,   // the board's counts are not those that were commanded
+    rested_by_tail,  // the board rested because a refill came too late; the path goes on
+    position_lost,   // the board's counts differ from what was commanded
     probed,          // a probe move has ended
   };
   Kind kind = Kind::state;

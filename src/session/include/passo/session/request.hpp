@@ -1,5 +1,5 @@
-// Requests: what can be asked of a machine. Each is answered: refused at once, or taken, with a ticket by which a
-// change tells later what has become of the request.
+// Requests: what can be asked of a machine. Each request is refused at once, or taken with a ticket. Later, a change
+// with that ticket tells the result.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace passo {
 
-// Who wants to see data walk by. Empty ones cost nothing.
+// Functions that watch the data of a run. Empty functions cost nothing.
 struct Watchers {
   std::function<void(const PathItem&)> path;
   std::function<void(const MotionItem&)> motion;
   std::function<void(const BoardItem&)> items;
   std::function<void(const ProbeOutcome&)> probe;
-  std::function<void(const LinkItem&)> executed;  // over a line: what the board has done, tails included
-  std::function<void(const BoardRest&)> rests;    // over a line: where the board may come to rest, before it can
+  std::function<void(const LinkItem&)> executed;  // over a line: what the board has executed, tails included
+  std::function<void(const BoardRest&)> rests;    // over a line: where the board may come to rest, told in advance
 };
 
 namespace request {
@@ -33,30 +33,30 @@ namespace request {
 // Runs a program from where the machine stands. The program was checked before.
 struct Start {
   ProgramReader program;
-  InterpreterOptions options;            // `start` is the session's to say
-  Seconds nominal_time{0};               // of the check, for progress
-  bool waits_for_operator = true;        // at M0, M1 and M6
+  InterpreterOptions options;            // the session sets `start`
+  Seconds nominal_time{0};               // from the check, for progress
+  bool waits_for_operator = true;        // the run waits at M0, M1 and M6
   bool live = true;                      // reacts at once, and therefore reads less far ahead
-  bool answers_probes = true;            // by the board; else a probe move is touched at its end
-  std::optional<ResumePoint> from = {};  // begun by another host, which has left the machine there
+  bool answers_probes = true;            // the board answers; else a probe move is touched at its end
+  std::optional<ResumePoint> from = {};  // where another host has left the job
   Watchers watchers = {};
-  Diagnostics* findings = nullptr;  // gets what is still found amid the run; outlives it. Null: nobody looks
+  Diagnostics* findings = nullptr;  // gets what is found during the run; outlives the run. Null: nobody looks
 };
-// Moves axes for as long as the lease is renewed; the machine begins to brake when the lease is over at the latest.
+// Moves axes for as long as the lease is renewed. The machine begins to brake before the lease is over.
 struct Jog {
   JogWay way;
-  Seconds lease{0.25};  // of the start, and of each renewal
+  Seconds lease{0.25};  // length of the first lease, and of each renewal
 };
 struct RenewLease {};
 // Finds the machine's place by its switches.
 struct Home {};
-// One move that ends where the probe gets touched, or free.
+// Makes one move that ends where the probe gets touched or free.
 struct Probe {
   Point target;  // machine coordinates
   MmPerSecond speed{0};
   bool toward = true;
 };
-// Goes through a program without motion.
+// Checks a program without motion.
 struct Check {
   ProgramReader program;
   InterpreterOptions options;
@@ -66,7 +66,7 @@ struct Hold {};
 struct Resume {};
 // Brakes on the path and ends what is going on.
 struct Stop {};
-// Factors; nothing: stays as it is. Feed and spindle 0 to 2, the machine's own factor 0 to 1.
+// Changes factors. An empty factor stays as it is. Feed and spindle are 0 to 2, the machine's own factor is 0 to 1.
 struct Override {
   std::optional<double> feed = {};
   std::optional<double> adaptive_feed = {};
@@ -74,11 +74,12 @@ struct Override {
 };
 // The operator has done what the program waits for: M0, M1, M6.
 struct OperatorDone {};
-// Says where the machine stands, as somebody has seen.
+// Says where the machine stands, as a person knows.
 struct SetPosition {
   KnownPosition position;
 };
-// After an alarm or a fault: another hello. The place is unknown after that.
+// Says hello again, for instance after an alarm or a fault. The place stays known only if a board at the end of a line
+// has gone on counting.
 struct ResetMachine {};
 struct Sleep {};
 struct Wake {};
@@ -97,10 +98,10 @@ enum class RefusalCode : std::uint8_t {
   not_ready,     // the board has not answered yet
   alarm,         // a reset has to come first
   asleep,        // a wake has to come first
-  nothing_runs,  // there is nothing to hold, to resume, to stop or to renew
+  nothing_runs,  // there is nothing to hold, resume, stop or renew
   not_waiting,   // the program does not wait for the operator
   door_open,     // the door has to be closed first
-  no_switches,   // the machine has none to be homed by
+  no_switches,   // the machine has no switches for homing
   bad_value,     // not a number, or out of range
 };
 std::string_view code_of(RefusalCode code);

@@ -1,0 +1,56 @@
+#include "passo/drive/speed_for_tails.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace passo {
+namespace {
+
+// Where a tail is too long the speed is limited to this part of what it is there: again after so much motion, in which
+// the planner has braked; and where tails have been short enough for so long, the limit may rise by this part.
+constexpr double slower = 0.7;
+constexpr double slower_from_rest = 0.5;
+constexpr Seconds to_settle{0.03};
+constexpr double faster = 1.3;
+constexpr Seconds to_go_on_so{0.1};
+constexpr double least_limit = 0.05;  // mm/s
+
+}  // namespace
+
+SpeedForTails::SpeedForTails(Planner& planner, std::size_t places, std::size_t least_refill)
+    : planner_(planner), long_tail_((places - std::min(places, least_refill + 1)) / 2) {}
+
+void SpeedForTails::note_speed(double speed) {
+  speed_ = speed;
+  fastest_ = std::max(fastest_, speed_);
+}
+
+void SpeedForTails::note_tail(std::size_t items) {
+  const bool is_long = items > long_tail_;
+  if (is_long && speed_ > least_limit && (std::isinf(limit_) || limited_for_ > to_settle)) {
+    limit_to(std::min(limit_, speed_) * slower);
+  } else if (!is_long && !std::isinf(limit_)) {
+    const bool is_short = 2 * items < long_tail_;
+    if (is_short && limited_for_ > to_settle) {
+      limit_to(std::numeric_limits<double>::infinity());
+    } else if (limited_for_ > to_go_on_so) {
+      limit_to(limit_ * faster);
+    }
+  }
+}
+
+bool SpeedForTails::begin_more_slowly() {
+  const double limit = std::min(limit_, fastest_) * slower_from_rest;
+  if (limit < least_limit) return false;
+  limit_to(limit);
+  return true;
+}
+
+void SpeedForTails::limit_to(double speed) {
+  if (speed < limit_) ++slowdowns_;
+  limit_ = speed;
+  limited_for_ = Seconds(0);
+  planner_.limit_speed_to(MmPerSecond(speed));
+}
+
+}  // namespace passo

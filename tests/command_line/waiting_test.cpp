@@ -1,0 +1,94 @@
+// passo run and passo jog with a person before them, or without: who waits for whom.
+#include "kit/served_board.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string router = " -m " + std::string(PASSO_SOURCE_DIR) + "/examples/machines/router.toml ";
+const std::string stops = "G21 G90 G1 F3000 X2\nM0\nX3\nT2 M6\nX4\nM1\nX5\nM2\n";
+
+class Waiting : public passo::test::ServedBoard {
+ protected:
+  // On a terminal of its own. `typed`: a shell command that prints what somebody types there.
+  Outcome type(const std::string& typed, const std::string& arguments) const {
+    const std::string command = "(" + typed + ") | script -qec '" PASSO_PROGRAM " " + arguments + "' " +
+                                path("typescript") + " > " + path("screen") + " 2>&1";
+    const int status = std::system(command.c_str());
+    return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = screen(), .err = {}};
+  }
+  std::string screen() const { return passo::test::read(path("screen")); }
+};
+
+TEST_F(Waiting, a_run_on_a_terminal_asks_at_each_stop_of_the_program) {
+  const std::string enters = "for i in 1 2 3; do sleep 0.5; echo; done; sleep 0.5";
+  const Outcome outcome = type(enters, "run " + write("p.ngc", stops) + router);
+  EXPECT_EQ(outcome.code, 0) << screen();
+  EXPECT_THAT(screen(), HasSubstr("waits at line 2: the operator (M0). Press Enter to go on."));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 4: tool 2 (M6). Press Enter to go on."));
+  EXPECT_THAT(screen(), HasSubstr("waits at line 6: the operator (M1). Press Enter to go on."));
+}
+
+TEST_F(Waiting, with_yes_nobody_is_asked) {
+  const Outcome outcome = type("sleep 0.2", "run --yes " + write("p.ngc", stops) + router);
+  EXPECT_EQ(outcome.code, 0) << screen();
+  EXPECT_THAT(screen(), Not(HasSubstr("waits at")));
+}
+
+TEST_F(Waiting, without_a_terminal_the_virtual_machine_goes_on_and_says_what_it_would_wait_for) {
+  const Outcome outcome = passo("run --json " + write("p.ngc", stops) + router);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("would wait for line 2: the operator (M0); line 4: tool 2 (M6); line 6: the "
+                                     "operator (M1)"));
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["position_mm"]["X"], 5);
+}
+
+TEST_F(Waiting, without_a_terminal_a_program_on_a_board_ends_at_its_stop_and_can_go_on_from_there) {
+  const std::string command =
+      "run --json " + write("p.ngc", stops) + router + "--board " + serve("18000000") + " --journal " + path("j");
+  const Outcome waits = passo(command);
+  EXPECT_EQ(waits.code, 1) << waits.err;
+  EXPECT_THAT(waits.err, HasSubstr("waits at line 2: the operator (M0), and there is no terminal to ask on"));
+  EXPECT_THAT(waits.err, HasSubstr("[run.waits]"));
+  EXPECT_THAT(waits.err, HasSubstr("the machine rests at X2.000"));
+  // What was not done yet is met again.
+  const Outcome again = passo(command + " --resume");
+  EXPECT_EQ(again.code, 1) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("waits at line 2"));
+  const Outcome resumed = passo(command + " --resume --yes");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(nlohmann::json::parse(resumed.out)["position_mm"]["X"], 5);
+}
+
+TEST_F(Waiting, a_jog_moves_a_board_over_a_line) {
+  const std::string board = " --board " + serve("18000000");
+  const Outcome outcome = passo("jog" + router + "X+3 Y-4 -F 3000 --json" + board);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["ended_by"], "distance");
+  EXPECT_NEAR(json["position_mm"]["X"], 3, 1e-3);
+  const auto info = nlohmann::json::parse(passo("board info --json " + board.substr(9)).out);
+  EXPECT_EQ(info["status"]["positions"][0], 3 * 640);
+  const Outcome lease = passo("jog" + router + "X+ -F 600 --held 0.2 --lease 0.3 --json" + board);
+  ASSERT_EQ(lease.code, 0) << lease.err;
+  EXPECT_EQ(nlohmann::json::parse(lease.out)["ended_by"], "lease");
+}
+
+TEST_F(Waiting, a_jog_by_keys_moves_while_keys_come) {
+  // Held for a moment: a key that a terminal repeats.
+  const std::string keys =
+      "sleep 0.3; for i in 1 2 3 4 5; do printf \"\\033[C\"; sleep 0.03; done; sleep 0.5; printf \"\\033[5~\"; sleep "
+      "0.5; printf q; sleep 0.2";
+  const Outcome outcome = type(keys, "jog" + router);
+  EXPECT_EQ(outcome.code, 0) << screen();
+  const std::string last = screen().substr(screen().rfind("Idle"));
+  EXPECT_THAT(last, Not(HasSubstr("X0.000"))) << screen();
+  EXPECT_THAT(last, HasSubstr("Y0.000"));
+  EXPECT_THAT(last, Not(HasSubstr("Z0.000"))) << screen();
+}
+
+}  // namespace

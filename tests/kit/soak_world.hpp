@@ -1,0 +1,171 @@
+// SoakWorld: a virtual machine at the end of a line, the plant behind it, and all that may happen to the three: the
+// line is cut or spoils bytes, somebody opens the door, presses buttons, closes limit switches, or resets the board.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kit/limit_watch.hpp"
+#include "kit/line_trouble.hpp"
+#include "kit/stage_test.hpp"
+
+#include "passo/activity/machine_plant.hpp"
+#include "passo/activity/stage_options.hpp"
+#include "passo/machine/virtual_line.hpp"
+#include "passo/machine/virtual_machine.hpp"
+
+namespace passo::test {
+
+class SoakWorld {
+ public:
+  SoakWorld(const MachineDescription& description, Random random, const Point& stands_at)
+      : limits(description),
+        machine(static_cast<std::uint8_t>(description.axes.size()), description.board.clock,
+                description.board.highest_event_rate, static_cast<std::size_t>(description.board.held_items)),
+        line(machine, description.board.clock, LineOptions()),
+        random_(std::move(random)),
+        plant_(plant_of(description, stands_at, {plate()})) {
+    machine.connect(plant_);
+    machine.add_observer(limits);
+    decoder_.set_motors(static_cast<std::uint8_t>(description.axes.size()));
+    line.set_trouble([this](bool to_board, Bytes bytes) { return pass(to_board, std::move(bytes)); });
+    next_ = now() + wait();
+  }
+  SoakWorld(const SoakWorld&) = delete;
+  SoakWorld& operator=(const SoakWorld&) = delete;
+
+  Seconds now() const { return machine.elapsed(); }
+  Truth truth() { return plant_.truth_at(now()); }
+  // Lets happen what is due, and says what has. `homes`: nobody fools the machine about where it is.
+  const char* act(bool homes) {
+    for (std::size_t i = 0; i < due_.size();) {
+      if (due_[i].at > now()) {
+        ++i;
+        continue;
+      }
+      const std::function<void()> happen = std::move(due_[i].happen);
+      due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(i));
+      happen();
+    }
+    if (now() < next_) return nullptr;
+    next_ = now() + wait();
+    return trouble(homes);
+  }
+  // A limit switch is closed by hand: what homing finds now may be wrong.
+  bool fools() const { return fools_; }
+
+  LimitWatch limits;
+  VirtualMachine machine;
+  VirtualLine line;
+  std::uint64_t cuts = 0;
+  std::uint64_t spoiled = 0;  // bytes and frames
+  std::uint64_t presses = 0;
+  std::uint64_t doors = 0;
+  std::uint64_t emergency_stops = 0;
+  std::uint64_t limit_presses = 0;
+  std::uint64_t resets = 0;
+  std::uint64_t stops = 0;  // of the board, at once
+
+ private:
+  struct Due {
+    Seconds at{0};
+    std::function<void()> happen;
+  };
+
+  // Under the whole table, for the probe to touch.
+  static TouchBox plate() {
+    TouchBox box;
+    box.ranges[Axis::z].high = -40;
+    return box;
+  }
+  Seconds wait() { return Seconds(std::exp(random_.between(-1, 4.2))); }
+  void later(double from, double to, std::function<void()> happen) {
+    due_.push_back(
+        {.at = now() + Seconds(std::exp(random_.between(std::log(from), std::log(to)))), .happen = std::move(happen)});
+  }
+  void close(std::uint16_t which, double shortest, double longest) {
+    machine.set_switch(which, true);
+    later(shortest, longest, [this, which] { machine.set_switch(which, false); });
+  }
+
+  const char* trouble(bool homes) {
+    const double kind = random_.between(0, 1);
+    if (kind < 0.25) {
+      ++presses;
+      close(input_hold, 0.02, 0.5);
+      return "--- hold is pressed";
+    }
+    if (kind < 0.55) {
+      ++presses;
+      close(input_start, 0.02, 0.5);
+      return "--- start is pressed";
+    }
+    if (kind < 0.65) {
+      ++doors;
+      close(input_door, 0.05, 10);
+      return "--- the door opens";
+    }
+    if (kind < 0.80) {
+      ++cuts;
+      line.cut(now() + Seconds(random_.between(0, 0.1)), Seconds(std::exp(random_.between(-5, 2.2))));
+      return "--- the line is cut";
+    }
+    if (kind < 0.90) {
+      spoil();
+      return "--- the line spoils bytes";
+    }
+    if (kind < 0.94) {
+      ++emergency_stops;
+      close(input_emergency_stop, 0.05, 5);
+      return "--- emergency stop";
+    }
+    if (kind < 0.97) {
+      if (homes) return nullptr;
+      ++limit_presses;
+      fools_ = true;
+      const auto which = static_cast<std::uint16_t>(input_limit << static_cast<unsigned>(random_.between(0, 2.999)));
+      machine.set_switch(which, true);
+      later(0.02, 0.5, [this, which] {
+        machine.set_switch(which, false);
+        fools_ = false;
+      });
+      return "--- a limit switch is pressed";
+    }
+    ++resets;
+    machine.reset_board();
+    limits.forget(machine.now());
+    return "--- the board is reset";
+  }
+
+  void spoil() {
+    if (spoiler_) return;
+    spoiler_.emplace(static_cast<std::uint64_t>(random_.between(0, 1e15)));
+    later(0.5, 10, [this] {
+      spoiled += static_cast<std::uint64_t>(spoiler_->faults);
+      spoiler_.reset();
+    });
+  }
+  Bytes pass(bool to_board, Bytes bytes) {
+    for (std::size_t i = 0; !to_board && i < bytes.size(); ++i) {
+      if (decoder_.feed(bytes[i]) != Decoded::frame || decoder_.frame().type != MessageType::fault) continue;
+      ++stops;
+      limits.forget(machine.now());
+    }
+    return spoiler_ ? (*spoiler_)(to_board, bytes) : bytes;
+  }
+
+  Random random_;
+  IdealPlant plant_;
+  std::vector<Due> due_;
+  Seconds next_{0};
+  bool fools_ = false;
+  std::optional<RandomTrouble> spoiler_;
+  Decoder decoder_;
+};
+
+}  // namespace passo::test
