@@ -88,7 +88,7 @@ void MachineSession::go_online(Seconds most) {
     move_to(MachineEvent::lose_board);
     return;
   }
-  if (std::exchange(leaves_outputs_, false)) board_.send(BoardOutputs{});
+  if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
   if (board_.busy()) board_.poll(most);
   if (board_.busy() || board_.error()) return;
   place_.reset();
@@ -129,7 +129,7 @@ void MachineSession::begin_reset() {
   trouble_.reset();
   trouble_words_.clear();
   greeted_ = false;
-  leaves_outputs_ = true;
+  switches_off_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
   if (!options_.over_a_line) position_.trust = Trust::unknown;

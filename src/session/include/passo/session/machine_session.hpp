@@ -146,8 +146,8 @@ class MachineSession {
   BoardSession board_;
   MachineState state_ = MachineState::offline;
   bool greeted_ = false;
-  bool asks_place_ = false;      // before another hello
-  bool leaves_outputs_ = false;  // on, perhaps, what was going on when the board was lost
+  bool asks_place_ = false;    // the board is asked for its place before another hello
+  bool switches_off_ = false;  // after another hello: what was going on may have left something on
   KnownPosition position_;
   Trust trust_before_ = Trust::unknown;    // the trust before the board was lost
   std::optional<BoardPlace> place_;        // where the board stands, exact below a step; empty: as after a hello
