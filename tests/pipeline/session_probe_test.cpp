@@ -43,6 +43,25 @@ TEST_P(AfterAProbeMove, the_switch_of_a_homing_that_was_stopped_stops_the_motors
   EXPECT_EQ(run.state(), MachineState::alarm);
 }
 
+TEST_P(AfterAProbeMove, a_homing_that_is_stopped_in_its_last_pull_off_claims_no_place) {
+  for (const double delay : {0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.15, 0.2}) {
+    SCOPED_TRACE(delay);
+    SessionRun run(test::short_router(), {.line = GetParam()});
+    run.make_ready();
+    const Ticket ticket = run.taken(request::Home{});
+    const HomingPath& homing = *run.session().homing();
+    ASSERT_TRUE(run.turn_until([&] {
+      return homing.done() ||
+             (homing.homed().size() + 1 == run.description().homing.size() && homing.stage() == HomingStage::pull_off);
+    }));
+    run.pass(Seconds(delay));
+    if (run.session().busy()) run.taken(request::Stop{});
+    run.to_end();
+    EXPECT_EQ(run.outcome(ticket) == Outcome::done, run.session().status().position.trust == Trust::homed);
+    run.expect_at_place();
+  }
+}
+
 TEST_P(AfterAProbeMove, a_touch_stops_no_jog) {
   test::SessionOn on{.line = GetParam()};
   on.boxes.emplace_back().ranges[Axis::z].high = -5;
