@@ -273,13 +273,13 @@ void BoardSession::take(const BoardStatus& status) {
     probe_.confirm(status);
     settle(Question::watch);
   }
+  const bool is_known = session_ != 0 && status.session == session_;
+  // Before the board has heard of the session it is no wonder.
+  if (!is_known && session_ != 0 && phase_ == Phase::ready) return doubt(LinkError::was_reset);
+  if (is_known && (status.state & board_trusted) == 0) return doubt(LinkError::stopped);
+  // What is in doubt answers nothing: the counts of a board that was reset are not those of the motors.
   if (status.answers == question_) settle(Question::status);
-  if (session_ == 0 || status.session != session_) {
-    // While the session's number is still on its way, another number is no error.
-    if (session_ != 0 && phase_ == Phase::ready) doubt(LinkError::was_reset);
-    return;
-  }
-  if ((status.state & board_trusted) == 0) return doubt(LinkError::stopped);
+  if (!is_known) return;
   doubts_ = 0;
   const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
   note_progress(credit, status.answers);

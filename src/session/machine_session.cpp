@@ -268,7 +268,8 @@ void MachineSession::note_place() {
     position_.place[steps.motors[m].axis] = exact / steps.motors[m].steps_per_unit;
   }
   if (work_->finishing && !counts_agree()) return;
-  if (work_->homing == nullptr || !work_->homing->done()) return;
+  // The path is done when the last pull-off has been planned: it may have been stopped since.
+  if (work_->homing == nullptr || !work_->homing->done() || work_->drive->stopped()) return;
   position_.place = home_place();
   position_.trust = Trust::homed;
   mismatch_.reset();

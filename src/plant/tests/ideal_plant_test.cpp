@@ -90,7 +90,9 @@ TEST(IdealPlant, its_spindle_turns_as_commanded) {
 }
 
 IdealPlant random_plant(std::mt19937_64& random) {
-  const auto within = [&](std::int64_t most) { return static_cast<std::int64_t>(random() % (2 * most + 1)) - most; };
+  const auto within = [&](std::int64_t most) {
+    return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(2 * most + 1)) - most;
+  };
   IdealPlant plant;
   for (int i = 0; i < 3; ++i) {
     const bool high = random() % 2 == 0;
