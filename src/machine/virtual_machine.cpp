@@ -40,7 +40,7 @@ void VirtualMachine::stand_at(const MotorSteps& positions) {
 }
 
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
-  if (board_.idle()) waits_ = false;  // it may have been stopped before its event
+  if (board_.idle()) waits_ = false;  // the board may have stopped before its event
   for (const std::uint8_t byte : bytes) board_.receive(byte);
   if (board_.owes_report()) board_.report();
 }
@@ -89,7 +89,8 @@ void VirtualMachine::look_at_inputs() {
   if (inputs != told_) heed(inputs);
 }
 
-// As the firmware's main loop does it: what is watched is captured, what a person presses is told, what stops stops.
+// Does what the firmware's main loop does: captures a watched input, tells the host what a person presses, and stops at
+// an input that stops.
 void VirtualMachine::heed(unsigned now) {
   const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
   constexpr unsigned by_people = input_door | input_hold | input_start;
@@ -117,7 +118,7 @@ void VirtualMachine::Hardware::step(std::uint8_t stepped, std::uint8_t direction
     const auto m = static_cast<unsigned>(std::countr_zero(left));
     Motor& motor = motors[m];
     motor.position += (directions >> m & 1U) != 0 ? -1 : 1;
-    // The first step has none before it.
+    // The first step has no step before it.
     if (motor.total++ != 0) motor.shortest_interval = std::min(motor.shortest_interval, now - motor.last_step);
     motor.last_step = now;
   }
