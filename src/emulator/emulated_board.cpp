@@ -25,7 +25,7 @@ namespace {
 
 constexpr double clock_rate = 16e6;
 constexpr std::uint32_t baud = 500'000;
-// Where a board that is silent is waited for without end: so long, in seconds.
+// How long, in seconds, an endless run() waits for a silent board.
 constexpr double longest_silence = 10;
 
 struct Kind {
@@ -38,7 +38,8 @@ struct Kind {
   bool has_encoder = false;
 };
 
-// Of the Mega: the spindle's PWM is timer 4's output C, connected to its pin by one bit. docs/boards.md has its speed.
+// On the Mega, the spindle's PWM is timer 4's output C, which one bit connects to its pin. docs/boards.md has the PWM's
+// speed.
 constexpr Pin output_c = {'H', 5};
 constexpr std::uint16_t tccr4a = 0xa0;
 constexpr std::uint16_t ocr4cl = 0xac;
@@ -181,7 +182,8 @@ class AvrBoard final : public EmulatedBoard {
     pulses_[motor] += down ? -1 : 1;
     if (on_step) on_step(cycle, motor, down);
   }
-  // Where a motor's windings lie on two ports there is a moment between the two, whose pattern is in no table.
+  // If a motor's windings are on two ports, there is a moment between the two writes. The pattern of that moment is in
+  // no table.
   void follow_windings(std::uint64_t cycle, std::size_t motor) {
     const WindingTable table = winding_table(motors_[motor].drive);
     unsigned pattern = 0;
@@ -202,12 +204,12 @@ class AvrBoard final : public EmulatedBoard {
   bool has_encoder_;
   IdealPlant own_plant_;
   Plant* plant_ = &own_plant_;
-  std::uint16_t inputs_ = 0;  // as the plant said last
+  std::uint16_t inputs_ = 0;  // the inputs that the plant told last
   double duty_ = 0;
   bool turns_ = false;
   std::vector<std::int64_t> positions_;
-  MotorSteps pulses_{};                       // of the change that is looked at
-  std::array<std::uint8_t, 12> levels_ = {};  // of each port, A first, as it was when counted
+  MotorSteps pulses_{};                       // the pulses of the current change
+  std::array<std::uint8_t, 12> levels_ = {};  // each port's levels at the last count, A first
   EmulatedChip chip_;
   EmulatedTimer timer_;
   EmulatedUart uart_;

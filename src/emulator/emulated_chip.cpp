@@ -14,10 +14,10 @@
 namespace passo {
 namespace {
 
-// Memory has something in it when the power comes on.
+// Real memory is not empty when the power comes on.
 constexpr std::uint8_t never_written = 0xC7;
 
-// simavr tells about every section that it loads; what is wrong it also tells by its results.
+// simavr logs every section that it loads. Its results tell of errors too, so the log is not needed.
 void keep_silent(avr_t* /*avr*/, int /*level*/, const char* /*format*/, std::va_list /*values*/) {}
 
 }  // namespace
@@ -39,11 +39,11 @@ EmulatedChip::EmulatedChip(const std::string& program, const std::string& mcu) {
   std::free(firmware.flash);
   std::fill(avr_->data + avr_->ioend + 1, avr_->data + avr_->ramend + 1, never_written);
 
-  // 1 by default, an instruction a call: six times slower.
+  // The default is 1: one instruction a call, which is six times slower.
   avr_->run_cycle_limit = 1000;
-  // Sleeping is skipped, not waited for.
+  // The emulation skips sleep instead of waiting.
   avr_->sleep = [](avr_t*, avr_cycle_count_t) {};
-  // Else a low level of INT0 and INT1 is looked for at every cycle, interrupts enabled or not.
+  // Otherwise simavr would check INT0 and INT1 for a low level at every cycle, whether interrupts are enabled or not.
   for (std::uint8_t pin = 0; pin < 8; ++pin) avr_extint_set_strict_lvl_trig(avr_.get(), pin, 0);
   if (avr_->address_size == 3) entry_cycles_ = 5;
   mend_interrupts();
@@ -85,7 +85,7 @@ void EmulatedChip::step() {
 
 void EmulatedChip::run_for(std::uint64_t cycles) {
   const std::uint64_t end = avr_->cycle + cycles;
-  // simavr runs on until something is due: let it be due there.
+  // simavr runs on until something is due, so something is made due here.
   avr_cycle_timer_register(
       avr_.get(), cycles, [](avr_t*, avr_cycle_count_t, void*) { return avr_cycle_count_t{0}; }, this);
   stopped_ = false;

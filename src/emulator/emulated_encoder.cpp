@@ -23,8 +23,8 @@ constexpr std::uint8_t rising_edges_of_t5 = 7;
 EmulatedEncoder::EmulatedEncoder(EmulatedChip& chip, int pulses_per_turn, Turns turns)
     : chip_(chip), pulses_per_turn_(pulses_per_turn), turns_(std::move(turns)) {
   avr_t& avr = chip.avr();
-  set_clock(avr.data[tccr5b]);  // the program may run already
-  // The handlers are replaced, not added to: simavr's own timers never learn of this.
+  set_clock(avr.data[tccr5b]);  // the program may already run
+  // The handlers are replaced, not extended: simavr's own timers never learn of these writes.
   const auto on_write = [&](std::uint16_t address, avr_io_write_t write) {
     avr.io[AVR_DATA_TO_IO(address)].w = {.param = this, .c = write};
   };

@@ -13,12 +13,12 @@ namespace {
 constexpr std::uint16_t pcifr = 0x3b;
 constexpr std::uint16_t eifr = 0x3c;
 constexpr std::uint16_t eicra = 0x69;
-constexpr std::uint8_t any_change = 1;  // of the two bits of a pin in EICRA, EICRB
-// Registers from here on are reached as memory: a write comes in the second cycle of its instruction.
+constexpr std::uint8_t any_change = 1;  // value of a pin's two bits in EICRA, EICRB
+// Registers from this address on are reached as memory: a write comes in the second cycle of its instruction.
 constexpr std::uint16_t first_memory_register = 0x60;
 constexpr std::uint16_t pcmsk0 = 0x6b;
 
-// PINA… of the data sheets; there is no port I.
+// PINA, PINB and so on of the data sheets. There is no port I.
 std::uint16_t pin_address(char port) {
   if (port < 'H') return static_cast<std::uint16_t>(0x20 + 3 * (port - 'A'));
   return static_cast<std::uint16_t>(0x100 + 3 * (port - 'H' - (port > 'I' ? 1 : 0)));
@@ -112,7 +112,7 @@ void EmulatedPorts::set_input(char port, std::uint8_t bit, bool high) {
   }
 }
 
-// INT0 to INT3 are on D0 to D3 of the 2560, INT4 to INT7 on E4 to E7: the pin's number is the interrupt's.
+// On the 2560, INT0 to INT3 are on D0 to D3, and INT4 to INT7 on E4 to E7: the pin's number is the interrupt's number.
 void EmulatedPorts::set_change_flag(std::uint8_t number) {
   const unsigned sense = avr_.data[eicra + number / 4] >> (number % 4 * 2) & 3U;
   if (sense == any_change) avr_.data[eifr] = static_cast<std::uint8_t>(avr_.data[eifr] | 1U << number);

@@ -30,7 +30,7 @@ EmulatedTimer::EmulatedTimer(EmulatedChip& chip) : avr_(chip.avr()) {
     if (vector->raised.reg == tifr1 && vector->raised.bit == 1) match_ = vector;
   }
   if (match_ == nullptr) throw std::runtime_error("simavr knows no compare match of timer 1");
-  // The handlers are replaced, not added to: simavr's own timer never learns that it runs.
+  // The handlers are replaced, not extended: simavr's own timer never learns that it runs.
   const auto on_write = [this](std::uint16_t address, avr_io_write_t write) {
     avr_.io[AVR_DATA_TO_IO(address)].w = {.param = this, .c = write};
   };

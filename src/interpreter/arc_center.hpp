@@ -20,8 +20,8 @@ constexpr PlanePoint in_plane(const Point& point, const PlaneAxes& axes) {
 }
 
 struct ArcTolerance {
-  double radius;                                    // a radius below is none; R may fall this short of half the chord
-  double absolute_spiral;                           // start and end radius may differ by this much…
+  double radius;           // a smaller radius counts as none; R may be this much less than half the chord
+  double absolute_spiral;  // start and end radius may differ by this much…
   static constexpr double relative_spiral = 0.001;  // …or by this part, up to a hundred times as much
 };
 inline constexpr double square_root_of_two = 1.41421356237309504880;
@@ -37,9 +37,9 @@ struct ArcCenter {
   double end_radius = 0;
 };
 
-// I J K format: the centre is known.
+// I J K format: the block gives the centre.
 ArcCenter check_center(PlanePoint start, PlanePoint end, PlanePoint center, const ArcTolerance& tolerance);
-// R format: of the two circles through both points the one with the shorter arc, or with R below 0 the longer one.
+// R format: two circles go through both points. The arc is the shorter one, or with a negative R the longer one.
 ArcCenter center_from_radius(PlanePoint start, PlanePoint end, double radius, bool clockwise,
                              const ArcTolerance& tolerance);
 // The angle from start to end about the centre, counterclockwise positive, in radians; `turns` as in

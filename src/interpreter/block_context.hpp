@@ -1,4 +1,4 @@
-// BlockContext: the block that is executed, and all that its codes work on. BlockExecutor fills it for each block; the
+// BlockContext: the block that is executed, and all that its codes use. BlockExecutor fills it for each block; the
 // families of codes (code_family.hpp) read and write it.
 #pragma once
 
@@ -34,11 +34,11 @@ struct BlockContext {
   BlockWords words;
   const CodeEntry* motion = nullptr;  // what the block does with its axis words, if a motion does
   OperationSource source;
-  WordPlace word;  // that is executed now: see Operation::word
+  WordPlace word;  // the word that is executed now; see Operation::word
   AxisWords axis_words;
 
-  bool missing_feed_told = false;  // since the last F
-  bool ended = false;              // the program, and no block follows
+  bool missing_feed_told = false;  // reported since the last F
+  bool ended = false;              // the program has ended, and no block follows
 };
 
 }  // namespace passo

@@ -1,12 +1,14 @@
 // BlockExecutor: one block of words -> operations, in RS274/NGC's order of execution.
 //
-// A block is checked first as a whole (one code of each modal group, every word used, one taker of the axis words) and
-// executed then, group by group in a fixed order (block_executor.cpp). The modal state and what switches are its own
-// (settings.cpp); all other codes belong to families (code_family.hpp). A cycle is a source of operations, which is
-// pulled until it is finished, as the queue has room. A block with an error does nothing from the error on, but the
-// position goes where it was meant to go, so that one slip does not make errors of all that follows.
+// A block is first checked as a whole (one code of each modal group, every word used, one code that takes the axis
+// words). Then it is executed group by group in a fixed order (block_executor.cpp). The executor itself has the codes
+// of the modal state and of switches (settings.cpp). All other codes belong to families (code_family.hpp). A cycle is a
+// source of operations, which is pulled while the queue has room until the cycle is finished. A block with an error
+// does nothing after the error. But the position goes where the block was meant to lead, so one slip does not cause
+// errors in all that follows.
 //
-// Costs no allocation a block. The most operations of one block (an M2 with everything before it) fit the queue.
+// A block needs no allocation. The queue has room for the most operations of one block (an M2 with everything before
+// it).
 #pragma once
 
 #include <optional>
@@ -42,27 +44,27 @@ class BlockExecutor : private CodeFamily {
   void finish(Closing closing);
   // After M2, M30 or (ABORT,…).
   bool ended() const { return block_.ended; }
-  // What the block just executed asks of the flow.
+  // The jump that the block just executed requests.
   std::optional<SubprogramJump> take_jump() { return subprograms_.take_jump(); }
-  // A sub was left, by the O-word or M99 there; the flow is back in its caller.
+  // Tells that a sub was left, by its O-word or M99. The flow is back in the caller.
   void leave_sub(const OperationSource& source);
-  // M99 in the main program, which does not run once more.
+  // Handles M99 in a main program that does not run again.
   void end_program(bool pallet);
-  // A cycle of the last block has more operations to give.
+  // True: a cycle of the last block has more operations to give.
   bool busy() const { return cycle_ != nullptr; }
   void go_on();
 
-  // The program waits for what the machine finds in the probe move that was given last.
+  // True: the program waits for what the machine finds in the last probe move.
   bool awaits_probe() const { return probe_.awaits_outcome(); }
   void take_probe_outcome() { probe_.take_outcome(); }
 
-  // Null, or the lathe cycle that wants the blocks of its sub, one after the other, in place of execute().
+  // The lathe cycle that takes the blocks of its sub, one after the other, instead of execute(). Null: no such cycle.
   LatheCodes* wants_contour() { return lathe_.wants_contour() ? &lathe_ : nullptr; }
   void add_to_contour(const Block& block);
   void end_contour();
 
  private:
-  // What a group does with its code. False when that failed: the rest of the block is not executed.
+  // Each function executes a group's code. False: the code failed, and the rest of the block is not executed.
   using GroupFunction = bool (*)(BlockExecutor& executor, CodeNumber code);
   struct Step {
     ModalGroup group;
@@ -132,9 +134,9 @@ class BlockExecutor : private CodeFamily {
   SubprogramCodes subprograms_;
 
   SymbolTable& symbols_;
-  CycleCodes* cycle_ = nullptr;           // that is being pulled
+  CycleCodes* cycle_ = nullptr;           // the cycle that is being pulled
   std::vector<ModalSnapshot> snapshots_;  // by call depth
-  std::string text_;                      // of a comment, with parameters filled in
+  std::string text_;                      // a comment's text, with parameters filled in
   std::vector<double> assigned_;
   bool has_settings_ = false;
 };

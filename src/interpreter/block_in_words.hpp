@@ -12,7 +12,8 @@
 
 namespace passo {
 
-// A word or parameter of a block and what it was worth when the block began: the block may change what it is made of.
+// A word or parameter of a block, with its value when the block began. The block itself may change what the value comes
+// from.
 struct WordValue {
   std::string word;  // as written
   char letter = 0;   // of a word; 0: something else, and `meaning` says what

@@ -1,6 +1,6 @@
 // BlockWatcher: sees each block before and after it is executed, with the state it runs under. For explain().
 //
-// Called once for each execution, so a watcher that minds only some lines has to look at the line first.
+// The watcher is called once for each execution. A watcher that needs only some lines has to check the line first.
 #pragma once
 
 #include <string_view>
@@ -15,7 +15,7 @@ namespace passo {
 class BlockWatcher {
  public:
   virtual ~BlockWatcher() = default;
-  // All borrowed, until the call returns. `file` is the name of the file that the block is in.
+  // All arguments are borrowed until the call returns. `file` is the name of the file that the block is in.
   virtual void before(const Block& block, std::string_view file, const ProgramState& state,
                       const Parameters& parameters, const SymbolTable& symbols) = 0;
   virtual void after(const ProgramState& state) = 0;

@@ -20,8 +20,8 @@ constexpr std::uint32_t bit_of(ModalGroup group) {
 
 class BlockWords {
  public:
-  // Evaluates the words of `block`. False when one is wrong: unknown, twice there, of a group already seen; all of them
-  // are reported.
+  // Evaluates the words of `block`. False: a word is wrong: unknown, given twice, or of a group already seen. All such
+  // words are reported.
   [[nodiscard]] bool read(const Block& block, const ParameterValues& parameters, Reporter& reporter);
   void clear();
 
@@ -29,7 +29,7 @@ class BlockWords {
   double operator[](char letter) const { return values_[letter_index(letter)]; }
   Span span(char letter) const { return spans_[letter_index(letter)]; }
   LetterSet present() const { return present_; }  // without G, M, N, O
-  // G65 or G66: what is behind it are arguments, M too.
+  // G65 or G66: the words after it are arguments, even M.
   bool calls_macro() const { return calls_macro_; }
   // Where the axis words are.
   void find_axes(AxisWords& places) const;
@@ -58,7 +58,8 @@ class BlockWords {
   std::array<Span, modal_group_count> code_spans_{};
 };
 
-// The value of an expression, reported when it has none. Most are one number, which costs a look.
+// The value of an expression. An expression without a value is reported. Most expressions are a single number, which is
+// fast.
 inline bool value_of(const Block& block, const Expression& expression, const ParameterValues& parameters,
                      Reporter& reporter, double& value) {
   const Instruction& first = block.code[expression.first];

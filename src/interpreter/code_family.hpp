@@ -1,9 +1,9 @@
-// CodeFamily: what all families of codes (drilling, tools, probing …) share: they read the words of the block at hand,
-// say what is wrong with it and push operations.
+// CodeFamily: what all families of codes (drilling, tools, probing …) share. They read the words of the current block,
+// report what is wrong with it, and push operations.
 //
-// Each family is a class of its own that knows its codes and what these remember from block to block. BlockExecutor
-// calls it in the order of execution. A method that returns false has reported why; the rest of the block is then not
-// executed. Lengths are millimetres, whatever the program's units.
+// Each family is a class that knows its codes and what these codes remember from block to block. BlockExecutor calls
+// the families in the order of execution. A method that returns false has reported why; the rest of the block is then
+// not executed. Lengths are millimetres, whatever the program's units.
 #pragma once
 
 #include <string>
@@ -30,12 +30,13 @@ class CodeFamily {
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
   bool fail_at_origin(char polar_letter);
   bool report_arc(const ArcCenter& arc);
-  // What to point at when a motion is wrong: its code, or where it is modal the first word that made it move.
+  // Where a diagnostic about a motion points: at the motion's code, or, if the code is modal, at the first word that
+  // caused the move.
   Span motion_span() const;
 
   // Places. end_point: where the block's axis words lead, in work coordinates.
   double axis_word(Axis axis) const;
-  // Without G51 bit for bit what the program says.
+  // Without G51, the result is bit for bit what the program says.
   double scaled_place(Axis axis, double value) const {
     return state_.scaling.factor(axis) == 1 ? value : state_.scaling.place(axis, value);
   }
@@ -46,7 +47,7 @@ class CodeFamily {
   void emit_inverse_time_feed(double length, bool rotary);
   void emit_feed_rate(double units);
 
-  // Spindles: those of `$`, from first to before end.
+  // The spindles that `$` names, from first to before end.
   struct SpindleRange {
     std::uint8_t first = 0;
     std::uint8_t end = 1;
@@ -57,9 +58,10 @@ class CodeFamily {
   void emit(const OperationKind& what) {
     operations_.push(operations_.holding() ? kept_operation(what) : operation_of(what));
   }
-  // Not behind the moves that cutter compensation holds back: what goes to the operator, or moves nothing.
+  // Pushes an operation before the moves that cutter compensation holds back: one that goes to the operator, or moves
+  // nothing.
   void emit_ahead(const OperationKind& what) { operations_.push_ahead(operation_of(what)); }
-  // LinuxCNC tells changes of its own modes as comments, and its canonical calls are what others compare with.
+  // LinuxCNC reports changes of its own modes as comments. Its canonical calls are what other programs compare with.
   void note(std::string_view text) { emit(operation::Comment{text}); }
   Operation operation_of(const OperationKind& what) const {
     return {what, block_.source, block_.word, &block_.axis_words};

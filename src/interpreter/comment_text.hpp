@@ -1,4 +1,4 @@
-// The text of (DEBUG,…), (PRINT,…) and (LOG,…): #12 and #<name> in it stand for their values.
+// The text of (DEBUG,…), (PRINT,…) and (LOG,…), in which #12 and #<name> are replaced by their values.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@ class CutterCodes : private CodeFamily {
  public:
   explicit CutterCodes(BlockContext& block) : CodeFamily(block) {}
 
-  // What goes with compensation, told before anything of the block is done.
+  // Checks that the block is possible with compensation, before anything of the block is done.
   bool check();
   bool set(CodeNumber code);
   bool report(CutterFault fault, Span span);

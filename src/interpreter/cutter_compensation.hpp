@@ -1,17 +1,17 @@
-// CutterCompensation: G41 and G42, from the programmed contour to the path of the tool's centre. Between motion and the
-// queue of operations.
+// CutterCompensation: G41 and G42. It turns the programmed contour into the path of the tool's centre, and works
+// between the motion codes and the queue of operations.
 //
 //            ┌──────── tool's centre            outside corner: an arc about the programmed point
 //            │  ┌───── contour                  inside corner: both moves end where their offsets meet
 //            │  │
 //
-// Where a move ends is known when the next one is: it is held back in the queue, with everything between the two,
-// and shortened when the corner turns out to be an inside one. Geometry is in the plane's own two axes; all others move
-// along with the programmed move. A move that an inside corner would turn round cannot be reached without cutting
-// into the contour (gouging) and is a fault.
+// The end of a move is known only when the next move is known. So a move is held back in the queue, with everything
+// between the two moves, and is shortened if the corner is an inside corner. Geometry is in the plane's own two axes;
+// all others move along with the programmed move. A move that an inside corner would turn round cannot be reached
+// without cutting into the contour (gouging) and is a fault.
 //
-// What it prints is what LinuxCNC 2.9 prints (Documentation: "Cutter compensation"), whose entry moves, corner
-// tolerance and choice of intersection it follows. Lengths in millimetres.
+// The result is what LinuxCNC 2.9 prints (documentation: "Cutter compensation"), with its entry moves, corner tolerance
+// and choice of intersection. Lengths are in millimetres.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct CutterSetup {
   Plane plane = Plane::xy;
   bool left = true;  // of the contour, seen along it
   double radius = 0;
-  // Of a lathe tool: the programmed point is not the nose's centre but a corner or a side of the square about it.
-  // 1 to 8; 0 and 9: the centre.
+  // For a lathe tool, the programmed point is a corner or a side of the square about the nose's centre: 1 to 8. With 0
+  // and 9 it is the centre.
   int orientation = 0;
 };
 
@@ -38,8 +38,8 @@ enum class CutterFault : std::uint8_t {
   entry_arc,        // no arc leads from where the tool is to beside the contour
   arc_too_small,    // the tool does not fit into the arc
   no_room,          // the offsets of two moves do not meet
-  unreachable,      // the move before would be turned round
-  cut_corner,       // not a fault but a warning: a stop had the move before an inside corner run to its end
+  unreachable,      // the move before would be reversed
+  cut_corner,       // only a warning: because of a stop, the move before an inside corner ran to its end
 };
 
 // A move as it is programmed, in work coordinates.
@@ -55,19 +55,19 @@ class CutterCompensation {
   explicit CutterCompensation(OperationQueue& operations) : operations_(operations) {}
 
   void start(const CutterSetup& setup);
-  // G40. The tool stays; the next move, which must be straight, starts at its centre.
+  // G40. The tool stays. The next move, which must be straight, starts at the tool's centre.
   [[nodiscard]] CutterFault stop();
   // Whether moves are to be told here. A radius of zero compensates nothing.
   bool active() const { return side_ != 0 && radius_ > 0; }
-  // G40 was there and no straight move since.
+  // True: there was a G40, and no straight move since.
   bool leaving() const { return leaving_; }
   void left() { leaving_ = false; }
 
   [[nodiscard]] CutterFault line(const ContourMove& move);
   [[nodiscard]] CutterFault arc(const ContourMove& move, PlanePoint center, std::int32_t turns);
-  // What is held goes out as it is: the machine stops here, or the program ends.
+  // Releases the held move unchanged, because the machine stops here or the program ends.
   [[nodiscard]] CutterFault release();
-  // A move was wrong: go on from its end.
+  // A move was wrong: goes on from its end.
   void skip_to(const Point& end);
 
   // From the programmed position to the tool's centre.
@@ -87,7 +87,7 @@ class CutterCompensation {
     std::int32_t turns = 0;
     double sweep = 0;
   };
-  // The move that is held: where it starts, really.
+  // The held move: its real start.
   struct Held {
     bool any = false;
     bool can_gouge = false;

@@ -1,8 +1,8 @@
 // Cycle: a source of the operations that one block with a cycle stands for: holes, passes of a thread, cuts of a lathe.
 //
-// It is made from a plain value that says all of it (DrillingPlan, ThreadingPlan, LathePlan) and knows no words and no
-// modal state. Memory is bounded, however long the cycle: a kind of cycle works out one step at a time, a hole, a peck
-// or a pass, of at most `longest_step` operations.
+// A cycle is made from a plain value with all its data (DrillingPlan, ThreadingPlan, LathePlan). A cycle knows no words
+// and no modal state. Memory is bounded, however long the cycle is: a cycle works out one step at a time (a hole, a
+// peck or a pass), of at most `longest_step` operations.
 #pragma once
 
 #include <array>
@@ -27,14 +27,14 @@ class Cycle : public Source<Operation> {
     operation.file = operation.text = {};
     return true;
   }
-  // Where the step leaves the tool that gave the last operation: work coordinates.
+  // Where the tool is after the step that gave the last operation, in work coordinates.
   const Point& position() const { return position_; }
 
  protected:
   static constexpr std::size_t longest_step = 20;
   Cycle(const Point& start, const OperationSource& source) : source_(source), position_(start) {}
 
-  // Gives the operations of the next step. False: it was the last.
+  // Gives the operations of the next step. False: there are no more steps.
   virtual bool step() = 0;
 
   void give(const OperationKind& operation) {

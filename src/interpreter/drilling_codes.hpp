@@ -1,5 +1,5 @@
-// DrillingCodes: the words of drilling, tapping and boring cycles (G73, G74, G81 … G89). They hold until another motion
-// code, so that a block with X and Y alone drills the next hole. The holes are DrillingCycle's.
+// DrillingCodes: the words of drilling, tapping and boring cycles (G73, G74, G81 … G89). The words stay valid until
+// another motion code, so a block with only X and Y drills the next hole. The holes are DrillingCycle's.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ class DrillingCodes final : public CycleCodes {
   explicit DrillingCodes(BlockContext& block) : CycleCodes(block) {}
 
   bool start(CodeNumber code);
-  // Another motion code: the words hold no longer.
+  // Another motion code came: the words are no longer valid.
   void forget() {
     if (kept_.code != 0) kept_ = {};
   }
@@ -26,7 +26,7 @@ class DrillingCodes final : public CycleCodes {
   struct KeptWords {
     CodeNumber code = 0;  // 0: no cycle is active
     Plane plane = Plane::xy;
-    bool complete = false;  // false: its first block was wrong, and what follows is not drilled
+    bool complete = false;  // false: the first block was wrong, so the following holes are not drilled
     double initial_height = 0;
     double retract = 0;  // R as written
     double depth = 0;    // the depth axis' word as written

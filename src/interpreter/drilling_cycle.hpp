@@ -21,13 +21,13 @@ struct PolarWay {
 
 struct DrillingPlan {
   CodeNumber code = 0;
-  Axis axis = Axis::z;  // that the holes go along
+  Axis axis = Axis::z;  // the direction of the holes
   Point start;          // where the tool is
-  Point hole;           // the first one; its height does not count
+  Point hole;           // the first hole; its height does not count
   std::int32_t holes = 1;
-  std::optional<Point> way = {};       // from hole to hole; none: all are at one place
-  std::optional<PolarWay> polar = {};  // in its stead
-  double initial_height = 0;           // of the tool, when the first cycle began
+  std::optional<Point> way = {};       // from hole to hole; empty: all holes are at one place
+  std::optional<PolarWay> polar = {};  // used instead of `way`
+  double initial_height = 0;           // the tool's height when the first cycle began
   bool returns_to_initial = false;     // G98: between holes, not only to `retract`
   double retract = 0;                  // R: where the feed begins
   double bottom = 0;
@@ -36,7 +36,7 @@ struct DrillingPlan {
   double dwell = 0;  // P, seconds
   double peck = 0;   // Q
   SpindleDirection spindle = SpindleDirection::off;
-  bool feed_override = true;  // whether it counts, and again after a tap
+  bool feed_override = true;  // whether the override is on, and is on again after a tap
   bool speed_override = true;
   bool retracts_by_hand = false;              // G88: an operator takes the tool out
   PathMode path_mode = PathMode::continuous;  // after the cycle
@@ -47,7 +47,7 @@ class DrillingCycle final : public Cycle {
  public:
   DrillingCycle(const DrillingPlan& plan, const OperationSource& source);
 
-  // It broke off: from the origin there is no angle to go on from (DrillingPlan::polar).
+  // True: the cycle broke off, because at the origin there is no angle to go on from (DrillingPlan::polar).
   bool stuck() const { return stuck_; }
 
  private:
@@ -74,7 +74,7 @@ class DrillingCycle final : public Cycle {
   bool stuck_ = false;
 };
 
-// What cycles do; the codes check their words by it.
+// What each cycle does. The codes check their words with this.
 constexpr bool pecks(CodeNumber number) {
   return number == code(73) || number == code(83);
 }

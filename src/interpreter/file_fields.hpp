@@ -25,16 +25,16 @@ class FieldReader {
   FieldReader(ProgramReader reader, Diagnostics& diagnostics)
       : reader_(std::move(reader)), file_(reader_.name()), diagnostics_(diagnostics) {}
 
-  // The next line; false at the end of the file, and when enough is wrong with it.
+  // Reads the next line. False: the file has ended, or has too many errors.
   bool next_line();
-  // The line's next field; false at its end.
+  // Reads the line's next field. False: the line has ended.
   bool next_field(Field& field);
-  // What is left of the line, without blanks at its ends.
+  // The rest of the line, without blanks at its ends.
   Field rest() const;
 
   const std::string& file() const { return file_; }
   void error(std::string_view code, const Field& field, std::string message, std::string expected);
-  // About the line as a whole.
+  // Reports an error of the whole line.
   void error(std::string_view code, std::string message, std::string expected);
 
  private:
@@ -46,10 +46,10 @@ class FieldReader {
   std::size_t at_ = 0;
 };
 
-// The whole of `text` as a finite number; a sign of plus is allowed.
+// The whole of `text` as a finite number. A plus sign is allowed.
 std::optional<double> number_of(std::string_view text);
 std::optional<std::int32_t> whole_number_of(std::string_view text);
-// For a message: shortened, without what steers a terminal.
+// `text` for a message: shortened, and without control characters for terminals.
 std::string quoted(std::string_view text);
 
 }  // namespace passo

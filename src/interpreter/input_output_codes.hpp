@@ -1,4 +1,4 @@
-// InputOutputCodes: the codes that speak with the machine's inputs and outputs: M62 to M68, and M100 to M199.
+// InputOutputCodes: the codes for the machine's inputs and outputs: M62 to M68, and M100 to M199.
 #pragma once
 
 #include "code_family.hpp"

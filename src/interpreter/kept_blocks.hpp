@@ -1,8 +1,8 @@
 // KeptBlocks: the blocks of lines that are read again, so that the body of a loop or of a sub is parsed once.
 //
-// A line's block has its place by the line's number, and the next one that falls there takes it: a body of as many
-// lines as there are places is kept whole. Bounded: about 1 KiB a place in use, 10 MiB in all at the very worst. A
-// place keeps its capacity, so that lines that take turns allocate nothing once it is warm.
+// The line's number gives the place of its block. The next line with the same place replaces the block. So a body with
+// as many lines as there are places is kept whole. Memory is bounded: about 1 KiB for each place in use, at most 10 MiB
+// in all. A place keeps its capacity, so lines that share a place soon allocate nothing more.
 #pragma once
 
 #include <cstddef>
@@ -29,13 +29,13 @@ class KeptBlocks {
   static constexpr std::size_t places = 512;  // a power of two
   static constexpr std::size_t longest_text = 256;
 
-  // Null where the line that begins there is not kept.
+  // The kept block of the line that begins there, or null.
   KeptBlock* find(std::uint32_t file, ReaderPosition at) {
     if (places_.empty()) return nullptr;
     KeptBlock& there = place(file, at.line);
     return there.at.line == at.line && there.at.offset == at.offset && there.file == file ? &there : nullptr;
   }
-  // The place of that line, for its block to be parsed into; what was there is gone.
+  // The place into which that line's block is to be parsed. The block that was there is gone.
   KeptBlock& make_room(std::uint32_t file, ReaderPosition at, ReaderPosition after, std::string_view text) {
     if (places_.empty()) places_.resize(places);
     KeptBlock& there = place(file, at.line);
@@ -45,7 +45,7 @@ class KeptBlocks {
     there.text.assign(text);
     return there;
   }
-  // It has no block after all.
+  // The line has no block after all.
   static void drop(KeptBlock& kept) { kept.at.line = 0; }
 
  private:

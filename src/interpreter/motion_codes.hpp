@@ -10,7 +10,7 @@ class MotionCodes : private CodeFamily {
  public:
   MotionCodes(BlockContext& block, CutterCodes& cutter_codes) : CodeFamily(block), cutter_codes_(cutter_codes) {}
 
-  // What cannot be scaled (G51) is refused.
+  // Refuses what cannot be scaled (G51).
   bool check_scaling(CodeNumber code);
   bool traverse();
   bool feed();

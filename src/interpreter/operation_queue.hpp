@@ -1,4 +1,4 @@
-// OperationQueue: what the executor has found out and the interpreter's reader has not taken yet.
+// OperationQueue: the operations that the executor has made and the interpreter's reader has not taken yet.
 //
 // First in, first out, without a heap. Cutter compensation may *hold* it: what is pushed from then on stays, in its
 // place, until it is known where the held moves end (release()). A few operations overtake what is held
@@ -22,7 +22,7 @@ class OperationQueue {
   static constexpr std::size_t capacity = 256;  // a power of two
   static constexpr std::size_t most_held = capacity - most_of_a_block;
 
-  // Nothing there that may be taken.
+  // True: nothing may be taken.
   bool empty() const { return taken_ == ready_; }
   const Operation& front() const { return at(taken_); }
   void pop() {
@@ -34,16 +34,16 @@ class OperationQueue {
     at(pushed_++) = operation;
     ready_ = pushed_;
   }
-  // Before everything that is held.
+  // Pushes before everything that is held.
   void push_ahead(const Operation& operation);
 
-  // This operation and all that follow stay.
+  // Holds this operation and all that follow.
   void hold(const Operation& operation);
   bool holding() const { return holding_; }
   std::size_t held() const { return pushed_ - ready_; }
   Operation& held(std::size_t i) { return at(ready_ + i); }
   void release();
-  // Whether the operations of another block fit.
+  // True: the operations of another block fit.
   bool has_room() const { return pushed_ - taken_ <= most_held; }
 
  private:
@@ -59,7 +59,7 @@ class OperationQueue {
 
   std::array<Operation, capacity> operations_{};
   std::vector<Texts> texts_;  // of the slots; made when something is held for the first time
-  std::size_t taken_ = 0;     // slots are counted on and on, their place is a mask away
+  std::size_t taken_ = 0;     // slots are numbered on and on; a mask gives their place
   std::size_t ready_ = 0;
   std::size_t pushed_ = 0;
   bool holding_ = false;

@@ -1,4 +1,4 @@
-// The predefined #<_names>: what the machine does just now. One line each.
+// The predefined #<_names>, which tell what the machine does just now. Each name is one line of a table.
 #pragma once
 
 #include <span>

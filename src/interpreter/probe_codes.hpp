@@ -12,7 +12,7 @@ class ProbeCodes : private CodeFamily {
   explicit ProbeCodes(BlockContext& block) : CodeFamily(block) {}
 
   bool probe(CodeNumber code);
-  // The program waits for what the machine finds in the probe move that was given last.
+  // True: the program waits for what the machine finds in the last probe move.
   bool awaits_outcome() const { return awaited_.has_value(); }
   void take_outcome();
 

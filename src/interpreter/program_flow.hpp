@@ -1,10 +1,10 @@
 // ProgramFlow: which block comes next. Reads lines, obeys O-words, goes back for loops and away for subs.
 //
-// Constant memory: what is remembered are places in the file, of the constructs that are open and of the subs that were
-// met, and the blocks of some hundred lines that come again (KeptBlocks). What is skipped (a branch not taken, the body
-// of a sub where it stands) is read line by line and only its O-words are parsed; a construct is told from others
-// inside it by its label, as RS274/NGC does. A sub that is called before it was met is looked for once to the end of
-// the file, then in NAME.ngc beside the program and in the folders that the options name.
+// Memory is constant. The flow remembers places in the file, for open constructs and for subs that were met, and the
+// blocks of some hundred lines that come again (KeptBlocks). Skipped lines (a branch not taken, the body of a sub at
+// its definition) are read line by line, and only their O-words are parsed. The label tells a construct from others
+// inside it, as in RS274/NGC. A sub that is called before it was met is searched once to the end of the file, then in
+// NAME.ngc beside the program and in the folders that the options name.
 //
 // A line that is kept costs about 25 ns before it is executed; parsing it 100 to 200 ns.
 //
@@ -53,7 +53,7 @@ class ProgramFlow final : public CallStack {
 
   // The next block to execute; null at the end of the program, and where an O-word left a sub (take_left_sub).
   const Block* next();
-  // Whether a sub was just left, and the line it was called from.
+  // Tells whether a sub was just left, and the line of its call.
   std::optional<std::uint32_t> take_left_sub() { return std::exchange(left_sub_, std::nullopt); }
   // What the block just executed asks for: M98, M99, a macro. main_ends: M99 in a main program that does not run once
   // more.
@@ -62,7 +62,7 @@ class ProgramFlow final : public CallStack {
   End end() const { return end_; }
   // Calls a sub; next() then gives the blocks of this call, and once null at its end. False: there is no such sub.
   bool call_for_contour(Symbol sub, Span span);
-  // There was an operation since the last block: the loops do something.
+  // Tells that there was an operation since the last block, so the loops do something.
   void note_progress() { idle_passes_ = 0; }
 
   // After M2 in a program that began with '%': whether the closing '%' is missing from the rest of the file.

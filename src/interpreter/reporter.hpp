@@ -1,4 +1,4 @@
-// Reporter: says what is wrong in the block that is being read, with its line and the place in it.
+// Reporter: reports what is wrong in the block that is being read, with its line and the place in the line.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace passo {
 
-// Who knows which subs are running.
+// The interface that knows which subs are running.
 class CallStack {
  public:
   virtual ~CallStack() = default;
@@ -23,24 +23,24 @@ class Reporter {
  public:
   explicit Reporter(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // What follows is about this block of this file, until the next call. Both are borrowed.
+  // Until the next call, reports are about this block of this file. Both are borrowed.
   void look_at(const Block& block, const std::string& file) {
     block_ = &block;
     file_ = &file;
   }
 
-  // Each finding tells through which calls the program came there. Borrowed.
+  // Sets who tells through which calls the program came to a finding. Borrowed.
   void tell_calls_of(const CallStack& stack) { stack_ = &stack; }
 
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
   void warning(std::string_view code, Span span, std::string message, std::string expected = {});
-  // About another line than the block's own.
+  // Reports about a line other than the block's own.
   void error_at(std::string_view code, std::uint32_t line, std::string_view text, Span span, std::string message,
                 std::string expected);
-  // An expression that has no value.
+  // Reports an expression that has no value.
   void error(const EvaluationError& error);
 
-  // What was found while the line was read.
+  // Reports what was found while the line was read.
   void pass_on(Diagnostics& faults);
 
   // What the file says there.

@@ -13,13 +13,13 @@
 
 namespace passo {
 
-// What a code of this language's diagnostics comes from.
+// The rule that a diagnostic's code comes from.
 struct Rule {
   std::string_view code;
   std::string_view chapter;
 };
 
-// All of them, sorted by code.
+// All rules, sorted by code.
 std::span<const Rule> rules();
 
 // "RS274/NGC 3.5.4, dwell": the chapter of the G or M code that the diagnostic points at, where its mistake is in how

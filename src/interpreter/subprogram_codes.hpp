@@ -1,7 +1,7 @@
 // SubprogramCodes: M98 and M99 call and leave numbered programs. G65 calls one with arguments; G66 has it called behind
 // each block that moves, until G67, as Fanuc and grblHAL do.
 //
-// Here it is said what the block asks for: the jump. ProgramFlow makes it.
+// This class only tells the jump that the block requests. ProgramFlow makes the jump.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,9 @@ class SubprogramCodes : private CodeFamily {
   bool call_or_leave(CodeNumber code);
   void call_macro(bool readable);
   bool end_macro_calls(CodeNumber code);
-  // The block was executed: if it moved, the macro of G66 runs.
+  // Call after the block was executed. If the block moved, the macro of G66 runs.
   void call_modal_macro();
-  // What the block just executed asks of the flow.
+  // The jump that the block just executed requests.
   std::optional<SubprogramJump> take_jump() { return std::exchange(jump_, std::nullopt); }
 
  private:

@@ -1,5 +1,5 @@
-// SubprogramJump: M98, M99 or a macro call, whose words are the block's (BlockExecutor) and whose way is the program's
-// (ProgramFlow).
+// SubprogramJump: M98, M99 or a macro call. BlockExecutor reads its words from the block, and ProgramFlow makes the
+// jump.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SubprogramJump {
     find_macro,   // G66: whether there is such a program
   };
   Kind kind = Kind::leave;
-  bool good = true;  // false: where to cannot be told
+  bool good = true;  // false: the target is unknown
   std::int32_t program = 0;
   std::int32_t passes = 1;
   Span span;

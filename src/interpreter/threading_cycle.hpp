@@ -13,7 +13,7 @@ namespace passo {
 
 struct ThreadingPlan {
   Point start;
-  Point end;           // behind the last pass
+  Point end;           // the place after the last pass
   double outward = 1;  // along X, away from the thread: 1 outside, -1 inside
   // From the start to the thread's crest (I), of the first pass (J) and of the last (K), in the program's units: what
   // a pass is compared in, so that it is rounded as in LinuxCNC.
@@ -28,7 +28,7 @@ struct ThreadingPlan {
   double taper = 0;                // E, along Z in the cut's direction
   bool taper_at_start = false;
   bool taper_at_end = false;
-  bool feed_override = true;  // whether it counts, and again after each pass
+  bool feed_override = true;  // whether the override is on, and is on again after each pass
 };
 
 class ThreadingCycle final : public Cycle {

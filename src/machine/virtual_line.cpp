@@ -56,7 +56,7 @@ bool VirtualLine::run(Seconds most) {
   }
 }
 
-// What has arrived by now.
+// Takes what has arrived by now.
 void VirtualLine::deliver() {
   const std::int64_t now = machine_.now().count;
   const auto each_due = [&](Way& way, auto&& take) {

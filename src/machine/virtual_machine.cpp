@@ -44,7 +44,7 @@ void VirtualMachine::stand_at(const MotorSteps& positions) {
 }
 
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
-  if (board_.idle()) waits_ = false;  // it may have been stopped before its event
+  if (board_.idle()) waits_ = false;  // the board may have stopped before its event
   for (const std::uint8_t byte : bytes) board_.receive(byte);
   if (board_.owes_report()) board_.report();
 }
@@ -93,8 +93,8 @@ void VirtualMachine::look_at_inputs() {
   if (inputs != told_) heed(inputs);
 }
 
-// As the chip's main loop does it: what is watched is captured, what a person presses is told, what stops stops, and
-// switches the outputs off.
+// Does what the firmware's main loop does: captures a watched input, tells the host what a person presses, and stops at
+// an input that stops, with the outputs off.
 void VirtualMachine::heed(unsigned now) {
   const unsigned changed = now ^ std::exchange(told_, static_cast<std::uint16_t>(now));
   constexpr unsigned by_people = input_door | input_hold | input_start;
@@ -135,7 +135,7 @@ void VirtualMachine::Hardware::step(std::uint8_t stepped, std::uint8_t direction
     const auto m = static_cast<unsigned>(std::countr_zero(left));
     Motor& motor = motors[m];
     motor.position += (directions >> m & 1U) != 0 ? -1 : 1;
-    // The first step has none before it.
+    // The first step has no step before it.
     if (motor.total++ != 0) motor.shortest_interval = std::min(motor.shortest_interval, now - motor.last_step);
     motor.last_step = now;
   }

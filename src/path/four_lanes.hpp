@@ -1,6 +1,7 @@
-// FourLanes: four doubles that are computed side by side, each as a double by itself would be.
+// FourLanes: four doubles that are computed side by side. Each gives the same result as a single double.
 //
-// Vectors of two are what every 64-bit processor has; compilers that are left to find them do so by halves.
+// Every 64-bit processor has vectors of two doubles. Compilers that must find vectors by themselves find only some of
+// them.
 #pragma once
 
 #include <cstring>

@@ -1,17 +1,17 @@
-// KnotPlacer: where along the path the smoothed path is tied to it.
+// KnotPlacer: places the knots, where the smoothed path is tied to the path.
 //
 //       node            exact piece             node
 //   --+--+--O--+--+-----------------------+--+---O---+--+--
 //     knots at the node and at half its width, its width and one and a half (for slow bending farther, and one more)
 //
-// A junction, or several close to each other, is a node; its width w is how far around it the path is rounded: a
-// corner within the tolerance e needs w = 4 e / |change of the tangent|, a change of curvature
-// w = sqrt(10 e / |change|), and an arc is followed well by knots that are not more than 0.4 radii apart. Where knots
-// of two nodes would meet they share the room. What is left between, if it is long against the knots' distance, stays
-// the path as programmed: an exact piece. The knots between two of those make one smoothed stretch.
+// A node is a junction, or several junctions close to each other. Its width w says how far around the node the path is
+// rounded. A corner within the tolerance e needs w = 4 e / |change of the tangent|. A change of curvature needs w =
+// sqrt(10 e / |change|). Knots that are at most 0.4 radii apart follow an arc well. Where the knots of two nodes would
+// meet, the nodes share the room. If the rest between two nodes is long compared with the knots' distance, it stays as
+// programmed: an exact piece. The knots between two exact pieces make one smoothed stretch.
 //
-// For slow bending s goes on more slowly than the spline's parameter around a corner (Pace), the more the sharper it
-// is.
+// For slow bending, s advances more slowly than the spline's parameter around a corner (Pace). The sharper the corner,
+// the slower s advances.
 //
 // Looks two nodes ahead. A node takes in at most `most_clustered` junctions.
 #pragma once
@@ -27,10 +27,10 @@
 namespace passo {
 
 struct Knot {
-  double s = 0;  // in the run
+  double s = 0;  // s in the run
   std::uint64_t piece = 0;
   double along = 0;  // s in the piece
-  double rate = 1;   // of s, against the spline's parameter; 1 beside exact pieces
+  double rate = 1;   // ds/dt, t being the spline's parameter; 1 beside exact pieces
 };
 
 struct ExactPiece {
@@ -45,9 +45,9 @@ class KnotPlacer {
 
   KnotPlacer(RunReader& reader, Smoothness smoothness);
 
-  // A mark of the run in its order.
+  // Gives the next mark of the run.
   enum class Mark { knot, end_of_stretch, exact_piece };
-  // Begins a run; the one before has been read to its end.
+  // Begins a run. The run before has been read to its end.
   void begin();
   // False at the end of the run.
   [[nodiscard]] bool next(Mark& mark);
@@ -57,17 +57,17 @@ class KnotPlacer {
  private:
   struct Node {
     double s = 0;
-    double width = 0;  // 0: nothing is rounded here
-    double turn = 0;   // the change of the unit tangent; 0 where t keeps to s
+    double width = 0;  // 0: the node is not rounded
+    double turn = 0;   // the change of the unit tangent; 0 where t advances with s
     std::uint64_t before = 0;
-    std::uint64_t after = 0;  // the pieces around it
+    std::uint64_t after = 0;  // the pieces around the node
   };
   const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
   // The junctions after the pieces `first` to `last`.
   struct Cluster {
     std::uint64_t first = 0;
     std::uint64_t last = 0;
-    double turn = 0;  // how far the tangents between are from the first, at most
+    double turn = 0;  // how far the tangents between are from the first at most
     double tube = 0;
   };
   bool find_node(Node& node);
@@ -85,7 +85,7 @@ class KnotPlacer {
 
   RunReader& reader_;
   const Spacing& spacing_;
-  std::uint64_t junction_ = 0;  // after this piece; the next to belong to a node
+  std::uint64_t junction_ = 0;  // the junction after this piece is the next to belong to a node
   bool all_found_ = false;
   std::array<Node, 4> nodes_;  // the gap is between the second and the third
   std::size_t known_ = 0;
@@ -96,7 +96,7 @@ class KnotPlacer {
     Mark mark;
     Knot knot;
   };
-  std::vector<Step> steps_;  // of one gap
+  std::vector<Step> steps_;  // the steps of one gap
   std::size_t at_ = 0;
   ExactPiece gap_exact_;
   Knot knot_;

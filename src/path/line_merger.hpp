@@ -1,12 +1,13 @@
 // LineMerger: consecutive lines that are straight within the merge tolerance become one line.
 //
 // A line may take in the next one as long as all vertices between lie within `Segment::merge` of the chord from its
-// start to the new end. Instead of the vertices it keeps a ball: every chord whose direction (a unit vector) lies in it
-// passes each vertex so far closely enough. A vertex at the distance r allows directions within merge/r of its own, and
-// the ball is the largest one in the intersection of the old ball and that. So each vertex costs the same, and as long
-// as it may be, a line that was programmed in pieces is one line again, its length and time those of the whole.
+// start to the new end. Instead of the vertices, the merger keeps a ball of directions. Every chord whose direction (a
+// unit vector) lies in the ball passes all vertices so far closely enough. A vertex at the distance r allows directions
+// within merge/r of its own direction. The new ball is the largest ball in the intersection of the old ball and these
+// directions. So each vertex costs the same, however many there are. A line that was programmed in pieces becomes one
+// line again, with the length and time of the whole.
 //
-// Only lines that are alike merge: speed, kind, tolerance, axes that count the length. None turns back.
+// Only lines of equal speed, kind, tolerance and axes that count the length merge. No merged line turns back.
 #pragma once
 
 #include "passo/base/source.hpp"
@@ -21,7 +22,7 @@ class LineMerger {
 
   explicit LineMerger(Source<PathItem>& path) : path_(path) {}
 
-  // As Source::next. `deviation`: how far the path as programmed may lie from the segment given.
+  // Like Source::next. `deviation`: how far the programmed path may lie from the given segment.
   [[nodiscard]] bool next(PathItem& item, double& deviation);
 
  private:
@@ -35,7 +36,7 @@ class LineMerger {
     void narrow(const Point& direction, double length);
   };
 
-  // From the start of the merged line to a vertex.
+  // The way from the start of the merged line to a vertex.
   struct Chord {
     explicit Chord(const Point& way);
     Point travel;
@@ -55,15 +56,15 @@ class LineMerger {
   bool has_ahead_ = false;
   bool at_end_ = false;
 
-  // Of the line that is being merged: where its last one ends, how many they are, and the sum of their lengths.
+  // For the line that is being merged: where its last piece ends, how many pieces it has, and the sum of their lengths.
   Point end_;
   int taken_ = 0;
   double programmed_ = 0;
-  // Of the junction before it.
+  // For the junction before the merged line.
   PathMode mode_before_ = PathMode::exact_stop;
   double tolerance_before_ = 0;
   Cone cone_;
-  Cone exact_;  // as if nothing but rounding were allowed
+  Cone exact_;  // the directions if only rounding were allowed
 };
 
 }  // namespace passo

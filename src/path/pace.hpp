@@ -1,10 +1,10 @@
-// Pace: how s goes on with the parameter of a smoothed span.
+// Pace: how s advances with the parameter of a smoothed span.
 //
-// The spline's parameter is about the time that a machine with a limit of jerk takes: around a sharp corner, where it
-// must go slowly, more of it passes than of s. So the least change of the spline's second derivative is about the
-// least jerk, and not that of a machine which goes round the corner as fast as along the lines beside it.
+// The spline's parameter is roughly the time that a machine with a limit of jerk takes. Around a sharp corner the
+// machine must go slowly, so the parameter advances more than s. Then the least change of the spline's second
+// derivative is roughly the least jerk of a machine that slows down at corners.
 //
-// Within a span ds/du changes evenly: s = rate u + quickening u²/2. Where the rate is 1 at both ends, u is s, to the
+// Within a span ds/du changes evenly: s = rate u + quickening u²/2. If the rate is 1 at both ends, u equals s, to the
 // bit.
 #pragma once
 
@@ -26,12 +26,12 @@ struct Pace {
   bool is_even() const { return rate == 1 && quickening == 0; }
   double rate_at(double u) const { return rate + quickening * u; }
   double distance(double u) const { return (rate + quickening * (u / 2)) * u; }
-  // Where a distance is reached.
+  // The parameter at which a distance is reached.
   double reaches(double distance) const {
     return 2 * distance / (rate + std::sqrt(std::max(0.0, rate * rate + 2 * quickening * distance)));
   }
-  // A curve of the curvature c, passed with this pace: the largest |d²P/du²|, and how far d²P/du² leaves its chord
-  // between two places d apart, in d²/8: |d⁴P/du⁴|.
+  // For a curve of the curvature c, passed with this pace: the largest |d²P/du²|, and |d⁴P/du⁴|, which tells in units
+  // of d²/8 how far d²P/du² leaves its chord between two places d apart.
   double bend_of(double c) const { return c * fastest() * fastest() + std::abs(quickening); }
   double curl_of(double c) const {
     const double turn = c * fastest();

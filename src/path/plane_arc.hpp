@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// The angle from start to end in the sense of `turns`, 1 or -1 within one turn. As in LinuxCNC's canon layer two
-// directions closer than a millionth of a radian are one, and the arc is a full circle.
+// The angle from start to end in the sense of `turns`; 1 or -1 is within one turn. As in LinuxCNC's canon layer,
+// directions closer than a millionth of a radian count as equal, and the arc is then a full circle.
 inline double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
   constexpr double same_direction = 1e-6;
   constexpr double full = 2 * std::numbers::pi;

@@ -1,10 +1,9 @@
-// Relaxation: the sweeps' arithmetic. Moves a control of the spline to where the bending is least, as far as the tube
-// allows.
+// Relaxation: the arithmetic of the sweeps. A step moves a control of the spline to where the bending is least, as far
+// as the tube allows.
 //
 // A control k acts on the spline at three knots, k-1 to k+1, and in the middles of four spans, k-2 to k+1, by known
-// factors. What is there, deviations from the path and second derivatives, is kept up to date by each move. Values of
-// one axis lie side by side, so that four places are computed at once. This is the hot path of the smoother: about
-// 30 ns a step.
+// factors. Each move updates the deviations from the path and the second derivatives at these places. The values of one
+// axis lie side by side, so four places are computed at once. This is the hot path of the smoother: about 30 ns a step.
 #pragma once
 
 #include <array>
@@ -19,9 +18,9 @@ namespace passo {
 class Relaxation {
  public:
   using Four = std::array<double, 4>;
-  // What a move of a control by 1 does, at the knots k-1 to k+1 (the fourth is 0) and in the middles of the spans
-  // k-2 to k+1; and the step to least bending: minus the sum of `pull` times p'' at the knots; and alike, from k-2 to
-  // k+2, to the least change of bending.
+  // The effect of moving a control by 1, at the knots k-1 to k+1 (the fourth is 0) and in the middles of the spans k-2
+  // to k+1. The step to least bending is minus the sum of `pull` times p'' at the knots. The step to the least change
+  // of bending is found in the same way, from the knots k-2 to k+2.
   struct Factors {
     Four off{};
     Four bend{};
@@ -32,7 +31,7 @@ class Relaxation {
 
   // Forgets everything; the next number is -1.
   void begin();
-  // Room for the numbers up to `k`; what is before `oldest` may be forgotten.
+  // Makes room for the numbers up to `k`. Numbers before `oldest` may be forgotten.
   void make_room(std::int64_t k, std::int64_t oldest);
 
   Point control(std::int64_t k) const { return gather(&AxisLanes::control, k); }
@@ -43,12 +42,12 @@ class Relaxation {
   void set_off(std::int64_t k, const Point& value) { scatter(&AxisLanes::off, k, value); }
   void set_bend(std::int64_t k, const Point& value) { scatter(&AxisLanes::bend, k, value); }
   void set_middle_off(std::int64_t k, const Point& value) { scatter(&AxisLanes::middle, k, value); }
-  // How far a knot, and the middle of the span behind it, may be off.
+  // Sets how far a knot, and the middle of the span after it, may be off.
   void set_reach(std::int64_t k, double reach) { reach_[slot(k)] = reach * reach; }
   void set_middle_reach(std::int64_t k, double reach) { middle_reach_[slot(k)] = reach * reach; }
   void set_factors(std::int64_t k, const Factors& factors) { factors_[slot(k)] = factors; }
 
-  // A step of control k. `axes`: of the first so many axes; the others must be at rest.
+  // Makes a step of control k. `axes`: the number of axes that move, from the first on. The others must be at rest.
   template <std::size_t axes>
   void relax_bending(std::int64_t k);
   template <std::size_t axes>
@@ -56,7 +55,7 @@ class Relaxation {
   void move(std::int64_t k, const Point& step);
 
  private:
-  // Not a power of two: the lanes would meet in the same lines of the processor's cache.
+  // Not a power of two, because then the lanes would share the same lines of the processor's cache.
   static constexpr std::size_t capacity = 811;
   using Lanes = std::array<double, capacity>;
   struct AxisLanes {

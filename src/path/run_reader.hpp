@@ -1,8 +1,9 @@
-// RunReader: the path in pieces, cut into runs. A run is passed without stopping: from rest to rest.
+// RunReader: cuts the path into pieces and runs. A run goes from rest to rest, and is passed without stopping.
 //
-// At rest are the ends of the program, every action, exact stops, and corners that no tolerance may round: where the
-// path turns back, where the tolerance is 0, and in exact path mode where it turns by more than a hundredth of a radian
-// (smaller turns are rounding of programs, and are smoothed within a thousandth of a millimetre).
+// The path rests at the ends of the program, at every action, at exact stops, and at corners that may not be rounded.
+// Such corners are where the path turns back, where the tolerance is 0, and in exact path mode where the path turns by
+// more than a hundredth of a radian. Smaller turns come from rounding in programs, and are smoothed within a thousandth
+// of a millimetre.
 #pragma once
 
 #include <optional>
@@ -18,9 +19,9 @@ struct Piece {
   Segment segment;
   double start = 0;  // s from the start of the run
   double length = 0;
-  double tube = 0;  // how far the smoothed path may leave it: the tolerance, less what merging used
+  double tube = 0;  // how far the smoothed path may leave the piece: the tolerance minus what merging used
   bool rest_after = false;
-  // dP/ds and d²P/ds² at its ends.
+  // dP/ds and d²P/ds² at the piece's ends.
   Point first_tangent;
   Point last_tangent;
   Point first_bend;
@@ -34,24 +35,24 @@ class RunReader {
  public:
   explicit RunReader(Source<PathItem>& path) : merger_(path) {}
 
-  // What comes next: a run, an action, or nothing more.
+  // What comes next: a run, an action, or the end.
   enum class Next { run, action, end };
   Next peek();
   Action take_action();
 
   // Begins a run: its first piece is pieces()[begin()].
   std::uint64_t begin();
-  // Whether the run has a piece of this number; reads up to it.
+  // Reads up to the piece of this number. True: the run has that piece.
   bool has(std::uint64_t number);
 
   const Window<Piece>& pieces() const { return pieces_; }
-  // Pieces before this one are not asked for again.
+  // Forgets the pieces before this one. Nobody asks for them again.
   void drop_before(std::uint64_t number) { pieces_.drop_before(number); }
 
  private:
   bool pull();
   void read_piece();
-  // How far the junction between may be rounded; 0: not at all, it is a rest.
+  // How far the junction between two pieces may be rounded. 0: not at all, the junction is a rest.
   double tolerance_between(const Piece& before, const Segment& after) const;
 
   LineMerger merger_;
@@ -60,7 +61,7 @@ class RunReader {
   bool has_ahead_ = false;
   bool at_end_ = false;
   Window<Piece> pieces_;
-  double junction_tolerance_ = 0;  // of the junction before the next piece; 0: it begins a run
+  double junction_tolerance_ = 0;  // of the junction before the next piece; 0: that piece begins a run
 };
 
 }  // namespace passo

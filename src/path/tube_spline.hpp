@@ -1,22 +1,23 @@
-// TubeSpline: the smoothed stretch, a cubic B-spline that bends as little as the tube around the path allows.
+// TubeSpline: a smoothed stretch. It is a cubic B-spline that bends as little as the tube around the path allows.
 //
-// Its parameter t is s, but where the knots' rates are below 1 (Pace). Knots t[0] to t[n-1] on the path; beyond the
-// ends the distances are mirrored. Controls C[-1] to C[n]: at each knot
+// The parameter t is s, except where the knots' rates are below 1 (Pace). The knots t[0] to t[n-1] are on the path;
+// beyond the ends the distances are mirrored. The controls are C[-1] to C[n]. At each knot
 //
 //     p   = value[0] C[k-1] + value[1] C[k] + value[2] C[k+1],   and alike p' (slope) and p'' (bend).
 //
-// The first and the last three controls are those of the path's own Taylor polynomial (blossoms), so that position,
-// tangent and second derivative go on into the exact pieces beside. The others are moved, one after the other in
-// 12 sweeps, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel), but only so
-// far that the deviation from the path stays within the tube at the knots and in the middles between them. For slow
-// bending 9 more sweeps do the same for |p'''|².
+// The first and the last three controls are those of the path's own Taylor polynomial (blossoms), so position, tangent
+// and second derivative are continuous with the exact pieces beside. 12 sweeps move the other controls, one after the
+// other, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel). A control moves
+// only as far as the deviation from the path stays within the tube, at the knots and in the middles between them. For
+// slow bending, 9 more sweeps do the same for |p'''|².
 //
-// Each sweep works four controls behind the one before: nearer ones would feel it. So the result is that of sweeps over
-// the whole stretch, and what is kept is a window of `window` knots, however long the stretch is. The deviations are
-// kept up to date, not computed anew: moving a control by d changes them at seven places by known multiples of d.
+// Each sweep works four controls behind the sweep before, because nearer controls would influence each other. So the
+// result is the same as of sweeps over the whole stretch. Only a window of `window` knots is kept, however long the
+// stretch is. The deviations are updated, not computed anew: moving a control by d changes them at seven places by
+// known multiples of d.
 //
-// Behind the sweeps each span is checked without gaps (TubeCheck), and put right where it should leave the tube.
-// Time: 0.7 us a knot, 1.3 for slow bending.
+// After the sweeps each span is checked without gaps (TubeCheck), and corrected if it would leave the tube. Time: 0.7
+// us a knot, 1.3 for slow bending.
 #pragma once
 
 #include <array>
@@ -39,12 +40,12 @@ class TubeSpline {
       : reader_(reader),
         sweeps_(smoothness == Smoothness::slow_bending ? bending_sweeps + change_sweeps : bending_sweeps) {}
 
-  // The knots of a stretch, at least four, and its end. After the end, and before more knots, every span is to be
-  // taken.
+  // Adds the knots of a stretch, at least four, and then its end. After the end, every span must be taken before more
+  // knots are added.
   void add(const Knot& knot);
   void close();
 
-  // A span between two knots, as it will be.
+  // A finished span between two knots.
   struct End {
     Knot knot;
     double t = 0;
@@ -55,14 +56,14 @@ class TubeSpline {
   struct Span {
     End from;
     End to;
-    bool in_tube = true;  // shown to be
-    bool goes_on = true;  // into a span that is in the tube, or beyond the stretch
+    bool in_tube = true;  // proven to be in the tube
+    bool goes_on = true;  // goes on into a span in the tube, or ends the stretch
   };
   [[nodiscard]] bool next(Span& span);
 
  private:
   using Three = std::array<double, 3>;  // factors of the controls before, at and after a knot
-  // A knot, and the span from it to the next.
+  // A knot, and the span from this knot to the next.
   struct Site {
     Knot knot;
     double t = 0;
@@ -90,7 +91,7 @@ class TubeSpline {
   double slack_between(double from, const Point& from_place, double to, const Point& to_place, std::uint64_t first,
                        std::uint64_t last) const;
 
-  // Controls as they begin.
+  // The controls before the sweeps.
   void begin_control(std::int64_t k);
   Point first_control(std::int64_t k) const;
   Point taylor_control(std::int64_t knot, std::int64_t k) const;
@@ -119,7 +120,7 @@ class TubeSpline {
     Point off_bend;    // p'' - P''
   };
   struct Worst {
-    double excess = 0;  // mm beyond the tube; at most 0: it is in the tube
+    double excess = 0;  // mm beyond the tube; at most 0: in the tube
     double along = 0;
     Point off;
   };
@@ -139,10 +140,10 @@ class TubeSpline {
   std::array<Site, window> sites_;
   Relaxation relaxation_;
   std::int64_t knots_ = 0;
-  std::int64_t controls_ = -1;  // the next to begin
-  std::int64_t taken_ = 0;      // spans
+  std::int64_t controls_ = -1;  // the next control to begin
+  std::int64_t taken_ = 0;      // the number of spans taken
   bool closed_ = false;
-  bool wide_ = false;  // more than X Y Z move
+  bool wide_ = false;  // axes other than X, Y and Z move too
 };
 
 }  // namespace passo

@@ -8,7 +8,7 @@
 namespace passo {
 namespace {
 
-// Beyond it no machine goes.
+// In steps: no machine goes beyond this.
 constexpr double far_away = 1e18;
 
 }  // namespace

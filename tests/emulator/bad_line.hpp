@@ -1,4 +1,4 @@
-// BadLine: a line to an emulated board that is cut, or makes mistakes.
+// BadLine: a line to an emulated board that is cut or makes mistakes.
 #pragma once
 
 #include <cstdint>

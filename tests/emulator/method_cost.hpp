@@ -1,4 +1,4 @@
-// What a pulse of each method costs on the emulated chip, over a fixed set of moves, and the table of it in
+// Measures what a pulse of each method costs on the emulated chip, over a fixed set of moves, and makes the table in
 // docs/interpolation/costs.md.
 #pragma once
 

@@ -1,4 +1,4 @@
-// MethodRunner: has the emulated chip play an order, and tells what came out and what each pulse cost. The host plays
+// MethodRunner: lets the emulated chip play an order, and tells the result and the cost of each pulse. The host plays
 // the same order with the same code, for comparison.
 #pragma once
 
@@ -26,7 +26,7 @@ class MethodRunner {
   explicit MethodRunner(const std::string& program);
   MethodRun play(const Order& order);
 
-  // Cycles between two marks with nothing between them; figures are net of it.
+  // Cycles between two marks with nothing between them. All figures are without these cycles.
   std::uint64_t cost_of_marks() const { return cost_of_marks_; }
 
  private:

@@ -1,5 +1,5 @@
-// StreamedRun: board segments sent over the serial line to the real firmware on the emulated chip, and every edge of
-// its step pins held against the host's Player.
+// StreamedRun: sends board segments over the serial line to the real firmware on the emulated chip, and compares every
+// edge of its step pins with the host's Player.
 #pragma once
 
 #include <cstdint>
@@ -71,27 +71,28 @@ class BoardBench {
   // The next host drives the first `count` motors only.
   void drive_motors(std::size_t count) { board_.motors.resize(count); }
 
-  // Called before each item that play() sends, with its frame. What the board says of bytes that are no frame is then
-  // no complaint.
+  // The function is called before each item that play() sends, with the item's frame. Then the board's complaints about
+  // bytes that are no frame do not count.
   std::function<void(std::span<const std::uint8_t>)> before_item;
 
-  // Plays them from rest to rest.
+  // Plays the items from rest to rest.
   EdgeCheck play(const std::vector<BoardSegment>& segments);
 
-  // Says hello and sends them all, to begin when all have come: one less than the board takes at once.
+  // Says hello and sends all items, which begin when all have come: one less than the board takes at once.
   using Item = std::variant<BoardSegment, BoardOutputs>;
   void start_items(const std::vector<Item>& items);
-  // Says hello and sends as many as the board takes at once. `limit`: the bit of a limit switch that is to capture.
+  // Says hello and sends as many items as the board takes at once. `limit`: the bit of a limit switch that is to
+  // capture.
   void start(const std::vector<BoardSegment>& segments, std::uint8_t limit = 0);
   // The steps that came out of the pins since the changes were forgotten, of each motor.
   std::vector<SeenSteps> seen();
-  // Where the motors stand in their winding tables after what was not played by play().
+  // Finds where the motors stand in their winding tables after motion that play() did not play.
   void follow_windings();
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
-  // Asks the board how it is, or something else; the answer comes while it runs.
+  // Asks the board for its status or something else. The answer comes while the board runs.
   void ask(const Ask& question = {});
-  // Called when it has told where its spindle is.
+  // The function is called when the board has told where its spindle is.
   std::function<void(const Turned&)> on_turned;
   // Of the last frame that went to the board.
   std::uint8_t last_byte() const { return last_byte_; }
@@ -111,7 +112,7 @@ class BoardBench {
   void hear(std::uint8_t byte);
   bool say_hello();
   void put_on_line(std::span<const std::uint8_t> frame);
-  // Behind all that was executed; just behind a hello.
+  // After all that was executed, or just after a hello.
   void send_replace(std::span<const Item> items);
   void send_item(const BoardSegment& segment);
   void send_item(const BoardOutputs& outputs);

@@ -1,5 +1,5 @@
-// WindingEdges: the steps of a motor whose windings the board switches itself, read off its pins. The patterns stand
-// here as docs/follower.md has them, and nowhere is the firmware's own table asked.
+// WindingEdges: the steps of a motor whose windings the board switches itself, read from the pins. The patterns are
+// those of docs/follower.md. The firmware's own table is never used.
 #pragma once
 
 #include <cstdint>

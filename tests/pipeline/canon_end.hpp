@@ -1,5 +1,5 @@
-// Where canonical text says a program ends, in machine coordinates: a reader of `passo canon`'s output that shares no
-// code with the pipeline.
+// Reads from canonical text where a program ends, in machine coordinates. This reader of `passo canon`'s output shares
+// no code with the pipeline.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A machine with switches, and what must be true when it has been homed by them.
+// A machine with switches, and what must be true after homing.
 #pragma once
 
 #include <algorithm>
@@ -97,8 +97,8 @@ inline double way_of(const AxisDescription& axis, std::int64_t count) {
   return static_cast<double>(forward ? count : -count);
 }
 
-// How far an axis has gone on behind the place where its switch closed, in millimetres; from a switch that was closed
-// already it goes no further. As bounded as that of a probe move.
+// How far an axis has gone on after its switch closed, in millimetres. From a switch that was already closed the axis
+// goes no further. The way has the same bound as that of a probe move.
 inline double expect_small_overrun(const MachineDescription& machine, const Distances& distances, const Homed& result) {
   double largest = 0;
   for (std::size_t m = 0; m < 3; ++m) {

@@ -1,4 +1,4 @@
-// What the tests of buttons have in common: a program that goes along evenly, and when it gets slower.
+// What the tests of buttons have in common: a program of even motion, and the time when the motion gets slower.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace passo::test {
 // 15 seconds of even motion along X.
 inline const std::string along = "G21 G90 G1 F2400\nX300\nX0\nM2\n";
 
-// From `pressed` on, in seconds: when a step of the even motion before it comes later than it would have, by three of
-// its intervals. Below 0: never.
+// How long after `pressed`, in seconds, a step first comes three intervals later than in the even motion before.
+// Negative: never.
 inline double reaction(const std::vector<StepLog::Step>& steps, double clock, double pressed) {
   const auto time = [&](std::size_t i) { return static_cast<double>(steps[i].tick) / clock; };
   std::size_t last = 0;

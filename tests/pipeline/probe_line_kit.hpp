@@ -1,4 +1,4 @@
-// A program that probes, and what must have been found where it ran over a line.
+// A program that probes, and what must have been found after a run over a line.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,8 @@ inline const std::string touches =
     "G0 Z1\nG1 X[3+#31] Y[3+#32] Z[2+#5063] F3000\nF600 G38.3 X-2\nG0 X0 Y0 Z0\nM2\n";
 inline constexpr double plate = -1.23;
 
-// How long motion goes on behind a contact, before the machine brakes: what the board had, and what was on its way.
+// How long motion goes on after a contact before the machine brakes: the motion that the board had, and the motion on
+// the way to the board.
 inline double longest_overrun(const MachineDescription& machine, const LineProbing& result, double speed) {
   double overrun = 0;
   for (const AxisDescription& axis : machine.axes) {

@@ -1,4 +1,5 @@
-// Threads, and where on the circumference their grooves are: told by each step and the angle that the spindle had then.
+// Threads, and where on the circumference their grooves are. Each step and the spindle's angle at that moment tell the
+// place.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +58,7 @@ struct Played {
   std::vector<Cut> cuts;
   double time = 0;
   std::optional<LinkError> error = {};
-  int rests = 0;  // for want of what came too late
+  int rests = 0;  // rests because a refill came too late
   BoardOutputs outputs = {};
 };
 inline Played play(const std::string& program, const MachineDescription& machine, DriveOn options,

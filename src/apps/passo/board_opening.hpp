@@ -1,4 +1,4 @@
-// From a board's address to the board.
+// Opens a board by its address.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,13 @@
 
 namespace passo {
 
-// Where the build puts the firmware `motion` for `board`, seen from this program. `extension`: ".hex" or ".elf".
+// The path, seen from this program, where the build puts the firmware `motion` for `board`. `extension`: ".hex" or
+// ".elf".
 std::filesystem::path built_image(std::string_view board, std::string_view extension);
 std::string message_of_missing(const std::filesystem::path& image);
 
-// Over a line, or in an emulator; not the virtual machine. `plant`: what is behind an emulated one, and outlives it;
-// null: nothing but its motors. The error is a sentence with the reason.
+// Opens a board over a line or in an emulator, but not the virtual machine. `plant`: the plant behind an emulated
+// board, which outlives the board; null: nothing but its motors. The error is a sentence with the reason.
 Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant = nullptr);
 
 }  // namespace passo

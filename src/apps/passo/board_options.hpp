@@ -17,7 +17,7 @@ struct BoardArguments {
   BoardMonitorArguments monitor;
   BoardFlashArguments flash;
   BoardServeArguments serve;
-  std::function<int()> chosen;  // what was asked for, after parsing
+  std::function<int()> chosen;  // the chosen command, after parsing
 };
 
 CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments);

@@ -1,4 +1,4 @@
-// What a board says of itself, in words and as JSON.
+// Tells what a board says of itself, in words and as JSON.
 #pragma once
 
 #include <string>
@@ -11,9 +11,9 @@
 namespace passo {
 
 std::string name_of(const About& about);
-// Hundreds and units: 1.02.
+// A version number of hundreds and units: 1.02.
 std::string version_of(const About& about);
-// "limit X", "probe"; empty where all switches are off.
+// "limit X", "probe"; empty if all switches are off.
 std::vector<std::string> switches_of(const BoardStatus& status);
 std::string state_of(const BoardStatus& status);
 std::string reset_of(const BoardStatus& status);

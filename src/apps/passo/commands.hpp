@@ -9,10 +9,10 @@
 
 namespace passo {
 
-// What a script may rely on.
+// The exit codes. Scripts may rely on them.
 enum ExitCode : int {
   exit_done = 0,
-  exit_failed = 1,       // something else: a file that cannot be written, an interruption by a fault
+  exit_failed = 1,       // another failure: a file that cannot be written, an interruption by a fault
   exit_bad_program = 2,  // the user's program or command line is wrong
   exit_bad_machine = 3,  // the machine's file is wrong
   exit_not_resumed = 4,  // a job that was broken off cannot go on
@@ -24,16 +24,17 @@ struct ProgramArguments {
   bool block_delete = false;             // skip lines that start with '/'
   bool inches = false;                   // until the program says G20 or G21
   bool user_codes = false;               // M100 to M199 are allowed
-  std::uint64_t loop_limit = 1'000'000;  // passes of a loop without any operation
+  std::uint64_t loop_limit = 1'000'000;  // passes of a loop without an operation
   std::string tools;                     // tool table; empty: none
   std::string parameters;                // parameter file; empty: none
   std::string settings;                  // ini file; empty: none
   std::vector<std::string> sub_folders;
   std::string machine_units;  // "mm" or "inch"; empty: as the settings say, else `default_units`
   const char* default_units = "mm";
-  // The settings may name the tool table and the parameter file too. rs274, which canon prints like, ignores that.
+  // True: the settings may name the tool table and the parameter file too. rs274, whose form `canon` prints, ignores
+  // them.
   bool files_of_settings = true;
-  bool parameters_may_lack = false;  // they are written after the run
+  bool parameters_may_lack = false;  // the file need not exist: the run writes it at the end
   std::string dialect = "linuxcnc";  // or grbl
 };
 
@@ -50,8 +51,8 @@ struct RunArguments {
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
   std::string board = "virtual";       // as parse_board_address() has it
   std::string journal;                 // empty: usual_journal()
-  bool resume = false;                 // goes on where another run was broken off
-  bool home = false;                   // the machine is homed first, and the program begins where it rests then
+  bool resume = false;                 // goes on where another run was interrupted
+  bool home = false;                   // homes the machine first; the program begins where homing ends
   bool yes = false;                    // goes on at M0, M1 and M6 without asking
   bool json = false;                   // the summary on standard output as JSON
   bool quiet = false;
@@ -61,10 +62,10 @@ int run(const RunArguments& arguments);
 struct JogArguments {
   std::string machine;
   std::string board = "virtual";   // as parse_board_address() has it
-  std::vector<std::string> moves;  // "X+10", or "X+" as far as the travel goes; none: by keys
+  std::vector<std::string> moves;  // "X+10", or "X+" to the end of the travel; empty: by keys
   double feed = 600;               // mm a minute along the way
   double lease = 0.2;              // s
-  std::optional<double> held;      // s for which the lease is renewed; none: to the end
+  std::optional<double> held;      // s for which the lease is renewed; empty: to the end
   bool json = false;
 };
 int jog(const JogArguments& arguments);
@@ -128,7 +129,7 @@ struct BoardFlashArguments {
   std::string board;  // uno or mega
   std::string device;
   std::string image;   // empty: the one that was built with this program
-  std::string backup;  // what the board held before; empty: passo-backup-BOARD.hex
+  std::string backup;  // file for the old contents; empty: passo-backup-BOARD.hex
   std::string programmer;
   unsigned baud = 115'200;
   bool dry_run = false;
@@ -140,7 +141,7 @@ struct BoardServeArguments {
   unsigned motors = 4;
   double clock = 16e6;
   unsigned port = 7070;
-  std::string machine;  // a machine file: its switches are there, and it stands at machine zero; empty: none
+  std::string machine;  // a machine file, whose switches exist, at machine zero; empty: none
   bool once = false;    // one host, then end
 };
 int board_serve(const BoardServeArguments& arguments);
@@ -162,7 +163,7 @@ struct InterpolateArguments {
 };
 int interpolate(const InterpolateArguments& arguments);
 
-// In the units of data sheets, which are also those of the options.
+// Values are in the units of data sheets, as in the options.
 struct MotorArguments {
   std::vector<std::string> pull_out;  // "rate:torque" each
   std::vector<std::string> pull_in;
@@ -174,13 +175,13 @@ struct MotorArguments {
   std::optional<double> inductance;      // mH
   std::optional<double> supply;          // V
   std::string drive = "bipolar";         // or unipolar
-  std::string data;                      // what of both the values are for; empty: as the drive
+  std::string data;                      // which of the two the values are for; empty: as the drive
   std::string regulation = "chopper";    // or resistive
   double load_inertia = 0;               // g·cm²
   double friction = 0;                   // N·m
   double friction_per_speed = 0;         // N·m·s/rad
   double margin = 1;
-  std::optional<double> max_rate;  // full steps/s, where tables and pictures end
+  std::optional<double> max_rate;  // full steps/s at which tables and pictures end
   int rows = 101;
   std::vector<std::string> pictures;  // .svg or .png
   bool json = false;
@@ -212,7 +213,7 @@ struct ChordsArguments {
   std::string to;      // Z as that of `from` unless it says otherwise
   std::string center;  // arc, helix, ellipse
   bool clockwise = false;
-  int turns = 1;       // arc, helix: the last one may be a part of a turn
+  int turns = 1;       // arc, helix: the last turn may be partial
   std::string radii;   // ellipse: "A,B" in mm
   double rotate = 0;   // ellipse: degrees
   std::string angles;  // ellipse: "FROM,TO" in degrees; empty: all of it

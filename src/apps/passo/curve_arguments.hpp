@@ -1,4 +1,4 @@
-// CurveArguments: from the words of the command line to a curve.
+// CurveArguments: makes a curve from the words of the command line.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ namespace passo {
 
 using AnyCurve = std::variant<CurveInSpace, Ellipse, QuadraticBezier, CubicBezier, Nurbs>;
 
-// The words fit after "passo: error: ".
+// The error's words fit after "passo: error: ".
 Result<AnyCurve, std::string> curve_of(const ChordsArguments& arguments);
 
-// "1,2.5,-3" as `least` to `most` numbers. `what` says what was expected: "X,Y or X,Y,Z in mm".
+// Reads "1,2.5,-3" as `least` to `most` numbers. `what` says what was expected: "X,Y or X,Y,Z in mm".
 Result<std::vector<double>, std::string> numbers_of(std::string_view option, std::string_view text, std::size_t least,
                                                     std::size_t most, std::string_view what);
 

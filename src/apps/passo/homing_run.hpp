@@ -1,4 +1,4 @@
-// Homing as a command does it: the request, what is shown meanwhile, and what came of it in words.
+// Homing by a command: the request, the display meanwhile, and the result in words.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,16 @@ namespace passo {
 struct HomingReport {
   std::vector<HomedAxis> axes;
   Seconds time{0};
-  // What went wrong, a stable code and a sentence without a full stop; empty: nothing.
+  // What went wrong: a stable code, and a sentence without a full stop. Empty: nothing.
   std::string code;
   std::string message;
-  std::optional<Axis> axis;  // that was being homed then
+  std::optional<Axis> axis;  // the axis that was being homed then
 };
 
-// The machine has been greeted. Ctrl-C brakes. `shows`: what it does, on standard error, where that is a terminal.
+// Homes a machine that has been greeted. Ctrl-C brakes. `shows`: shows the progress on standard error, if that is a
+// terminal.
 HomingReport home_machine(OpenedMachine& machine, bool shows);
-// Why it is not homed; and why a machine file is none to home by.
+// Says why the machine is not homed, and why homing is not possible with a machine file.
 std::string words_of(const HomingReport& report);
 std::string words_without_homing(const std::string& machine_file);
 

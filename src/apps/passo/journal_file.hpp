@@ -1,5 +1,5 @@
-// JournalFile: a journal on the disk. It survives that its program is killed; a computer that loses power may keep an
-// older state of it, which then does not know the board's rest, and is refused.
+// JournalFile: a journal on the disk. The journal survives when its program is killed. A computer that loses power may
+// keep an older state of the journal. That state does not know the board's rest, and is refused.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,11 @@
 
 namespace passo {
 
-// Where the journal of what runs on that board is kept: XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither
-// is known.
+// The path of the journal for a board, in XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
 std::string usual_journal(const std::string& board);
-// What is in a journal's file, at most as much as a journal may have. Nothing where there is none that can be read.
+// Reads a journal's file, but no more than a journal may have. Empty: there is no readable file.
 std::optional<std::string> read_journal(const std::string& path);
-// Of a file as it is now. What is read only once, standard input or a pipe, has a stamp without a name.
+// The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
 FileStamp stamp_of(const std::string& path);
 
 class JournalFile final : public JournalStore {
@@ -27,7 +26,7 @@ class JournalFile final : public JournalStore {
   const std::string& path() const { return path_; }
   [[nodiscard]] bool replace(std::string_view text) override;
   [[nodiscard]] bool overwrite(std::size_t offset, std::string_view bytes) override;
-  // The job is done.
+  // Removes the journal when the job is done.
   void remove();
 
  private:

@@ -17,16 +17,16 @@ struct CableCut {
   Seconds at{0};
   Seconds missing{0};
 };
-// Of "SECONDS:SECONDS"; nothing where it says something else, which is told on standard error.
+// Reads "SECONDS:SECONDS". Empty if the text is something else, which is reported on standard error.
 std::optional<CableCut> read_cable_cut(const std::string& text);
 
-// Where the motors of a virtual machine stand, on each axis, from the steps that were counted.
+// Where a virtual machine stands on each axis, from the counted steps of its motors.
 std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description);
 
-// Watches a run for rests at the ends of braking tails.
+// Reports rests at the ends of braking tails during a run.
 class TailWatch {
  public:
-  // After each turn of the session.
+  // Call after each turn of the session.
   void look(const MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
   const std::vector<TailSummary>& tails() const { return tails_; }
 
@@ -36,26 +36,26 @@ class TailWatch {
 
 class MidRunChanges {
  public:
-  // `holds`: "2.5" ends the run at rest from 2.5 s on; "2.5:1" goes on after a second of rest. `overrides`: "50@2.5" is
-  // half the feed from 2.5 s on. Times are those of the board, from the start of the program. Nothing where one says
-  // something else, which is told on standard error.
+  // `holds`: "2.5" ends the run with a hold at 2.5 s; "2.5:1" goes on after one second of rest. `overrides`: "50@2.5"
+  // halves the feed from 2.5 s on. Times are the board's, from the start of the program. Empty if a text is something
+  // else, which is reported on standard error.
   static std::optional<MidRunChanges> read(const std::vector<std::string>& holds,
                                            const std::vector<std::string>& overrides);
 
   bool any() const { return !changes_.empty(); }
-  // The program begins now.
+  // Tells that the program begins now.
   void begin(Seconds now) { begun_ = now; }
-  // Before each turn of the session. How long that may take at most.
+  // Call before each turn of the session. Returns how long the turn may take at most.
   Seconds act(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
 
-  // Those that came before the end of the program.
+  // The changes that came before the end of the program.
   std::vector<HoldSummary> holds() const;
 
  private:
   struct Change {
     Seconds at{0};
-    std::optional<double> factor = {};  // of the feed; none: a hold
-    std::optional<Seconds> pause = {};  // of a hold, until it goes on
+    std::optional<double> factor = {};  // factor of the feed; empty: a hold
+    std::optional<Seconds> pause = {};  // pause of a hold, until the program goes on
   };
   Seconds now(const MachineSession& session) const { return session.now() - begun_; }
   Seconds mind_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
@@ -64,9 +64,9 @@ class MidRunChanges {
   std::vector<Change> changes_;  // by time
   std::size_t next_ = 0;
   Seconds begun_{0};
-  bool holds_now_ = false;            // a hold was asked for, and is not over
-  std::optional<Seconds> pause_;      // of it
-  std::optional<Seconds> resume_at_;  // it rests until then
+  bool holds_now_ = false;            // a hold was requested, and is not over
+  std::optional<Seconds> pause_;      // the pause of that hold
+  std::optional<Seconds> resume_at_;  // the machine rests until then
   std::vector<HoldSummary> holds_;
 };
 

@@ -1,5 +1,5 @@
-// OpenedMachine: a machine session on the board that the command line names, and what belongs to it: the plant behind a
-// virtual or an emulated board, and a virtual machine that does what a real board has done, for counts and traces.
+// OpenedMachine: a machine session on the board that the command line names. With it come the plant behind a virtual or
+// emulated board, and a virtual machine that repeats what a real board has done, for counts and traces.
 #pragma once
 
 #include <functional>
@@ -21,37 +21,38 @@ namespace passo {
 
 struct MachineWish {
   std::string board = "virtual";     // as parse_board_address() has it
-  std::optional<CableCut> cut = {};  // the virtual machine is at the end of a line, which is cut
-  std::vector<TouchBox> boxes = {};  // for the probe to touch, of a virtual or an emulated board
+  std::optional<CableCut> cut = {};  // the virtual machine is at the end of a line that is cut
+  std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
   bool may_move = false;             // another host may have left the board in motion
 };
 
 class OpenedMachine {
  public:
-  // Null, and said why, where there is no such board, or it moves though it must not; `code`: what to exit with. A
-  // board over a line has been asked how it is, and not been greeted.
+  // Opens a board. Null, with a message, if there is no such board, or if the board moves and may not; then `code` is
+  // the exit code. A board over a line has been asked for its status, and has not been greeted.
   static std::unique_ptr<OpenedMachine> open(const MachineDescription& machine, const MachineWish& wish, int& code);
 
   MachineSession& session() { return *session_; }
   const MachineSession& session() const { return *session_; }
-  // The board itself, or what does as the board has done.
+  // The board itself, or the virtual machine that repeats what the board has done.
   VirtualMachine& machine() { return machine_; }
-  // A board that is not in this process, or an emulated one.
+  // True: the board is not in this process, or is emulated.
   bool has_board() const { return port_ != nullptr; }
-  // How the board was before the hello.
+  // The board's status before the hello.
   const BoardStatus& before() const { return before_; }
-  // Asks until the board rests; false where it does not answer. Before the hello.
+  // Asks until the board rests. False: the board does not answer. Call before the hello.
   [[nodiscard]] bool wait_for_rest();
-  // Greets, and waits until the machine is ready. False, and said why, where the board does not suit. Where nobody has
-  // to know the board again, the usual greeting does.
+  // Greets the board, and waits until the machine is ready. False, with a message: the board does not suit. The usual
+  // greeting is enough if nobody has to recognise the board later.
   [[nodiscard]] bool greet(const Greeting& greeting, int& code);
   Greeting usual_greeting() const { return {.session = has_board() || line_ ? std::uint16_t{1} : std::uint16_t{0}}; }
 
-  // What a board has executed goes to the virtual machine too, whose motors stand at that place when the program
-  // begins.
+  // Sends what the board has executed to the virtual machine too. The virtual machine's motors stand at this place when
+  // the program begins.
   void follow(Watchers& watchers, const Point& place);
   void catch_up();
-  // At the end: whether the motors are where the counts say, as far as that is known; else what differs.
+  // Checks at the end whether the motors are where the counts say, as far as that is known. Otherwise says what
+  // differs.
   std::optional<std::string> compare();
 
  private:
@@ -69,9 +70,9 @@ class OpenedMachine {
   BoardStatus before_;
 };
 
-// Turns until nothing is going on; Ctrl-C brakes. `look`, if any, is called after each turn.
+// Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.
 void turn_to_the_end(MachineSession& session, const std::function<void()>& look = {});
-// What became of a request that has been answered, and why.
+// The result of a request that has been answered, and the reason.
 struct Answered {
   Outcome outcome = Outcome::done;
   std::optional<ActivityFault> fault;

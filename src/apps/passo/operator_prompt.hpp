@@ -1,5 +1,5 @@
-// OperatorPrompt: asks a person on the terminal to do what the program waits for (M0, M1, M6), while the machine goes
-// on being heard. ProgramStops: which of these a program has.
+// OperatorPrompt: asks a person on the terminal to do what the program waits for (M0, M1, M6). Meanwhile the session
+// goes on hearing the machine. ProgramStops: the stops and tool changes of a program.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +13,29 @@
 
 namespace passo {
 
-// There is somebody to ask: standard input and error are a terminal.
+// True: somebody can be asked, because standard input and standard error are a terminal.
 bool asks_operator();
 // "line 12: tool 2 (M6)".
 std::string words_of(const OperatorWait& wait);
 
-// Where nobody is asked, what a program would wait for is told before it runs.
+// Where nobody is asked, the stops of a program are reported before the program runs.
 class ProgramStops {
  public:
-  // Each item of the path.
+  // Call for each item of the path.
   void watch(const PathItem& item);
-  // On standard error, unless there is none.
+  // Reports the stops on standard error, if there are any.
   void tell(const RunArguments& arguments) const;
 
  private:
-  std::vector<OperatorWait> stops_;  // the first ones
+  std::vector<OperatorWait> stops_;  // the first stops
   std::uint64_t count_ = 0;
 };
 
 class OperatorPrompt {
  public:
   explicit OperatorPrompt(std::string program) : program_(std::move(program)) {}
-  // Before each turn: asks, where the program waits, and hears whether Enter was pressed. How long the turn may take.
-  // Where nobody can be asked the program is stopped.
+  // Call before each turn. Asks when the program waits, and hears whether Enter was pressed. Returns how long the turn
+  // may take. If nobody can be asked, the program is stopped.
   Seconds look(MachineSession& session);
   bool gave_up() const { return fault_.has_value(); }
   const std::optional<ActivityFault>& fault() const { return fault_; }

@@ -1,4 +1,4 @@
-// What every command does with a program: open it, and say what is wrong with it.
+// What every command does with a program: opens the program, and reports what is wrong with it.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace passo {
 
-// Opens the program, or says on standard error why not.
+// Opens the program, or reports the reason on standard error.
 std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
 
-// What the interpreter needs, with the files that the arguments name read; says on standard error what is wrong with
-// them. For a look at what the program means, and for a run on the machine.
+// The interpreter's options, after reading the files that the arguments name. Errors in the files are reported on
+// standard error. The first function is for a look at what the program means, the second for a run on the machine.
 std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments);
 std::optional<InterpreterOptions> machine_options(const ProgramArguments& arguments);
 
@@ -27,7 +27,7 @@ std::string parameter_file(const ProgramArguments& arguments, const InterpreterO
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);
 
-// Says on standard error why the command ends here; the exit code that was given.
+// Reports on standard error why the command ends here. Returns the given exit code.
 int fail(ExitCode code, const std::string& message);
 
 bool is_terminal(int descriptor);

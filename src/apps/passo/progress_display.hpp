@@ -1,4 +1,4 @@
-// ProgressDisplay: a ProgressLine on standard error, with the clock. Gone when the work is done.
+// ProgressDisplay: a ProgressLine on standard error, with the clock. The line is removed when the work is done.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,5 @@
-// ResumableRun: what a run over a line leaves behind so that another can go on, and how that other one does.
+// ResumableRun: writes what a run over a line leaves, so that another run can go on, and goes on from what another run
+// has left.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +18,25 @@ namespace passo {
 
 class ResumableRun {
  public:
-  // What the run is of.
+  // The program, the machine and the path of the run.
   struct Subject {
     const RunArguments& arguments;
     const MachineDescription& machine;
     const InterpreterOptions& options;
     const ProgramCheck& check;
-    std::uint64_t path;  // its fingerprint
+    std::uint64_t path;  // the path's fingerprint
   };
-  // Reads the journal that is there. With --resume it must be one, and of this program on this machine; else null, and
-  // said why, with `code` to exit with. Also null, with exit_done, where no journal is kept.
+  // Reads the journal, if there is one. With --resume there must be a journal of this program on this machine;
+  // otherwise returns null, with a message and the exit code in `code`. Also null, with exit_done, if no journal is
+  // kept.
   static std::unique_ptr<ResumableRun> open(const Subject& subject, int& code);
 
-  // Waits until the board rests, finds the place with --resume, writes the head of the new journal, and greets the
-  // board by it, or names the session where the machine is ready already. False, and said why, where the program cannot
-  // go on.
+  // Waits until the board rests, finds the place with --resume, and writes the head of the new journal. Then greets the
+  // board with the head's numbers, or only names the session if the machine is already ready. False, with a message:
+  // the program cannot go on.
   [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
   void add_to(request::Start& start);
-  // The program has come to its end; else the journal stays.
+  // Tells that the program has come to its end. Otherwise the journal stays.
   void end(const MachineSession& session, const Answered& answered);
 
  private:

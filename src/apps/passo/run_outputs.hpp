@@ -1,4 +1,5 @@
-// RunOutputs: the files that a run was asked for. Opened before it, filled while it goes, given their names after it.
+// RunOutputs: the files that a run was asked to write. They are opened before the run, filled during the run, and get
+// their names after the run.
 #pragma once
 
 #include <memory>
@@ -18,13 +19,14 @@
 
 namespace passo {
 
-// Whether a name tells what kind of file is wanted.
+// True: the name tells what kind of file is wanted.
 bool is_picture_name(const std::string& path);
 bool is_trace_name(const std::string& path);
 
 class RunOutputs {
  public:
-  // `parameters`, `tools`: the files that they go to after the run; empty: none. Fails when a file cannot be written.
+  // `parameters`, `tools`: the files for parameters and tools after the run; empty: none. Fails if a file cannot be
+  // written.
   static Result<RunOutputs, OutputError> open(const RunArguments& arguments, const MachineDescription& machine,
                                               const std::string& parameters, const std::string& tools);
 
@@ -32,11 +34,11 @@ class RunOutputs {
   RunOutputs& operator=(RunOutputs&&) noexcept;
   ~RunOutputs();
 
-  // Before the first step of the program. `machine` does what the board does.
+  // Call before the first step of the program. `machine` does what the board does.
   void watch(VirtualMachine& machine, Watchers& watchers);
-  // A file cannot take more: there is no point in going on.
+  // True: a file cannot take more, so there is no point in going on.
   bool failed() const;
-  // After the program has come to its end.
+  // Call after the program has come to its end.
   Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters, const ToolTable& tools,
                              LengthUnits machine_units);
 

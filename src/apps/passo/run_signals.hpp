@@ -1,13 +1,13 @@
-// Signals to a command at work: Ctrl-C ends it; or, where a board moves, brakes first.
+// Signals to a command at work. Ctrl-C ends the command. If a board moves, Ctrl-C brakes first.
 #pragma once
 
 namespace passo {
 
-// What output was begun is removed.
+// From now on a signal ends the program. Output files that were begun are removed.
 void end_on_signals();
-// The first one is for who asks interrupted_by(); a second one ends.
+// From now on interrupted_by() reports the first signal, and a second signal ends the program.
 void brake_on_signals();
-// Its number; 0: none has come.
+// The signal's number; 0: no signal has come.
 int interrupted_by();
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// The options of the commands that study one thing at a time, which are many.
+// The options of the commands that study one thing at a time. There are many of these options.
 #pragma once
 
 #include "commands.hpp"

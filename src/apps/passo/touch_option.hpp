@@ -1,4 +1,4 @@
-// --touch: what stands on a virtual or emulated machine for its probe to touch.
+// --touch: things on a virtual or emulated machine that its probe can touch.
 #pragma once
 
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace passo {
 
-// "Z:-1.5" is everything below, "X10:60,Y10:50,Z:-2" a block: from where to where on each axis, machine coordinates;
-// an end that is not there, or an axis, goes on for ever. Nothing where a text says something else, or names an axis
-// that the machine has not; that is told on standard error.
+// "Z:-1.5" is everything below -1.5; "X10:60,Y10:50,Z:-2" is a block. The ranges are in machine coordinates. A missing
+// end or a missing axis means no limit. Empty if a text is something else, or names an axis that the machine does not
+// have; that is reported on standard error.
 std::optional<std::vector<TouchBox>> read_touch_options(const std::vector<std::string>& texts,
                                                         const MachineDescription& machine);
 

@@ -38,7 +38,7 @@ inline double apart(const Point& a, const Point& b) {
   return euclid(a - b);
 }
 
-// A path by its length. Corners of it are found by bisection in a table, nothing is shared with the smoother.
+// A path by its length. The places are found by bisection in a table. Nothing is shared with the smoother.
 class ByLength {
  public:
   explicit ByLength(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -54,7 +54,7 @@ class ByLength {
     return segments_[i].curve.at(Mm(s - (i > 0 ? ends_[i - 1] : 0)));
   }
   double end_of(std::size_t i) const { return ends_[i]; }
-  // Where a line of the program and those beside it lie.
+  // Where a line of the program and the lines beside it lie.
   std::pair<double, double> around_line(std::uint32_t line) const {
     const auto found = std::ranges::lower_bound(segments_, line, {}, [](const Segment& s) { return s.source.line; });
     const auto i = std::min(static_cast<std::size_t>(found - segments_.begin()), segments_.size() - 1);
@@ -69,11 +69,11 @@ class ByLength {
 };
 
 struct Faults {
-  double excess = -1;       // of the deviation over the tolerance, at most
-  std::size_t gaps = 0;     // ends that are not the next start, bit for bit; rests that are not met, in their order
+  double excess = -1;       // the largest excess of the deviation over the tolerance
+  std::size_t gaps = 0;     // ends that differ from the next start; rests not met in order
   double tangent_jump = 0;  // where the path does not stop
-  double bend_jump = 0;     // there, of d²P/ds², relative to 1/mm and to itself
-  std::string where;        // the deviation is largest
+  double bend_jump = 0;     // the jump of d²P/ds² there, relative to 1/mm and to itself
+  std::string where;        // where the deviation is largest
 };
 
 // By how much the unit tangent changes at the junction after a segment.
@@ -83,7 +83,7 @@ inline double turn_after(const ByLength& path, std::size_t k) {
   return apart(in * (1 / euclid(in)), out * (1 / euclid(out)));
 }
 
-// How far the junction after a segment may be rounded; 0: it is a rest.
+// How far the junction after a segment may be rounded. 0: the junction is a rest.
 inline double junction_tolerance(const ByLength& path, std::size_t k) {
   if (k + 1 == path.size() || path[k].mode == PathMode::exact_stop) return 0;
   const double turn = turn_after(path, k);
@@ -92,8 +92,8 @@ inline double junction_tolerance(const ByLength& path, std::size_t k) {
   return path[k].tolerance.value();
 }
 
-// The least tolerance that holds on each segment: of the junctions at its ends that are no rests. What is straight in
-// exact path mode but for rounding is no junction: there the ends are those of the whole line.
+// The least tolerance that applies to each segment, from the junctions at its ends that are no rests. In exact path
+// mode, a place that is straight except for rounding is no junction, so the ends are those of the whole line.
 inline std::vector<double> tolerances_of(const ByLength& path) {
   constexpr double straight = 1e-6;
   std::vector<double> least(path.size(), 1e9);
@@ -103,7 +103,7 @@ inline std::vector<double> tolerances_of(const ByLength& path) {
       ++last;
     }
     double tolerance = 1e9;
-    for (const std::size_t k : {first - 1, last}) {  // 0 - 1: there is none
+    for (const std::size_t k : {first - 1, last}) {  // 0 - 1: there is no such segment
       const double here = k < path.size() ? junction_tolerance(path, k) : 0;
       if (here > 0) tolerance = std::min(tolerance, here);
     }
@@ -112,7 +112,7 @@ inline std::vector<double> tolerances_of(const ByLength& path) {
   return least;
 }
 
-// With an exact stop before each action.
+// The path with an exact stop before each action.
 inline ByLength by_length(const std::vector<PathItem>& items) {
   std::vector<Segment> segments;
   for (const PathItem& item : items) {
@@ -128,7 +128,7 @@ inline ByLength by_length(const std::vector<PathItem>& items) {
 struct Rest {
   double s = 0;
   Point place;
-  bool asked_for = true;  // else the path turns back, which merged lines before and after may change a little
+  bool asked_for = true;  // else the path turns back, and merged lines may move the place a little
 };
 
 inline std::vector<Rest> rests_of(const ByLength& path) {
@@ -153,8 +153,9 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least of a measure of places of the path that may be meant: close to where it was last, `likely` ones (where
-  // rotary axes turn hundreds of degrees a millimetre no other grid is fine enough), then anywhere.
+  // The least value of a measure over the places of the path that may be meant: first close to the last place, then at
+  // `likely` places, then anywhere. Where rotary axes turn hundreds of degrees a millimetre, only the likely places are
+  // dense enough.
   template <class Measure>
   double search(const Measure& measure, double end, const std::pair<double, double>& likely) {
     constexpr double close = 1e-3;
@@ -174,7 +175,7 @@ struct LengthAlong {
   }
 
  private:
-  // Where the path is plain a few steps find the place.
+  // Where the path is simple, a few steps find the place.
   template <class Measure>
   double descend(const Measure& measure, double end, double step) {
     const auto at = [&](double to) { return measure(std::clamp(rest + since_rest + to, 0.0, end)); };
@@ -217,7 +218,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
   const ByLength path = by_length(programmed);
   const std::vector<double> tolerances = tolerances_of(path);
   const std::vector<Rest> rests = rests_of(path);
-  auto rest = rests.begin();  // the next
+  auto rest = rests.begin();  // the next rest
   LengthAlong s;
   const Segment* before = nullptr;
   for (const PathItem& item : smoothed) {
@@ -254,7 +255,7 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
       faults.where = "at " + std::to_string(s.estimate()) + " of\n" + to_text(*segment) + "beside\n" +
                      to_text(path[path.index_at(s.estimate())]);
     }
-    // Other stops are those of spans that were cut.
+    // Other stops come from spans that were cut.
     if (segment->mode != PathMode::exact_stop) continue;
     const auto asked = std::find_if(rest, rests.end(), [](const Rest& any) { return any.asked_for; });
     const auto met = std::find_if(rest, rests.end(), [&](const Rest& any) { return any.place == curve.end(); });
@@ -357,7 +358,7 @@ class RandomPath {
     for (int i = 0; i < pieces; ++i) line_to(position_ + xyz(size, i % 2 == 0 ? height : -height));
   }
 
-  // Half of them begin in the direction in which the path arrives, but for what programs round.
+  // Half of the arcs begin in the direction in which the path arrives, except for rounding in the program.
   void arc() {
     static constexpr std::array<std::array<Axis, 3>, 3> planes = {
         {{Axis::x, Axis::y, Axis::z}, {Axis::z, Axis::x, Axis::y}, {Axis::y, Axis::z, Axis::x}}};

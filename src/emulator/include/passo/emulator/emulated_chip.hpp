@@ -1,13 +1,13 @@
-// EmulatedChip: an AVR that runs a real program, instruction by instruction, in simavr. Whoever drives it watches and
-// feeds single registers; time is the chip's clock, in cycles from reset, so the same program gives the same figures
+// EmulatedChip: an AVR that runs a real program, instruction by instruction, in simavr. The user watches and feeds
+// single registers. Time is the chip's clock, in cycles from reset, so the same program gives the same figures
 // everywhere.
 //
-// Registers are named by their addresses in data memory, as the data sheet's second column has them.
+// Registers are named by their addresses in data memory, as in the data sheet's second column.
 //
-// simavr 1.6 counts instructions as the data sheet does (timing_test.cpp). Mended here: entering an interrupt costs
-// nothing there (in silicon 4 cycles, 5 where the program counter has three bytes), and a pending one is served two
-// instructions after SEI or RETI (in silicon one). Its timer and its serial line are replaced: emulated_timer.hpp,
-// emulated_uart.hpp.
+// simavr 1.6 counts the cycles of instructions as the data sheet does (timing_test.cpp). Two differences are mended
+// here. In simavr, entering an interrupt costs nothing; in silicon, 4 cycles, or 5 where the program counter has three
+// bytes. In simavr, a pending interrupt is served two instructions after SEI or RETI; in silicon, one. simavr's timer
+// and serial line are replaced: emulated_timer.hpp, emulated_uart.hpp.
 #pragma once
 
 #include <cstdint>
@@ -22,25 +22,25 @@ namespace passo {
 
 class EmulatedChip {
  public:
-  // `program` is an ELF file. Throws std::runtime_error where it cannot be read or there is no such chip.
+  // `program` is an ELF file. Throws std::runtime_error if the file cannot be read or there is no such chip.
   explicit EmulatedChip(const std::string& program, const std::string& mcu = "atmega328p");
 
-  // What the program writes to a register, as it writes it.
+  // Calls the watcher with each value that the program writes to a register, at the moment of writing.
   void on_write(std::uint16_t address, std::function<void(std::uint8_t)> watcher);
-  // What the program reads from a register.
+  // Sets the source of what the program reads from a register.
   void on_read(std::uint16_t address, std::function<std::uint8_t()> source);
 
-  // Runs until stop() is called from one of these. Throws std::runtime_error where the program crashes or sleeps for
-  // good, or where `most_cycles` pass before.
+  // Runs until a watcher or a source calls stop(). Throws std::runtime_error if the program crashes or sleeps for good,
+  // or if `most_cycles` pass before.
   void run(std::uint64_t most_cycles);
   void stop() { stopped_ = true; }
-  // Runs until at least that many cycles have passed, or stop() is called. Throws where the program crashes.
+  // Runs until at least this many cycles have passed, or stop() is called. Throws if the program crashes.
   void run_for(std::uint64_t cycles);
 
-  // Bytes of memory, one after the other, that the program has not written since it started: what the stack has left.
+  // How many adjacent bytes of memory the program has not written since it started: what the stack has left free.
   std::size_t longest_untouched() const;
 
-  // For what stands in for simavr's own peripherals.
+  // For the classes that replace simavr's own peripherals.
   avr_t& avr() { return *avr_; }
 
   // The start of the instruction that is being executed.
@@ -52,7 +52,7 @@ class EmulatedChip {
   };
 
   void mend_interrupts();
-  // One stretch of instructions.
+  // Runs one stretch of instructions.
   void step();
 
   std::unique_ptr<avr_t, Deleter> avr_;

@@ -1,8 +1,8 @@
-// EmulatedPorts: the pins of an AVR. Stands in for simavr's ports, which tell every pin of every write to whoever might
-// want it, and know no flags of pin changes that can be cleared one by one.
+// EmulatedPorts: the pins of an AVR. The class replaces simavr's ports, which report every pin at every write, and
+// whose flags of pin changes cannot be cleared one by one.
 //
-// As in silicon: a one written to PINx turns the output over; a pin change sets its port's flag in PCIFR where the mask
-// has that pin. On the ATmega2560 the pins INT0 to INT7 set theirs in EIFR where EICRA and EICRB ask for any change.
+// As in silicon, a one written to PINx toggles the output. A pin change sets the port's flag in PCIFR if the mask has
+// that pin. On the ATmega2560 the pins INT0 to INT7 set their flags in EIFR if EICRA and EICRB ask for any change.
 #pragma once
 
 #include <array>
@@ -28,19 +28,19 @@ struct PortChange {
 
 class EmulatedPorts {
  public:
-  // `ports`: their letters.
+  // `ports`: the letters of the ports.
   EmulatedPorts(EmulatedChip& chip, const std::string& ports);
   EmulatedPorts(const EmulatedPorts&) = delete;
 
-  // Called with every change of an output register as it is made, in the place of keeping it.
+  // If set, called with every change of an output register as it is made. The changes are then not kept.
   std::function<void(const PortChange&)> on_change;
-  // Every change of an output register, in order of time.
+  // All kept changes of output registers, in order of time.
   const std::vector<PortChange>& changes() const { return changes_; }
   void forget_changes() { changes_.clear(); }
   std::uint8_t outputs(char port) const;
-  // From outside.
+  // Sets an input pin from outside.
   void set_input(char port, std::uint8_t bit, bool high);
-  // A key between two pins: while one is drawn low the other reads low.
+  // Connects two pins by a key: while one pin is drawn low, the other pin reads low.
   void connect(Pin row, Pin column, bool closed);
 
  private:
@@ -48,7 +48,7 @@ class EmulatedPorts {
     EmulatedPorts* all = nullptr;
     char name = 0;
     std::uint16_t pin = 0;       // address of PINx; DDRx and PORTx are the next two
-    std::uint8_t levels = 0xff;  // that something outside gives it
+    std::uint8_t levels = 0xff;  // levels that something outside gives the pins
   };
   struct Contact {
     Pin row;

@@ -1,10 +1,9 @@
-// EmulatedTimer: timer 1 of the ATmegas, free running at the full clock, with its compare match A
-// and its overflow flag (which nobody has as an interrupt). Stands in for
-// simavr's, which forgets a preset count, clears all flags with one, and forgets a match that was pending when its
-// interrupt is enabled.
+// EmulatedTimer: timer 1 of the ATmegas, free running at the full clock, with its compare match A and its overflow flag
+// (no program uses the overflow as an interrupt). The class replaces simavr's timer, which forgets a preset count,
+// clears all flags when one is cleared, and forgets a match that was pending when its interrupt is enabled.
 //
-// As in silicon: 16-bit registers go through the one byte TEMP that they share; a match sets its flag whether the
-// interrupt is enabled or not; a time written that has just passed comes again after 65,536 cycles.
+// As in silicon, 16-bit registers go through the one byte TEMP that they share. A match sets its flag whether the
+// interrupt is enabled or not. A compare time that has just passed when it is written comes again after 65,536 cycles.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@ class EmulatedTimer {
   explicit EmulatedTimer(EmulatedChip& chip);
   EmulatedTimer(const EmulatedTimer&) = delete;
 
-  // The cycle at which it stood at 0, and ran.
+  // The cycle at which the timer stood at 0 and ran.
   std::uint64_t started() const { return started_; }
 
  private:

@@ -3,9 +3,9 @@
 //     7 N..... USE_LENGTH_UNITS(CANON_UNITS_INCHES)
 //     8 N20    STRAIGHT_FEED(1.0000, 0.0000, -0.2500, 0.0000, 0.0000, 0.0000)
 //
-// A counter, the N word of the block, the call; lengths in the program's units at that place. Like there, U V W and
-// spindle numbers but 0 are not shown. Unlike there, a number that rounds to nothing has no sign, and N has no
-// leading zeros.
+// A line has a counter, the N word of the block, and the call. Lengths are in the program's units at that place. As in
+// `rs274 -g`, U V W and spindle numbers other than 0 are not shown. Unlike there, a number that rounds to zero has no
+// sign, and N has no leading zeros.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace passo {
 
 class CanonPrinter {
  public:
-  // `machine_units`: of tool table entries, which are printed as the table holds them.
+  // `machine_units`: the units of tool table entries, which are printed as in the table.
   explicit CanonPrinter(LengthUnits machine_units = LengthUnits::mm) : machine_units_(machine_units) {}
 
   // Appends one line, with its line end, to `out`.

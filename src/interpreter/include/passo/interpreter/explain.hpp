@@ -1,7 +1,7 @@
-// explain: what the lines of a program do, in words, and under which modal state each of them runs.
+// explain: tells in words what the lines of a program do, and under which modal state each line runs.
 //
-// Not from the line alone: the program is run up to it, so that parameters have their values, the active motion is
-// known and positions are true. A line in a loop is explained as it is first executed.
+// The program is run up to the line, so parameters have their values, the active motion is known and positions are
+// true. A line in a loop is explained as in its first execution.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ struct Explanation {
   // What a modal group is set to, or another state of the machine.
   struct Mode {
     std::string name;
-    std::string code;  // "G21"; empty where no code says it
+    std::string code;  // "G21"; empty if no code says this
     std::string meaning;
-    bool set_here = false;  // it was something else before the block
+    bool set_here = false;  // the mode was different before the block
   };
   struct Position {
     Point work;
@@ -38,31 +38,31 @@ struct Explanation {
 
   std::uint32_t line = 0;
   std::string text;
-  std::uint64_t executions = 0;  // 0: all below is empty, but the findings
+  std::uint64_t executions = 0;  // 0: all below is empty, except the findings
   std::vector<Word> words;
   std::vector<std::string> operations;  // as CanonPrinter prints them, without counter and N
   Position before;
   Position after;
-  std::vector<Mode> modes;           // as the block runs: its own codes count
+  std::vector<Mode> modes;           // the modes while the block runs, with its own codes
   std::vector<Diagnostic> findings;  // what is wrong with the line
 };
 
 struct Explanations {
   std::vector<Explanation> lines;
   std::uint32_t lines_in_file = 0;
-  bool whole_run = true;  // else the run was cut short, and lines may be executed more often, or later
+  bool whole_run = true;  // false: the run was cut short, and lines may run more often, or later
 };
 
 struct ExplainLimits {
-  std::uint64_t operations = 10'000'000;       // until every line was seen…
-  std::uint64_t further_operations = 200'000;  // …and from then on, to count
+  std::uint64_t operations = 10'000'000;       // most operations until every line was seen
+  std::uint64_t further_operations = 200'000;  // most operations after that, to count executions
 };
 
-// `diagnostics` takes what is wrong with the rest of the program too.
+// `diagnostics` also gets what is wrong with the rest of the program.
 Explanations explain(ProgramReader program, const InterpreterOptions& options, LineRange range,
                      Diagnostics& diagnostics, const ExplainLimits& limits = {});
 
-// "X 10 mm, Y 0 mm, Z 5 mm": X Y Z, and of the other axes those that are not at 0.
+// "X 10 mm, Y 0 mm, Z 5 mm": X Y Z, and the other axes that are not at 0.
 std::string in_words(const Point& point);
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// Frame: how work positions become machine positions. Listens to the operations that move the frame.
+// Frame: converts work positions to machine positions. A frame follows the operations that move it.
 //
 // machine = work offset + rotate(work + G92 offset, rotation about Z) + tool offset
 //
@@ -13,7 +13,7 @@ namespace passo {
 
 class Frame {
  public:
-  // Takes note if the operation moves the frame; says whether it did.
+  // Follows the operation if it moves the frame. True: the operation moved the frame.
   bool follow(const Operation& operation);
 
   Point machine_from_work(const Point& work) const;

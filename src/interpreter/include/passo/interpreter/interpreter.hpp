@@ -1,7 +1,7 @@
 // Interpreter: blocks -> operations. Modal state, parameters, O-words, offsets; RS274/NGC in LinuxCNC's dialect.
 //
-// Pulled: each next() gives one operation. Errors in the program are collected; after an error in a block the
-// interpreter goes on with the next one where that makes sense, so that one pass finds them all.
+// Operations are pulled: each next() gives one operation. Errors in the program are collected. After an error in a
+// block the interpreter goes on with the next block where that makes sense, so one pass finds all errors.
 #pragma once
 
 #include <memory>
@@ -21,26 +21,27 @@ namespace passo {
 
 class BlockWatcher;
 
-// Whose G-code: LinuxCNC's RS274/NGC, or the part of it that grbl 1.1 accepts, with grbl's numbers in the diagnostics.
+// The dialect of G-code: LinuxCNC's RS274/NGC, or the part of it that grbl 1.1 accepts, with grbl's numbers in the
+// diagnostics.
 enum class Dialect : std::uint8_t { linuxcnc, grbl };
 
 struct InterpreterOptions {
   Dialect dialect = Dialect::linuxcnc;
   bool block_delete = false;            // lines that start with '/' are skipped
-  LengthUnits units = LengthUnits::mm;  // before the program says G20 or G21
+  LengthUnits units = LengthUnits::mm;  // the units until the program says G20 or G21
   Point start;                          // machine position at the start
-  // Of lengths in parameters (#5161 to #5390, #5401 to #5410) and in `parameters`.
+  // The units of lengths in parameters (#5161 to #5390, #5401 to #5410) and in `parameters`.
   LengthUnits machine_units = LengthUnits::mm;
-  ToolTable tools;                       // without a name: nobody gave one
-  SavedParameters parameters;            // what was saved after the last run
-  std::vector<std::string> sub_folders;  // where subs in files are looked for, after the program's own folder
-  // What #<_ini[section]name> asks; null: nothing.
+  ToolTable tools;                       // no name: nobody gave a tool table
+  SavedParameters parameters;            // the parameters saved after the last run
+  std::vector<std::string> sub_folders;  // folders to search for subs in files, after the program's own folder
+  // Answers #<_ini[section]name>. Null: there are no settings.
   std::shared_ptr<const SettingsFile> settings;
-  // Passes of a loop without any operation between, before it is stopped with a diagnostic.
+  // How many passes without any operation a loop may make before it is stopped with a diagnostic.
   std::uint64_t idle_passes = 1'000'000;
-  // Who answers when the program asks the machine (probe, inputs, #<_task>): a preview as LinuxCNC's `rs274` does,
-  // where a probe move ends 0.254 mm before its end and inputs are 0; or a machine without inputs, where a probe move
-  // is touched at its very end if the machine's answers do not say otherwise.
+  // Who answers when the program asks the machine (probe, inputs, #<_task>). A preview answers as LinuxCNC's `rs274`
+  // does: a probe move ends 0.254 mm before its end, and inputs are 0. A machine has no inputs, and a probe move is
+  // touched at its very end unless the machine's answers say otherwise.
   bool on_machine = false;
   // How often a main program that ends with M99 runs; 0: without end.
   std::uint64_t main_passes = 1;
@@ -51,19 +52,19 @@ struct InterpreterOptions {
 
 class Interpreter final : public Source<Operation> {
  public:
-  // `answers`: of a machine that runs the program now. Looked at when an operation after the question is asked for.
-  // Both outlive the interpreter.
+  // `answers`: the answers of a machine that runs the program now. They are read when an operation after the question
+  // is pulled. `diagnostics` and `answers` outlive the interpreter.
   Interpreter(ProgramReader reader, const InterpreterOptions& options, Diagnostics& diagnostics,
               const MachineAnswers& answers = no_answers());
   ~Interpreter() override;
 
   [[nodiscard]] bool next(Operation& operation) override;
 
-  // What is to be saved for the next run: InterpreterOptions::parameters with what the program changed.
+  // The parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
   SavedParameters saved_parameters() const;
   // The tools as the program has left them so far (G10 L1, L10, L11).
   const ToolTable& tools() const;
-  // What this module's explain() sees blocks with; borrowed.
+  // The watcher with which this module's explain() sees blocks. The interpreter only borrows it.
   void watch(BlockWatcher& watcher);
 
   // Bytes of the program read so far in its main line, for progress.

@@ -1,9 +1,10 @@
-// MachineAnswers: what a machine answers into the program that it runs: what its probe has found, and where a tap has
-// turned round.
+// MachineAnswers: what a machine answers to the program that it runs: what its probe has found, and where the tool
+// rested when a tap reversed.
 //
-// Place on the street: beside it. Everything else flows down; these few answers come back up, and that is safe by one
-// rule: no stage reads past a question before the answer is there. The path builder gives the question (a probe move, a
-// tap) as its last item; the drive asks for the next one when the machine rests and the answer is written.
+// Place on the street: beside the street. All other data flows down; only these few answers come back up. One rule
+// makes that safe: no stage reads past a question before the answer is there. The path builder gives the question (a
+// probe move, a tap) as its last item. The drive asks for the next item only when the machine rests and the answer is
+// written.
 #pragma once
 
 #include "passo/interpreter/probe_outcome.hpp"
@@ -15,18 +16,18 @@ class MachineAnswers {
   virtual ~MachineAnswers() = default;
   // What the last probe move has found. Null: nobody answers, and a probe move is touched at its end.
   virtual const ProbeOutcome* probe() const { return nullptr; }
-  // Where the tool rested when the spindle turned round in the last tap. Null: nothing follows that, and a tap goes
-  // back from its end.
+  // Where the tool rested when the spindle reversed in the last tap. Null: taps do not follow the spindle through the
+  // reversal, and a tap goes back from its end.
   virtual const Point* tap_rest() const { return nullptr; }
 };
 
-// Of a check, or a preview.
+// The answers for a check or a preview.
 inline const MachineAnswers& no_answers() {
   static const MachineAnswers none;
   return none;
 }
 
-// The answers of a machine that runs the program now: written where the machine is driven.
+// The answers of a machine that runs the program now. The drive writes them.
 class AnswerBook final : public MachineAnswers {
  public:
   struct Answers {

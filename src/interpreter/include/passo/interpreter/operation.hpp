@@ -1,8 +1,9 @@
-// Operation: a canonical command, what a program means after modal state, offsets and expressions are resolved.
+// Operation: a canonical command. Operations are what a program means after modal state, offsets and expressions are
+// resolved.
 //
-// The printable seam: canon.hpp prints operations in the very form of `rs274 -g`. Like there, coordinates are in the
-// *work* frame with offsets announced by operations of their own (frame.hpp turns them into machine positions); unlike
-// there, lengths are millimetres always, and feeds millimetres a second.
+// Operations can be printed: canon.hpp prints them in exactly the form of `rs274 -g`. As there, coordinates are in the
+// *work* frame, and separate operations announce offsets (frame.hpp converts to machine positions). Unlike there,
+// lengths are always millimetres, and feeds are millimetres a second.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace passo {
 
 struct Tool;
 
-// G17, G18, G19, and of U V W G17.1, G18.1, G19.1, in which there are no arcs.
+// G17, G18, G19, and the planes of U V W: G17.1, G18.1, G19.1. The planes of U V W have no arcs.
 enum class Plane : std::uint8_t { xy, zx, yz, uv, wu, vw };
 enum class LengthUnits : std::uint8_t { mm, inch };
 enum class FeedMode : std::uint8_t { units_per_minute, inverse_time, units_per_revolution };  // G94, G93, G95
@@ -38,7 +39,7 @@ struct SetG92Offset {
 };
 struct SetRotation {
   double degrees = 0;
-};  // of the work frame about Z
+};  // turns the work frame about Z
 struct SetToolOffset {
   Point offset;
 };
@@ -52,7 +53,7 @@ struct SetFeedMode {
 // interpreter knows each move's length and says units per minute, as LinuxCNC's does.
 struct SetFeedRate {
   double rate = 0;
-  double rotary_rate = 0;  // of a move of A B C alone: degrees a second (a revolution), whatever the length units
+  double rotary_rate = 0;  // for moves of A B C alone: degrees a second (a revolution), in any length units
 };
 struct SetPathMode {
   PathMode mode = PathMode::continuous;
@@ -89,23 +90,23 @@ struct NurbsFeed {
   std::span<const ControlPoint> points;  // `order` at least; borrowed, until the next operation is asked for
   std::int32_t order = 3;
 };
-// Spindle-synchronised feed (G33): `pitch` mm a revolution until the synchronised stretch ends.
+// Spindle-synchronised feed (G33): `pitch` mm a revolution until the synchronised part ends.
 struct StartSpeedFeedSync {
   Mm pitch;
   bool velocity_mode = false;
   std::uint8_t spindle = 0;
 };
 struct StopSpeedFeedSync {};
-// G33.1: in step with the spindle to `end` and, the spindle reversed, back to where it began; then the spindle turns
-// as before. Between StartSpeedFeedSync and StopSpeedFeedSync.
+// G33.1: goes in step with the spindle to `end` and, with the spindle reversed, back to where the tap began. Then the
+// spindle turns as before. Comes between StartSpeedFeedSync and StopSpeedFeedSync.
 struct RigidTap {
   Point end;
 };
-// G38: to `end`, or until the probe is touched (`toward`) or loses touch. Between TurnProbe on and off.
+// G38: goes to `end`, or until the probe is touched (`toward`) or loses touch. Comes between TurnProbe on and off.
 struct StraightProbe {
   Point end;
   bool toward = true;
-  bool must_touch = true;  // an error when nothing happens on the way: G38.2, G38.4
+  bool must_touch = true;  // error if the probe does not change on the way: G38.2, G38.4
 };
 struct TurnProbe {
   bool on = false;
@@ -118,7 +119,7 @@ struct SetSpindleSpeed {
   double revolutions_per_minute = 0;
   std::uint8_t spindle = 0;
 };
-// Above 0: constant surface speed (G96), at no more than so many revolutions a minute. 0: constant speed (G97).
+// Above 0: constant surface speed (G96), with this limit in revolutions a minute. 0: constant speed (G97).
 struct SetSpindleMode {
   double surface_limit = 0;
   std::uint8_t spindle = 0;
@@ -127,7 +128,7 @@ struct TurnSpindle {
   SpindleDirection direction = SpindleDirection::off;
   std::uint8_t spindle = 0;
 };
-// M19: to this angle, and hold it; AwaitSpindle (M19 Q) waits until it is there.
+// M19: turns the spindle to this angle and holds it there. AwaitSpindle (M19 Q) waits until the spindle is there.
 struct OrientSpindle {
   enum class Way : std::uint8_t { shortest, clockwise, counterclockwise };
   double degrees = 0;
@@ -145,7 +146,7 @@ struct SetFlood {
   bool on = false;
 };
 // M48 to M53: whether the operator's overrides of feed and spindle speed, the machine's own feed factor, and the feed
-// hold button count.
+// hold button have an effect.
 struct SetFeedOverride {
   bool on = true;
 };
@@ -159,7 +160,7 @@ struct SetAdaptiveFeed {
 struct SetFeedHold {
   bool on = true;
 };
-// M62 to M68. With the next move, or at once.
+// M62 to M68: sets an output with the next move, or at once.
 struct SetDigitalOutput {
   std::int32_t output = 0;
   bool on = false;
@@ -170,7 +171,7 @@ struct SetAnalogOutput {
   double value = 0;
   bool with_motion = false;
 };
-// M66: reads an input, or waits for it. Nothing of rs274's calls.
+// M66: reads an input, or waits for it. rs274 prints no call for this.
 struct ReadInput {
   enum class Until : std::uint8_t { now, rise, fall, high, low };
   std::int32_t input = 0;
@@ -178,7 +179,7 @@ struct ReadInput {
   Until until = Until::now;
   Seconds timeout;
 };
-// M100 to M199: what it does is the machine's matter. A word that is not there is -1.
+// M100 to M199: the machine decides what the code does. A missing word is -1.
 struct UserCode {
   std::int32_t number = 100;
   double p = -1;
@@ -194,7 +195,7 @@ struct ChangeTool {
 struct SetToolNumber {
   std::int32_t tool = 0;
 };  // M61
-// G10 L1, L10, L11: a tool of the table is another now. `place` 0: the copy of it that counts for the spindle.
+// G10 L1, L10, L11: an entry of the tool table has changed. `place` 0: the copy that counts for the spindle.
 struct SetToolTableEntry {
   std::int32_t place = 0;
   const Tool* tool = nullptr;  // borrowed, until the next operation is asked for
@@ -214,7 +215,7 @@ struct Message {
 struct Print {
   std::string_view text;
 };  // (PRINT,…): a line for the operator
-// (LOG,…) and its like: a line for a file, or which file; never written by the interpreter.
+// (LOG,…) and similar comments: a line for a file, or which file. The interpreter never writes the file.
 struct Log {
   enum class Kind : std::uint8_t { line, open, append, close };
   Kind kind = Kind::line;
@@ -241,13 +242,13 @@ using OperationKind =
                  operation::PalletShuttle, operation::Finish, operation::Comment, operation::Message, operation::Print,
                  operation::Log, operation::Reset, operation::SetFeedReference>;
 
-// Where an operation comes from: what a diagnostic about a move points at.
+// Where an operation comes from. A diagnostic about a move points there.
 struct OperationSource {
   std::uint32_t line = 0;         // of the file, from 1
   std::int64_t line_number = -1;  // N word; -1: none
 };
 
-// A stretch of the line: the column counts from 1, in bytes. Column 0: there is none.
+// A part of the line. The column counts from 1, in bytes. Column 0: there is no such part.
 struct WordPlace {
   std::uint32_t column = 0;
   std::uint32_t length = 0;
@@ -258,12 +259,13 @@ using AxisWords = PerAxis<WordPlace>;
 struct Operation {
   OperationKind what;
   OperationSource source;
-  // The words in the line that ask for it, so that later stages can point at them and read no G-code: the code or the
-  // S alone; of a move all words of its block, with the place of each axis word (borrowed, until the next operation is
-  // asked for; null: there are none).
+  // The words in the line that ask for the operation, so later stages can point at them without reading G-code. Usually
+  // that is the code or the S alone. For a move it is all words of the block, with the place of each axis word
+  // (borrowed until the next operation is pulled; null: there are none).
   WordPlace word{};
   const AxisWords* axis_words = nullptr;
-  // The file and the line it comes from, for diagnostics; borrowed, until the next operation is asked for.
+  // The file and the text of the line that the operation comes from, for diagnostics. Borrowed until the next operation
+  // is pulled.
   std::string_view file{};
   std::string_view text{};
 };

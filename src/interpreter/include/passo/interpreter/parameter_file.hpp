@@ -1,7 +1,9 @@
-// Numbered parameters that outlive a program, in LinuxCNC's form (.var): a line each, its number, a tab, its value.
+// Numbered parameters that outlive a program, in LinuxCNC's form (.var): one line for each parameter, with its number,
+// a tab and its value.
 //
-// Lengths in it are in the machine's unit. Read before a run; written after it with what the program changed: of the
-// parameters that are in the file, and always of the homes and offsets (#5161 to #5390).
+// Lengths in the file are in the machine's unit. The file is read before a run, and written after the run with the
+// program's changes. The parameters that are in the file are written, and always the homes and offsets (#5161 to
+// #5390).
 #pragma once
 
 #include <map>
@@ -13,10 +15,10 @@ namespace passo {
 
 using SavedParameters = std::map<int, double>;
 
-// False when something is wrong with the file; all of it is in `diagnostics`.
+// False: something is wrong with the file. `diagnostics` has all of it.
 [[nodiscard]] bool read_parameter_file(const std::string& path, SavedParameters& parameters, Diagnostics& diagnostics);
 std::string parameter_file_text(const SavedParameters& parameters);
-// Whether a parameter is saved although the file did not name it.
+// True: the parameter is saved even if the file did not name it.
 bool is_always_saved(int number);
 
 }  // namespace passo

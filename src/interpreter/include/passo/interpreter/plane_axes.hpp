@@ -1,5 +1,5 @@
-// PlaneAxes: the two axes of a plane, in the order in which counterclockwise turns the first into the second, and the
-// one through it. The stages that read arcs (path/) mean by a plane what the interpreter means.
+// PlaneAxes: the two axes of a plane, and the axis through the plane. A counterclockwise turn takes the first axis into
+// the second. The stages that read arcs (path/) use the same planes as the interpreter.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -23,7 +23,7 @@ constexpr PlaneAxes axes_of(Plane plane) {
   }
   return {Axis::x, Axis::y, Axis::z};
 }
-// U V W beside X Y Z: cycles alone know them.
+// U V W beside X Y Z. Only cycles know them.
 constexpr bool is_of_uvw(Plane plane) {
   return plane == Plane::uv || plane == Plane::wu || plane == Plane::vw;
 }

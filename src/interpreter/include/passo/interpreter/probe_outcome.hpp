@@ -1,5 +1,5 @@
-// ProbeOutcome: what a machine has found in its last probe move. Written where the machine is driven, and read, down
-// the street, by those who go on from there: no stage reads beyond a probe move before the machine has come to rest.
+// ProbeOutcome: what a machine has found in its last probe move. The drive writes the outcome, and the stages that go
+// on from there read it. No stage reads beyond a probe move before the machine has come to rest.
 #pragma once
 
 #include "passo/geometry/axes.hpp"
@@ -8,9 +8,9 @@ namespace passo {
 
 // All places in machine coordinates.
 struct ProbeOutcome {
-  bool refused = false;  // it was touched (for G38.4 and G38.5: free) before the move began: nothing moved
-  bool touched = false;  // what was waited for happened
-  Point contact;         // where, to the step; without contact, the end of the move
+  bool refused = false;  // already touched (G38.4, G38.5: free) before the move: nothing moved
+  bool touched = false;  // the awaited change of the probe happened
+  Point contact;         // where it happened, to the step; without contact, the rest
   Point rest;            // where the machine came to rest
 };
 

@@ -5,8 +5,8 @@
 //     [VARS]
 //     CHANGE_Z = 30                        # #<_ini[vars]change_z> in a program
 //
-// Lines that start with '#' or ';' are comments, and so is what follows a blank and '#'. Of two values of one name the
-// first one counts. Names are compared as RS274/NGC's: any case, blanks taken out.
+// Lines that start with '#' or ';' are comments, and so is text after a blank and '#'. If a name has two values, the
+// first one counts. Names are compared as in RS274/NGC: any case, without blanks.
 #pragma once
 
 #include <cstddef>
@@ -25,20 +25,20 @@ class SettingsFile {
  public:
   static constexpr std::size_t most_settings = 10'000;
 
-  // False when something is wrong with the file; all of it is in `diagnostics`.
+  // False: something is wrong with the file. `diagnostics` has all of it.
   [[nodiscard]] bool read(const std::string& path, Diagnostics& diagnostics);
 
-  // Nothing where there is no such setting.
+  // Empty: there is no such setting.
   std::optional<std::string_view> find(std::string_view section, std::string_view name) const;
   std::optional<double> number(std::string_view section, std::string_view name) const;
   // The value of #<_ini[section]name>: `parameter` is what stands between '<' and '>'.
   std::optional<double> parameter(std::string_view parameter) const;
 
-  // [TRAJ]LINEAR_UNITS, or [AXIS…] of old files.
+  // The units of [TRAJ], or in old files of [AXIS], [AXIS_X] or [JOINT_0].
   std::optional<LengthUnits> machine_units() const;
-  // [DISPLAY]PROGRAM_PREFIX, then [RS274NGC]SUBROUTINE_PATH; beside the file where they are relative.
+  // [DISPLAY]PROGRAM_PREFIX, then [RS274NGC]SUBROUTINE_PATH. Relative paths start from the file's folder.
   std::vector<std::string> sub_folders() const;
-  // A file that a setting names, beside this one; empty: none.
+  // A file that a setting names. Relative paths start from this file's folder. Empty: none.
   std::string path_of(std::string_view section, std::string_view name) const;
 
  private:

@@ -1,5 +1,4 @@
-// ToolTable: what is known of each tool. Beside the interpreter, which looks tools up and, with G10 L1, L10 and L11,
-// changes them.
+// ToolTable: what is known of each tool. The interpreter looks tools up and, with G10 L1, L10 and L11, changes them.
 //
 // Lengths in millimetres, angles in degrees. A tool has a number of its own (T words, 1 to 99999); the pocket is the
 // place in the machine where it is kept. Read from LinuxCNC's form by read_tool_table() (tool_table_file.hpp).
@@ -18,12 +17,12 @@ namespace passo {
 struct Tool {
   std::int32_t number = 0;  // 0: no tool
   std::int32_t pocket = 0;
-  std::int32_t place = 0;  // among the tools of its table, from 1, as they are written there
+  std::int32_t place = 0;  // position in the tool table, from 1, in the order of the file
   Point offset = {};
-  Mm diameter{0};                // below 0 it turns G41 into G42 and back
+  Mm diameter{0};                // a negative diameter exchanges G41 and G42
   double front_angle_deg = 0;    // lathe tools
   double back_angle_deg = 0;     // lathe tools
-  std::int32_t orientation = 0;  // lathe tools, 1 to 9: on which side of its nose the tool's point is; 0: a mill's
+  std::int32_t orientation = 0;  // lathe tools, 1 to 9: the side of the nose where the tool's point is; 0: a mill
   friend bool operator==(const Tool&, const Tool&) = default;
 };
 
@@ -31,7 +30,7 @@ class ToolTable {
  public:
   static constexpr std::size_t most_tools = 1000;
 
-  // The tool of this number; null where there is none. The pointer lives until the table changes.
+  // The tool of this number, or null. The pointer is valid until the table changes.
   const Tool* find(std::int32_t number) const {
     const auto found = tools_.find(number);
     return found == tools_.end() ? nullptr : &found->second;
@@ -40,7 +39,7 @@ class ToolTable {
     const auto found = tools_.find(number);
     return found == tools_.end() ? nullptr : &found->second;
   }
-  // False where there is a tool of this number already, or no room.
+  // False: there is already a tool of this number, or there is no room.
   [[nodiscard]] bool add(const Tool& tool) {
     if (tools_.size() >= most_tools || !tools_.try_emplace(tool.number, tool).second) return false;
     tools_[tool.number].place = static_cast<std::int32_t>(tools_.size());
@@ -50,14 +49,14 @@ class ToolTable {
 
   friend bool operator==(const ToolTable&, const ToolTable&) = default;
 
-  // Where it came from, for messages; empty: nobody gave a table.
+  // Where the table came from, for messages. Empty: nobody gave a table.
   std::string name;
 
  private:
   std::map<std::int32_t, Tool> tools_;
 };
 
-// What LinuxCNC's rs274 has without a table: three examples. Their table has no name: nobody gave it.
+// The three example tools that LinuxCNC's rs274 has without a table. Their table has no name, because nobody gave it.
 ToolTable example_tools();
 
 }  // namespace passo

@@ -1,4 +1,4 @@
-// MachineCounts: what a virtual machine has done so far, counted at the motors' pulses and not taken from any plan.
+// MachineCounts: what a virtual machine has done so far. The counts come from the motors' pulses, not from any plan.
 #pragma once
 
 #include <array>
@@ -10,21 +10,21 @@
 namespace passo {
 
 struct MotorCounts {
-  std::int64_t position = 0;   // steps up less steps down
+  std::int64_t position = 0;   // steps up minus steps down
   std::int64_t total = 0;      // steps up and down
-  std::int64_t reversals = 0;  // steps in the other direction than the step before
-  Ticks last_step;             // when; 0 without a step
-  Ticks shortest_interval;     // between two steps; 0 with fewer than two
+  std::int64_t reversals = 0;  // steps in the opposite direction to the step before
+  Ticks last_step;             // the time of the last step; 0 without a step
+  Ticks shortest_interval;     // between two steps; 0 with fewer than two steps
   friend bool operator==(const MotorCounts&, const MotorCounts&) = default;
 };
 
 struct MachineCounts {
   std::uint8_t motor_count = 0;
-  std::array<MotorCounts, max_motors> motors;  // the first motor_count
-  Ticks time;                                  // of the last event
-  std::int64_t events = 0;                     // with steps or without
-  Ticks shortest_event_interval;               // the highest event rate seen; 0 before the first event
-  BoardOutputs outputs;                        // as they are now
+  std::array<MotorCounts, max_motors> motors;  // only the first motor_count count
+  Ticks time;                                  // the time of the last event
+  std::int64_t events = 0;                     // with or without steps
+  Ticks shortest_event_interval;               // gives the highest event rate; 0 before the first event
+  BoardOutputs outputs;                        // the outputs as they are now
   std::int64_t output_changes = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a virtual machine tells those who watch it (trace writers, counters, tests).
+// MachineObserver: gets what a virtual machine does. Trace writers, counters and tests are observers.
 #pragma once
 
 #include "passo/units/units.hpp"
@@ -9,7 +9,8 @@ namespace passo {
 class MachineObserver {
  public:
   virtual ~MachineObserver() = default;
-  // At `time` the motors in `stepped` made a step; those also in `directions` counted down. Never called with none.
+  // At `time` the motors in `stepped` made a step. Motors that are also in `directions` stepped down. `stepped` is
+  // never empty.
   virtual void on_steps(Ticks time, std::uint8_t stepped, std::uint8_t directions) = 0;
   virtual void on_outputs(Ticks /*time*/, const BoardOutputs& /*outputs*/) {}
 };

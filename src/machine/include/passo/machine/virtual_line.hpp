@@ -1,8 +1,8 @@
-// VirtualLine: a serial line to a virtual machine, in its virtual time: bytes take time, and may be lost.
+// VirtualLine: a serial line to a virtual machine, in the machine's virtual time. Bytes take time, and may be lost.
 //
-// A cut swallows what is sent while it lasts and what is on the way when it begins, in both directions. Other
-// trouble is up to whoever gives it: it sees every frame from the host and all that the board says, and hands back
-// what arrives instead. Frames arrive as a whole, with their last byte.
+// A cut swallows, in both directions, the bytes that are sent while the cut lasts and the bytes that are on the way
+// when it begins. Other trouble is a function of the user: the function sees every frame from the host and all that the
+// board says, and returns what arrives instead. Frames arrive as a whole, with their last byte.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace passo {
 
 struct LineOptions {
   double baud = 500'000;   // 10 bits a byte
-  Seconds latency{0.001};  // one way, besides
+  Seconds latency{0.001};  // added to each way
 };
 
 class VirtualLine final : public BoardPort {
@@ -29,9 +29,9 @@ class VirtualLine final : public BoardPort {
   // The machine outlives the line.
   VirtualLine(VirtualMachine& machine, Hertz clock, const LineOptions& options);
 
-  // Nothing passes from then on, for `time`.
+  // Cuts the line from the time `from` on, for `time`.
   void cut(Seconds from, Seconds time);
-  // `spoil(to_board, bytes)` gives back what is put on the line in the place of `bytes`.
+  // `spoil(to_board, bytes)` returns what is put on the line instead of `bytes`.
   void set_trouble(std::function<Bytes(bool to_board, Bytes bytes)> spoil) { spoil_ = std::move(spoil); }
 
   void receive(std::span<const std::uint8_t> bytes) override;
@@ -44,7 +44,7 @@ class VirtualLine final : public BoardPort {
     std::int64_t due = 0;
     Bytes bytes;
   };
-  // One direction.
+  // One direction of the line.
   struct Way {
     std::deque<Packet> packets;
     std::int64_t busy_until = 0;

@@ -1,11 +1,10 @@
-// VirtualMachine: the board's own program, with counters in the place of motors and virtual time in the place of a
-// timer.
+// VirtualMachine: the board's own program, with counters instead of motors and virtual time instead of a timer.
 //
-// Place on the street: the end. Time is counted in ticks and passes only while the board plays; at rest it stands
-// still. It counts what it commands, and drives a plant: pulses and the spindle's command go there, and its input pins
-// are what the plant says. A limit switch stops it as it stops a board. The same bytes give the same counts at any
-// speed. Who wants to see each step adds an observer. Cost: about 6 ns an event of a three-axis machine; observers and
-// an ideal plant whose inputs do not change cost an event nothing.
+// Place on the street: the end. Time is counted in ticks, passes only while the board plays, and stands still at rest.
+// The machine counts the steps that it commands, and drives a plant: pulses and the spindle's command go to the plant,
+// and the plant sets the input pins. A limit switch stops the machine as it stops a board. The same bytes give the same
+// counts at any speed. An observer sees each step. Cost: about 6 ns an event on a machine with three axes. Without
+// observers, and with an ideal plant whose inputs do not change, an event costs nothing more.
 #pragma once
 
 #include <array>
@@ -25,11 +24,11 @@ namespace passo {
 
 class VirtualMachine final : public BoardPort {
  public:
-  // As a board with some kilobytes of memory.
+  // As many as on a board with some kilobytes of memory.
   static constexpr std::size_t items_held = 240;
 
-  // `clock`: the board's timer, a whole number of hertz below 2^32. Segments faster than the highest event rate it
-  // refuses; 0: none. `places`: for items, items_held at most.
+  // `clock`: the rate of the board's timer, a whole number of hertz below 2^32. The board refuses segments faster than
+  // `highest_event_rate`; 0: it refuses none. `places`: places for items, at most items_held.
   VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_event_rate = Hertz(0),
                  std::size_t places = items_held);
   VirtualMachine(const VirtualMachine&) = delete;
@@ -38,36 +37,36 @@ class VirtualMachine final : public BoardPort {
   // The observer outlives the machine's last run().
   void add_observer(MachineObserver& observer) { hardware_.observers.push_back(&observer); }
 
-  // At the start. The plant outlives the machine's last run(). Until then the machine has an ideal one of its own, with
-  // nothing but motors and a spindle.
+  // Connects a plant, at the start. The plant outlives the machine's last run(). Before connect() the machine has its
+  // own ideal plant, with nothing but motors and a spindle.
   void connect(Plant& plant);
-  // Closes switches of the plant, or opens them, and heeds that at once: bits of BoardInput, not the probe's. What
-  // somebody else does to the plant the machine sees in its next run().
+  // Closes or opens switches of the plant, and heeds the change at once. `which`: bits of BoardInput, except the
+  // probe's. If somebody else changes the plant, the machine sees the change in its next run().
   void set_switch(std::uint16_t which, bool closed);
   // As its reset button: the board forgets all, the motors stop where they are, and the outputs are off.
   void reset_board();
 
   void receive(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] bool run(Seconds most) override;
-  // The same, until that time; the end of all times is infinity.
+  // The same as run(), but until `time`. The greatest time stands for infinity.
   [[nodiscard]] bool run_to(Ticks time);
   std::span<const std::uint8_t> replies() override;
   Seconds elapsed() const override { return Seconds(static_cast<double>(hardware_.now) / clock_.value()); }
 
-  // Lets time pass at rest; only while the board has nothing to play.
+  // Lets time pass at rest. Call only while the board has nothing to play.
   void wait(Ticks time);
-  // The board's program; what its pins say, and what happens to it.
+  // The board's program, for tests that set its pins or make things happen to it.
   auto& board() { return board_; }
 
-  // At the start: its counters go on from these positions, which moves nothing. The board's own begin at 0, as after a
-  // reset.
+  // Sets, at the start, the positions from which the machine's counters go on. Nothing moves. The board's own counters
+  // begin at 0, as after a reset.
   void stand_at(const MotorSteps& positions);
 
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
 
  private:
-  // What hangs on the board: counters, observers, the plant, and the line to the host.
+  // What is connected to the board: counters, observers, the plant, and the line to the host.
   struct Hardware {
     struct Motor {
       std::int64_t total = 0;
@@ -83,13 +82,13 @@ class VirtualMachine final : public BoardPort {
     void send(std::uint8_t byte) { to_host.push_back(byte); }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
-    // What it has not been told yet.
+    // Gives the plant the pulses that it has not been told yet.
     void pulse_plant();
     Seconds time() const { return Seconds(static_cast<double>(now) * seconds_a_tick); }
 
     std::int64_t now = 0;
     std::array<Motor, max_motors> motors;
-    std::uint8_t last_directions = 0;  // of each motor's last step
+    std::uint8_t last_directions = 0;  // the direction of each motor's last step
     BoardOutputs outputs_now;
     std::int64_t output_changes = 0;
     double seconds_a_tick = 0;
@@ -109,13 +108,13 @@ class VirtualMachine final : public BoardPort {
   Board<Hardware, items_held> board_;
   Hertz clock_;
   std::uint8_t motor_count_;
-  std::int64_t look_in_ = Plant::never;  // events
-  std::uint16_t told_ = 0;               // to the board
+  std::int64_t look_in_ = Plant::never;  // the number of events until the plant must be asked for its inputs
+  std::uint16_t told_ = 0;               // the inputs last told to the board
   std::int64_t next_event_ = 0;
-  bool waits_ = false;  // for the next event, which is due then
+  bool waits_ = false;  // for the next event, due at next_event_
   std::int64_t events_ = 0;
   std::int64_t shortest_event_interval_ = INT64_MAX;
-  std::vector<std::uint8_t> taken_;  // what replies() gave away
+  std::vector<std::uint8_t> taken_;  // what replies() has returned
 };
 
 }  // namespace passo

@@ -1,15 +1,16 @@
-// PathBuilder: operations -> segments. Follows the frame, keeps geometry exact (no chords), checks the travel.
+// PathBuilder: operations -> segments. The builder follows the frame, keeps geometry exact (no chords), and checks the
+// travel.
 //
-// One exception: an arc of the planes ZX and YZ while the work frame is turned about Z lies in no plane of the machine,
-// and is walked in chords within a thousandth of a millimetre. A spline becomes cubics of its length, which leave it by
-// a tenth of the path's tolerance at most, or a thousandth of a millimetre where that is 0.
+// There is one exception. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
+// the machine. Such an arc becomes chords within a thousandth of a millimetre. A spline becomes cubics in its length.
+// The cubics leave the spline by at most a tenth of the path's tolerance, or a thousandth of a millimetre where the
+// tolerance is 0.
 //
-// Between the interpreter and the planner. Segments join without gap: each begins, bit for bit, where the one before
-// ended. Moves shorter than a nanometre's thousandth are rounding, not moves, and are dropped. Outputs (spindle,
-// coolant) that change without a move between them become one action.
+// Place on the street: between the interpreter and the planner. Segments join without a gap: each begins, bit for bit,
+// where the one before ended. Moves shorter than a thousandth of a nanometre are rounding, and are dropped. Outputs
+// (spindle, coolant) that change without a move between them become one action.
 //
-// Errors are collected and the builder goes on, so that one pass finds them all; what it gives after an error is not
-// to be played.
+// The builder collects errors and goes on, so one pass finds them all. The path after an error must not be played.
 #pragma once
 
 #include <array>
@@ -36,10 +37,10 @@ struct TravelLimit {
 struct PathOptions {
   AxisSet axes;                 // the axes that the machine has
   PerAxis<TravelLimit> travel;  // machine coordinates
-  Mm tolerance{0.01};           // of junctions, where the program gives none (G64 P)
+  Mm tolerance{0.01};           // of junctions, if the program gives none (G64 P)
   double spindle_limit = 0;     // fastest spindle, revolutions a minute; 0: no spindle speed is refused
   Point start;                  // machine position at the start
-  Seconds spindle_run_up{0};    // from rest to 1000 turns a minute: so much room is left for a tap to turn round
+  Seconds spindle_run_up{0};    // from rest to 1000 turns a minute; gives the room for a tap to reverse
   std::string file;             // names the program in diagnostics
 };
 
@@ -61,7 +62,7 @@ class PathBuilder final : public Source<PathItem> {
   void expand(const operation::RigidTap& tap);
   Mm room_to_turn(const Curve& way) const;
   void switch_off();
-  // Each says whether it wrote an item.
+  // True: the function wrote an item.
   bool take(const Operation& operation, PathItem& item);
   bool take_line(const Point& work_end, bool rapid, PathItem& item);
   bool take_probe(const operation::StraightProbe& probe, PathItem& item);
@@ -91,7 +92,7 @@ class PathBuilder final : public Source<PathItem> {
   void check_travel(const Curve& curve);
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
   void check_axes(const Curve& curve);
-  // Points at the axis word, or where there is none at the words that ask for the operation in hand.
+  // Reports at the axis word, or, where there is none, at the words that ask for the current operation.
   void report(Severity severity, std::string code, std::string message, std::string expected,
               std::optional<Axis> axis = std::nullopt);
 
@@ -101,31 +102,31 @@ class PathBuilder final : public Source<PathItem> {
   const MachineAnswers& answers_;
   Frame frame_;
 
-  // An arc in the turned work frame, of which pieces are still to come.
+  // An arc in the turned work frame whose chords are not all given yet.
   struct TiltedArc {
     Curve work;
     std::uint32_t next = 0;
     std::uint32_t chords = 0;
   };
   std::optional<TiltedArc> tilted_;
-  // A spline, of which pieces are still to come.
+  // A spline whose pieces are not all given yet.
   std::unique_ptr<SplinePieces> spline_;
   Mm spline_tolerance_{0};
-  // A probe move is three items; and then the path goes on from where the machine came to rest.
+  // A probe move is three items. After them the path goes on from where the machine came to rest.
   enum class ProbeStep : std::uint8_t { none, move, end, rest };
   ProbeStep probe_step_ = ProbeStep::none;
   Point probe_end_;  // work coordinates
 
-  // And so is a tap that is followed: down, turned round, back to where it began.
+  // A tap that follows the spindle is three items too: down, the reversal, and back to where the tap began.
   enum class TapStep : std::uint8_t { none, turn, back, end };
   TapStep followed_tap_ = TapStep::none;
   Point tap_start_;  // machine
 
-  Operation operation_;  // the one in hand
+  Operation operation_;  // the current operation
   std::array<OperationKind, 4> tap_;
   std::size_t tap_step_ = tap_.size();
-  std::deque<PathItem> held_;  // wait while what comes before them is handed on
-  bool in_step_ = false;       // with the spindle, since its index
+  std::deque<PathItem> held_;  // items that wait while an item before them is handed on
+  bool in_step_ = false;       // in step with the spindle since its index
   Point position_;             // machine
 
   FeedMode feed_mode_ = FeedMode::units_per_minute;
@@ -134,19 +135,19 @@ class PathBuilder final : public Source<PathItem> {
   PathMode path_mode_ = PathMode::continuous;
   Mm tolerance_{0};
   Heeds heeds_;
-  bool gives_tolerance_ = false;  // the program, with G64 P
+  bool gives_tolerance_ = false;  // the program gives a tolerance, with G64 P
   Mm merge_{0};
 
-  OutputState commanded_;  // with the spindle's speed also while it stands
+  OutputState commanded_;  // keeps the spindle's speed also while the spindle stands
   OutputState handed_on_;
   OperationSource outputs_source_;
   double refused_spindle_speed_ = 0;
 
-  // Where the path is outside the machine now: an excursion is reported once, not at each of its moves.
+  // The axes on which the path is now outside the machine. An excursion is reported once, not at each of its moves.
   AxisSet below_;
   AxisSet above_;
   AxisSet missing_;
-  std::array<bool, 4> told_{};  // by Lack
+  std::array<bool, 4> told_{};  // what was already reported, by Lack
 };
 
 }  // namespace passo

@@ -1,5 +1,5 @@
-// Segment: one geometric piece of the path in machine coordinates, with the speed the program asks for.
-// Action: what happens between pieces, at rest. PathItem: either, in program order.
+// Segment: one geometric piece of the path in machine coordinates, with the speed the program asks for. Action: what
+// happens between segments, at rest. PathItem: a segment or an action, in program order.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace passo {
 
-// Which changes in mid-run count on a stretch of the program (M48 to M53).
+// Which changes in mid-run apply to a part of the program (M48 to M53).
 struct Heeds {
   bool feed_override = true;
   bool spindle_override = true;
@@ -32,9 +32,9 @@ struct Segment {
   Point work_zero{};                     // where the zero of the work frame lies in machine coordinates
   Heeds heeds{};
   SpindleLock lock = SpindleLock::none;
-  Mm pitch{0};  // of a lock: a turn. `speed` is as the commanded speed of the spindle has it
-  // Of a tap on its way down: there the spindle is to be reversed. The rest of the segment is room for it to come to
-  // rest.
+  Mm pitch{0};  // for a lock: the way for one turn; `speed` fits the commanded spindle speed
+  // For a tap's way down: where the spindle is to be reversed. The rest of the segment is room for the spindle to come
+  // to rest.
   Mm reverse_at{0};
   OperationSource source{};
 };
@@ -48,7 +48,7 @@ constexpr SpindleDirection reversed(SpindleDirection direction) {
   return SpindleDirection::off;
 }
 
-// All outputs of the board as they are to be from here on.
+// The state that all outputs of the board are to have from here on.
 struct OutputState {
   SpindleDirection spindle = SpindleDirection::off;
   double revolutions_per_minute = 0;
@@ -66,18 +66,18 @@ struct Action {
     tool_change,
     program_end,
     feed_hold,
-    probe_begin,  // behind it comes the probe move, and
-    probe_end,    // then this: no stage reads further before the machine is there
+    probe_begin,  // the probe move comes after this,
+    probe_end,    // then this; no stage reads further before the machine rests here
     await_index,
-    tap_turns,  // behind the way down: no stage reads further before tool and spindle turn round
+    tap_turns,  // after a tap's way down; no stage reads further before the spindle reverses
   };
   Kind kind = Kind::dwell;
   Seconds dwell{0};
-  OutputState outputs{};  // for every kind: the state after it
+  OutputState outputs{};  // for every kind: the state after the action
   std::int32_t tool = 0;
-  bool probe_toward = true;  // a probe move: until touched, else until free
-  std::uint8_t limit = 0;    // of a move that homes: the bit of the limit switch that takes the probe's place
-  Point place{};             // of a probe move: its beginning, or its end; machine coordinates
+  bool probe_toward = true;  // for a probe move: until touched, else until free
+  std::uint8_t limit = 0;    // for homing: the bit of the limit switch that takes the probe's place
+  Point place{};             // for a probe move: its beginning or its end, in machine coordinates
   Heeds heeds{};
   OperationSource source{};
 };

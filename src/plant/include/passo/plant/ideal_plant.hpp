@@ -1,7 +1,8 @@
-// IdealPlant: a plant whose motors do all that they are told, at once.
+// IdealPlant: a plant whose motors do at once all that they are told.
 //
-// Its inputs change at pulses only, and it knows from the places of its switches how many pulses that takes. So a board
-// gives most pulses as sums, and where nothing hangs on the motors an event costs nothing more.
+// The inputs that depend on the motors change only at pulses. The plant knows from the places of its switches how many
+// pulses that takes. So a board gives most pulses as sums. Where nothing depends on the motors, the plant adds no cost
+// to an event.
 #pragma once
 
 #include "passo/plant/plant.hpp"
@@ -11,9 +12,9 @@ namespace passo {
 
 class IdealPlant final : public Plant {
  public:
-  // Without a model the spindle does as commanded, and has no encoder.
+  // Gives the plant a spindle. Without a model the spindle turns as commanded, and has no encoder.
   void fit_spindle(const SpindleModel& model) { spindle_ = VirtualSpindle(model); }
-  // From machine zero. As the switches and bodies, before a board drives the plant.
+  // Sets the motors' steps from machine zero. Call this and add() before a board drives the plant.
   void stand_at(const MotorSteps& steps);
   void add(const TravelSwitch& added);
   void add(const TouchBody& body);

@@ -1,4 +1,4 @@
-// How far the motors of a plant were told to go, and where they are.
+// MotorSteps: how far the motors of a plant were told to go. MotorPositions: where the motors are.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace passo {
 
-using MotorSteps = std::array<std::int64_t, max_motors>;  // pulses up less pulses down
-using MotorPositions = std::array<double, max_motors>;    // in steps; a real motor also stands between two
+using MotorSteps = std::array<std::int64_t, max_motors>;  // pulses up minus pulses down
+using MotorPositions = std::array<double, max_motors>;    // in steps; a real motor may stand between two steps
 
 }  // namespace passo

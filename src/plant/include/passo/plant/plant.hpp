@@ -1,11 +1,13 @@
-// Plant: the world behind a board. Motors and what they move, switches, the probe and what it touches, the spindle.
+// Plant: the world behind a board: the motors and what they move, the switches, the probe and what it touches, and the
+// spindle.
 //
-// Place on the street: behind its end. A board drives the plant: step pulses and the spindle's command go in, the
-// states of the board's input pins come out. A board knows what it commanded; only the plant knows what is true. The
-// virtual machine and the emulated boards drive the same plant; behind a real board is the real world.
+// Place on the street: after the board, which is the street's end. A board drives the plant: step pulses and the
+// spindle's command go in, and the states of the board's input pins come out. A board knows what it commanded; only the
+// plant knows what is true. The virtual machine and the emulated boards drive the same kind of plant. Behind a real
+// board is the real world.
 //
-// Invariant: `time` is the board's own, from any start, and never goes back. Positions are counted from machine zero
-// of the true machine, not from where somebody began to count.
+// Invariants: `time` is the board's own time, from any start, and never goes back. Positions are counted from the true
+// machine's zero, not from where somebody began to count.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +22,7 @@ namespace passo {
 struct Truth {
   MotorPositions positions{};  // from machine zero
   double spindle_turns = 0;    // since the start
-  std::uint16_t inputs = 0;    // bits of BoardInput: what is closed
+  std::uint16_t inputs = 0;    // bits of BoardInput: the closed inputs
 };
 
 class Plant {
@@ -29,22 +31,23 @@ class Plant {
 
   virtual ~Plant() = default;
 
-  // The pulses that each motor has got since the last call. `time`: of the last of them.
+  // Gives the pulses that each motor has got since the last call. `time`: the time of the last pulse.
   virtual void pulse(Seconds time, const MotorSteps& steps) = 0;
-  // How many events may pass, with one pulse a motor at most in each, until an input may change: 1 or more, or never.
-  // A board may give the pulses of so many events as one sum; then it asks for the inputs. A plant that must see each
-  // pulse says 1.
+  // How many events may pass until an input may change: 1 or more, or `never`. An event has at most one pulse for each
+  // motor. A board may give the pulses of that many events as one sum, and then asks for the inputs. A plant that must
+  // see each pulse returns 1.
   virtual std::int64_t events_to_next_change() const = 0;
-  // Revolutions a minute from that time on, below 0 the other way.
+  // Sets the spindle's speed from `time` on. Negative: the other way round.
   virtual void command_spindle(Seconds time, double revolutions_per_minute) = 0;
-  // Somebody closes switches, or opens them: bits of BoardInput.
+  // Closes or opens switches by hand. `which`: bits of BoardInput.
   virtual void set_switch(std::uint16_t which, bool closed) = 0;
 
-  // Bits of BoardInput: what is closed.
+  // The closed inputs, as bits of BoardInput.
   virtual std::uint16_t inputs_at(Seconds time) = 0;
-  // The spindle as it turns, with its encoder, if it has one.
+  // The spindle as it turns, with its encoder if there is one.
   virtual const VirtualSpindle& spindle() const = 0;
-  // A board that keeps sums back gives them at the end of each run(); in between the motors are further.
+  // What is true at `time`. A board that keeps sums back gives them at the end of each run(). During a run() the motors
+  // may be further than the plant tells.
   virtual Truth truth_at(Seconds time) = 0;
 };
 

@@ -1,6 +1,7 @@
-// Switches: all that closes the inputs of a board: axes at the ends of their travel, a probe that touches, people.
+// Switches: everything that closes the inputs of a board: axes at the ends of their travel, a probe that touches,
+// people.
 //
-// Several may close one input; it is open when all of them are.
+// Several switches may close one input. The input is open when all of its switches are open.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +16,17 @@ namespace passo {
 class Switches {
  public:
   void add(const TravelSwitch& added);
-  // For the probe to touch.
+  // Adds a body that the probe can touch.
   void add(const TouchBody& body) { bodies_.push_back(body); }
-  // By hand: bits of BoardInput.
+  // Closes or opens switches by hand. `which`: bits of BoardInput.
   void set(std::uint16_t which, bool closed);
-  // The motors are there now. A position where a switch would close or open may not be left out.
+  // Tells where the motors are now. The caller may not leave out a position where a switch would close or open.
   void follow(const MotorPositions& positions);
 
-  // Bits of BoardInput: what is closed.
+  // The closed inputs, as bits of BoardInput.
   std::uint16_t closed() const { return by_motors_ | by_hand_; }
-  // How many steps of any motor it takes from there, where they were told to be last, until follow() may change
-  // something; 1 or more, INT64_MAX where nothing hangs on the motors.
+  // How many steps any motor may go from `positions`, the positions last given to follow(), until follow() may change
+  // something. 1 or more; INT64_MAX where nothing depends on the motors.
   std::int64_t steps_to_next_change(const MotorPositions& positions) const;
 
  private:

@@ -1,4 +1,4 @@
-// TouchBody: something that stands in a plant, for the probe to touch: a box in steps of the motors.
+// TouchBody: something in a plant that the probe can touch: a box in steps of the motors.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace passo {
 
-// The probe touches it where every motor's position is from its `low` to its `high`, both included.
+// The probe touches the body where every motor's position is from its `low` to its `high`, both included.
 struct TouchBody {
   struct Range {
     std::int64_t low = INT64_MIN;
@@ -22,14 +22,15 @@ struct TouchBody {
 
   bool contains(const MotorPositions& positions) const { return beyond(positions) <= 0; }
 
-  // How many steps of any motor it takes until the probe may touch it, or no longer does.
+  // How many steps any motor may go until the probe may begin or cease to touch the body.
   double steps_to_border(const MotorPositions& positions) const {
     const double out = beyond(positions);
     return out > 0 ? out : 1 - out;
   }
 
  private:
-  // The way to the box of the motor that is furthest from it; inside 0 or less: to the nearest side.
+  // The distance to the box for the motor that is furthest from it. Inside the box: 0 or less, the distance to the
+  // nearest side.
   double beyond(const MotorPositions& positions) const {
     double most = -std::numeric_limits<double>::infinity();
     for (std::size_t m = 0; m < motors.size(); ++m) {

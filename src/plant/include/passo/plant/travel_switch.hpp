@@ -5,18 +5,19 @@
 
 namespace passo {
 
-// In steps of its motor. A switch opens a little later than it closes: `opens_at` is further from that end.
+// Places are in steps of the switch's motor. A switch opens a little later than it closes: `opens_at` is further from
+// the end of the travel.
 struct TravelSwitch {
-  std::uint16_t input = 0;  // bit of BoardInput; several switches may have one
+  std::uint16_t input = 0;  // bit of BoardInput; several switches may share one
   std::uint8_t motor = 0;
   bool at_high_end = false;
   std::int64_t closes_at = 0;
   std::int64_t opens_at = 0;
 
-  // With its axis there, and the switch as it was before.
+  // Whether the switch is closed with its motor at `position`. `before`: whether it was closed before.
   bool closed(double position, bool before) const {
     const auto at = static_cast<double>(before ? opens_at : closes_at);
-    // Where it opens it is open.
+    // At `opens_at` itself the switch is open.
     if (at_high_end) return before && opens_at != closes_at ? position > at : position >= at;
     return before && opens_at != closes_at ? position < at : position <= at;
   }
