@@ -297,9 +297,9 @@ class Planner::Implementation {
     }
   }
 
-  // Brakes in a hold as hard as possible. From rest on it gives nothing but the hold itself.
+  // Brakes in a hold as hard as possible. From rest on it gives nothing but the hold itself; so where no path is left.
   void brake(MotionItem& item) {
-    if (speed_squared_ == 0) {
+    if (speed_squared_ == 0 || segments_.empty()) {
       item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
       return;
     }
