@@ -65,6 +65,11 @@ void ProgramStops::tell(const RunArguments& arguments) const {
 }
 
 Seconds OperatorPrompt::look(MachineSession& session) {
+  // Looked at in each turn: the status is made only where the program may wait.
+  if (session.state() == MachineState::run) {
+    asked_ = false;
+    return endless;
+  }
   const auto wait = session.status().waits_for;
   if (!wait) {
     asked_ = false;
