@@ -18,26 +18,17 @@
 
 namespace passo {
 namespace {
-
 // A relative difference of squares of speeds. Smaller ones are rounding.
 constexpr double rounding = 1e-9;
-
 // A share of the longest time of a move. Phases are not cut into smaller parts; the move may be shorter by this.
 constexpr double smallest_part = 0.02;
-
 // In mm. A shorter rest of a cell is rounding.
 constexpr double smallest_rest = 1e-9;
-
 // In mm. A hold leaves at least this much of a cell, so that the rest can be halved.
 constexpr double smallest_cell = 1e-6;
 
 double squared(double value) {
   return value * value;
-}
-
-bool has_jerk_limit(const MotionLimits& limits) {
-  return std::any_of(limits.jerk.values.begin(), limits.jerk.values.end(),
-                     [](MmPerSecond3 limit) { return limit > MmPerSecond3(0); });
 }
 
 }  // namespace
@@ -50,7 +41,7 @@ class Planner::Implementation {
         most_queued_(most_queued),
         cutter_(limits_),
         cells_(std::max<std::size_t>(most_queued, 2), cutter_.most_demands(), cutter_.most_falling()) {
-    if (has_jerk_limit(limits)) jerk_limited_.emplace(path, limits_, most_queued_);
+    if (limits.limits_jerk()) jerk_limited_.emplace(path, limits_, most_queued_);
   }
 
   bool next(MotionItem& item) {
@@ -61,7 +52,10 @@ class Planner::Implementation {
       return true;
     }
     if (std::exchange(braking_, false)) go_on();
-    while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
+    for (;; halve_front()) {
+      while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
+      if (!goes_nowhere()) break;
+    }
     if (!cells_.empty()) {
       give_move(item);
       return true;
@@ -142,6 +136,11 @@ class Planner::Implementation {
                              : wishes_.stands_on(segments_.front());
   }
 
+  // A bent cell from rest to rest, such as what a hold has left of a corner: as one cell it would take for ever.
+  bool goes_nowhere() const {
+    const bool rests = decided_ > 0 && speed_squared_ == 0 && cells_[0].decided_exit == 0;
+    return rests && !cells_[0].cell.straight && cells_[0].cell.length > smallest_rest;
+  }
   // Goes on after braking.
   void go_on() {
     decided_ = 0;
@@ -363,6 +362,7 @@ class Planner::Implementation {
 
   // A curved cell either speeds up or brakes. From a rest in a stretch's last cell to the next rest it takes two cells.
   void halve_front() {
+    decided_ = 0;
     const double start = cells_[0].cell.start;
     const double end = cells_[0].cell.end;
     const double middle = start + cells_[0].cell.length / 2;

@@ -1,6 +1,8 @@
 // MotionLimits: what the axes can do. A limit of 0 or less does not limit (the axis does not exist).
 #pragma once
 
+#include <algorithm>
+
 #include "passo/geometry/axes.hpp"
 #include "passo/trajectory/acceleration_curve.hpp"
 #include "passo/units/units.hpp"
@@ -19,6 +21,12 @@ struct MotionLimits {
   // The acceleration that a motor has left at the axis's speed; it limits beside the constant. Empty: the constant
   // alone.
   PerAxis<AccelerationCurve> falling;
+
+  // Of some axis at least.
+  bool limits_jerk() const {
+    return std::any_of(jerk.values.begin(), jerk.values.end(),
+                       [](MmPerSecond3 limit) { return limit > MmPerSecond3(0); });
+  }
 };
 
 }  // namespace passo
