@@ -301,22 +301,22 @@ void MotionDrive::rest_in_hold() {
     state_ = State::held;
     return;
   }
-  script_.then([this] { feed_->switch_outputs({}); });
-  script_.until([this] { return feed_->settled(); });
-  script_.then([this] {
-    end();
-    if (spindle_.trouble()) board_.fail(*spindle_.trouble());
-  });
+  switch_off_and_end(spindle_.trouble());
   if (state_ == State::held) state_ = State::holding;
 }
 
 // The machine rests in a thread. The next turn of the thread would not be where the turns before are.
 void MotionDrive::lose_thread() {
+  switch_off_and_end(LinkError::thread_lost);
+}
+
+// At rest. `error`: why the work could not go on, if that is why it ends.
+void MotionDrive::switch_off_and_end(std::optional<LinkError> error) {
   script_.then([this] { feed_->switch_outputs({}); });
   script_.until([this] { return feed_->settled(); });
-  script_.then([this] {
-    board_.fail(LinkError::thread_lost);
+  script_.then([this, error] {
     end();
+    if (error) board_.fail(*error);
   });
 }
 

@@ -311,7 +311,7 @@ int run(const RunArguments& arguments) {
   const MachineSession& session = opened->session();
   if (resumable) resumable->end(session, answered);
   if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
-  if (answered.fault && answered.fault->code == "board.failed") {
+  if (answered.fault && answered.fault->code.starts_with("board.")) {
     return fail(exit_failed, "the board: " + answered.fault->message);
   }
   if (const auto words = opened->compare()) return fail(exit_failed, "the board: " + *words);

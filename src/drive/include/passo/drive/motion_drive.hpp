@@ -146,6 +146,7 @@ class MotionDrive {
   void come_to_rest();
   void rest_in_hold();
   void lose_thread();
+  void switch_off_and_end(std::optional<LinkError> error);
   Turn end();
   Seconds due() const;
 
