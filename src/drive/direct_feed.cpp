@@ -43,8 +43,7 @@ DirectFeed::DirectFeed(const Stages& stages, const Options& options)
     : stages_(stages),
       options_(options),
       live_(options.live),
-      ahead_{.horizon = Seconds(std::numeric_limits<double>::infinity()),
-             .longest_move = Seconds(std::numeric_limits<double>::infinity())},
+      ahead_(endless_commitment),
       rested_(stages.link.now()) {
   apply(live_);
 }

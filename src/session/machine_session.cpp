@@ -99,6 +99,7 @@ void MachineSession::go_online(Seconds most) {
 // From here on the board's counts are those of that place. What the board has below a step stays.
 void MachineSession::stand_at(const KnownPosition& position) {
   position_ = position;
+  trust_before_ = position.trust;
   mismatch_.reset();
   if (place_) {
     const MotorSteps steps = steps_at(machine_, position.place);
@@ -123,8 +124,14 @@ MotorSteps MachineSession::steps_of(const BoardPlace& place) const {
   return steps;
 }
 
+// The board may not stand where it stood. What the place was trusted for is kept: the board's counts may still prove
+// the place, also after a reset that fails.
+void MachineSession::doubt_place() {
+  if (position_.trust != Trust::unknown) trust_before_ = position_.trust;
+  position_.trust = Trust::unknown;
+}
+
 void MachineSession::begin_reset() {
-  if (state_ == MachineState::idle) trust_before_ = position_.trust;
   board_.hang_up();
   trouble_.reset();
   trouble_words_.clear();
@@ -132,7 +139,7 @@ void MachineSession::begin_reset() {
   switches_off_ = true;
   asks_place_ = options_.over_a_line;
   if (asks_place_) board_.inquire(Question::status);
-  if (!options_.over_a_line) position_.trust = Trust::unknown;
+  doubt_place();
   move_to(MachineEvent::reset);
 }
 
@@ -143,7 +150,7 @@ void MachineSession::find_place_again() {
                      (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
   place_.reset();
   if (!knows || !zero_counts_) {
-    position_.trust = trust_before_ = Trust::unknown;
+    trust_before_ = Trust::unknown;
     return;
   }
   position_.trust = trust_before_;
@@ -315,9 +322,7 @@ void MachineSession::mind_board() {
   trouble_ = error;
   trouble_words_ = message_of(error);
   if (busy()) end_work();
-  // A reset that fails does not change what the next one may find.
-  if (state_ != MachineState::offline) trust_before_ = position_.trust;
-  position_.trust = Trust::unknown;
+  doubt_place();
   place_.reset();
   move_to(error == LinkError::stopped ? MachineEvent::stop_at_once : MachineEvent::lose_board);
 }

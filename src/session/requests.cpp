@@ -14,10 +14,6 @@
 namespace passo {
 namespace {
 
-// A lease has to be longer than the committed motion. An operator who does not renew a lease for `longest_lease` is
-// gone.
-constexpr Seconds shortest_lease{0.1};
-constexpr Seconds longest_lease{10};
 constexpr double highest_factor = 2;
 
 bool is_factor(const std::optional<double>& value, double highest) {
@@ -171,7 +167,7 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
                     std::isfinite(jog.way.distance.value()) && jog.way.distance >= Mm(0) &&
                     length_of(jog.way.direction) > 0;
   if (!good) return refusal(RefusalCode::bad_value, "a jog needs a direction, and a speed above 0");
-  if (!(jog.lease >= shortest_lease && jog.lease <= longest_lease)) {
+  if (!(jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease)) {
     return refusal(RefusalCode::bad_value, "the lease of a jog is 0.1 to 10 s");
   }
   auto work = std::make_unique<Work>();

@@ -22,10 +22,6 @@
 namespace passo {
 namespace {
 
-// A lease has to be longer than what is committed; and who does not renew one for so long is not there.
-constexpr double shortest_lease = 0.1;
-constexpr double longest_lease = 10;
-
 // What the words "X+10 Y-3" or "X+ Y-" ask for.
 struct JogWords {
   Point way;
@@ -85,10 +81,10 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
   bool brakes = false;
   while (session.busy()) {
     if (interrupted_by() != 0 && !std::exchange(brakes, true)) {
-      static_cast<void>(session.request(request::Stop{}).has_value());
+      ask(session, request::Stop{});
     }
     const bool holds = !arguments.held || session.now() - begun < Seconds(*arguments.held);
-    if (holds && !brakes) static_cast<void>(session.request(request::RenewLease{}).has_value());
+    if (holds && !brakes) ask(session, request::RenewLease{});
     session.turn(opened.has_board() ? between_renewals : endless);
   }
   const Answered answered = answer_of(session.take_changes(), *ticket);
@@ -128,8 +124,10 @@ std::optional<std::string> wrong_numbers(const JogArguments& arguments) {
   if (!(std::isfinite(arguments.feed) && arguments.feed > 0)) {
     return fmt::format("-F must be above 0 mm/min, not {:g}", arguments.feed);
   }
-  if (!(arguments.lease >= shortest_lease && arguments.lease <= longest_lease)) {
-    return fmt::format("--lease must be {:g} to {:g} s, not {:g}", shortest_lease, longest_lease, arguments.lease);
+  constexpr double shortest = request::Jog::shortest_lease.value();
+  constexpr double longest = request::Jog::longest_lease.value();
+  if (!(arguments.lease >= shortest && arguments.lease <= longest)) {
+    return fmt::format("--lease must be {:g} to {:g} s, not {:g}", shortest, longest, arguments.lease);
   }
   if (arguments.held && !(std::isfinite(*arguments.held) && *arguments.held >= 0)) {
     return fmt::format("--held must be 0 s or more, not {:g}", *arguments.held);

@@ -103,7 +103,7 @@ Seconds MidRunChanges::act(MachineSession& session, const VirtualMachine& machin
 
 void MidRunChanges::apply(const Change& change, MachineSession& session) {
   if (change.factor) {
-    static_cast<void>(session.request(request::Override{.feed = change.factor}).has_value());
+    ask(session, request::Override{.feed = change.factor});
     return;
   }
   const Seconds committed = session.status().committed;
@@ -121,7 +121,7 @@ Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& 
   if (!holds_now_) {
     if (!status.holds.has(HoldReason::zero_feed)) return endless;
     if (next_ < changes_.size()) return std::max(changes_[next_].at - now(session), Seconds(0));
-    static_cast<void>(session.request(request::Stop{}).has_value());
+    ask(session, request::Stop{});
     return endless;
   }
   HoldSummary& hold = holds_.back();
@@ -135,9 +135,9 @@ Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& 
   resume_at_.reset();
   if (pause_) {
     hold.resumed = now(session);
-    static_cast<void>(session.request(request::Resume{}).has_value());
+    ask(session, request::Resume{});
   } else {
-    static_cast<void>(session.request(request::Stop{}).has_value());
+    ask(session, request::Stop{});
   }
   return endless;
 }

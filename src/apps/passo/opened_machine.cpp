@@ -133,11 +133,15 @@ std::optional<std::string> OpenedMachine::compare() {
   return {};
 }
 
+void ask(MachineSession& session, Request wanted) {
+  static_cast<void>(session.request(std::move(wanted)).has_value());
+}
+
 void turn_to_the_end(MachineSession& session, const std::function<void()>& look) {
   bool asked_to_stop = false;
   while (session.busy()) {
     if (interrupted_by() != 0 && !std::exchange(asked_to_stop, true)) {
-      static_cast<void>(session.request(request::Stop{}).has_value());
+      ask(session, request::Stop{});
     }
     session.turn(endless);
     if (look) look();

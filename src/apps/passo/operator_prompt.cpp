@@ -82,7 +82,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
           .message = fmt::format("{} waits at {}, and there is no terminal to ask on: run it on one, or with --yes "
                                  "when all is prepared, together with --resume to go on from here [run.waits]",
                                  program_, words_of(*wait))};
-      static_cast<void>(session.request(request::Stop{}).has_value());
+      ask(session, request::Stop{});
     }
     return endless;
   }
@@ -90,7 +90,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
     fmt::print(stderr, "\r\033[K{} waits at {}. Press Enter to go on. ", program_, words_of(*wait));
     std::fflush(stderr);
   }
-  if (enter_was_pressed(between_looks)) static_cast<void>(session.request(request::OperatorDone{}).has_value());
+  if (enter_was_pressed(between_looks)) ask(session, request::OperatorDone{});
   return Seconds(0);
 }
 

@@ -81,7 +81,7 @@ ActivityFault refused(const Refusal& refusal) {
 }
 
 void stop(MachineSession& session) {
-  static_cast<void>(session.request(request::Stop{}).has_value());
+  ask(session, request::Stop{});
 }
 
 // How often the board had to brake by itself.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "passo/drive/rewindable_path.hpp"
@@ -29,6 +30,12 @@ struct Commitment {
   Seconds longest_move{0};
   friend bool operator==(const Commitment&, const Commitment&) = default;
 };
+
+// How far ahead a drive commits when it is to react at once. An endless commitment lets the drive read ahead as far as
+// the board's queue goes.
+inline constexpr Commitment live_commitment{.horizon = Seconds(0.05), .longest_move = Seconds(0.005)};
+inline constexpr Commitment endless_commitment{.horizon = Seconds(std::numeric_limits<double>::infinity()),
+                                               .longest_move = Seconds(std::numeric_limits<double>::infinity())};
 
 // What the current motion needs of the board.
 enum class Attention : std::uint8_t {

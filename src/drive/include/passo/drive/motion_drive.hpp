@@ -35,12 +35,6 @@ namespace passo {
 
 class DirectFeed;
 
-// How far ahead a drive commits when it is to react at once. An endless commitment lets the drive read ahead as far as
-// the board's queue goes.
-inline constexpr Commitment live_commitment{.horizon = Seconds(0.05), .longest_move = Seconds(0.005)};
-inline constexpr Commitment endless_commitment{.horizon = Seconds(std::numeric_limits<double>::infinity()),
-                                               .longest_move = Seconds(std::numeric_limits<double>::infinity())};
-
 struct DriveOptions {
   // For a board at the end of a line. The items that the board holds always end at rest, and after a broken line the
   // drive goes on from there. Empty: items go to the board directly.

@@ -116,6 +116,7 @@ class MachineSession {
   void put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead);
 
   void go_online(Seconds most);
+  void doubt_place();
   void begin_reset();
   void find_place_again();
   void stand_at(const KnownPosition& position);
@@ -149,7 +150,7 @@ class MachineSession {
   bool asks_place_ = false;    // the board is asked for its place before another hello
   bool switches_off_ = false;  // after another hello: what was going on may have left something on
   KnownPosition position_;
-  Trust trust_before_ = Trust::unknown;    // the trust before the board was lost
+  Trust trust_before_ = Trust::unknown;    // the trust before the place was doubted
   std::optional<BoardPlace> place_;        // where the board stands, exact below a step; empty: as after a hello
   std::optional<MotorSteps> zero_counts_;  // the board's counts at machine zero
   std::optional<CountMismatch> mismatch_;

@@ -44,6 +44,11 @@ struct Start {
 };
 // Moves axes for as long as the lease is renewed. The machine begins to brake before the lease is over.
 struct Jog {
+  // A lease has to be longer than the committed motion. An operator who does not renew a lease for `longest_lease` is
+  // gone.
+  static constexpr Seconds shortest_lease{0.1};
+  static constexpr Seconds longest_lease{10};
+
   JogWay way;
   Seconds lease{0.25};  // length of the first lease, and of each renewal
 };
