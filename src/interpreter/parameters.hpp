@@ -3,8 +3,8 @@
 // Numbered parameters are 0 until set, except #5220 (the work system) and #5599, which are 1. #1 … #30 belong to the
 // sub that runs, and so do names without a leading underscore. Names with a leading underscore are global. Home
 // positions and offsets are parameters (#5161, #5181, #5211, #5221 … #5390), in the machine's unit and in degrees,
-// whatever the program's units. The state of the machine (#5400 …, #5420 …, #<_x>, #<_feed> …) is
-// computed when it is read and cannot be set. The same holds for the machine's settings (#<_ini[…]…>).
+// whatever the program's units. The state of the machine (#5400 …, #5420 …, #<_x>, #<_feed> …) is computed when it is
+// read and cannot be set. The same holds for the machine's settings (#<_ini[…]…>).
 //
 // Looking up a name is an index. A sub that sets a local name first puts the name's old value on an undo list.
 #pragma once
