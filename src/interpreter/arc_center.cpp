@@ -27,15 +27,15 @@ ArcCenter check_center(PlanePoint start, PlanePoint end, PlanePoint center, cons
 }
 
 //          center
-//            +            The centre stands on the middle of the chord, at `height` to the left of start -> end for a
-//           /|            short counterclockwise arc.
+//            +            The centre is `height` away from the middle of the chord. For a short counterclockwise arc
+//           /|            it is to the left of start -> end.
 //    radius/ |height
 //         /  |
 //   start+---+---+end
 //         half
 ArcCenter center_from_radius(PlanePoint start, PlanePoint end, double radius, bool clockwise,
                              const ArcTolerance& tolerance) {
-  constexpr double semicircle = 1e-12;  // so near to half the chord the arc is a semicircle, and height is noise
+  constexpr double semicircle = 1e-12;  // if half / size is this near to 1, the height is noise: a semicircle
   ArcCenter arc;
   if (start == end) {
     arc.fault = ArcFault::ends_at_start;

@@ -1,8 +1,8 @@
-// The G and M codes: their modal groups, the words they use, and whether this release executes them.
+// The G and M codes: their modal groups and the words they use.
 //
-// One line a code: supporting a new one is a line here, and a case in the one small function of its group
-// (block_executor.hpp). Everything that can be said of a block before it is executed follows from this table: two
-// codes of one group, words that no code uses, two codes that both claim the axis words.
+// Each code is one line of the table. A new code needs a line there and a case in the function that executes its group
+// (block_executor.cpp). The table is enough to check a block before it is executed: for two codes of one group, for
+// words that no code uses, for two codes that both use the axis words.
 #pragma once
 
 #include <cstdint>
@@ -11,36 +11,37 @@
 
 namespace passo {
 
-// Tenths, so that G59.1 is a whole number: code(59, 1) == 591.
+// A code's number in tenths, so that G59.1 is a whole number: code(59, 1) == 591.
 using CodeNumber = std::int16_t;
 constexpr CodeNumber code(int whole, int tenth = 0) {
   return static_cast<CodeNumber>(whole * 10 + tenth);
 }
 
-// RS274/NGC's modal groups (table 4 of the standard, with LinuxCNC's additions); a block has at most one code of each.
+// RS274/NGC's modal groups (table 4 of the standard, with LinuxCNC's additions). A block has at most one code of each
+// group.
 enum class ModalGroup : std::uint8_t {
   non_modal,            // G group 0
-  motion,               // 1
-  plane,                // 2
-  distance,             // 3
-  arc_distance,         // 4
-  feed_mode,            // 5
-  length_units,         // 6
-  cutter_compensation,  // 7
-  tool_length,          // 8
-  retract,              // 10
-  work_system,          // 12
-  path_mode,            // 13
-  spindle_mode,         // 14
-  lathe_diameter,       // 15
+  motion,               // G group 1
+  plane,                // G group 2
+  distance,             // G group 3
+  arc_distance,         // G group 4
+  feed_mode,            // G group 5
+  length_units,         // G group 6
+  cutter_compensation,  // G group 7
+  tool_length,          // G group 8
+  retract,              // G group 10
+  work_system,          // G group 12
+  path_mode,            // G group 13
+  spindle_mode,         // G group 14
+  lathe_diameter,       // G group 15
   macro,                // Fanuc's macro calls
   stopping,             // M group 4
-  input_output,         // 5
-  tool_change,          // 6
-  spindle,              // 7
-  coolant,              // 8
-  overrides,            // 9
-  user,                 // 10
+  input_output,         // M group 5
+  tool_change,          // M group 6
+  spindle,              // M group 7
+  coolant,              // M group 8
+  overrides,            // M group 9
+  user,                 // M group 10
 };
 inline constexpr std::size_t modal_group_count = 22;
 constexpr std::size_t index_of(ModalGroup group) {
@@ -48,7 +49,7 @@ constexpr std::size_t index_of(ModalGroup group) {
 }
 std::string_view name_of(ModalGroup group);
 
-// A set of word letters; polar words '@' and '^', and '$', stand behind 'Z'.
+// A set of word letters. The polar words '@' and '^', and '$', follow after 'Z'.
 inline constexpr std::size_t letter_count = 29;
 constexpr std::size_t letter_index(char letter) {
   if (letter >= 'A' && letter <= 'Z') return static_cast<std::size_t>(letter - 'A');
@@ -57,7 +58,7 @@ constexpr std::size_t letter_index(char letter) {
 class LetterSet {
  public:
   constexpr LetterSet() = default;
-  constexpr LetterSet(const char* letters) {  // NOLINT: implicit on purpose, the table below is made of them
+  constexpr LetterSet(const char* letters) {  // NOLINT: implicit on purpose, for the lines of the table
     for (; *letters != 0; ++letters) add(*letters);
   }
   constexpr bool has(char letter) const { return (bits_ >> letter_index(letter) & 1U) != 0; }
@@ -85,21 +86,21 @@ struct CodeEntry {
   char letter = 'G';
   CodeNumber number = 0;
   ModalGroup group = ModalGroup::non_modal;
-  AxisUse axes = AxisUse::none;  // what it does with axis words
-  LetterSet letters;             // the other words it uses
+  AxisUse axes = AxisUse::none;  // whether the code uses axis words
+  LetterSet letters;             // the other words that the code uses
   std::string_view what;         // a few words for messages
 };
 
-// Null where the language has no such code.
+// Null: there is no such code.
 const CodeEntry* find_code(char letter, CodeNumber number);
 // "G59.1"
 std::string spelling(char letter, CodeNumber number);
 inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);
 }
-// The code that executes and is spelled most alike; empty when none is near.
+// The code whose spelling is nearest. Empty: no spelling is near.
 std::string nearest_code(std::string_view spelled);
-// "G2, G3 or G10": the codes that execute and use this word; empty when there is none.
+// The codes that use this word, as in "G2, G3 or G10". Empty: no code uses it.
 std::string codes_using(char letter);
 
 }  // namespace passo

@@ -11,8 +11,8 @@ using enum ModalGroup;
 
 constexpr double highest_orientation = 9;
 
-// Groups whose codes would move the frame or the tool under a contour that is followed, or act in the middle of moves
-// that are held back.
+// Groups whose codes are forbidden during compensation. They would move the frame or the tool while it follows a
+// contour, or they would act in the middle of moves that are held back.
 struct Forbidden {
   ModalGroup group;
   bool before_g40;  // executed before the G40 of its own block
@@ -22,7 +22,7 @@ constexpr Forbidden forbidden[] = {
     {work_system, false}, {path_mode, false}, {retract, false},     {non_modal, false},
 };
 
-// Codes of those groups that can be obeyed all the same.
+// Codes of those groups that are allowed all the same.
 bool is_allowed(const CodeEntry& entry, const ModalState& modal) {
   if (entry.group == plane) return entry.number == modal[plane];
   return entry.group == non_modal && (entry.number == code(4) || entry.number == code(10));
@@ -33,7 +33,6 @@ bool is_contour(CodeNumber motion_code) {
 
 }  // namespace
 
-// What goes with compensation, told before anything of the block is done.
 bool CutterCodes::check() {
   const CodeEntry* const switched = words_.code(cutter_compensation);
   const bool was_on = state_.modal[cutter_compensation] != code(40);
@@ -88,7 +87,7 @@ bool CutterCodes::start(CodeNumber number) {
   setup.left = number == code(41) || number == code(41, 1);
   const bool by_words = number == code(41, 1) || number == code(42, 1);
   if (!(by_words ? from_words(number, setup) : from_table(setup))) return false;
-  if (setup.radius < 0) {  // the contour is drawn for a larger tool
+  if (setup.radius < 0) {  // the contour is drawn for a larger tool than this
     setup.left = !setup.left;
     setup.radius = -setup.radius;
   }
@@ -99,7 +98,7 @@ bool CutterCodes::start(CodeNumber number) {
   return true;
 }
 
-// G41.1 D L: the diameter, and on a lathe the orientation.
+// G41.1 and G42.1: D is the diameter, and L on a lathe the orientation.
 bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
   if (!words_.has('D')) {
     return fail("gcode.missing-word", words_.span(cutter_compensation),
@@ -115,7 +114,7 @@ bool CutterCodes::from_words(CodeNumber number, CutterSetup& setup) {
               "G18 before, or no L");
 }
 
-// G41 D: the tool of this number, or the one in the spindle.
+// G41 and G42: D is a tool's number. Without D or with D0, the tool in the spindle counts.
 bool CutterCodes::from_table(CutterSetup& setup) {
   const Tool* tool = &state_.spindle_tool;
   const Span span = words_.has('D') ? words_.span('D') : words_.span(cutter_compensation);

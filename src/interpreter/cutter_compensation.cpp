@@ -9,9 +9,9 @@ namespace passo {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Corners that turn by less are none: what CAM programs round must not become an arc.
+// A corner that turns by less (radians) is smooth: numbers that CAM programs round must not cause an arc.
 constexpr double smooth_corner = 0.05;
-// By so much the sweep of a shortened arc may be above the programmed one, for the same reason.
+// The sweep of a shortened arc may be this much larger (radians) than the programmed sweep, for the same reason.
 constexpr double sweep_tolerance = 0.0254;
 constexpr double right_angle = 1e-6;
 
@@ -45,7 +45,7 @@ struct Circle {
   double radius;
 };
 
-// Where the line meets the circle, walking along it: there first or, `last`, there again.
+// Where a walk along the line meets the circle: the first time, or with `last` the second time.
 bool meet(PlanePoint on_line, PlanePoint direction, const Circle& circle, bool last, PlanePoint& point) {
   const PlanePoint from_center = on_line - circle.center;
   const PlanePoint foot = from_center - dot(from_center, direction) * direction;
@@ -122,7 +122,7 @@ PlanePoint CutterCompensation::beside(PlanePoint contour, PlanePoint normal) con
   return contour + radius_ * normal;
 }
 
-// The way along the contour where the tool's centre is in this direction from it.
+// The contour's direction at a place from which the tool's centre lies in the direction `normal`.
 PlanePoint CutterCompensation::tangent(PlanePoint normal) const {
   return -side_ * turned_left(normal);
 }
@@ -162,7 +162,7 @@ CutterFault CutterCompensation::line(const ContourMove& move) {
     if (start == end) return CutterFault::entry_too_short;
     return enter_by_line(move, line_path(start, end));
   }
-  if (start == end) {  // along other axes alone: where the tool is now depends on the next corner
+  if (start == end) {  // only other axes move, and the tool's place depends on the next corner
     Operation operation = move.origin;
     operation.what = operation_of(move, {});
     operations_.hold(operation);
@@ -181,8 +181,8 @@ CutterFault CutterCompensation::arc(const ContourMove& move, PlanePoint center, 
   return entered_ ? turn_corner(move, path) : enter_by_arc(move, path);
 }
 
-// A line from where the tool is to beside the contour's first corner. It cuts nothing that counts, so it may be turned
-// by an inside corner as it likes.
+// A line from the tool's place to beside the end of the programmed move. The line cuts nothing of the contour, so an
+// inside corner may change its direction freely.
 CutterFault CutterCompensation::enter_by_line(const ContourMove& move, const Path& path) {
   if (length(in_plane(move.end, axes_) - in_plane(move.start, axes_)) <= radius_) {
     return give_up(path, CutterFault::entry_too_short);
@@ -192,8 +192,8 @@ CutterFault CutterCompensation::enter_by_line(const ContourMove& move, const Pat
   return CutterFault::none;
 }
 
-// An arc from where the tool is that ends as the programmed one does, beside it: its centre is on the line through the
-// end and the programmed centre, as far from the end as from the start.
+// An arc from the tool's place to beside the end of the programmed arc, with the same direction there. The arc's centre
+// is on the line through the end and the programmed centre, as far from the end as from the start.
 CutterFault CutterCompensation::enter_by_arc(const ContourMove& move, Path path) {
   const PlanePoint start = in_plane(move.start, axes_);
   const PlanePoint contour = in_plane(move.end, axes_);
@@ -206,7 +206,7 @@ CutterFault CutterCompensation::enter_by_arc(const ContourMove& move, Path path)
   path.radius = dot(chord, chord) / (2 * ahead);
   path.center = end + path.radius * inward;
   path.sweep = arc_sweep(start, end, path.center, path.turns);
-  if (nose_ != PlanePoint{}) {  // the tool's point must be beside the arc's start first, or the arc is none
+  if (nose_ != PlanePoint{}) {  // the tool's point must go to the start of the new arc first
     Operation operation = move.origin;
     Point at = move.end;
     set_end(at, start);
@@ -219,7 +219,7 @@ CutterFault CutterCompensation::enter_by_arc(const ContourMove& move, Path path)
   return CutterFault::none;
 }
 
-// The corner between the last move and this one, which is held then.
+// Makes the corner between the last move and this one. Then holds this one.
 CutterFault CutterCompensation::turn_corner(const ContourMove& move, const Path& path) {
   const PlanePoint contour = in_plane(move.start, axes_);
   double outside_turn = 0;
@@ -239,21 +239,22 @@ CutterFault CutterCompensation::turn_corner(const ContourMove& move, const Path&
   return stopped && corner == Corner::inside ? CutterFault::cut_corner : CutterFault::none;
 }
 
-// What comes after a wrong move goes on from its end as if it had been made.
+// The moves after a wrong move go on from its end, as if it had been made.
 CutterFault CutterCompensation::give_up(const Path& path, CutterFault fault) {
   entered_ = true;
   normal_ = path.end_normal;
   return fault;
 }
 
-// By what angle the contour turns away from the tool, from -90 to 270 degrees: below zero and above 180 it turns
-// towards it.
+// outside_turn: the angle by which the contour turns away from the tool, from -90 to 270 degrees. Below 0 and above 180
+// the contour turns towards the tool.
 CutterCompensation::Corner CutterCompensation::corner_before(const Path& next, double& outside_turn) const {
   outside_turn = -side_ * std::atan2(cross(normal_, next.start_normal), dot(normal_, next.start_normal));
   if (outside_turn < -pi / 2) outside_turn += 2 * pi;
   if (outside_turn < -smooth_corner || outside_turn > pi + smooth_corner) return Corner::inside;
   if (outside_turn > pi - smooth_corner) {
-    // The way back: beside a line the tool goes round its end, and where an arc bulges towards it it is in a wedge.
+    // The contour turns back. The tool goes round the end of a line. If an arc bulges towards the tool, the tool is in
+    // a wedge.
     const bool wedge = next.is_arc ? !next.inside : held_.any && held_.path.is_arc && !held_.path.inside;
     return wedge ? Corner::inside : Corner::outside;
   }
@@ -275,7 +276,7 @@ bool CutterCompensation::inside_corner_point(const Path& next, PlanePoint contou
   return true;
 }
 
-// Whether the held move, from where it really starts, gets there without being turned round.
+// Whether the held move leads from its real start to `end` without being reversed.
 bool CutterCompensation::can_reach(PlanePoint end) const {
   if (!held_.can_gouge) return true;
   const Path& path = held_.path;
@@ -284,7 +285,7 @@ bool CutterCompensation::can_reach(PlanePoint end) const {
   return std::abs(sweep) <= std::abs(path.sweep) + sweep_tolerance;
 }
 
-// The held move ends here, and whatever follows it along other axes is there.
+// Ends the held move at this place. Held moves after it that move only other axes are at this place too.
 CutterFault CutterCompensation::end_held_at(PlanePoint end) {
   if (held_.any && !can_reach(end)) return CutterFault::unreachable;
   for (std::size_t i = 0; i < operations_.held(); ++i) {
@@ -298,7 +299,7 @@ CutterFault CutterCompensation::end_held_at(PlanePoint end) {
   return CutterFault::none;
 }
 
-// Round an outside corner. There is no rapid arc: a rapid move takes the chord.
+// Goes round an outside corner. There is no rapid arc, so a rapid move takes the chord.
 void CutterCompensation::go_round(const ContourMove& move, PlanePoint to) {
   Point end = move.end;
   set_end(end, to);

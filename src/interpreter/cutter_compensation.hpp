@@ -25,7 +25,7 @@ namespace passo {
 
 struct CutterSetup {
   Plane plane = Plane::xy;
-  bool left = true;  // of the contour, seen along it
+  bool left = true;  // whether the tool is left of the contour, seen along the contour
   double radius = 0;
   // For a lathe tool, the programmed point is a corner or a side of the square about the nose's centre: 1 to 8. With 0
   // and 9 it is the centre.
@@ -44,10 +44,10 @@ enum class CutterFault : std::uint8_t {
 
 // A move as it is programmed, in work coordinates.
 struct ContourMove {
-  bool rapid = false;  // a straight one
+  bool rapid = false;  // true: a straight rapid move
   Point start;
   Point end;
-  Operation origin;  // source, file and text of the operations that come of it
+  Operation origin;  // source, file and text of the operations that are made of this move
 };
 
 class CutterCompensation {
@@ -57,7 +57,7 @@ class CutterCompensation {
   void start(const CutterSetup& setup);
   // G40. The tool stays. The next move, which must be straight, starts at the tool's centre.
   [[nodiscard]] CutterFault stop();
-  // Whether moves are to be told here. A radius of zero compensates nothing.
+  // True: line() and arc() must be told of every move. A radius of zero compensates nothing.
   bool active() const { return side_ != 0 && radius_ > 0; }
   // True: there was a G40, and no straight move since.
   bool leaving() const { return leaving_; }
@@ -67,10 +67,10 @@ class CutterCompensation {
   [[nodiscard]] CutterFault arc(const ContourMove& move, PlanePoint center, std::int32_t turns);
   // Releases the held move unchanged, because the machine stops here or the program ends.
   [[nodiscard]] CutterFault release();
-  // A move was wrong: goes on from its end.
+  // Goes on from the end of a move that was wrong.
   void skip_to(const Point& end);
 
-  // From the programmed position to the tool's centre.
+  // The way from the programmed position to the tool's centre.
   Point shift(const Point& programmed) const;
   double radius() const { return radius_; }
 
@@ -81,13 +81,13 @@ class CutterCompensation {
     bool inside = false;      // the tool runs inside the arc
     PlanePoint start_normal;  // from the contour to the tool's centre
     PlanePoint end_normal;
-    PlanePoint direction;  // of a line
+    PlanePoint direction;  // only of a line
     PlanePoint center;
     double radius = 0;
     std::int32_t turns = 0;
     double sweep = 0;
   };
-  // The held move: its real start.
+  // The held move. `from` is its real start.
   struct Held {
     bool any = false;
     bool can_gouge = false;
@@ -119,12 +119,12 @@ class CutterCompensation {
   Plane plane_ = Plane::xy;
   int side_ = 0;  // 1: left of the contour, -1: right, 0: off
   double radius_ = 0;
-  PlanePoint nose_;       // from the nose's centre to what a lathe's program speaks of
+  PlanePoint nose_;       // from the nose's centre to the point that a lathe program moves
   bool entered_ = false;  // the first move is done
   bool leaving_ = false;
   bool stopped_ = false;  // release() let the last move run to its end
-  PlanePoint tool_;       // the centre, at the end of the last move as far as that is known
-  PlanePoint normal_;     // from the contour's end to there
+  PlanePoint tool_;       // the tool's centre at the end of the last move, before the next corner is known
+  PlanePoint normal_;     // the direction from the end of the contour so far to `tool_`
   Held held_;
 };
 

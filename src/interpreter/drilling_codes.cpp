@@ -22,7 +22,7 @@ constexpr std::pair<char, std::size_t> aside_letters[] = {{'I', 0}, {'J', 1}, {'
 bool DrillingCodes::start(CodeNumber number) {
   const PlaneAxes axes = axes_of(state_.modal.plane());
   const bool goes_on = kept_.code == number && kept_.plane == state_.modal.plane();
-  // After a first block that was wrong all that follow it are, for the same reason.
+  // If the cycle's first block was wrong, the blocks that follow are wrong for the same reason, which was reported.
   if (goes_on && !kept_.complete && words_.code(motion) == nullptr) return false;
   const bool first = !goes_on || !kept_.complete;
   if (kept_.code == 0 || kept_.plane != state_.modal.plane()) {
@@ -57,7 +57,7 @@ bool DrillingCodes::check_depths(const DrillingPlan& plan) {
   return true;
 }
 
-// What has nothing to do with this cycle's own words.
+// The checks that do not concern the cycle's own words.
 bool DrillingCodes::check(CodeNumber number, Point& hole) {
   const std::string name = spelling('G', number);
   if (!check_cycle(name)) return false;
@@ -87,7 +87,7 @@ bool DrillingCodes::check_spindle(CodeNumber number) {
               "M3 or M4 before, or in this block");
 }
 
-// R, the depth, L, P and Q: given, or left over from the block before.
+// Checks the words of the cycle. Only the first block must give all of them; later blocks may leave them out.
 bool DrillingCodes::check_words(CodeNumber number, bool first, std::int32_t& holes) {
   const std::string name = spelling('G', number);
   const char depth_letter = letter_of(axes_of(state_.modal.plane()).normal);
@@ -129,7 +129,7 @@ void DrillingCodes::keep_words(bool first) {
   }
 }
 
-// In incremental distances R counts from where the cycle began, and the depth from R.
+// In incremental distances R counts from the initial height, the depth from R, and a back bore's top from the bottom.
 DrillingPlan DrillingCodes::plan_of(CodeNumber number, const Point& hole) const {
   const bool incremental = state_.modal.incremental();
   const CodeNumber mode = state_.modal[path_mode];

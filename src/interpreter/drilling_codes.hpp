@@ -1,5 +1,5 @@
 // DrillingCodes: the words of drilling, tapping and boring cycles (G73, G74, G81 … G89). The words stay valid until
-// another motion code, so a block with only X and Y drills the next hole. The holes are DrillingCycle's.
+// another motion code, so a block with only X and Y drills the next hole. DrillingCycle makes the holes.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ class DrillingCodes final : public CycleCodes {
   bool finish() override;
 
  private:
-  // Of the blocks since the cycle's code: R, the depth and P or Q of the blocks that leave them out. Millimetres.
+  // The words of the blocks since the cycle's code. They count in the blocks that leave them out. Millimetres.
   struct KeptWords {
     CodeNumber code = 0;  // 0: no cycle is active
     Plane plane = Plane::xy;
@@ -32,7 +32,7 @@ class DrillingCodes final : public CycleCodes {
     double depth = 0;    // the depth axis' word as written
     double dwell = 0;
     double peck = 0;
-    Point aside;  // G87: how far the tool goes aside, in the plane; through it the top of the back bore as written
+    Point aside;  // G87: the way aside in the plane, and along the depth axis the top of the back bore as written
   };
 
   bool check(CodeNumber code, Point& hole);

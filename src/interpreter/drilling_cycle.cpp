@@ -6,8 +6,8 @@
 namespace passo {
 namespace {
 
-constexpr double peck_clearance = 0.254;  // mm above the bottom so far: a hundredth of an inch, as in LinuxCNC
-constexpr double at_bottom = 1e-7;        // mm: a peck that ends there is the last one
+constexpr double peck_clearance = 0.254;  // mm above the depth reached: a hundredth of an inch, as in LinuxCNC
+constexpr double at_bottom = 1e-7;        // mm: a peck that ends this near to the bottom is the last one
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool DrillingCycle::go_to_hole() {
   return true;
 }
 
-// The one after the first, from where the tool is.
+// Finds a hole after the first one, from the tool's position. False: there is no angle to go on from.
 bool DrillingCycle::find_hole(Point& hole) {
   if (plan_.way) hole = position_ + *plan_.way;
   if (!plan_.polar) return true;
@@ -61,7 +61,7 @@ bool DrillingCycle::find_hole(Point& hole) {
   return !stuck_;
 }
 
-// False where what is left is the last peck.
+// False: the rest of the hole is the last peck.
 bool DrillingCycle::peck() {
   reached_ -= plan_.peck;
   if (reached_ <= plan_.bottom + at_bottom) return false;
@@ -90,11 +90,12 @@ void DrillingCycle::finish_hole() {
   if (stops_spindle(number)) give(operation::TurnSpindle{plan_.spindle});
 }
 
-// With the spindle held at an angle the tool goes aside, through the hole and under it, and bores upwards there.
+// The spindle is held at an angle. The tool, moved aside, goes down through the hole, goes back to the hole's axis and
+// bores upwards. The tool leaves the hole in the same way.
 void DrillingCycle::bore_back() {
   Point aside = plan_.aside;
   aside[plan_.axis] = 0;
-  // LinuxCNC hands the number of the direction on, where M19 has its P.
+  // LinuxCNC passes its number of the spindle's direction in place of M19's P.
   const auto way = static_cast<operation::OrientSpindle::Way>(static_cast<int>(plan_.spindle) + 1);
   const auto hold_spindle = [&] {
     give(operation::TurnSpindle{});
@@ -114,7 +115,7 @@ void DrillingCycle::bore_back() {
   give(operation::TurnSpindle{plan_.spindle});
 }
 
-// With a floating holder: the feed follows from F, in and out, and nobody may change it meanwhile.
+// Tapping with a floating holder: the tool goes in and out with feed F, and no override may change the feed meanwhile.
 void DrillingCycle::tap() {
   const SpindleDirection out =
       plan_.spindle == SpindleDirection::clockwise ? SpindleDirection::counterclockwise : SpindleDirection::clockwise;
@@ -135,7 +136,7 @@ void DrillingCycle::end() {
   if (plan_.path_mode == PathMode::exact_path) return;
   const bool continuous = plan_.path_mode == PathMode::continuous;
   give(operation::SetPathMode{plan_.path_mode, continuous ? plan_.tolerance.path : Mm(0)});
-  give(operation::SetMergeTolerance{plan_.tolerance.merge});  // LinuxCNC tells both in any mode
+  give(operation::SetMergeTolerance{plan_.tolerance.merge});  // LinuxCNC gives both operations in any mode
 }
 
 void DrillingCycle::traverse_to(double height) {

@@ -1,7 +1,7 @@
 // DrillingCycle: the holes of one block with a drilling, tapping or boring cycle (G73, G74, G81 … G89), as operations.
 //
-// The moves are those of RS274/NGC (NIST 6556, 3.5.16) in the order in which LinuxCNC makes them. "Depth" and "height"
-// are along the axis through the active plane. Millimetres.
+// The moves are those of RS274/NGC (NIST 6556, 3.5.16) in the order in which LinuxCNC makes them. Depth and height are
+// measured along the axis through the active plane. Lengths are in millimetres.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace passo {
 
-// From hole to hole by a distance from the origin and an angle about it (@ and ^ in incremental distances).
+// The way from hole to hole: a change of the distance from the origin and of the angle about it (@ and ^ in incremental
+// distances).
 struct PolarWay {
   double radius = 0;
   double angle = 0;  // radians
@@ -22,24 +23,24 @@ struct PolarWay {
 struct DrillingPlan {
   CodeNumber code = 0;
   Axis axis = Axis::z;  // the direction of the holes
-  Point start;          // where the tool is
+  Point start;          // the tool's position before the cycle
   Point hole;           // the first hole; its height does not count
   std::int32_t holes = 1;
   std::optional<Point> way = {};       // from hole to hole; empty: all holes are at one place
   std::optional<PolarWay> polar = {};  // used instead of `way`
-  double initial_height = 0;           // the tool's height when the first cycle began
-  bool returns_to_initial = false;     // G98: between holes, not only to `retract`
-  double retract = 0;                  // R: where the feed begins
+  double initial_height = 0;           // the tool's height before the first of several cycles
+  bool returns_to_initial = false;     // G98: the tool goes to this height between holes, not only to `retract`
+  double retract = 0;                  // R: the height where the feed begins
   double bottom = 0;
-  double top = 0;    // of a back bore
+  double top = 0;    // the top of a back bore
   Point aside = {};  // G87: how far the tool goes aside, in the plane
   double dwell = 0;  // P, seconds
   double peck = 0;   // Q
   SpindleDirection spindle = SpindleDirection::off;
-  bool feed_override = true;  // whether the override is on, and is on again after a tap
+  bool feed_override = true;  // whether the override was on: it is switched on again after a tap
   bool speed_override = true;
-  bool retracts_by_hand = false;              // G88: an operator takes the tool out
-  PathMode path_mode = PathMode::continuous;  // after the cycle
+  bool retracts_by_hand = false;              // G88: true: the operator retracts the tool, and the cycle does not
+  PathMode path_mode = PathMode::continuous;  // the mode after the cycle
   PathTolerance tolerance = {};
 };
 
@@ -65,16 +66,16 @@ class DrillingCycle final : public Cycle {
   void traverse_by(const Point& way) { traverse(position_ + way); }
 
   DrillingPlan plan_;
-  double height_ = 0;   // to the next hole
-  double clear_ = 0;    // out of a hole
-  double reached_ = 0;  // by the pecks so far
+  double height_ = 0;   // the height at which the tool goes to the next hole
+  double clear_ = 0;    // the height to which the tool leaves a hole
+  double reached_ = 0;  // the height that the pecks have reached so far
   std::int32_t holes_left_;
   bool begun_ = false;
   bool in_hole_ = false;
   bool stuck_ = false;
 };
 
-// What each cycle does. The codes check their words with this.
+// What each cycle does. DrillingCodes checks the words with these functions.
 constexpr bool pecks(CodeNumber number) {
   return number == code(73) || number == code(83);
 }

@@ -17,7 +17,7 @@ constexpr CodeNumber code_of_system(int system) {
 
 }  // namespace
 
-// The tool stays where it is; its position gets other numbers.
+// Changes the frame. The machine position stays, and the work position changes.
 template <class... Operations>
 void FrameCodes::change_frame(const Operations&... operations) {
   const Point machine = state_.machine_position();
@@ -29,7 +29,7 @@ void FrameCodes::change_frame(const Operations&... operations) {
   state_.position = state_.frame.work_from_machine(machine);
 }
 
-// Where the last run left it: the system and the offsets that the parameters hold.
+// Starts with the work system and the offsets of the parameters, as the last run left them.
 void FrameCodes::start() {
   const int system = static_cast<int>(parameters_.get(work_system_parameter));
   state_.modal.set(work_system, code_of_system(system));
@@ -70,7 +70,7 @@ void FrameCodes::activate_system(int system, bool with_g92) {
   }
 }
 
-// G28 and G30: by way of the given point, then the given axes (or all) to the stored one.
+// G28 and G30: goes to the given point first. Then the given axes (or all of them) go to the stored point.
 bool FrameCodes::go_home(int parameter) {
   Point end;
   if (!end_point(end)) return false;
@@ -108,7 +108,7 @@ bool FrameCodes::check_work_offset_words(int& system) {
   return true;
 }
 
-// G10 L2: a system's offset is… G10 L20: a system's offset is such that this is the position…
+// G10 L2 sets a work system's offset. G10 L20 sets the offset with which the tool's work position is the given one.
 bool FrameCodes::set_work_offset() {
   int system = 0;
   if (!check_work_offset_words(system)) return false;
@@ -170,7 +170,7 @@ bool FrameCodes::set_g92(CodeNumber number) {
       }
       break;
     case code(92, 3): offset = parameters_.point(g92_parameter); break;
-    default: break;  // G92.1 and G92.2: none
+    default: break;  // G92.1 and G92.2: no offset
   }
   const bool active = number == code(92) || number == code(52) || number == code(92, 3);
   parameters_.set(g92_active_parameter, active ? 1 : 0);
@@ -179,8 +179,8 @@ bool FrameCodes::set_g92(CodeNumber number) {
   return true;
 }
 
-// G51, as in grblHAL: X Y Z is the centre (else the tool is), P the factor of all three, I J K those of X Y Z. A factor
-// that is not given stays as it was.
+// G51, as in grblHAL. X Y Z is the centre; a coordinate that is not given is the tool's. P is the factor of all three
+// axes. I J K are the factors of X Y Z. A factor that is not given stays as it was.
 bool FrameCodes::set_scaling() {
   constexpr char letters[] = {'I', 'J', 'K'};
   if (!words_.has('P') && !(words_.present() & LetterSet("IJK")).any()) {

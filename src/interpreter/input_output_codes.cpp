@@ -46,7 +46,8 @@ bool InputOutputCodes::set_analog_output(bool with_motion) {
   return true;
 }
 
-// The answer is in #5399. Nobody is there to give one: inputs are 0, and on the machine a wait runs out.
+// The program reads the answer in #5399. The interpreter knows no inputs, so the answer is 0. On the machine a wait
+// gets -1, as if its time had run out.
 bool InputOutputCodes::read_input() {
   using Until = operation::ReadInput::Until;
   const bool analog = words_.has('E');

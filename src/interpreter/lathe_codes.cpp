@@ -28,11 +28,11 @@ bool LatheCodes::start(CodeNumber number) {
   if (!check(number) || !whole_word('Q', 0, highest_sub, sub)) return false;
   Point start;
   if (!end_point(start) || !check_feed()) return false;
-  start[Axis::u] = state_.position[Axis::u];  // U and W are allowances here
+  start[Axis::u] = state_.position[Axis::u];  // here U and W are allowances, not axis words
   start[Axis::w] = state_.position[Axis::w];
   state_.position = start;
   emit(operation::StraightTraverse{start});
-  state_.modal.set(motion, code(0));  // the contour's first line may leave it out
+  state_.modal.set(motion, code(0));  // for a contour whose first line has no motion code
 
   if (contour_ == nullptr) contour_ = std::make_unique<Contour>();
   *contour_ = Contour{};
@@ -72,7 +72,7 @@ LathePoint LatheCodes::lathe_point(const Point& point) const {
   return LathePoint(point[Axis::z], point[Axis::x]) / state_.length_unit();
 }
 
-// What is wrong with it is told; the cycle is not executed then.
+// Reports what is wrong with the line. A wrong line keeps the cycle from being executed.
 void LatheCodes::add_to_contour(bool readable) {
   if (!readable || !add_segment()) contour_->good = false;
 }
@@ -119,7 +119,7 @@ bool LatheCodes::add_segment() {
   return add_corner(segment);
 }
 
-// X and Z as the cycle's block counts distances; U and W are always increments.
+// X and Z are absolute or incremental, as in the cycle's block. U and W are always increments.
 bool LatheCodes::contour_point(LathePoint& end) {
   const double unit = state_.length_unit();
   const bool incremental = state_.modal.incremental();
@@ -166,7 +166,7 @@ bool LatheCodes::contour_arc(LatheSegment& segment) {
   return report_arc(found);
 }
 
-// A: the corner behind this line is rounded; C: it is cut off.
+// A rounds the corner after this line. C cuts the corner off.
 bool LatheCodes::add_corner(const LatheSegment& behind) {
   if (!words_.has('A') && !words_.has('C')) return true;
   if (words_.has('A') && words_.has('C')) {
@@ -198,8 +198,9 @@ bool LatheCodes::end_contour() {
   return fault == LatheFault::none || report_contour(fault);
 }
 
-// A contour that ends inside the stock is led out of it, and that way out is set off as well; but where the contour
-// ends along the cuts, it ends there, and the way out (LatheRoughing adds it) is at its very end.
+// A contour that ends inside the stock gets a line that leads out of it. The line is set off with the contour. If the
+// last segment is parallel to an axis, the contour gets no such line here. LatheRoughing then adds one after the
+// offset.
 void LatheCodes::lead_out() {
   std::vector<LatheSegment>& segments = contour_->shape.segments;
   const LathePoint start = lathe_point(contour_->start);
@@ -233,7 +234,7 @@ LatheFault LatheCodes::plan_roughing() {
   return LatheFault::none;
 }
 
-// Turning or facing, whichever way the contour goes.
+// G70 does not say whether it turns or faces: the contour's direction tells.
 LatheFault LatheCodes::plan_finishing() {
   LatheContour& contour = contour_->shape;
   LatheContour part = contour;
@@ -276,7 +277,7 @@ bool LatheCodes::report_contour(LatheFault fault) {
   }
 }
 
-// The contour's lines are behind us: the cycle's own line is quoted.
+// The reader is past the contour's lines, so the error quotes the line of the cycle.
 bool LatheCodes::fail_contour(std::string message, std::string expected) {
   reporter_.error_at("gcode.bad-contour", contour_->source.line, contour_->text, contour_->span, std::move(message),
                      std::move(expected));

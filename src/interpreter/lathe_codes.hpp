@@ -1,7 +1,7 @@
 // LatheCodes: the words of the lathe cycles G70, G71, G72 (.1 .2), and their contours.
 //
-// A cycle's block moves to its X and Z. The lines of its sub are then read as a contour instead of being executed
-// (interpreter.cpp asks for that), and when the sub has returned the cuts are planned. The moves are LatheCycle's.
+// A cycle's block moves to its X and Z. The lines of its sub are then read as a contour and not executed
+// (interpreter.cpp does that). When the sub has returned, the cuts are planned. LatheCycle makes the moves.
 #pragma once
 
 #include <memory>
@@ -21,16 +21,16 @@ class LatheCodes final : public CycleCodes {
 
   bool start(CodeNumber code);
 
-  // It waits for the blocks of this sub, one after the other.
+  // True: the cycle waits for the blocks of contour_sub(), one after the other.
   bool wants_contour() const { return contour_ != nullptr && contour_->open; }
   Symbol contour_sub() const { return contour_->sub; }
   Span contour_span() const { return contour_->span; }
-  // A line of the contour, whose words are those of the context; false where they cannot be read.
+  // Adds a line of the contour. The line's words are those of the context. readable: the words could be read.
   void add_to_contour(bool readable);
-  // The sub has returned. False: there is nothing to cut.
+  // Plans the cuts when the sub has returned. False: nothing is cut.
   bool end_contour();
   void abandon_contour() { contour_->open = false; }
-  // The line of the cycle whose contour was read last.
+  // The text of the line with the cycle whose contour was read last.
   std::string_view text() const { return contour_->text; }
 
   Cycle& cycle() override { return *cycle_; }
@@ -38,18 +38,18 @@ class LatheCodes final : public CycleCodes {
 
  private:
   static constexpr std::size_t most_segments = 10'000;
-  // Of one cycle, while its contour is read.
+  // The data of one cycle while its contour is read.
   struct Contour {
     bool open = true;
-    bool good = true;  // all lines so far
+    bool good = true;  // true: no line so far was wrong
     CodeNumber code = 0;
-    BlockWords words;  // of the cycle's block
-    Span span;         // of its Q: what is wrong with the whole contour is told here
-    std::string text;  // its line
+    BlockWords words;  // the words of the cycle's block
+    Span span;         // the place of the cycle's Q, to which errors of the whole contour point
+    std::string text;  // the line of the cycle's block
     OperationSource source;
     Symbol sub;
-    Point start;        // where the tool is before the first cut
-    LathePoint corner;  // the last point so far
+    Point start;        // the tool's position before the first cut
+    LathePoint corner;  // the contour's last point so far
     LatheContour shape;
   };
 
@@ -69,7 +69,7 @@ class LatheCodes final : public CycleCodes {
   bool fail_contour(std::string message, std::string expected);
 
   SymbolTable& symbols_;
-  std::unique_ptr<Contour> contour_;  // made when there is one
+  std::unique_ptr<Contour> contour_;  // made when the first cycle starts
   std::optional<LatheCycle> cycle_;
 };
 

@@ -83,12 +83,13 @@ void LatheRoughing::go_down(LatheMoves& moves) {
   }
 }
 
-// From the tool along Z to the next segment that is in the way, and back above the cut.
+// Cuts from the tool along Z to the next segment in the way and goes back above the cut. Then lowers the level.
+// If the tool is already where that segment starts, only goes on to that segment.
 void LatheRoughing::cut(LatheMoves& moves) {
   for (std::size_t hit = at_; hit < contour_.segments.size(); ++hit) {
     const LatheCrossings found = crossings(contour_.segments[hit], tool_.imag());
     if (found.count == 0) continue;
-    const double z = hit == at_ ? found.back() : found.front();  // an arc that falls and rises again
+    const double z = hit == at_ ? found.back() : found.front();  // an arc that falls is met where it rises again
     const double distance = std::abs(z - tool_.real());
     if (z - same > tool_.real()) continue;
     if (distance < same) {
@@ -165,7 +166,7 @@ bool LatheRoughing::dive_arc(double x, LatheMoves& moves) {
     follow_arc(arc.end, moves);
   } else if (found.front() >= center) {
     follow_arc({found.front(), x}, moves);
-  }  // else it is met on its far side only: the level goes down
+  }  // else the arc meets the level on its far side only, and cut() lowers the level
   return true;
 }
 
@@ -194,7 +195,7 @@ bool LatheRoughing::climb_arc(LatheMoves& moves) {
   const LathePoint to = end_of_climb();
   if (std::abs(tool_ - to) > small) moves.arc(arc, to);
   tool_ = to;
-  return clockwise;  // past its top the other kind falls
+  return clockwise;  // a counterclockwise arc may fall after its top
 }
 
 LathePoint LatheRoughing::end_of_climb() const {
@@ -203,7 +204,7 @@ LathePoint LatheRoughing::end_of_climb() const {
   return arc.center + LathePoint(0, arc.radius());
 }
 
-// Where the segment rises above the tool it is followed, from where the tool's height meets it.
+// Follows the part of the segment that rises above the tool, from where the segment has the tool's height.
 void LatheRoughing::climb_only(LatheMoves& moves) {
   const LatheSegment& part = segment();
   const LatheCrossings found = crossings(part, tool_.imag());

@@ -1,8 +1,8 @@
-// The moves of the lathe cycles G70 to G72 along and toward a contour, a few at a time.
+// LatheRoughing and LatheFinishing: the moves of the lathe cycles G70 to G72, a few at a time.
 //
-// Roughing goes down the contour's first segment in steps; from each step it cuts along Z to where the contour is met,
-// lifts off, goes back and down the next step. Where the contour no longer falls, it is followed up to its end, or to
-// where it falls again: that is a pocket, which is cleared in the same way from there.
+// Roughing goes down the contour's first segment in steps. From each step the tool cuts along Z until it meets the
+// contour, lifts off, goes back, and goes down the next step. Where the contour no longer falls, the tool follows the
+// contour to its end, or to where the contour falls again. There a pocket begins, which is cleared in the same way.
 #pragma once
 
 #include <optional>
@@ -38,11 +38,12 @@ class LatheMoves {
 
 class LatheRoughing {
  public:
-  enum class Extent : std::uint8_t { everything, no_pockets, only_pockets };  // G71, G71.1, G71.2
+  // G71 and G72; G71.1 and G72.1; G71.2 and G72.2.
+  enum class Extent : std::uint8_t { everything, no_pockets, only_pockets };
   LatheRoughing(LatheContour contour, Extent extent, double depth_of_cut, double lift);
 
   const LatheOrientation& orientation() const { return contour_.orientation; }
-  // At most LatheMoves::capacity moves. False when it is done, or at a fault.
+  // Adds at most LatheMoves::capacity moves. False: roughing is done, or there is a fault.
   bool step(LatheMoves& moves);
   LatheFault fault() const { return fault_; }
 
@@ -55,11 +56,11 @@ class LatheRoughing {
   void cut(LatheMoves& moves);
   void go_up(LatheMoves& moves);
   void enter_pocket();
-  // False: the segment is none of that kind.
+  // These go down the segment to the height x or to the segment's end. False: from here on the segment does not fall.
   bool dive(double x, LatheMoves& moves);
   bool dive_line(double x, LatheMoves& moves);
   bool dive_arc(double x, LatheMoves& moves);
-  // False: the contour falls from here on.
+  // These go up the segment. False: from here on the contour falls.
   bool climb(LatheMoves& moves);
   bool climb_arc(LatheMoves& moves);
   void climb_only(LatheMoves& moves);
@@ -71,16 +72,16 @@ class LatheRoughing {
   double depth_of_cut_;
   double lift_;
   Phase phase_ = Phase::begin;
-  std::size_t at_ = 0;  // the segment
+  std::size_t at_ = 0;  // index of the segment at which the tool is
   LathePoint tool_;
   double level_ = 0;      // X of the next cut
-  double top_level_ = 0;  // X that levels are counted from
+  double top_level_ = 0;  // X from which levels are counted
   std::optional<double> pocket_level_;
   int idle_steps_ = 0;
   LatheFault fault_ = LatheFault::none;
 };
 
-// G70: along the contour, in passes that come nearer.
+// G70: passes along the contour, each nearer to it than the pass before.
 class LatheFinishing {
  public:
   LatheFinishing(LatheContour contour, double first_distance, double last_distance, std::int32_t passes);
@@ -94,7 +95,7 @@ class LatheFinishing {
   double last_distance_;
   std::int32_t passes_;
   std::int32_t left_;
-  LatheContour path_;  // of this pass
+  LatheContour path_;  // the contour set off by the distance of this pass
   std::size_t at_ = 0;
   LatheFault fault_ = LatheFault::none;
 };

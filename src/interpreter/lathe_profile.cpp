@@ -34,7 +34,7 @@ bool meet_lines(LatheSegment& first, LatheSegment& second) {
     meet(first, second, first.end);
     return true;
   }
-  // Where the second line is the axis: the part of the first one that leads there.
+  // Both lines are turned so that the second one lies on the real axis. `part` of the first line leads to that axis.
   const LathePoint turn = -std::conj(other) / std::abs(other);
   const LathePoint from = (first.start - second.end) * turn;
   const LathePoint to = (first.end - second.end) * turn;
@@ -43,7 +43,7 @@ bool meet_lines(LatheSegment& first, LatheSegment& second) {
   return true;
 }
 
-// The crossing of the line (to its both sides) and the circle that is nearer to where the second one starts.
+// The line counts as endless. Of its two crossings with the circle, takes the one nearer to the second segment's start.
 void meet_line_and_arc(LatheSegment& first, LatheSegment& second) {
   if (std::abs(second.start - first.end) < same) return;
   const bool line_first = !first.is_arc();
@@ -61,7 +61,7 @@ void meet_line_and_arc(LatheSegment& first, LatheSegment& second) {
 void meet_arcs(LatheSegment& first, LatheSegment& second) {
   const LathePoint between = first.center - second.center;
   const double distance = std::abs(between);
-  if (distance < same) return;  // of one circle
+  if (distance < same) return;  // arcs with one centre do not cross
   const double radius = second.radius();
   const double other = first.radius();
   const double cosine = (distance * distance + radius * radius - other * other) / (2 * distance * radius);
@@ -69,11 +69,11 @@ void meet_arcs(LatheSegment& first, LatheSegment& second) {
   const LathePoint toward = between / distance * radius;
   const LathePoint one = second.center + LathePoint(cosine, sine) * toward;
   const LathePoint two = second.center + LathePoint(cosine, -sine) * toward;
-  // Arcs that all but touch cross twice close by: then the same one in every step, and the one of LinuxCNC.
+  // Arcs that nearly touch cross at two close places. With `gap` every step takes the same one, which is LinuxCNC's.
   meet(first, second, std::abs(second.start - one) <= std::abs(second.start - two) + gap ? one : two);
 }
 
-// Both are set to where they cross.
+// Sets the end of the first and the start of the second segment to where they cross. False: parallel lines.
 bool meet(LatheSegment& first, LatheSegment& second) {
   if (first.is_arc() && second.is_arc()) {
     meet_arcs(first, second);
@@ -85,7 +85,7 @@ bool meet(LatheSegment& first, LatheSegment& second) {
   return true;
 }
 
-// A corner between two segments, as the circle in it touches them.
+// The circle in a corner touches both segments. The corner begins and ends where the circle touches them.
 bool work_out_corner(LatheSegment& before, LatheSegment& corner, LatheSegment& after) {
   double side = corner.size;
   LatheSegment first = before;
@@ -183,7 +183,7 @@ void LatheContour::turn() {
 
 void LatheContour::orient() {
   const LathePoint back = segments.front().end - segments.back().end;
-  // A contour that ends as high as it begins: the way to it falls.
+  // If the contour ends at the height at which it begins, the way to the contour must fall.
   const bool rises_to_it = segments.front().end.imag() > segments.front().start.imag();
   const bool mirror_x = back.imag() > 0 || (back.imag() == 0 && rises_to_it);
   const bool mirror_z = back.real() < 0;
@@ -211,7 +211,7 @@ LatheFault LatheContour::work_out_corners() {
     if (segments[at + 1].is_corner()) return LatheFault::corner;
     if (!work_out_corner(segments[at - 1], segments[at], segments[at + 1])) return LatheFault::corner;
   }
-  std::erase_if(segments, [](const LatheSegment& segment) { return segment.is_corner(); });  // behind the last one
+  std::erase_if(segments, [](const LatheSegment& segment) { return segment.is_corner(); });  // after the last one
   const LatheSegment first = segments.front();
   segments.erase(segments.begin());
   drop_small(segments);
@@ -219,7 +219,7 @@ LatheFault LatheContour::work_out_corners() {
   return segments.size() < 2 ? LatheFault::vanished : LatheFault::none;
 }
 
-// The way to the contour may begin on the contour's side of its first point: it is made vertical.
+// If the way to the contour begins on the contour's side of its first point, that way is made parallel to X.
 LatheFault LatheContour::check_one_way() {
   LatheSegment& first = segments.front();
   if (first.end.real() > first.start.real()) first.start.real(first.end.real());
@@ -230,7 +230,7 @@ LatheFault LatheContour::offset(double distance) {
   LatheSegment first = segments.front();
   if (cross(segments.back().start - first.start, first.end - first.start) < 0) distance = -distance;
   segments.erase(segments.begin());
-  // In steps that no segment can vanish in unseen.
+  // The steps are so small that no segment vanishes unnoticed within one.
   double left = std::abs(distance);
   for (int step = 0; left > 0; ++step) {
     double most = left;
@@ -255,7 +255,7 @@ LatheFault LatheContour::offset_a_little(double distance) {
   return join();
 }
 
-// Round an outer corner the tool goes in an arc about the corner.
+// Adds an arc about each outer corner: so the tool goes round it.
 void LatheContour::close_gaps(double distance) {
   for (std::size_t at = 0; at + 1 < segments.size(); ++at) {
     LatheSegment before = segments[at];
@@ -274,7 +274,7 @@ void LatheContour::close_gaps(double distance) {
   }
 }
 
-// Each segment is cut or lengthened to where it meets the next; what is too short for that goes.
+// Cuts or lengthens each segment to where it meets the next one. Segments that turn back or are too short are dropped.
 LatheFault LatheContour::join() {
   for (std::size_t at = 0; at + 1 < segments.size(); ++at) {
     if (!segments[at].goes_one_way()) {

@@ -1,11 +1,11 @@
-// The contour of a lathe part (G70 to G72), as lines and arcs in Z and X, and how it is set off from itself.
+// LatheContour: the contour of a lathe part (G70 to G72) as lines and arcs in Z and X, and its offset.
 //
-// A point is a complex number, Z real and X imaginary: turning and mirroring are products then, and the side of a line
-// is the sign of one. Lengths are the program's units, and so are the tolerances, as in LinuxCNC (interp_g7x.cc), whose
-// moves these cycles make.
+// A point is a complex number: Z is the real part, X the imaginary part. So turning is a product, mirroring is a
+// conjugate, and the sign of a product tells the side of a line. Lengths and tolerances are in the program's units, as
+// in LinuxCNC (interp_g7x.cc). The cycles make LinuxCNC's moves.
 //
-// Everything is worked out in one orientation: Z falls along the contour and X rises from its first point to its last.
-// `LatheOrientation` says how a program's contour lies in it.
+// All cuts are worked out in one orientation: Z falls along the contour, and the contour's last point is not lower in X
+// than its first. LatheOrientation leads from there back to the program's orientation.
 #pragma once
 
 #include <complex>
@@ -17,9 +17,9 @@ namespace passo {
 using LathePoint = std::complex<double>;
 
 namespace lathe_tolerance {
-inline constexpr double same = 1e-6;   // points and heights
-inline constexpr double small = 1e-3;  // segments that are dropped, and what still counts as one direction
-inline constexpr double gap = 1e-2;    // between two segments: closed by an arc
+inline constexpr double same = 1e-6;   // points and heights this near are equal
+inline constexpr double small = 1e-3;  // smaller segments are dropped; a segment may go back this far
+inline constexpr double gap = 1e-2;    // an arc closes a gap that is wider in Z
 }  // namespace lathe_tolerance
 
 struct LatheSegment {
@@ -27,22 +27,22 @@ struct LatheSegment {
   Shape shape = Shape::line;
   LathePoint start;
   LathePoint end;
-  LathePoint center{};     // of an arc
-  double size = 0;         // of a fillet (its radius) and a chamfer, until they are worked out
-  std::uint32_t line = 0;  // of the program
+  LathePoint center{};     // only of an arc
+  double size = 0;         // a fillet's radius; a chamfer goes between the ends of such a fillet
+  std::uint32_t line = 0;  // the program's line
 
   bool is_arc() const { return shape == Shape::clockwise || shape == Shape::counterclockwise; }
   bool is_corner() const { return shape == Shape::fillet || shape == Shape::chamfer; }
   double radius() const { return std::abs(start - center); }
-  // What an offset may not come near: the length of a line, of an arc its chord or its radius.
+  // A line's length, or the smaller of an arc's chord and radius. An offset must be small against the extent.
   double extent() const;
-  // Z falls all along, and an arc does not turn round in X more than once.
+  // Whether Z falls from start to end. An arc must also lie on one side of its centre in X.
   bool goes_one_way() const;
   void offset(double distance);
   void move(LathePoint by);
 };
 
-// Where a segment is at this height of X: none, one or two Z; for an arc the larger Z first.
+// The places (up to two) at which a segment has this X. For an arc the larger Z comes first.
 struct LatheCrossings {
   int count = 0;
   double z[2] = {};
@@ -52,7 +52,7 @@ struct LatheCrossings {
 LatheCrossings crossings(const LatheSegment& segment, double x);
 
 struct LatheOrientation {
-  bool turned = false;  // by -90 degrees: facing
+  bool turned = false;  // by -90 degrees, for facing
   bool mirrored_z = false;
   bool mirrored_x = false;
   LathePoint to_program(LathePoint point) const;
@@ -66,13 +66,13 @@ class LatheContour {
   std::vector<LatheSegment> segments;
   LatheOrientation orientation;
 
-  void turn();    // for facing
-  void orient();  // by mirroring: Z falls, X rises
+  void turn();    // by -90 degrees, for facing
+  void orient();  // mirrors the contour, so that Z falls and X rises
   bool goes_one_way() const;
-  // Fillets and chamfers become arcs and lines.
+  // Replaces fillets by arcs and chamfers by lines.
   LatheFault work_out_corners();
   LatheFault check_one_way();
-  // All but the first segment, which leads to the contour, away from the part.
+  // Moves the contour away from the part. The first segment leads there, so only its end moves.
   LatheFault offset(double distance);
 
  private:

@@ -14,7 +14,7 @@ using enum ModalGroup;
 
 constexpr double highest_turns = 1e6;
 
-// The word that says where the centre is along an axis.
+// The letter of the word for the centre along this axis.
 constexpr char center_letter(Axis axis) {
   return axis == Axis::x ? 'I' : axis == Axis::y ? 'J' : 'K';
 }
@@ -38,7 +38,7 @@ double norm(const Point& step, Axis first) {
   const std::size_t i = index_of(first);
   return std::hypot(step.values[i], step.values[i + 1], step.values[i + 2]);
 }
-// What the feed rate counts: X Y Z where they move, else U V W, else A B C.
+// The length for which the feed rate counts: of X Y Z if they move, else of U V W if they move, else of A B C.
 FeedLength feed_length(const Point& step) {
   constexpr double still = 1e-7;
   if (const double length = norm(step, Axis::x); length > still) return {length, false};
@@ -48,7 +48,8 @@ FeedLength feed_length(const Point& step) {
 
 }  // namespace
 
-// What cannot be scaled is refused: an arc would become an ellipse, and cycles are made of depths and retracts.
+// Refuses what cannot be scaled: polar words, an arc that would become an ellipse, probe moves, G33.1, and cycles,
+// which are made of depths and retracts.
 bool MotionCodes::check_scaling(CodeNumber number) {
   if (!state_.scaling.on) return true;
   if (words_.has_code(non_modal, code(53))) return true;
@@ -146,7 +147,7 @@ bool MotionCodes::find_arc_center(bool clockwise, const Point& end, ArcCenter& f
   return report_arc(found);
 }
 
-// I J K: the centre's distance from the start, or with G90.1 where it is.
+// I J K: the centre's distance from the start, or with G90.1 its position.
 bool MotionCodes::center_words(PlanePoint start, PlanePoint& center) {
   const PlaneAxes plane_axes = axes_of(state_.modal.plane());
   if (const char wrong = center_letter(plane_axes.normal); words_.has(wrong)) {
@@ -194,7 +195,7 @@ bool MotionCodes::arc_beside(const Point& start, PlanePoint center, std::int32_t
                               motion_span());
 }
 
-// G33 and G33.1: K is how far the tool goes in a revolution.
+// G33 and G33.1: K is the tool's way in one revolution of the spindle.
 bool MotionCodes::threading(bool tapping) {
   const char* const name = tapping ? "G33.1" : "G33";
   const Point start = state_.position;

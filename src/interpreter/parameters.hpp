@@ -1,11 +1,12 @@
 // Parameters: #1 … #5601, #<name> and #<_name>.
 //
-// Numbered ones are 0 until set. #1 … #30 belong to the sub that runs, and so do names without a leading underscore;
-// names with one are global. Home positions and offsets (#5161, #5181, #5211, #5221 … #5390) *live* here, in
-// the machine's unit and degrees, whatever the program's units; what the machine does just now (#5400 …, #5420 …,
-// #<_x>, #<_feed> …) is computed when it is read and cannot be set, and so is what its settings say (#<_ini[…]…>).
+// Numbered parameters are 0 until set, except #5220 (the work system) and #5599, which are 1. #1 … #30 belong to the
+// sub that runs, and so do names without a leading underscore. Names with a leading underscore are global. Home
+// positions and offsets are parameters (#5161, #5181, #5211, #5221 … #5390), in the machine's unit and in degrees,
+// whatever the program's units. The state of the machine (#5400 …, #5420 …, #<_x>, #<_feed> …) is computed when it is
+// read and cannot be set. The same holds for the machine's settings (#<_ini[…]…>).
 //
-// Looking up a name is an index. A sub that sets a name of its caller's leaves the old value in an undo list.
+// Looking up a name is an index. A sub that sets a local name first puts the name's old value on an undo list.
 #pragma once
 
 #include <array>
@@ -26,7 +27,7 @@ namespace passo {
 inline constexpr int highest_parameter = 5601;
 inline constexpr std::size_t sub_parameters = 30;
 
-// Where the offsets live. A work system's ten parameters: nine axes and its rotation.
+// Numbers of parameters. A work system has ten: the offsets of nine axes and the rotation.
 inline constexpr int first_home_parameter = 5161;
 inline constexpr int second_home_parameter = 5181;
 inline constexpr int probe_parameter = 5061;
@@ -54,26 +55,27 @@ class Parameters final : public ParameterValues {
   Parameters(SymbolTable& symbols, const ProgramState& state, LengthUnits machine_units = LengthUnits::mm,
              std::shared_ptr<const SettingsFile> settings = nullptr);
 
-  // Before the program, and after it: those that are there, and those that are always saved.
+  // Called before the program and after it. save() updates the parameters that `saved` has and adds those that are
+  // always saved.
   void load(const SavedParameters& saved);
   void save(SavedParameters& saved) const;
 
   bool numbered(std::int64_t number, double& value) const override;
   bool named(Symbol name, double& value) const override;
 
-  // False where it cannot be set.
+  // False: this name cannot be set.
   [[nodiscard]] bool set_named(Symbol name, double value);
   static bool is_settable(std::int64_t number);
   void set(int number, double value) { numbers_[static_cast<std::size_t>(number)] = value; }
   double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
-  // Millimetres and degrees; nine parameters hold them in the machine's unit.
+  // A point in millimetres and degrees. Nine parameters, beginning with `first`, hold it in the machine's unit.
   Point point(int first) const;
   void set_point(int first, const Point& point);
 
-  // A sub begins with these arguments, and ends.
+  // A sub begins, with these arguments as its #1 …
   void enter_sub(std::span<const double> arguments);
-  // One of M98, which has names of its own but shares #1 … #30 with its caller.
+  // A subprogram of M98 begins. It has names of its own but shares #1 … #30 with its caller.
   void enter_subprogram();
   void leave_sub();
 
@@ -81,8 +83,8 @@ class Parameters final : public ParameterValues {
   struct Named {
     enum class Kind : std::uint8_t { unseen, local, global, predefined };
     Kind kind = Kind::unseen;
-    std::uint8_t predefined = 0;  // which
-    std::int32_t depth = -1;      // of the sub that set it; -1: never set
+    std::uint8_t predefined = 0;  // index in predefined_parameters()
+    std::int32_t depth = -1;      // call depth of the sub that set it; -1: never set
     double value = 0;
   };
   struct Undo {

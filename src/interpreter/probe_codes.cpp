@@ -11,7 +11,7 @@ namespace {
 
 using enum ModalGroup;
 
-// How far before its end LinuxCNC's `rs274` leaves a probe move.
+// LinuxCNC's `rs274` ends a probe move this far (mm) before its end.
 constexpr double preview_retract = 0.254;
 
 constexpr bool is_toward(CodeNumber number) {
@@ -23,7 +23,7 @@ constexpr bool must_touch(CodeNumber number) {
 
 }  // namespace
 
-// G38.2 and G38.3 go on until the probe is touched, G38.4 and G38.5 until it is not; .3 and .5 need not succeed.
+// G38.2 and G38.3 go on until the probe is touched, G38.4 and G38.5 until it is free. G38.3 and G38.5 need not succeed.
 bool ProbeCodes::probe(CodeNumber number) {
   const Point start = state_.position;
   Point end;
@@ -46,7 +46,7 @@ bool ProbeCodes::probe(CodeNumber number) {
   return true;
 }
 
-// The machine stands behind the probe move: the program goes on from there, or ends.
+// Called when the machine is at rest after the probe move. The program goes on from there, or ends.
 void ProbeCodes::take_outcome() {
   const CodeNumber number = *std::exchange(awaited_, std::nullopt);
   const ProbeOutcome& outcome = *block_.answers.probe();
@@ -79,7 +79,7 @@ bool ProbeCodes::check(CodeNumber number) {
   return check_feed();
 }
 
-// #5061 …: where the probe is, in the program's units and system; #5070: whether it touched.
+// #5061 … get the place of contact, in the program's units and work system. #5070 tells whether the move succeeded.
 void ProbeCodes::keep_result(const Point& place, bool touched) {
   for (const Axis axis : all_axes) {
     parameters_.set(probe_parameter + static_cast<int>(index_of(axis)), place[axis] / state_.units_of(axis));

@@ -1,15 +1,16 @@
-// ProgramFlow: which block comes next. Reads lines, obeys O-words, goes back for loops and away for subs.
+// ProgramFlow: which block comes next. It reads lines, obeys O-words, goes back for loops and jumps to subs.
 //
-// Memory is constant. The flow remembers places in the file, for open constructs and for subs that were met, and the
-// blocks of some hundred lines that come again (KeptBlocks). Skipped lines (a branch not taken, the body of a sub at
-// its definition) are read line by line, and only their O-words are parsed. The label tells a construct from others
-// inside it, as in RS274/NGC. A sub that is called before it was met is searched once to the end of the file, then in
-// NAME.ngc beside the program and in the folders that the options name.
+// Memory does not grow with the number of lines. The flow remembers places in the files: of open constructs and of subs
+// that were met. The flow also keeps the blocks of some hundred lines that come again (KeptBlocks). Skipped lines (a
+// branch that is not taken, the body of a sub at its definition) are read line by line, and only their O-words are
+// parsed. As in RS274/NGC a construct's label tells the construct from others inside it. A sub that is called before it
+// was met is looked for in the rest of the file, then in the other files that are open, then in NAME.ngc beside the
+// program and in the folders that the options name. Each file is searched once.
 //
-// A line that is kept costs about 25 ns before it is executed; parsing it 100 to 200 ns.
+// A line that is kept costs about 25 ns before it is executed. A line that is parsed costs 100 to 200 ns.
 //
-// Bounded: calls nest 100 deep, and a program that goes round its loops without any operation, or calls a thousand
-// times what is not there, is stopped.
+// Calls nest 100 deep at most. The flow stops a program that goes round its loops too often without any operation, and
+// a program that calls a thousand times what is not there.
 #pragma once
 
 #include <array>
@@ -51,21 +52,22 @@ class ProgramFlow final : public CallStack {
   ProgramFlow(ProgramReader reader, const Options& options, ProgramState& state, Parameters& parameters,
               SymbolTable& symbols, Reporter& reporter);
 
-  // The next block to execute; null at the end of the program, and where an O-word left a sub (take_left_sub).
+  // The next block to execute. Null: the program ends, or an O-word left a sub (take_left_sub), or the contour of
+  // call_for_contour() ends.
   const Block* next();
   // Tells whether a sub was just left, and the line of its call.
   std::optional<std::uint32_t> take_left_sub() { return std::exchange(left_sub_, std::nullopt); }
-  // What the block just executed asks for: M98, M99, a macro. main_ends: M99 in a main program that does not run once
-  // more.
+  // Makes the jump that the block just executed asks for: M98, M99 or a macro. main_ends: there was an M99 in the main
+  // program, which is not to run again.
   enum class Followed : std::uint8_t { goes_on, left_sub, main_ends };
   Followed follow(const SubprogramJump& jump);
   End end() const { return end_; }
-  // Calls a sub; next() then gives the blocks of this call, and once null at its end. False: there is no such sub.
+  // Calls a sub. next() then gives the blocks of this call, and null once at its end. False: the sub cannot be called.
   bool call_for_contour(Symbol sub, Span span);
-  // Tells that there was an operation since the last block, so the loops do something.
+  // Tells that the last block gave an operation, so the loops do something.
   void note_progress() { idle_passes_ = 0; }
 
-  // After M2 in a program that began with '%': whether the closing '%' is missing from the rest of the file.
+  // Called after M2. True: the program began with '%', and the rest of the file has no closing '%'.
   bool lacks_closing_percent();
 
   void watch(BlockWatcher& watcher) { watcher_ = &watcher; }
@@ -76,11 +78,11 @@ class ProgramFlow final : public CallStack {
 
  private:
   struct SubPlace {
-    ReaderPosition at;      // its O-word's line
+    ReaderPosition at;      // the line with its O-word
     ReaderPosition after;   // the line after it
-    bool numbered = false;  // "O1234", which M98 calls; else a sub
+    bool numbered = false;  // true: "O1234", which M98 calls; false: a sub
   };
-  // A file of the program: the main one, or one with a sub.
+  // A file of the program: the main file, or a file with subs.
   struct File {
     File(ProgramReader opened, std::size_t ordinal, SymbolTable& symbols)
         : reader(std::move(opened)),
@@ -91,12 +93,12 @@ class ProgramFlow final : public CallStack {
     std::uint32_t number;
     std::string name;
     BlockParser parser;
-    std::unordered_map<std::uint32_t, SubPlace> subs;  // by label
-    ReaderPosition seen;                               // subs before this place are known
-    std::uint64_t read_to = 0;                         // a line that begins before it was read before
+    std::unordered_map<std::uint32_t, SubPlace> subs;  // keyed by label
+    ReaderPosition seen;                               // all subs before this place are known
+    std::uint64_t read_to = 0;                         // lines that begin before this offset were read already
     bool seen_all = false;
-    bool seen_percent = false;           // the one that opens the program
-    std::set<std::uint32_t> unreadable;  // lines that are no G-code
+    bool seen_percent = false;           // the search for subs has passed the opening '%'
+    std::set<std::uint32_t> unreadable;  // lines that are no G-code and were reported
   };
   // A construct that was entered and not yet left.
   struct Open {
@@ -104,20 +106,20 @@ class ProgramFlow final : public CallStack {
     Symbol label;
     ReaderPosition at;              // its line
     ReaderPosition after;           // the line after it
-    std::uint64_t passes_left = 0;  // repeat
+    std::uint64_t passes_left = 0;  // only of a repeat
   };
   struct Frame {
-    File* caller = nullptr;  // where to go on
+    File* caller = nullptr;  // the file to which to return
     ReaderPosition return_to;
     Symbol sub;
     SubPlace place;
     std::size_t first_open = 0;
     std::uint64_t passes_left = 1;                                     // L of M98, G65, G66
     bool modal_macro = false;                                          // called by G66
-    std::optional<std::array<double, sub_parameters>> arguments = {};  // of a macro
+    std::optional<std::array<double, sub_parameters>> arguments = {};  // only of a macro
   };
 
-  // A numbered program that was left and has passes to go.
+  // A numbered program that was left and is to run again.
   struct Again {
     Frame frame;
     File* file = nullptr;
@@ -149,7 +151,7 @@ class ProgramFlow final : public CallStack {
   void end_repeat(Symbol label, const Control& control);
   void leave_or_continue_loop(Symbol label, const Control& control);
 
-  // The constructs that are open in the sub that runs.
+  // The open constructs of the running sub.
   Open& push(ControlKind kind, Symbol label);
   Open* innermost(ControlKind kind, Symbol label);
   Open* require_innermost(ControlKind kind, Symbol label, const Control& control);
@@ -157,7 +159,7 @@ class ProgramFlow final : public CallStack {
   std::size_t first_open() const { return frames_.empty() ? 0 : frames_.back().first_open; }
   bool go_round(const Open& loop);
 
-  // Going on to the line with an O-word of this label, out of those inside `from`.
+  // Skipping lines: skip_to() reads on to the next O-word of the wanted kinds that belongs to `from`.
   using Kinds = std::uint32_t;
   static constexpr Kinds kinds(std::initializer_list<ControlKind> list) {
     Kinds bits = 0;
@@ -198,14 +200,14 @@ class ProgramFlow final : public CallStack {
   Parameters& parameters_;
   SymbolTable& symbols_;
   Reporter& reporter_;
-  Diagnostics faults_;    // of the line that is read
-  Symbol value_name_;     // #<_value>: what the last sub returned
+  Diagnostics faults_;    // faults of the line that is read
+  Symbol value_name_;     // #<_value>: the value that the last sub returned
   Symbol returned_name_;  // #<_value_returned>
 
   std::vector<std::unique_ptr<File>> files_;
-  File* file_ = nullptr;     // the one that is read
-  Block* block_ = &line_;    // the one at hand: line_, or a kept one
-  ReaderPosition block_at_;  // its line
+  File* file_ = nullptr;     // the file that is read
+  Block* block_ = &line_;    // the block that is read: line_ or a kept block
+  ReaderPosition block_at_;  // the line of that block
   Block line_;
   KeptBlocks kept_;
   std::vector<Open> open_;
@@ -215,8 +217,8 @@ class ProgramFlow final : public CallStack {
   std::uint64_t idle_passes_ = 0;
   std::uint64_t main_passes_ = 0;
   std::uint64_t unknown_calls_ = 0;
-  std::size_t contour_depth_ = 0;  // of the call that next() stops behind; 0: none
-  bool begun_ = false;             // something else than a comment or an empty line was read
+  std::size_t contour_depth_ = 0;  // call depth of the contour that is read; 0: none
+  bool begun_ = false;             // something other than a comment or an empty line was read
   bool opened_percent_ = false;    // the program began with '%'
   End end_ = End::none;
   BlockWatcher* watcher_ = nullptr;

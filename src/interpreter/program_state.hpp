@@ -1,4 +1,4 @@
-// ProgramState: what the program has set so far. The modal state is one code for each modal group.
+// ProgramState: what the program has set so far. Its modal state has one code for each modal group.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace passo {
 
 class ModalState {
  public:
-  // As LinuxCNC starts.
+  // The state in which LinuxCNC starts.
   ModalState() {
     set(ModalGroup::motion, code(80));
     set(ModalGroup::plane, code(17));
@@ -55,7 +55,7 @@ class ModalState {
   std::array<CodeNumber, modal_group_count> active_{};
 };
 
-// G51: X Y Z of the program are taken by a factor, as seen from a centre. For what a move says, not for offsets.
+// G51 scales X Y Z of the program by a factor about a centre. G51 scales moves but no offsets.
 struct Scaling {
   bool on = false;
   Point center;  // work coordinates
@@ -69,14 +69,14 @@ struct Scaling {
 inline constexpr double highest_tool = 99999;
 inline constexpr std::size_t most_spindles = 8;
 struct SpindleState {
-  double speed = 0;          // S: revolutions a minute; under constant surface speed metres or feet a minute
-  double surface_limit = 0;  // above 0: constant surface speed, at no more than so many revolutions a minute
+  double speed = 0;          // S: revolutions a minute, or with constant surface speed metres or feet a minute
+  double surface_limit = 0;  // above 0: constant surface speed, with this highest number of revolutions a minute
   SpindleDirection direction = SpindleDirection::off;
   bool speed_override = true;
   friend bool operator==(const SpindleState&, const SpindleState&) = default;
 };
 
-// What G64 said last.
+// The tolerances of the last G64.
 struct PathTolerance {
   Mm path{0};
   Mm merge{0};
@@ -85,9 +85,9 @@ struct PathTolerance {
 struct ProgramState {
   ModalState modal;
   Frame frame;
-  Point position;      // work coordinates, millimetres and degrees; with cutter compensation on the contour
-  Point cutter_shift;  // from there to the tool's centre
-  double feed = 0;     // F in millimetres, a minute or a revolution; 0: none given
+  Point position;      // the programmed position, in work coordinates, millimetres and degrees
+  Point cutter_shift;  // cutter compensation: from `position` to the tool's centre
+  double feed = 0;     // F, in millimetres a minute or a revolution; 0: no F was given
   Scaling scaling;
   std::array<SpindleState, most_spindles> spindles;
   int spindle_count = 1;
@@ -97,12 +97,12 @@ struct ProgramState {
   bool adaptive_feed = false;
   bool feed_hold = true;
   PathTolerance tolerance;
-  bool on_machine = false;          // not a preview
-  ToolTable tools;                  // what is known of each
-  Tool spindle_tool;                // what is known of the one in the spindle; its number is `tool`
-  std::int32_t tool = 0;            // in the spindle
-  std::int32_t selected_tool = -1;  // by T; -1: none yet
-  std::uint32_t line = 0;           // of the block that is executed
+  bool on_machine = false;  // false: a preview
+  ToolTable tools;
+  Tool spindle_tool;                // the data of the tool in the spindle, whose number is `tool`
+  std::int32_t tool = 0;            // the tool in the spindle; 0: no tool
+  std::int32_t selected_tool = -1;  // the tool of the last T; -1: no T yet
+  std::uint32_t line = 0;           // the line of the block that is executed
   int call_depth = 0;
 
   // Millimetres in one length unit of the program.

@@ -9,7 +9,7 @@ namespace {
 
 using enum ModalGroup;
 
-constexpr double no_limit = 1e30;  // G96 without D, as LinuxCNC prints it
+constexpr double no_limit = 1e30;  // for G96 without D, as LinuxCNC prints it
 constexpr double full_turn = 360;
 
 }  // namespace
@@ -70,7 +70,7 @@ void SpindleCodes::stop() {
   }
 }
 
-// Without R and P there is nowhere to turn to; Q alone still waits.
+// M19 turns the spindle only with R or P. Q makes M19 wait, also without R and P.
 bool SpindleCodes::orient() {
   using Way = operation::OrientSpindle::Way;
   SpindleRange range;

@@ -20,13 +20,13 @@ ControlPoint control_point(double x, double y, double weight = 1) {
   return {x, y, weight};
 }
 
-// By Simpson's rule; good for a feed rate.
+// By Simpson's rule, which is exact enough for a feed rate.
 template <std::size_t degree>
 double length_of(std::span<const ControlPoint> points) {
   typename Bezier<degree>::Control control;
   for (std::size_t i = 0; i <= degree; ++i) control[i] = {points[i].x, points[i].y, 0};
   const auto curve = Bezier<degree>::create(control);
-  if (!curve) return 0;  // too far away: the path module says so
+  if (!curve) return 0;  // a point is too far away, which the path module reports
   constexpr int parts = 64;
   double sum = 0;
   for (int i = 0; i <= parts; ++i) {
@@ -38,7 +38,7 @@ double length_of(std::span<const ControlPoint> points) {
 
 }  // namespace
 
-// What holds for G5 and G5.1 alike.
+// The checks for both G5 and G5.1.
 bool SplineCodes::check() {
   if (state_.modal[cutter_compensation] != code(40) || cutter_.leaving()) {
     return fail("gcode.spline-compensated", motion_span(), "a spline while the cutter's radius is compensated",
@@ -60,7 +60,7 @@ bool SplineCodes::check_axes() {
   return true;
 }
 
-// Of two words that go together one is missing, or both.
+// Reports that one or both of two words that go together are missing.
 bool SplineCodes::fail_pair(std::string_view name, char first, char second, std::string expected) {
   const char present = words_.has(first) ? first : second;
   const char missing = words_.has(first) ? second : first;
@@ -126,7 +126,7 @@ bool SplineCodes::quadratic() {
   return true;
 }
 
-// G5.2. The curve begins where the tool is: that is the first control point.
+// G5.2. The first control point is the tool's position, where the curve begins.
 bool SplineCodes::nurbs_point() {
   const bool first = !nurbs_.open;
   if (first) {
@@ -191,14 +191,14 @@ bool SplineCodes::add_nurbs_point(bool first) {
   return true;
 }
 
-// G5.3: the tool goes along the curve. No motion code is active after it.
+// G5.3: the tool goes along the curve. After G5.3 no motion code is active.
 bool SplineCodes::end_nurbs() {
   state_.modal.set(motion, code(80));
   if (!nurbs_.open) {
     return fail("gcode.no-nurbs", motion_span(), "G5.3 without G5.2 before", "G5.2 and its control points before");
   }
   close_nurbs();
-  if (nurbs_.wrong) return false;  // that has been told
+  if (nurbs_.wrong) return false;  // which was reported
   if (nurbs_.points.size() < static_cast<std::size_t>(nurbs_.order)) {
     return fail("gcode.too-few-points", motion_span(),
                 fmt::format("a NURBS of order {} with {} control points", nurbs_.order, nurbs_.points.size()),
@@ -222,7 +222,6 @@ void SplineCodes::report_open_nurbs() {
                   "G5.3 before");
 }
 
-// Between G5.2 and G5.3: what would move the tool or the frame, or ends the program, is told, and the curve given up.
 void SplineCodes::check_nurbs_is_closed() {
   const auto belongs = [](const CodeEntry& entry) {
     const bool ends = entry.number == code(2) || entry.number == code(30) || entry.number == code(60);

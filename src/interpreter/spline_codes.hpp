@@ -1,7 +1,7 @@
-// SplineCodes: splines. G5 and G5.1, which are Bézier curves, and the NURBS between G5.2 and G5.3.
+// SplineCodes: the Bézier curves of G5 and G5.1, and the NURBS between G5.2 and G5.3.
 //
-// All lie in X and Y, which LinuxCNC names by their words; the other axes stay. G5.2 is modal: each block gives one
-// control point, with its weight P, and the tool moves at G5.3. Between the two nothing may move the tool or the frame.
+// All these curves lie in X and Y; the other axes stay. G5.2 is modal: each block gives one control point with its
+// weight P. At G5.3 the tool moves along the curve. Between G5.2 and G5.3 nothing may move the tool or the frame.
 #pragma once
 
 #include <array>
@@ -20,14 +20,14 @@ class SplineCodes : private CodeFamily {
   bool quadratic();
   bool nurbs_point();
   bool end_nurbs();
-  // Another code moves: a G5 that follows has no direction to go on in.
+  // Tells that another code moves. A G5 after it has no curve whose direction it could continue.
   void interrupt() { exit_.reset(); }
 
-  // From G5.2 to G5.3.
+  // True from G5.2 to G5.3.
   bool nurbs_is_open() const { return nurbs_.open; }
-  // What would move the tool or the frame, or ends the program, is told, and the curve given up.
+  // Reports a code that would move the tool or the frame, or that ends the program. Then the curve is given up.
   void check_nurbs_is_closed();
-  // The program is over.
+  // Called at the end of the program.
   void report_open_nurbs();
 
  private:
@@ -39,17 +39,17 @@ class SplineCodes : private CodeFamily {
   bool add_nurbs_point(bool first);
   void close_nurbs();
 
-  // The control points of a G5 or G5.1, which its operation borrows; and where the last G5 leads on from its end, as
-  // long as G5 follows G5.
+  // The control points of a G5 or G5.1. Its operation borrows them.
   std::array<operation::ControlPoint, 4> points_{};
+  // The direction in which the last G5 ended. Empty: the last motion was no G5.
   std::optional<PlanePoint> exit_;
-  // Memory grows with the points of the longest NURBS, up to a bound, and is kept.
+  // Memory grows with the points of the longest NURBS, up to most_points, and is not given back.
   struct OpenNurbs {
     static constexpr std::size_t most_points = 4096;
     std::vector<operation::ControlPoint> points = {};
     std::int32_t order = 0;
-    std::uint32_t line = 0;  // where it begins
-    bool wrong = false;      // a point was refused, and that was told
+    std::uint32_t line = 0;  // the line where the NURBS begins
+    bool wrong = false;      // true: a block of the NURBS was wrong, which was reported
     bool open = false;
   };
   OpenNurbs nurbs_;

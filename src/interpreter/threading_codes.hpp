@@ -1,4 +1,4 @@
-// ThreadingCodes: the words of the threading cycle G76. The passes are ThreadingCycle's.
+// ThreadingCodes: the words of the threading cycle G76. ThreadingCycle makes the passes.
 #pragma once
 
 #include <optional>

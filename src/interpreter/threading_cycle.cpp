@@ -5,7 +5,8 @@
 namespace passo {
 
 bool ThreadingCycle::step() {
-  // From the drive line and in the program's units, so that a pass that comes out at K is rounded as in LinuxCNC.
+  // Depths are compared from the drive line and in the program's units. So a pass that is about K deep is rounded as in
+  // LinuxCNC.
   const double crest = plan_.crest;
   const double depth = plan_.first_cut * std::pow(pass_, 1 / plan_.degression);
   if (!full_depth_reached_ && crest + depth < crest + plan_.full_depth) {

@@ -1,8 +1,9 @@
 // ThreadingCycle: G76, a thread cut in passes along Z, as operations.
 //
-// Depths count from the thread's crest. Pass n goes J * n^(1/R) deep, the last ones (with H spring passes) K. With Q
-// the tool follows the thread's flank: the deeper, the further back along Z it starts. E and L let the tool in and out
-// on a slope, on which the pitch grows so that along the slope the turns stay as far apart. Millimetres.
+// Depths count from the thread's crest. Pass n goes J * n^(1/R) deep. The last pass and H spring passes go K deep. With
+// Q the tool follows the thread's flank: the deeper a pass, the further along the cut's direction it starts and ends. E
+// and L lead the tool in and out on a slope. On the slope the feed for a revolution is larger, so that along Z the
+// turns stay equally far apart. Lengths are in millimetres.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +14,22 @@ namespace passo {
 
 struct ThreadingPlan {
   Point start;
-  Point end;           // the place after the last pass
-  double outward = 1;  // along X, away from the thread: 1 outside, -1 inside
-  // From the start to the thread's crest (I), of the first pass (J) and of the last (K), in the program's units: what
-  // a pass is compared in, so that it is rounded as in LinuxCNC.
-  double crest = 0;
-  double first_cut = 0;
-  double full_depth = 0;
-  double unit = 1;                 // of these, in millimetres along X
+  Point end;           // its Z is the thread's end; the tool's position after the last pass
+  double outward = 1;  // the way along X away from the thread: 1 for an outside thread, -1 for an inside thread
+  // These three are in the program's units. Depths are compared in these units, so that they are rounded as in
+  // LinuxCNC.
+  double crest = 0;                // I, from the start to the thread's crest
+  double first_cut = 0;            // J, the depth of the first pass
+  double full_depth = 0;           // K, the depth of the last pass
+  double unit = 1;                 // millimetres along X in one of these units
   double pitch = 0;                // P
-  double infeed_tangent = 0;       // of Q, the compound slide's angle; its sign is the cut's direction
+  double infeed_tangent = 0;       // tangent of Q, the compound slide's angle; negated if the cut goes towards higher Z
   double degression = 1;           // R
   std::int32_t spring_passes = 0;  // H
-  double taper = 0;                // E, along Z in the cut's direction
+  double taper = 0;                // E, the slope's length along Z; negated if the cut goes towards higher Z
   bool taper_at_start = false;
   bool taper_at_end = false;
-  bool feed_override = true;  // whether the override is on, and is on again after each pass
+  bool feed_override = true;  // whether the override was on: it is switched on again after each pass
 };
 
 class ThreadingCycle final : public Cycle {

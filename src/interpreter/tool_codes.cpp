@@ -14,7 +14,7 @@ constexpr int rotary_fixture = 9;  // G10 L11 measures in G59.3
 
 }  // namespace
 
-// Null, and no error, for "no tool" (0) and where there is no table to look in.
+// Finds null without an error if the number is 0 (no tool) or if no tool table was given.
 bool ToolCodes::find_tool(std::int32_t number, Span span, const Tool*& tool) {
   tool = state_.tools.find(number);
   if (tool != nullptr || number == 0 || state_.tools.name.empty()) return true;
@@ -84,7 +84,7 @@ bool ToolCodes::set_length(CodeNumber number) {
   return true;
 }
 
-// Of the tool of H; without it or with H0, of the one in the spindle.
+// The offset of the tool H. Without H or with H0, the offset of the tool in the spindle.
 bool ToolCodes::tool_offset(Point& offset) {
   std::int32_t number = 0;
   const Tool* tool = nullptr;
@@ -105,7 +105,8 @@ bool ToolCodes::tool_offset(Point& offset) {
   return true;
 }
 
-// G10 L0. Nothing changes the table but the program, whose changes LinuxCNC would have written and now read again.
+// G10 L0: LinuxCNC reads the tool table again. Only the program changes the table, and LinuxCNC would have written
+// those changes to the file. So here the table stays as it is.
 bool ToolCodes::reload_tools() {
   if (state_.tool != 0) {
     return fail("gcode.tool-loaded", words_.span('L'),
@@ -143,8 +144,8 @@ bool ToolCodes::check_tool_entry_words(Tool*& tool) {
   return true;
 }
 
-// G10 L1: the tool's offset is… L10: such that this is the given position once G43 is active. L11: the same, in G59.3
-// and without a G92 offset.
+// G10 L1 sets a tool's offset. L10 sets the offset with which this position is the given one once G43 is active. L11
+// does the same as L10 in G59.3 and without a G92 offset.
 bool ToolCodes::set_tool_table_entry() {
   Tool* tool = nullptr;
   if (!check_tool_entry_words(tool)) return false;
@@ -154,7 +155,7 @@ bool ToolCodes::set_tool_table_entry() {
   if (words_.has('J')) tool->back_angle_deg = words_['J'];
   if (words_.has('Q')) tool->orientation = static_cast<std::int32_t>(std::round(words_['Q']));
   emit(operation::SetToolTableEntry{tool->place, tool});
-  // Until a tool is loaded the first one of the table counts as the one in the spindle, as in rs274.
+  // As in rs274, the first tool of the table counts as the tool in the spindle until a tool is loaded.
   const bool in_spindle = was_loaded_ ? tool->number == state_.tool : tool->place == 1;
   if (in_spindle) {
     state_.spindle_tool = *tool;
@@ -178,7 +179,7 @@ void ToolCodes::set_tool_offsets(Tool& tool) {
     frame.follow({operation::SetRotation{parameters_.get(rotation_parameter(rotary_fixture))}, block_.source});
     frame.follow({operation::SetG92Offset{}, block_.source});
   }
-  // With the tool's offset as it is this is `here`; the tool's offset takes up the difference to what is wanted.
+  // With the tool's present offset the tool is at `machine`. The new offset takes up the difference to `wanted`.
   frame.follow({operation::SetToolOffset{tool.offset}, block_.source});
   const Point machine = state_.machine_position();
   Point wanted = frame.work_from_machine(machine);

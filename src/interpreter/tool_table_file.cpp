@@ -143,7 +143,7 @@ constexpr std::string_view blanks = " \t\r";
 constexpr std::string_view value_letters = "XYZABCUVWDIJQ";
 constexpr double written_alike = 5e-7;  // six decimals are written
 
-// A tool's number for a letter of its line, in the file's units.
+// The number that belongs behind this letter in the tool's line, in the file's units.
 double value_of(const Tool& tool, char letter, double unit) {
   switch (letter) {
     case 'D': return tool.diameter.value() / unit;
@@ -164,7 +164,7 @@ std::string written(char letter, double value, bool plus) {
   return letter + (plus && text.front() != '-' ? "+" + text : text);
 }
 
-// A line without its remark: the places of its words.
+// The words of a line without its remark.
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t at = line.find_first_not_of(blanks); at != std::string_view::npos;) {
