@@ -11,7 +11,7 @@ namespace {
 
 enum class Quantity : std::uint8_t { number, length, degrees, seconds, speed };
 
-// What a letter means with a code. A code that is in no line here says "a value of" itself.
+// What a letter means with a code. For a code without a line here, the text is "a value of" and the code.
 struct LetterMeaning {
   const char* letters;
   CodeNumber first;  // G codes from here…
@@ -73,7 +73,7 @@ std::string on_axis(double millimetres_or_degrees, Axis axis) {
   return fmt::format("{} {}", rounded(millimetres_or_degrees), is_rotary(axis) ? "degrees" : "mm");
 }
 
-// The words of one block, and what its codes make of them.
+// The words of one block, and their meanings with its codes.
 class Meanings {
  public:
   Meanings(const std::vector<WordValue>& words, const ProgramState& before, const ProgramState& after) : after_(after) {
@@ -83,7 +83,8 @@ class Meanings {
       if (const CodeEntry* const entry = code_of(word)) codes_.push_back(entry);
     }
     for (const CodeEntry* entry : codes_) {
-      // G53 with its move, and a motion with what only sets: the one that uses the axis words takes them.
+      // A block may have two codes, as G53 and its move, or a motion and a code that only sets. The one that uses the
+      // axis words takes them.
       if (entry->axes != AxisUse::none && (taker_ == nullptr || entry->group != ModalGroup::motion)) taker_ = entry;
       machine_ = machine_ || (entry->letter == 'G' && entry->number == code(53));
     }
@@ -94,7 +95,7 @@ class Meanings {
     codes_.push_back(implied_);
   }
 
-  // "the active motion" where axis words are moved by it.
+  // The active motion, if it takes the words of the block. Null: it does not.
   const CodeEntry* implied_motion() const { return taker_ == implied_ ? implied_ : nullptr; }
 
   std::string of(const WordValue& word) const {
@@ -139,7 +140,7 @@ class Meanings {
                        after_.modal.per_revolution() ? " a revolution" : " a minute");
   }
 
-  // Straight moves and arcs end at their words; what a cycle does with them is its own.
+  // Straight moves and arcs end at their axis words. A cycle uses them in its own way.
   static bool goes_to_its_words(const CodeEntry& entry) {
     return entry.letter == 'G' && entry.group == ModalGroup::motion && entry.number < code(70);
   }
@@ -199,8 +200,8 @@ class Meanings {
 
   const ProgramState& after_;
   std::vector<const CodeEntry*> codes_;
-  const CodeEntry* taker_ = nullptr;    // of the axis words
-  const CodeEntry* implied_ = nullptr;  // the motion that is active, where it takes them
+  const CodeEntry* taker_ = nullptr;    // the code that takes the axis words
+  const CodeEntry* implied_ = nullptr;  // the active motion, if no code of the block takes the axis words
   bool machine_ = false;                // G53
 };
 

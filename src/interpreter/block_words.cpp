@@ -8,11 +8,11 @@
 namespace passo {
 namespace {
 
-// G code numbers are read as written: 59.1 in binary is not 59.1.
+// G code numbers are compared with a tolerance, because 59.1 is not exact in binary.
 constexpr double code_tolerance = 1e-4;
 constexpr double code_limit = 1000;
 
-// By letter_index().
+// Indexed by letter_index().
 constexpr auto axis_of_letter = [] {
   std::array<Axis, letter_count> axes{};
   for (const Axis axis : all_axes) axes[letter_index(letter_of(axis))] = axis;
@@ -64,7 +64,7 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
     return false;
   }
   const std::size_t group = index_of(entry->group);
-  // G80 gives way to another motion: `G17 G40 G80 G0` is how many programs begin.
+  // Another motion replaces G80, because many programs begin with `G17 G40 G80 G0`.
   if (entry->group == ModalGroup::motion && codes_[group] != nullptr) {
     if (entry->number == passo::code(80)) return true;
     if (codes_[group]->number == passo::code(80)) codes_[group] = nullptr;

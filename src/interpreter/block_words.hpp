@@ -20,16 +20,16 @@ constexpr std::uint32_t bit_of(ModalGroup group) {
 
 class BlockWords {
  public:
-  // Evaluates the words of `block`. False: a word is wrong: unknown, given twice, or of a group already seen. All such
-  // words are reported.
+  // Evaluates the words of `block`. False: a word is wrong: unknown, without a value, given twice, or of a group
+  // already seen. All such words are reported.
   [[nodiscard]] bool read(const Block& block, const ParameterValues& parameters, Reporter& reporter);
   void clear();
 
   bool has(char letter) const { return present_.has(letter); }
   double operator[](char letter) const { return values_[letter_index(letter)]; }
   Span span(char letter) const { return spans_[letter_index(letter)]; }
-  LetterSet present() const { return present_; }  // without G, M, N, O
-  // G65 or G66: the words after it are arguments, even M.
+  LetterSet present() const { return present_; }  // without G and codes of M
+  // True: the block has G65 or G66. The words after it are arguments, even M.
   bool calls_macro() const { return calls_macro_; }
   // Where the axis words are.
   void find_axes(AxisWords& places) const;
@@ -41,7 +41,7 @@ class BlockWords {
     return entry != nullptr && entry->number == number;
   }
   Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
-  // Of those that the block has a code of.
+  // The bits of the groups of which the block has a code.
   std::uint32_t groups() const { return groups_; }
 
  private:
@@ -51,7 +51,7 @@ class BlockWords {
   LetterSet present_;
   bool calls_macro_ = false;
   std::uint32_t groups_ = 0;
-  // Only what present_ and groups_ speak of is up to date, except codes_.
+  // Only the entries that present_ and groups_ name are up to date. codes_ is up to date as a whole.
   std::array<double, letter_count> values_{};
   std::array<Span, letter_count> spans_{};
   std::array<const CodeEntry*, modal_group_count> codes_{};

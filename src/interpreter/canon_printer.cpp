@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t counter_width = 5;
 constexpr std::size_t line_number_digits = 6;
 
-// What rounds to nothing is 0.0000, never -0.0000: the sign of a rounding error says nothing.
+// A value that rounds to zero is printed as 0.0000, never as -0.0000, because the sign of a rounding error means
+// nothing.
 double clean(double value) {
   return std::abs(value) < 0.00005 ? 0 : value;
 }
@@ -62,12 +63,12 @@ const char* name_of(Plane plane) {
     case Plane::xy: return "XY";
     case Plane::zx: return "XZ";
     case Plane::yz: return "YZ";
-    default: return "UNKNOWN";  // rs274 has no names for those of U V W
+    default: return "UNKNOWN";  // rs274 has no names for the planes of U V W
   }
 }
 
-// Each call below is named and written exactly as saicanon.cc of LinuxCNC 2.9 does it; the first number of spindle
-// calls is the spindle's.
+// Each call below is named and written exactly as in saicanon.cc of LinuxCNC 2.9. The first number of a spindle call is
+// the number of the spindle.
 struct Call {
   Line& line;
   FeedMode feed_mode;
@@ -125,7 +126,7 @@ struct Call {
     line.length(arc.end, plane[2]) << ", ";
     line.rotary(arc.end) << ")";
   }
-  // rs274 tells no more than how many control points there are.
+  // rs274 prints only the number of control points.
   void operator()(const operation::NurbsFeed& curve) const {
     (line << "NURBS_FEED(").whole(static_cast<std::int64_t>(curve.points.size())) << ", ...)";
   }
@@ -237,8 +238,8 @@ void print_head(std::uint64_t count, std::int64_t line_number, std::string& out)
 void CanonPrinter::print(const Operation& operation, std::string& out) {
   if (const auto* set = std::get_if<operation::SetLengthUnits>(&operation.what)) units_ = set->units;
   if (const auto* set = std::get_if<operation::SetFeedMode>(&operation.what)) feed_mode_ = set->mode;
-  if (std::holds_alternative<operation::ReadInput>(operation.what)) return;  // rs274 says nothing
-  // What (PRINT,…) says goes to the operator as it is: rs274 neither counts nor numbers it.
+  if (std::holds_alternative<operation::ReadInput>(operation.what)) return;  // rs274 prints nothing for it
+  // The text of (PRINT,…) goes to the operator unchanged. rs274 prints no counter and no N before it.
   if (!std::holds_alternative<operation::Print>(operation.what)) {
     print_head(++count_, operation.source.line_number, out);
   }

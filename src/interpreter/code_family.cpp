@@ -33,7 +33,6 @@ bool CodeFamily::whole_word(char letter, double lowest, double highest, std::int
   return true;
 }
 
-// What to point at when a motion is wrong: its code, or where it is modal the first word that made it move.
 Span CodeFamily::motion_span() const {
   if (words_.code(motion) != nullptr) return words_.span(motion);
   for (const Word& word : reporter_.block().words) {
@@ -50,7 +49,6 @@ double CodeFamily::axis_word(Axis axis) const {
   return axis == Axis::x && state_.modal.diameters() ? value / 2 : value;
 }
 
-// Where the block's axis words lead, in work coordinates.
 bool CodeFamily::end_point(Point& end) {
   end = state_.position;
   if (words_.has_code(non_modal, code(53))) return machine_end_point(end);
@@ -75,7 +73,7 @@ bool CodeFamily::machine_end_point(Point& end) {
     if (words_.has(letter_of(axis))) machine[axis] = axis_word(axis);
   }
   const Point work = state_.frame.work_from_machine(machine);
-  // An axis that is not named keeps its value bit for bit; in a turned frame X and Y go together.
+  // An axis that is not named keeps its value bit for bit. In a turned frame X and Y change together.
   const bool turned = state_.frame.rotation_degrees() != 0 && (words_.has('X') || words_.has('Y'));
   for (const Axis axis : all_axes) {
     if (words_.has(letter_of(axis)) || (turned && (axis == Axis::x || axis == Axis::y))) end[axis] = work[axis];
@@ -83,7 +81,7 @@ bool CodeFamily::machine_end_point(Point& end) {
   return true;
 }
 
-// @ is a distance from the origin and ^ an angle about it; what is not given stays.
+// @ is a distance from the origin, and ^ is an angle about it. If one is not given, it keeps its value.
 bool CodeFamily::apply_polar(Point& end) {
   const char letter = words_.has('@') ? '@' : '^';
   if (state_.modal.plane() != Plane::xy || words_.has('X') || words_.has('Y')) {
@@ -112,7 +110,7 @@ bool CodeFamily::check_feed() {
                 "F in each block with a feed move, or G94");
   }
   if (state_.feed <= 0) {
-    if (std::exchange(block_.missing_feed_told, true)) return false;  // once, not at every move that follows
+    if (std::exchange(block_.missing_feed_told, true)) return false;  // reported once, not at every move
     return fail("gcode.missing-feed", motion_span(), "no feed rate is set",
                 "F before the first feed move, or in its block");
   }
@@ -133,7 +131,7 @@ void CodeFamily::emit_feed_rate(double units) {
   emit(operation::SetFeedRate{units * state_.length_unit() / time, units / time});
 }
 
-// The spindles of `$`: one, or with -1 all where the code is for several; spindle 0 where there is no `$`.
+// The range is one spindle, or with $-1 all spindles if the code allows that. Without `$` it is spindle 0.
 bool CodeFamily::spindle_word(SpindleChoice choice, SpindleRange& range) {
   range = {0, 1};
   if (!words_.has('$')) return true;

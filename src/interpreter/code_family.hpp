@@ -25,7 +25,7 @@ class CodeFamily {
         words_(block.words) {}
   ~CodeFamily() = default;
 
-  // Faults. fail() says false.
+  // Faults. fail() returns false.
   bool fail(std::string_view code, Span span, std::string message, std::string expected = {});
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
   bool fail_at_origin(char polar_letter);
@@ -66,7 +66,7 @@ class CodeFamily {
   Operation operation_of(const OperationKind& what) const {
     return {what, block_.source, block_.word, &block_.axis_words};
   }
-  // One that is held back while other lines are read: with the text of its own.
+  // An operation that is held back while other lines are read. So it carries the text of its own line.
   Operation kept_operation(const OperationKind& what = operation::Comment{}) const {
     return {what, block_.source, block_.word, &block_.axis_words, reporter_.file(), reporter_.block().text};
   }

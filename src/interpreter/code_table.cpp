@@ -148,7 +148,7 @@ constexpr CodeNumber number_limit = code(100);
 constexpr std::uint8_t nothing = 0xff;
 static_assert(table_size < nothing);
 
-// From letter and number to a line of the table in one step: this is looked up several times in every block.
+// Finds the line of the table from letter and number in one step, because every block looks up several codes.
 using Index = std::array<std::array<std::uint8_t, static_cast<std::size_t>(number_limit)>, 2>;
 constexpr Index make_index() {
   Index index{};

@@ -15,8 +15,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// The parameter whose name begins after the '#' at the start of `text`: its value, and how long its name is. Length 0:
-// this '#' is only a '#'.
+// The parameter that is named at the start of `text`: its value, and the length of its name with the '#'. Length 0:
+// this '#' names no parameter.
 struct Found {
   std::size_t length = 0;
   bool known = false;
@@ -39,13 +39,14 @@ Found find_parameter(std::string_view text, const ParameterValues& parameters, S
   return found;
 }
 
-// How values are written from here on: %d, %f and %.3f, as LinuxCNC knows them. Returns how much of the text that was.
+// Reads how the values after this place are written: %d, %f or %.3f, as in LinuxCNC. Returns the length of what was
+// read.
 std::size_t read_format(std::string_view text, int& decimals) {
   constexpr int decimals_of_f = 4;
   if (text.starts_with("%d")) return decimals = 0, 2;
   if (text.starts_with("%f")) return decimals = decimals_of_f, 2;
   if (!text.starts_with("%.")) return 0;
-  if (text.size() < 4 || !is_digit(text[2]) || text[3] != 'f') return 1;  // its % goes
+  if (text.size() < 4 || !is_digit(text[2]) || text[3] != 'f') return 1;  // only the '%' is dropped
   return decimals = text[2] - '0', 4;
 }
 

@@ -9,8 +9,8 @@
 
 namespace passo {
 
-// Six decimals, or as %d (none), %f (four) or %.3f before them say, as LinuxCNC writes them; ###### where there is no
-// such parameter.
+// Values have six decimals, unless %d (none), %f (four) or %.3f before them says otherwise, as in LinuxCNC. A parameter
+// that does not exist becomes ######.
 void fill_in_parameters(std::string_view text, const ParameterValues& parameters, SymbolTable& symbols,
                         std::string& out);
 

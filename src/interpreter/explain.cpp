@@ -10,7 +10,7 @@
 namespace passo {
 namespace {
 
-// Fills in the explanations of the lines of a range as the program comes by.
+// Fills in the explanations of the lines of a range while the program runs.
 class Explainer final : public BlockWatcher {
  public:
   Explainer(std::string file, LineRange range, Explanations& result)
@@ -36,7 +36,7 @@ class Explainer final : public BlockWatcher {
     current_->modes = modes_in_words(state_before_, state);
   }
 
-  // Operations come after their block was executed and before the next one is.
+  // The operations of a block come after the block was executed, and before the next block is.
   void add(std::string operation) {
     if (current_ != nullptr) current_->operations.push_back(std::move(operation));
   }
@@ -52,13 +52,13 @@ class Explainer final : public BlockWatcher {
   std::vector<WordValue> words_;
 };
 
-// The lines as they are in the file, and how many there are.
+// Reads the lines as they are in the file, and counts them.
 void read_lines(ProgramReader reader, LineRange range, Explanations& result) {
-  Diagnostics ignored;  // the run tells them
+  Diagnostics ignored;  // the run reports them
   std::string_view text;
   std::uint32_t line = 0;
   while (reader.next_line(text, line, ignored)) {
-    // A line that cannot be read is passed over by the reader, and has no text.
+    // The reader skips a line that cannot be read. Such a line has no text.
     for (std::uint32_t missing = result.lines_in_file + 1; missing <= line; ++missing) {
       if (missing < range.first || missing > range.last) continue;
       Explanation& explanation = result.lines.emplace_back();

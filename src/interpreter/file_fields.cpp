@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view blanks = " \t\r\f\v";
 constexpr double largest_number = 1e12;
 
-// "+1" is a number to people and to LinuxCNC, not to std::from_chars.
+// People and LinuxCNC write "+1", but std::from_chars does not accept the plus.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   return text;

@@ -1,8 +1,8 @@
-// FieldReader: the lines of a small settings file (tools, parameters, ini) as fields between blanks, and what is wrong
-// with them, with line, column and caret.
+// FieldReader: reads the lines of a small settings file (tools, parameters, ini) as fields between blanks. Errors are
+// reported with line, column and caret.
 //
-// The files come from anywhere: a line of any length, any byte, any number must do no harm. Lines over 64 KiB and NUL
-// bytes are refused by ProgramReader; numbers must be finite and below a million million.
+// The files come from anywhere, so a line of any length, any byte and any number must do no harm. ProgramReader refuses
+// lines over 64 KiB and NUL bytes. Numbers must be finite and below a million million.
 #pragma once
 
 #include <cstdint>

@@ -56,7 +56,7 @@ constexpr double highest_grbl_tool = 255;
 constexpr double highest_line_number = 10'000'000;
 constexpr double work_systems = 6;
 
-// grbl's errors for programs. 3 and 5 to 19 are of its settings and states, and none of a program's.
+// grbl's errors. The numbers that are missing are of grbl's settings and states, and never of a program.
 struct Error {
   int number;
   std::string_view code;  // of grbl's own checks
@@ -89,7 +89,7 @@ constexpr Error errors[] = {
     {38, "grbl.highest-tool", "tool number above the maximum"},
 };
 
-// grbl's number for what the interpreter itself finds.
+// grbl's number for an error that the interpreter itself finds.
 struct Translation {
   std::string_view code;
   int number;
@@ -117,7 +117,7 @@ Use use_of(char letter, CodeNumber number, bool& known) {
   return known ? found->use : Use::yes;
 }
 
-// One block on its way into grbl.
+// Checks one block as grbl would.
 class GrblCheck {
  public:
   GrblCheck(const Block& block, const ProgramState& state, Reporter& reporter)
@@ -193,7 +193,7 @@ class GrblCheck {
     if (!readable || std::abs(value * 10 - tenths) > 1e-3 || !known) {
       bool whole_known = false;
       (void)use_of(word.letter, static_cast<CodeNumber>(readable ? std::floor(value) * 10 : -1), whole_known);
-      // grbl looks at the whole number first: G54.1 is a G54 with digits too many, and G64 is nothing at all.
+      // grbl looks at the whole number first. So G54.1 is a G54 with too many digits, and G64 is an unknown code.
       const bool fraction = readable && std::abs(value - std::round(value)) > 1e-3;
       const bool digits_too_many =
           fraction && (word.letter == 'M' || (whole_known && !has_fractions(word.letter, static_cast<int>(value))));
@@ -275,7 +275,7 @@ class GrblCheck {
     return true;
   }
 
-  // An arc needs a word of an axis of its plane, where LinuxCNC takes the centre alone for a full circle.
+  // In grbl an arc needs an axis word of its plane. LinuxCNC takes the centre alone as a full circle.
   bool arc_suffices() {
     const CodeEntry* const written = code_of(ModalGroup::motion);
     const CodeNumber motion = written != nullptr ? written->number : state_.modal[ModalGroup::motion];

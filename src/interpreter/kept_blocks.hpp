@@ -20,7 +20,7 @@ struct KeptBlock {
   std::uint32_t file = 0;  // its number among those of the program
   ReaderPosition at{.offset = 0, .line = 0};
   ReaderPosition after;  // the line after it
-  std::string text;      // the line; what the block's views point into
+  std::string text;      // the line; the block's views point into it
   Block block;
 };
 
@@ -45,7 +45,7 @@ class KeptBlocks {
     there.text.assign(text);
     return there;
   }
-  // The line has no block after all.
+  // Empties a place whose line turned out to have no block.
   static void drop(KeptBlock& kept) { kept.at.line = 0; }
 
  private:

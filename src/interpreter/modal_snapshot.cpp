@@ -24,7 +24,7 @@ ModalSnapshot snapshot_of(const ProgramState& state) {
           .feed_hold = state.feed_hold};
 }
 
-// M70 saves, M71 forgets, M72 restores, M73 saves and has the end of the sub restore.
+// M70 saves, M71 forgets, M72 restores. M73 saves, and the end of the sub then restores.
 bool BlockExecutor::keep_modal_state(CodeNumber number) {
   const auto depth = static_cast<std::size_t>(state_.call_depth);
   if (depth >= snapshots_.size()) snapshots_.resize(depth + 1);
@@ -52,8 +52,8 @@ void BlockExecutor::leave_sub(const OperationSource& source) {
   restore(snapshots_[left]);
 }
 
-// In the order in which a block would do it. Feed, speed and path mode are told even where they stayed, as LinuxCNC
-// does.
+// Restores in the order in which a block would set the modes. Feed, the speed of spindle 0 and path mode are emitted
+// even if they did not change, as in LinuxCNC.
 void BlockExecutor::restore(const ModalSnapshot& saved) {
   words_.clear();
   const auto put_back = [&](ModalGroup group, GroupFunction set) {
@@ -66,7 +66,7 @@ void BlockExecutor::restore(const ModalSnapshot& saved) {
   restore_spindles(saved);
   put_back(plane, own<&BlockExecutor::select_plane>);
   put_back(lathe_diameter, own<&BlockExecutor::set_lathe_diameter>);
-  // It can be put back to off; on, it wants a tool and a move that leads in.
+  // Cutter compensation is restored only to off. To turn it on needs a tool and a move that leads in.
   if (saved.modal[cutter_compensation] == code(40)) {
     put_back(cutter_compensation, of<&BlockExecutor::cutter_codes_, &CutterCodes::set>);
   }

@@ -1,5 +1,5 @@
-// ModalSnapshot: the part of the modal state that M70 and M73 save and M72 restores. One for the main program and one
-// for each sub that runs. The motion code, positions and offsets of work systems are not part of it.
+// ModalSnapshot: the part of the modal state that M70 and M73 save and M72 restores. There is one for the main program
+// and one for each sub that runs. The motion code, positions and offsets of work systems are not part of it.
 #pragma once
 
 #include "program_state.hpp"

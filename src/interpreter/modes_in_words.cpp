@@ -66,7 +66,7 @@ std::string rotation_of(const ProgramState& state) {
   return fmt::format("{} degrees", plain_number(state.frame.rotation_degrees()));
 }
 
-// What no code of a modal group says.
+// The settings that no code of a modal group tells.
 struct Setting {
   const char* name;
   std::string (*of)(const ProgramState&);

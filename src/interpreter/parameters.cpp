@@ -40,7 +40,7 @@ bool Parameters::numbered(std::int64_t number, double& value) const {
   return true;
 }
 
-// What is known of the tool in the spindle.
+// The parameters that describe the tool in the spindle.
 double Parameters::of_tool(int number) const {
   const Tool& tool = state_.spindle_tool;
   if (number == tool_parameter) return state_.tool;

@@ -16,7 +16,7 @@ template <Axis axis>
 double machine(const State& state) {
   return state.machine_position()[axis] / state.units_of(axis);
 }
-// As LinuxCNC tells codes: ten times their number.
+// As in LinuxCNC, a code is given as ten times its number.
 template <ModalGroup group>
 double active(const State& state) {
   return state.modal[group];
@@ -66,11 +66,11 @@ double selected_pocket(const State& state) {
 double tool_offset_on(const State& state) {
   return truth(state.modal[ModalGroup::tool_length] != code(49));
 }
-// Codes that are made of other codes: there are none.
+// How deep remapped codes are nested. Passo has no remapped codes.
 double remap_level(const State&) {
   return 0;
 }
-// The language's version, LinuxCNC 2.9: programs ask it to know what they may use.
+// The version of the language, LinuxCNC 2.9. Programs read it to find out what they may use.
 double major_version(const State&) {
   return 2.9;
 }

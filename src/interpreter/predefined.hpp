@@ -1,4 +1,4 @@
-// The predefined #<_names>, which tell what the machine does just now. Each name is one line of a table.
+// The predefined #<_names>. They tell the present state of the machine. Each name is one line of a table.
 #pragma once
 
 #include <span>

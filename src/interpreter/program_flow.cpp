@@ -69,7 +69,7 @@ const Block* ProgramFlow::next() {
           const Frame& frame = frames_.back();
           report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}, 0});
         }
-        block_->text = {};  // the reader's, and gone
+        block_->text = {};  // the text is the reader's, and is lost
         return finish(End::file);
       case Read::skipped: continue;
       case Read::block: break;
@@ -88,7 +88,7 @@ const Block* ProgramFlow::next() {
     obey(*block_->control);
     if (watcher_ != nullptr) watcher_->after(state_);
     if (contour_depth_ != 0) {
-      left_sub_.reset();  // nothing was executed there, so nothing is put back
+      left_sub_.reset();  // nothing was executed in the sub, so nothing is restored
     } else if (left_sub_) {
       return nullptr;
     }
@@ -96,7 +96,7 @@ const Block* ProgramFlow::next() {
   return nullptr;
 }
 
-// A '%' before everything else opens the program, the next one closes it.
+// A '%' before everything else opens the program. The next '%' closes it.
 bool ProgramFlow::is_percent_end() {
   const bool ends = std::exchange(begun_, true);
   opened_percent_ = opened_percent_ || !ends;
@@ -183,7 +183,7 @@ void ProgramFlow::begin_if(Symbol label, const Control& control) {
   }
 }
 
-// From a branch that was not taken to the one that is, or behind the endif.
+// Goes from a branch that is not taken to the one that is taken, or behind the endif.
 bool ProgramFlow::skip_branch(const Open& from) {
   while (skip_to(from, kinds({elseif, else_, endif}))) {
     const Control& control = *block_->control;
@@ -199,7 +199,7 @@ bool ProgramFlow::skip_branch(const Open& from) {
   return false;
 }
 
-// elseif, else and endif at the end of the branch that was taken.
+// For elseif, else and endif at the end of the branch that was taken.
 void ProgramFlow::next_branch(Symbol label, const Control& control) {
   const Open* const open = require_innermost(if_, label, control);
   if (open == nullptr) return;
@@ -217,7 +217,7 @@ void ProgramFlow::begin_while(Symbol label, const Control& control) {
 
 void ProgramFlow::end_while(Symbol label, const Control& control) {
   const Open* const open = require_innermost(while_, label, control);
-  if (open != nullptr && go_round(*open)) file_->reader.seek(open->at);  // its condition is asked again
+  if (open != nullptr && go_round(*open)) file_->reader.seek(open->at);  // its condition is evaluated again
 }
 
 void ProgramFlow::end_do(Symbol label, const Control& control) {
@@ -253,7 +253,7 @@ void ProgramFlow::end_repeat(Symbol label, const Control& control) {
 }
 
 void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
-  const bool leave = control.kind == break_;  // the block goes when its end is searched for
+  const bool leave = control.kind == break_;  // `control` is overwritten when the loop's end is searched
   while (any_open()) {
     const Open open = open_.back();
     if (open.kind == if_ || open.label != label) {
@@ -264,7 +264,7 @@ void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
     if (leave) {
       open_.pop_back();
     } else {
-      file_->reader.seek(block_at_);  // the loop's end decides
+      file_->reader.seek(block_at_);  // the line at the loop's end decides
     }
     return;
   }
@@ -292,7 +292,7 @@ ProgramFlow::Open* ProgramFlow::innermost(ControlKind kind, Symbol label) {
   return open.kind == kind && open.label == label ? &open : nullptr;
 }
 
-// What an O-word ends, out of those that are open; those inside it that were not closed are told and left.
+// Finds the open construct that an O-word ends. Constructs inside it that were not closed are reported and left.
 ProgramFlow::Open* ProgramFlow::require_innermost(ControlKind kind, Symbol label, const Control& control) {
   for (std::size_t i = open_.size(); i > first_open(); --i) {
     if (open_[i - 1].kind != kind || open_[i - 1].label != label) continue;
@@ -304,7 +304,7 @@ ProgramFlow::Open* ProgramFlow::require_innermost(ControlKind kind, Symbol label
   return nullptr;
 }
 
-// Once more round a loop, unless it went round too often for nothing.
+// True: the loop may go round once more. False: it went round too often without any operation.
 bool ProgramFlow::go_round(const Open& loop) {
   if (++idle_passes_ <= options_.idle_passes) return true;
   file_->reader.seek(loop.at);
@@ -316,8 +316,8 @@ bool ProgramFlow::go_round(const Open& loop) {
   return false;
 }
 
-// Reads on to the line with an O-word of `from`'s label and one of the wanted kinds; block_ is then that line. A
-// construct of the same label and kind inside is passed over whole.
+// Reads on to the line with an O-word of `from`'s label and one of the wanted kinds. Then block_ is that line. A
+// construct of the same label and kind inside is skipped as a whole.
 bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
   const Open opening = from;  // `from` may be in open_
   int inside = 0;

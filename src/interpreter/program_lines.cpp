@@ -1,4 +1,4 @@
-// ProgramFlow: its lines, read and parsed or kept from an earlier pass.
+// ProgramFlow: the lines. A line is read and parsed, or its block was kept from an earlier pass.
 #include <algorithm>
 
 #include "grbl.hpp"
@@ -7,7 +7,8 @@
 namespace passo {
 namespace {
 
-// 'O' first, after white space, '/' and N with its number: all that is looked at in a line that is skipped.
+// Whether an 'O' comes first, after white space, '/' and N with its number. Nothing else is looked at in a skipped
+// line.
 bool may_be_control(std::string_view text) {
   std::size_t i = 0;
   const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
@@ -43,7 +44,7 @@ ProgramFlow::Read ProgramFlow::read() {
   return good ? Read::block : Read::skipped;
 }
 
-// The next line's block, where it is kept.
+// Takes the block of the next line, if it is kept.
 bool ProgramFlow::recall() {
   if (block_at_.offset >= file_->read_to) return false;
   KeptBlock* const kept = kept_.find(file_->number, block_at_);
@@ -59,7 +60,7 @@ bool ProgramFlow::next_line(std::string_view& text, std::uint32_t& line) {
   return good;
 }
 
-// A line that is no G-code is told once, however often a loop comes by. One that comes a second time is kept.
+// A line that is no G-code is reported once, however often a loop reads it. A line that is read a second time is kept.
 bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   std::set<std::uint32_t>& unreadable = file_->unreadable;
   if (!unreadable.empty() && unreadable.contains(line)) return false;
@@ -85,7 +86,7 @@ bool ProgramFlow::is_of_dialect() {
   return options_.dialect == Dialect::linuxcnc || accept_as_grbl(*block_, state_, reporter_);
 }
 
-// The next O-word, whatever stands before it.
+// Reads on to the next line with an O-word. False: there is none.
 bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
   for (;;) {
     std::string_view text;
@@ -101,7 +102,8 @@ bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
   }
 }
 
-// After a look elsewhere in the file: the block's text is the reader's, and gone, unless it is kept.
+// For use after another place of the file was read. The text of a block that is not kept belongs to the reader, and is
+// lost.
 void ProgramFlow::reread_block_text() {
   if (block_ != &line_) return;
   std::uint32_t line = 0;
@@ -109,7 +111,7 @@ void ProgramFlow::reread_block_text() {
   if (!file_->reader.next_line(block_->text, line, reporter_.diagnostics())) block_->text = {};
 }
 
-// What is behind the closing '%' of the main file is no program.
+// True: the line is the closing '%' of the main file. What follows is not part of the program.
 bool ProgramFlow::closes_program(std::string_view text) {
   if (!opened_percent_ || file_ != files_.front().get() || !is_percent(text)) return false;
   return std::exchange(file_->seen_percent, true);

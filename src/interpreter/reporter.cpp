@@ -55,7 +55,7 @@ std::string Reporter::quote(Span span) const {
 
 void Reporter::add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
                    std::string message, std::string expected) {
-  // A wrong line in a loop is wrong in every pass, and told once.
+  // A wrong line in a loop is wrong in every pass, but is reported once.
   const SourcePlace place{line, span.column, span.length == 0 ? 1 : span.length};
   for (const Diagnostic& told : diagnostics_.all()) {
     if (told.place == place && told.code == code && told.file == *file_) return;

@@ -29,7 +29,7 @@ class Reporter {
     file_ = &file;
   }
 
-  // Sets who tells through which calls the program came to a finding. Borrowed.
+  // Sets the stack that tells through which calls the program came to a finding. Borrowed.
   void tell_calls_of(const CallStack& stack) { stack_ = &stack; }
 
   void error(std::string_view code, Span span, std::string message, std::string expected = {});
@@ -43,7 +43,7 @@ class Reporter {
   // Reports what was found while the line was read.
   void pass_on(Diagnostics& faults);
 
-  // What the file says there.
+  // The text of the block at this place, shortened if it is long.
   std::string quote(Span span) const;
   const Block& block() const { return *block_; }
   std::string_view file() const { return file_ == nullptr ? std::string_view() : *file_; }

@@ -130,7 +130,8 @@ constexpr Rule table[] = {
 };
 static_assert(std::ranges::is_sorted(table, {}, &Rule::code));
 
-// Mistakes in how a G or M code is used: the chapter of that code says more than theirs.
+// Mistakes in how a G or M code is used. For these the chapter of the G or M code says more than the chapter of the
+// mistake.
 constexpr std::string_view about_a_code[] = {
     "gcode.cycle-axis",      "gcode.cycle-compensation", "gcode.cycle-inverse-time", "gcode.cycle-spindle",
     "gcode.missing-axis",    "gcode.missing-feed",       "gcode.missing-word",       "gcode.probe-mode",
@@ -208,7 +209,7 @@ constexpr CodeChapter code_chapters[] = {
     {'M', code(99), "LinuxCNC manual, O Codes: Fanuc-Style Numbered Programs"},
 };
 
-// The code at the place of the diagnostic, as in "G05.1": its letter and number.
+// The chapter of the G or M code at the place of the diagnostic, as "G05.1". Empty: there is no such chapter.
 std::string_view chapter_of_the_code(const Diagnostic& diagnostic) {
   const SourcePlace& place = diagnostic.place;
   if (place.column == 0 || place.column > diagnostic.text.size()) return {};

@@ -42,7 +42,7 @@ bool BlockExecutor::set_feed_rate() {
           "F has no effect: in inverse time (G93) it counts for the G1, G2, G3, G5 or G5.1 of its own block",
           "F with each feed move");
     }
-    return true;  // with the move, whose length it needs
+    return true;  // used with the move, whose length it needs
   }
   const CodeEntry* const new_units = words_.code(length_units);
   if (new_units != nullptr && new_units->number != state_.modal[length_units]) {
@@ -76,7 +76,7 @@ bool BlockExecutor::switch_coolant(CodeNumber number) {
   return true;
 }
 
-// M48 and M49 switch all, M50 to M53 one each: off with P0.
+// M48 and M49 switch the overrides of the feed and of all spindles. M50 to M53 switch one thing each; P0 is off.
 bool BlockExecutor::switch_overrides(CodeNumber number) {
   const bool on = number == code(48) || (number != code(49) && !(words_.has('P') && words_['P'] == 0));
   SpindleRange range{0, static_cast<std::uint8_t>(state_.spindle_count)};
@@ -142,7 +142,7 @@ bool BlockExecutor::set_path_mode(CodeNumber number) {
   }
   state_.modal.set(path_mode, number);
   if (number == code(64)) {
-    // P alone is also how far points may be merged; negative ones are none, as in LinuxCNC.
+    // Without Q, P is also the merge tolerance. Negative values count as 0, as in LinuxCNC.
     const double path = words_.has('P') ? std::max(0.0, words_['P']) : 0;
     const double merge = words_.has('Q') ? std::max(0.0, words_['Q']) : path;
     state_.tolerance = {Mm(path * unit), Mm(merge * unit)};
@@ -201,11 +201,11 @@ bool BlockExecutor::run_non_modal(CodeNumber number) {
       if (block_.motion != nullptr && (block_.motion->number == code(0) || block_.motion->number == code(1)))
         return true;
       return fail("gcode.g53-without-move", words_.span(non_modal), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
-    default: return true;  // G4 came before
+    default: return true;  // G4 was executed before
   }
 }
 
-// G10: what it sets is told by L.
+// G10. L tells what it sets.
 bool BlockExecutor::set_table() {
   const double table = words_.has('L') ? words_['L'] : -1;
   if (table == 0) return tools_.reload_tools();
@@ -217,7 +217,8 @@ bool BlockExecutor::set_table() {
 }
 
 bool BlockExecutor::stop(CodeNumber number) {
-  (void)cutter_codes_.report(cutter_.release(), words_.span(stopping));  // told; the program stops all the same
+  // A fault is reported. The program stops all the same.
+  (void)cutter_codes_.report(cutter_.release(), words_.span(stopping));
   switch (number) {
     case code(0): emit(operation::ProgramStop{}); return true;
     case code(1): emit(operation::OptionalProgramStop{}); return true;
@@ -226,12 +227,12 @@ bool BlockExecutor::stop(CodeNumber number) {
       emit(operation::ProgramStop{});
       return true;
     case code(98):
-    case code(99): return true;  // follow() of the program's flow
+    case code(99): return true;  // ProgramFlow::follow() executes them
     default: end_program(number == code(30)); return true;
   }
 }
 
-// M2 and M30 put the machine back to where programs may expect it.
+// M2 and M30 put the machine back into the state that programs may expect.
 void BlockExecutor::end_program(bool pallet) {
   frame_.activate_system(1, false);
   if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});

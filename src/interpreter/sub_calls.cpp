@@ -35,7 +35,7 @@ bool ProgramFlow::has_room_for_call(Span span) {
   return false;
 }
 
-// Says where it was looked for.
+// The diagnostic says where the sub was searched for.
 void ProgramFlow::report_unknown_sub(Symbol label, Span span, bool numbered) {
   const std::string sub = fmt::format("{}{}{}", numbered ? "O" : "o", label_text(label), numbered ? "" : " sub");
   const std::string file = std::string(symbols_.name(label)) + ".ngc";
@@ -95,12 +95,13 @@ ProgramFlow::File* ProgramFlow::find_sub(Symbol label) {
   return open_named(label);
 }
 
-// Whether the file has the sub. Reads on from where subs are known, once, and comes back.
+// Whether the file has the sub. Reads the part of the file whose subs are not known yet, once, and goes back to where
+// the file was.
 bool ProgramFlow::find_in(File& file, Symbol label) {
   if (file.subs.contains(label.id)) return true;
   if (file.seen_all) return false;
   File* const reading = file_;
-  const Block current = *block_;  // the call's, which the search overwrites
+  const Block current = *block_;  // the block of the call, which the search overwrites
   const ReaderPosition here = file.reader.position();
   const ReaderPosition call_at = block_at_;
   file_ = &file;
@@ -150,7 +151,7 @@ ProgramFlow::File* ProgramFlow::open_in(const std::string& folder, const std::st
   return files_.back().get();
 }
 
-// Files that have the right name and not the sub are told too: a sub is called as it is spelled in its file.
+// Files that have the right name but not the sub are named too, because the sub may be spelled differently there.
 std::string ProgramFlow::places_looked_at(const std::string& file) const {
   std::string places = "beside the program";
   for (const std::string& folder : options_.sub_folders) places += " or in " + folder;
@@ -162,7 +163,7 @@ std::string ProgramFlow::places_looked_at(const std::string& file) const {
   return places;
 }
 
-// As it is written behind the O: 100, <name>.
+// The label as it is written after the O: 100, <name>.
 std::string ProgramFlow::label_text(Symbol label) const {
   const std::string_view name = symbols_.name(label);
   const bool number = name.find_first_not_of("0123456789") == std::string_view::npos;

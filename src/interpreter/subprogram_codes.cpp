@@ -1,5 +1,5 @@
-// The letters behind the code are the arguments, whatever they mean elsewhere: in the program that is called they are
-// #1 … #26. The table is Fanuc's (argument specification I).
+// The letters after G65 and G66 are arguments, whatever they mean elsewhere. In the program that is called they are #1
+// … #26. The table is Fanuc's (argument specification I).
 #include "subprogram_codes.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ constexpr std::size_t parameter_of(char letter) {
 
 }  // namespace
 
-// M98 P L and M99 stand alone, as they do in LinuxCNC: what else is in the block would not be executed.
+// M98 P L and M99 stand alone, as in LinuxCNC, because other words of the block would not be executed.
 bool SubprogramCodes::call_or_leave(CodeNumber number) {
   const bool call = number == code(98);
   for (const Word& word : reporter_.block().words) {
@@ -42,7 +42,7 @@ bool SubprogramCodes::call_or_leave(CodeNumber number) {
   return true;
 }
 
-// P, the program, and L, how often.
+// Reads P, the program, and L, how often it runs.
 bool SubprogramCodes::program_words(SubprogramJump& found) {
   constexpr double highest_program = 999'999'999;
   if (!words_.has('P')) {
@@ -94,7 +94,7 @@ bool SubprogramCodes::end_macro_calls(CodeNumber /*number*/) {
   return true;
 }
 
-// Whether the block was one that moves. Of a NURBS the last one does.
+// Whether the block moves. Of a NURBS only the last block moves.
 bool SubprogramCodes::moves() const {
   if (block_.ended) return false;
   if (words_.has_code(non_modal, code(28)) || words_.has_code(non_modal, code(30))) return true;

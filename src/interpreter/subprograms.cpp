@@ -1,8 +1,8 @@
 // ProgramFlow: numbered programs as Fanuc writes them: O1234, called with M98 P1234 L or G65 P1234 L, ended with M99.
 //
-// They have names of their own. M98: they share #1 … #30 with their caller, as in LinuxCNC; G65 and G66: these are the
-// arguments. The two styles of subs do not mix. What cannot be called is told and passed over, so that the run finds
-// what else is wrong.
+// A numbered program has named parameters of its own. Called by M98, it shares #1 … #30 with its caller, as in
+// LinuxCNC. Called by G65 or G66, it has its arguments there. Numbered programs and subs with O-words do not mix. What
+// cannot be called is reported and skipped, so that the run finds more errors.
 #include <algorithm>
 
 #include "program_flow.hpp"
@@ -21,7 +21,7 @@ ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
 
 void ProgramFlow::call_program(const SubprogramJump& jump) {
   using Kind = SubprogramJump::Kind;
-  // What a macro of G66 moves does not call it once more.
+  // A move in a macro of G66 does not call the macro again.
   if (jump.kind == Kind::modal_macro && std::ranges::any_of(frames_, &Frame::modal_macro)) return;
   const Symbol label = symbols_.intern(fmt::format("{}", jump.program));
   if (!has_room_for_call(jump.span)) return;
@@ -49,7 +49,8 @@ void ProgramFlow::run_again() {
   again_.reset();
 }
 
-// M99 where a numbered program runs: back, and perhaps in again with fresh names. Its caller is told each time.
+// M99 in a numbered program. It goes back to the caller. If passes are left, the program is then entered again with
+// fresh names. left_sub is returned after each pass.
 ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
   Frame frame = frames_.back();
   if (!frame.place.numbered) {
@@ -67,7 +68,7 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
   return Followed::left_sub;
 }
 
-// M99 in the main program: from its beginning again, as often as is allowed.
+// M99 in the main program. The program begins again, as often as is allowed. False: it does not.
 bool ProgramFlow::restart_main(const SubprogramJump& jump) {
   if (++main_passes_ == options_.main_passes) return false;
   if (++idle_passes_ > options_.idle_passes) {

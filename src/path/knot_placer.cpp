@@ -9,28 +9,28 @@
 namespace passo {
 namespace {
 
-// Changes of curvature, alike: w² = 10 e / change.
+// The width w for a change of curvature, with the tolerance e: w² = 10 e / change.
 constexpr double bend_width = 10;
-// On arcs, in radii.
+// The largest width on arcs, in radii.
 constexpr double arc_width = 0.4;
-// Changes smaller than this (of a unit tangent; 1/mm) are rounding.
+// Changes of a unit tangent, or of a curvature (1/mm), that are smaller than this are rounding.
 constexpr double no_change = 1e-9;
 
-// Junctions make one node while the way from the first to the last is within this share of its width, and while
-// passing them as one would leave the path by no more than a part of the tolerance.
+// Several junctions make one node under two conditions. The way from the first junction to the last is at most
+// cluster_share of the node's width. Passing them as one leaves the path by at most cluster_tube of the tube.
 constexpr double cluster_share = 0.5;
 constexpr double cluster_tube = 0.5;
 
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
 constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6, 2.2};
-constexpr double last_knot_reaches = 1.25;  // so much room belongs to a node, in the last knot's distance
-constexpr double share_of_room = 0.9;       // a knot nearer than this to the end of the room is left out
+constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot
+constexpr double share_of_room = 0.9;       // knots beyond this share of the room are left out
 
-// A gap so many times as wide as the knots' distance beside it stays exact: a shorter one bends less as part of the
-// stretches beside it.
+// A gap stays exact if it is longer than this many times the distance of the knots beside it. A shorter gap bends less
+// as part of the stretches beside it.
 constexpr double exact_from = 3;
 constexpr std::size_t least_knots = 3;  // on each side of an exact piece
-// Shorter lines (mm) have no good direction after they are cut.
+// Lines shorter than this (mm) have no good direction after they are cut.
 constexpr double least_exact = 1e-6;
 
 constexpr double unlimited = 1e9;
@@ -38,11 +38,12 @@ constexpr double unlimited = 1e9;
 }  // namespace
 
 struct KnotPlacer::Spacing {
-  // Corners: the curve that turns by `change` within the width w and leaves the corner by e has w = 4 e / change. Wider
-  // ones, which cannot use all of their width, are found to be better for slow bending.
+  // For corners. A curve that turns by `change` within the width w, and leaves the corner by e, has w = 4 e / change.
+  // For slow bending a larger factor was found to be better, although the curve cannot use all of that width.
   double corner_width = 4;
-  std::span<const double> knots;  // in widths from the node
-  // How much faster s goes on w times the change of the tangent away from a corner than at it.
+  std::span<const double> knots;  // distances from the node, in widths
+  // How much faster s advances away from a corner than at the corner: by this, times the change of the tangent, times
+  // the distance in widths.
   double quickening = 0;
 };
 
@@ -84,7 +85,7 @@ bool KnotPlacer::next(Mark& mark) {
   return true;
 }
 
-// The end of the run is a node too, of no width.
+// The end of the run is also a node, of no width.
 bool KnotPlacer::find_node(Node& node) {
   const std::uint64_t first = junction_;
   if (!reader_.has(first + 1)) {
@@ -122,7 +123,8 @@ double KnotPlacer::width_of(const Cluster& cluster) const {
   return std::min(width, arc_width / std::max(length_of(before.last_bend), length_of(after.first_bend)));
 }
 
-// How sharp a corner it is. In a thread s is what the spindle is followed by, and stays the parameter.
+// How sharp the corner is. 0 where the feed follows the spindle: there s must stay the parameter, because the spindle
+// sets s.
 double KnotPlacer::turn_of(const Cluster& cluster) const {
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
@@ -136,7 +138,7 @@ bool KnotPlacer::goes_on(const Piece& before, const Piece& after) {
          distance(before.last_bend, after.first_bend) <= no_change;
 }
 
-// Takes in the next junction where it may.
+// Takes the next junction into the cluster. False: the junction must stay out.
 bool KnotPlacer::extend(Cluster& cluster) {
   const std::uint64_t next = cluster.last + 1;
   if (!reader_.has(next + 1)) return false;
@@ -156,7 +158,7 @@ bool KnotPlacer::extend(Cluster& cluster) {
   return true;
 }
 
-// Its width, but not farther than the nodes beside it.
+// The width of a node, but not farther than the nodes beside it.
 double KnotPlacer::room_of(const Node& node, const Node& before, const Node& after) {
   return std::min({node.width, node.s - before.s, after.s - node.s});
 }
@@ -187,7 +189,7 @@ void KnotPlacer::fill_gap() {
     return static_cast<std::size_t>(
         std::ranges::count_if(spacing_.knots, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
   };
-  const std::size_t knots = count(width, room) + 1;  // with the node
+  const std::size_t knots = count(width, room) + 1;  // with the one at the node
   const std::size_t next_knots = count(next_width, next_room);
   const auto offset = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1] * width; };
   const auto next_offset = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1] * next_width; };
@@ -222,7 +224,7 @@ void KnotPlacer::fill_gap() {
   }
 }
 
-// At the last two knots it is that of s, so that what is exact may go on there.
+// The rate ds/dt at a knot. At the last two knots of a node the rate is 1, so that an exact piece may follow.
 double KnotPlacer::rate_at(const Node& node, std::size_t knot, std::size_t knots) const {
   constexpr std::size_t at_rate_of_s = 2;
   if (knot + at_rate_of_s >= knots) return 1;

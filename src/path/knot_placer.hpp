@@ -13,7 +13,7 @@
 // For slow bending, s advances more slowly than the spline's parameter around a corner (Pace). The sharper the corner,
 // the slower s advances.
 //
-// Looks two nodes ahead. A node takes in at most `most_clustered` junctions.
+// The placer looks two nodes ahead. A node takes in at most `most_clustered` junctions.
 #pragma once
 
 #include <array>
@@ -67,7 +67,7 @@ class KnotPlacer {
   struct Cluster {
     std::uint64_t first = 0;
     std::uint64_t last = 0;
-    double turn = 0;  // how far the tangents between are from the first at most
+    double turn = 0;  // how far the tangents between are from the first, at most
     double tube = 0;
   };
   bool find_node(Node& node);

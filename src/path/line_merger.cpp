@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// Vertices closer than this (mm) to a line are on it: rounding.
+// Vertices closer than this (mm) to a line are on the line except for rounding.
 constexpr double rounding = 1e-9;
 
 // A merged line may be shorter than its pieces by this share, so that its time is not less than theirs.
@@ -36,7 +36,8 @@ bool LineMerger::Cone::has(const Point& direction) const {
   return distance(direction, center) <= radius;
 }
 
-// Two balls: one in the other, or else the ball between their borders.
+// The new ball is the largest one in the intersection of two balls. If one ball lies in the other, it is the inner
+// ball. Otherwise it lies between their borders.
 void LineMerger::Cone::narrow(const Point& direction, double length) {
   const double allowed = tolerance / length;
   const double apart = distance(direction, center);
@@ -71,7 +72,7 @@ bool LineMerger::takes_in(const Segment& merged, const Segment& line, const Chor
   return !(length_in(chord.travel, group) < least_length * (programmed_ + line.curve.length().value()));
 }
 
-// Not more than half of what the junction before allows: the rest is for rounding it.
+// At most half of what the junction before the line allows. The rest is left for rounding that junction.
 double LineMerger::merge_tolerance(const Segment& merged) const {
   double tolerance = merged.merge.value();
   if (mode_before_ == PathMode::exact_path) tolerance = 0;
@@ -85,7 +86,7 @@ void LineMerger::begin(const Segment& merged) {
   programmed_ = merged.curve.length().value();
 }
 
-// Whether the line ahead became part of the one that is being merged.
+// True: the line ahead became part of the line that is being merged.
 bool LineMerger::extend(Segment& merged, double& deviation) {
   const Segment& line = std::get<Segment>(ahead_);
   const Point& start = merged.curve.start();

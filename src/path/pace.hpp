@@ -30,8 +30,8 @@ struct Pace {
   double reaches(double distance) const {
     return 2 * distance / (rate + std::sqrt(std::max(0.0, rate * rate + 2 * quickening * distance)));
   }
-  // For a curve of the curvature c, passed with this pace: the largest |d²P/du²|, and |d⁴P/du⁴|, which tells in units
-  // of d²/8 how far d²P/du² leaves its chord between two places d apart.
+  // For a curve of the curvature c, passed with this pace: the largest |d²P/du²| and the largest |d⁴P/du⁴|. Between two
+  // places d apart, d²P/du² leaves its chord by at most d²/8 |d⁴P/du⁴|.
   double bend_of(double c) const { return c * fastest() * fastest() + std::abs(quickening); }
   double curl_of(double c) const {
     const double turn = c * fastest();

@@ -15,23 +15,26 @@
 namespace passo {
 namespace {
 
-// A coordinate that changes by less (mm or degrees) did not change: what is left of frames and inches after rounding.
+// A coordinate that changes by less than this (mm or degrees) did not change. Such changes are rounding errors of
+// frames and inches.
 constexpr double still = 1e-9;
 
-// How far the chords of an arc that lies in no plane of the machine may leave it.
+// How far chords may leave an arc that lies in no plane of the machine.
 constexpr Mm chord_tolerance{0.001};
 
-// How far the pieces of a spline may leave it: this share of the path's tolerance, or where that is 0 as above.
+// How far the pieces of a spline may leave the spline: this share of the path's tolerance, but at least
+// least_spline_tolerance. Where the path's tolerance is 0, chord_tolerance counts.
 constexpr double spline_share = 0.1;
 constexpr Mm least_spline_tolerance{1e-5};
 
-// How far lines that become one may leave the path, where the program does not say: this share of the tolerance.
+// How far a merged line may leave the path if the program does not say: this share of the tolerance.
 constexpr double merge_share = 0.05;
 
-// After an error a move needs some speed, so that the checking pass can go on.
+// After an error a move still needs some speed, so that the checking pass can go on.
 constexpr MmPerSecond speed_after_error{1};
 
-// What others act on. An operation that is new must be named here or handled, else take() does not compile.
+// The operations that take() ignores, because other parts of the program act on them. A new operation must be named
+// here or handled in take(). Otherwise take() does not compile.
 template <class What, class... Others>
 inline constexpr bool is_one_of = (std::is_same_v<What, Others> || ...);
 template <class What>
@@ -80,7 +83,8 @@ bool PathBuilder::next(PathItem& item) {
   bool has_item = take_chord(item) || take_spline_piece(item) || take_probe_step(item) || take_tap_step(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
   if (!has_item) switch_off();
-  // What comes before the item in hand; at the end of the operations there is none.
+  // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
+  // there is no item in hand.
   const bool switches = outputs() != handed_on_;
   if (switches) in_step_ = false;
   const bool awaits = has_item && must_await_index(item);
@@ -94,7 +98,7 @@ bool PathBuilder::next(PathItem& item) {
   return true;
 }
 
-// One thread after the other without a move between goes on in step.
+// A thread directly after another thread stays in step, and need not wait for the index.
 bool PathBuilder::must_await_index(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
   if (followed_tap_ == TapStep::back && segment == nullptr) return false;
@@ -103,14 +107,14 @@ bool PathBuilder::must_await_index(const PathItem& item) {
   return in_step_ && !was;
 }
 
-// Some operations stand for several; those come first.
+// Some operations stand for several operations. These come before the next operation of the program.
 bool PathBuilder::next_operation() {
   if (tap_step_ == tap_.size()) return operations_.next(operation_);
   operation_.what = tap_[tap_step_++];
   return true;
 }
 
-// What the program forgot to, wherever it ends.
+// Switches off what the program left on, wherever the program ends.
 void PathBuilder::switch_off() {
   if (outputs() != OutputState{}) outputs_source_ = operation_.source;
   commanded_ = OutputState{};
@@ -151,7 +155,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           },
           [&](const operation::SetSpindleMode& mode) { return refuse_surface_speed(mode), false; },
           [&](const operation::OrientSpindle&) { return lacks(Lack::orientation), false; },
-          [&](const operation::AwaitSpindle&) { return false; },  // told with what it waits for
+          [&](const operation::AwaitSpindle&) { return false; },  // already reported with OrientSpindle
           [&](const operation::SetDigitalOutput&) { return lacks(Lack::outputs), false; },
           [&](const operation::SetAnalogOutput&) { return lacks(Lack::outputs), false; },
           [&](const operation::UserCode&) { return lacks(Lack::user_codes), false; },
@@ -214,7 +218,7 @@ bool PathBuilder::take_probe_step(PathItem& item) {
   return false;
 }
 
-// What the machine has not is told once.
+// Each thing that the machine lacks is reported once.
 void PathBuilder::lacks(Lack what) {
   if (std::exchange(told_[static_cast<std::size_t>(what)], true)) return;
   switch (what) {
@@ -261,7 +265,8 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
   return take_curve(Curve::arc(position_, end, first, second, center[first], center[second], sweep), false, item);
 }
 
-// In the work frame the arc lies in its plane as ever; there its angle is swept, and there it is cut.
+// In the work frame the arc lies in its plane. So the sweep is computed, and the arc is cut into chords, in the work
+// frame.
 bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item) {
   const PlaneAxes axes = axes_of(arc.plane);
   const Point start = frame_.work_from_machine(position_);
@@ -292,7 +297,7 @@ bool PathBuilder::take_chord(PathItem& item) {
     if (last) tilted_.reset();
     if (!take_line(end, false, item)) continue;
     if (last) return true;
-    // The corners between chords are not the program's: they do not stop an exact path.
+    // The corners between chords are not the program's, so an exact path does not stop at them.
     auto& segment = std::get<Segment>(item);
     segment.mode = PathMode::continuous;
     segment.tolerance = chord_tolerance;
@@ -302,7 +307,7 @@ bool PathBuilder::take_chord(PathItem& item) {
   return false;
 }
 
-// A frame takes a curve to the curve of the points it takes the control points to.
+// A frame is an affine map. So the converted spline is the spline of the converted control points.
 bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item) {
   const Point start = frame_.work_from_machine(position_);
   const auto machine_of = [&](const operation::ControlPoint& point) {
@@ -324,8 +329,8 @@ bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item)
   return false;
 }
 
-// Where pieces meet, the spline goes on: the path does too, whatever the mode. What the pieces leave of the tolerance
-// is for rounding.
+// Between two pieces the path never stops, whatever the path mode, because the spline goes on there. The part of the
+// tolerance that the pieces do not use is left for rounding junctions.
 bool PathBuilder::take_spline_piece(PathItem& item) {
   SplinePiece piece;
   while (spline_->next(piece)) {
@@ -362,7 +367,7 @@ bool PathBuilder::take_curve(const Curve& curve, bool rapid, PathItem& item) {
   return true;
 }
 
-// An axis that stays keeps its value bit for bit, whatever the way through the frame made of it.
+// An axis that does not move keeps its value bit for bit. The conversion by the frame could change its last bits.
 Point PathBuilder::machine_end(const Point& work_end) const {
   Point end = frame_.machine_from_work(work_end);
   for (const Axis axis : all_axes) {
@@ -401,7 +406,7 @@ void PathBuilder::set_spindle_speed(double revolutions_per_minute) {
          fmt::format("S up to {:.0f}", limit));
 }
 
-// G61 and G61.1 leave the path nowhere: their tolerance is 0.
+// G61 and G61.1 allow no deviation from the path, so the tolerance is 0.
 void PathBuilder::set_path_mode(const operation::SetPathMode& mode) {
   path_mode_ = mode.mode;
   if (mode.mode != PathMode::continuous) {
@@ -413,8 +418,9 @@ void PathBuilder::set_path_mode(const operation::SetPathMode& mode) {
   merge_ = tolerance_ * merge_share;
 }
 
-// The interpreter gives G64 P without Q as a merge tolerance of P, and G64 alone as 0. Of what is given at most half
-// the tolerance is used, so that something is left for the junctions.
+// For G64 P without Q the interpreter gives a merge tolerance of P, and for G64 alone 0. Neither is the program's own.
+// Of the program's own merge tolerance at most half the path tolerance is used, so that something is left for the
+// junctions.
 void PathBuilder::set_merge_tolerance(Mm given) {
   const bool is_own = given < tolerance_ && gives_tolerance_;
   merge_ = is_own ? std::min(given, tolerance_ / 2) : tolerance_ * merge_share;
@@ -426,14 +432,15 @@ OutputState PathBuilder::outputs() const {
   return state;
 }
 
-// A thread is not stretched, and not stopped in.
+// A thread heeds no factor on the feed and no feed hold.
 Heeds PathBuilder::heeds() const {
   if (!synchronised_pitch_) return heeds_;
   return {
       .feed_override = false, .spindle_override = heeds_.spindle_override, .adaptive_feed = false, .feed_hold = false};
 }
 
-// A tap that is not followed is in step by its speed alone: it ends where the spindle is reversed.
+// A tap that does not follow the spindle through the reversal (expand()) is locked to the speed alone: its way down
+// ends where the spindle is reversed.
 SpindleLock PathBuilder::lock() const {
   if (synchronised_pitch_) return tap_step_ == tap_.size() ? SpindleLock::place : SpindleLock::speed;
   return feed_mode_ == FeedMode::units_per_revolution ? SpindleLock::speed : SpindleLock::none;

@@ -11,7 +11,7 @@
 namespace passo {
 namespace {
 
-// Of the tube: how far the chords of an arc may leave it.
+// How far chords may leave an arc: this share of the tube.
 constexpr double chord_share = 0.01;
 
 Segment& segment_in(PathItem& item) {
@@ -42,7 +42,7 @@ class PathSmoother::Implementation {
   TubeSpline spline_;
   bool in_run_ = false;
   TubeSpline::Span span_;
-  // Of a span that was cut: where it ended, and whether that was not on the spline.
+  // For the last span that was cut: the place where its chords ended, and whether that place is not on the spline.
   Point place_;
   bool broken_ = false;
   std::vector<Segment> chords_;
@@ -101,8 +101,9 @@ void PathSmoother::Implementation::give_exact(const ExactPiece& exact, PathItem&
   reader_.drop_before(exact.piece);
 }
 
-// As the path in its middle, but not faster than any of it. Where |dp/dt| is above 1 (the smoothed path cuts a corner
-// of s) the speed along t is less, so that the tool keeps to the feed; and more where t goes on faster than s.
+// The segment is like the path in the middle of the span, but not faster than any of the path in the span. Where
+// |dp/dt| is above 1 (the smoothed path cuts a corner of s), the speed along t is less, so that the tool keeps to the
+// feed. Where t advances faster than s, the speed along t is more.
 void PathSmoother::Implementation::write_span(const TubeSpline::Span& span, Segment& segment) const {
   const double middle = (span.from.knot.s + span.to.knot.s) / 2;
   std::uint64_t number = span.from.knot.piece;
@@ -130,7 +131,7 @@ void PathSmoother::Implementation::write_span(const TubeSpline::Span& span, Segm
   stop_at_the_end(span.to.knot, segment);
 }
 
-// Whether it wrote an item; else chords are to be given.
+// True: the function wrote an item. False: chords are given instead.
 bool PathSmoother::Implementation::give_span(PathItem& item) {
   const bool smooth = span_.in_tube && !broken_;
   if (smooth) {
@@ -142,8 +143,8 @@ bool PathSmoother::Implementation::give_span(PathItem& item) {
   return smooth;
 }
 
-// The last resort, where a span could not be kept in the tube: chords along the path itself, with a stop after each.
-// They lead back to the spline as soon as it is in the tube again.
+// The last resort for a span that could not be kept in the tube. It becomes chords along the path itself, with a stop
+// after each. The chords lead back to the spline as soon as the spline is in the tube again.
 void PathSmoother::Implementation::cut_span() {
   chords_.clear();
   chord_ = 0;

@@ -63,7 +63,7 @@ std::string name_of(const Action& action) {
 
 namespace {
 
-// What is not as a program begins.
+// The settings that differ from those at the start of a program.
 std::string to_text(const Heeds& heeds) {
   std::string text;
   if (!heeds.feed_override) text += " no feed override";

@@ -1,4 +1,4 @@
-// How far round an arc of RS274/NGC goes. Private to path/.
+// The angle that an arc of RS274/NGC sweeps. Private to path/.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace passo {
 
-// The angle from start to end in the sense of `turns`; 1 or -1 is within one turn. As in LinuxCNC's canon layer,
-// directions closer than a millionth of a radian count as equal, and the arc is then a full circle.
+// The angle from start to end in the sense of `turns`. With 1 or -1 it is one full circle at most. As in LinuxCNC's
+// canon layer, directions closer than a millionth of a radian count as equal, and the arc is then a full circle.
 inline double sweep_between(double start_angle, double end_angle, std::int32_t turns) {
   constexpr double same_direction = 1e-6;
   constexpr double full = 2 * std::numbers::pi;

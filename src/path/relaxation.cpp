@@ -7,7 +7,7 @@
 namespace passo {
 namespace {
 
-// Steps shorter than this (mm) are none.
+// Steps shorter than this (mm) are not made.
 constexpr double no_step = 1e-12;
 
 }  // namespace
@@ -60,8 +60,8 @@ void Relaxation::move(std::int64_t k, const Point& step) {
   move<axis_count>(slot(k), step.values);
 }
 
-// The longest share of the step that leaves no place farther off than it may be, or than it is. Mostly all of the step
-// is allowed, which is found for four places at once.
+// The largest allowed share of the step. After the step no place is farther off than its reach, or than it was before.
+// Usually the whole step is allowed. That is found for four places at once.
 template <std::size_t axes>
 double Relaxation::allowed_share(std::size_t at, const std::array<double, axes>& step, double square) const {
   FourLanes off;  // squares of the deviations
@@ -91,7 +91,8 @@ double Relaxation::allowed_share(std::size_t at, const std::array<double, axes>&
   return share;
 }
 
-// What is left of the share of a step where |off + share factor step|² is to be at most the square of the reach.
+// Shortens the share of a step so that |off + share factor step|² is at most the square of the reach, or does not grow
+// if it is above that.
 double Relaxation::shorten(double share, double square, const Four& factors, FourLanes off, FourLanes along,
                            FourLanes reach) {
   Four now{};
@@ -110,7 +111,7 @@ double Relaxation::shorten(double share, double square, const Four& factors, Fou
   return share;
 }
 
-// As much of the step as is allowed.
+// Makes as much of the step as is allowed.
 template <std::size_t axes>
 void Relaxation::take_step(std::size_t at, std::array<double, axes>& step) {
   double square = 0;
@@ -124,7 +125,7 @@ void Relaxation::take_step(std::size_t at, std::array<double, axes>& step) {
   move<axes>(at, step);
 }
 
-// Flattened: a step and its factors stay in registers from one part of the work to the next.
+// Flattened, so that a step and its factors stay in registers from one part of the work to the next.
 template <std::size_t axes>
 [[gnu::flatten]] void Relaxation::relax_bending(std::int64_t k) {
   const std::size_t at = slot(k);

@@ -8,10 +8,10 @@
 namespace passo {
 namespace {
 
-// The cosine of a turn that goes back: sharper than 179 degrees.
+// A turn with a smaller cosine than this goes back: it is sharper than about 179 degrees.
 constexpr double turning_back = -0.9998;
 
-// In exact path mode: turns up to this (radians) are smoothed, within this tolerance (mm).
+// In exact path mode, turns up to exact_turn (radians) are smoothed within exact_tolerance (mm).
 constexpr double exact_turn = 0.01;
 constexpr double exact_tolerance = 0.001;
 

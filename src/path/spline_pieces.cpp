@@ -10,15 +10,15 @@ namespace passo {
 namespace {
 
 constexpr std::size_t parts = 8;
-// Gauss and Legendre's places and weights for three points, in a stretch from -1 to 1.
+// The places and weights of Gauss-Legendre quadrature with three points, from -1 to 1.
 constexpr std::array<double, 3> gauss_places = {-0.77459666924148338, 0, 0.77459666924148338};
 constexpr std::array<double, 3> gauss_weights = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 
-// A parameter that goes slower than this share of its mean stands still: there is no direction in its derivative.
+// Where |dP/du| is below this share of its mean, the parameter stands still: the derivative has no direction.
 constexpr double standstill = 1e-6;
-// As long as a stretch may be; the next one goes on with the same direction.
+// The most pieces of a stretch. The next stretch goes on with the same direction.
 constexpr std::size_t most_pieces = 1024;
-// How far |dP/ds| of a piece may be from 1: by that the feed is wrong.
+// How far |dP/ds| of a piece may be from 1. The feed is wrong by as much.
 constexpr double feed_tolerance = 0.005;
 
 template <std::size_t degree>
@@ -59,7 +59,7 @@ Vector3 bend_at(const C& curve, double u) {
   return (second - slope * (dot(second, slope) / square)) / square;
 }
 
-// The unit tangent at u, towards `to` where the parameter stands still.
+// The unit tangent at u. Where the parameter stands still, it comes from a place a little way towards `to`.
 template <class C>
 Vector3 direction_at(const C& curve, double u, double to, double still) {
   const Vector3 slope = curve.derivative(u);
@@ -96,7 +96,7 @@ class CurvePart {
   }
   double length() const { return along_.back(); }
 
-  // With the curve's directions at both ends.
+  // The cubic that has the curve's directions at both ends.
   SplinePiece piece() const {
     return {.from = from_,
             .to = to_,
@@ -107,7 +107,7 @@ class CurvePart {
             .length = length()};
   }
 
-  // At most; infinite where the feed would be wrong.
+  // An upper bound of the deviation. Infinite: the feed would be wrong.
   double deviation_of(const SplinePiece& piece) const {
     if (!(length() > 0)) return 0;
     const Cubic cubic(piece);
@@ -126,7 +126,7 @@ class CurvePart {
 
  private:
   double at(std::size_t i) const { return i == parts ? to_ : from_ + (to_ - from_) * static_cast<double>(i) / parts; }
-  // `otherwise` where the parameter stands still.
+  // d²P/ds² at u, or `otherwise` where the parameter stands still.
   Vector3 bend_at(double u, const Vector3& otherwise) const {
     const Vector3 slope = curve_.derivative(u);
     return dot(slope, slope) > still_ * still_ ? passo::bend_at(curve_, u) : otherwise;
@@ -149,7 +149,8 @@ bool jumps_at(const C& curve, double u, double step) {
   return !(length(after - before) <= nothing * std::max(length(before), length(after)));
 }
 
-// Tangents between such that the second derivative goes on; the first and the last stay. By elimination.
+// Sets the tangents between the pieces so that the second derivative is continuous. The first and the last tangent
+// stay. The equations are solved by elimination.
 void join(std::vector<SplinePiece>& pieces) {
   const std::size_t count = pieces.size();
   std::vector<double> share(count, 0);
@@ -217,17 +218,17 @@ std::optional<CurveError> SplinePieces::begin(int degree, Mm tolerance) {
   return take(nurbs_of(points, degree));
 }
 
-// The deviation goes with the fourth power, which makes the next guess from the last.
+// The deviation grows with the fourth power of the length. The next guess follows from that.
 template <class C>
 SplinePiece SplinePieces::take_longest(const C& curve, double tolerance) {
   constexpr double nearly = 0.95;
-  constexpr double worth_trying = 1.2;  // longer than what was found
+  constexpr double worth_trying = 1.2;  // times what was found
   const double end = curve.next_break(u_);
   const double rest = end - u_;
   SplinePiece found;
   double taken = 0;
   for (double guess = std::min(step_, rest);;) {
-    if (guess > rest / 2 && guess < rest) guess = rest / 2;  // no short one for the end
+    if (guess > rest / 2 && guess < rest) guess = rest / 2;  // leaves no short piece for the end
     if (!(guess > worth_trying * taken)) break;
     const double to = guess < rest ? u_ + guess : end;
     const CurvePart<C> part(curve, u_, to);
@@ -249,7 +250,8 @@ SplinePiece SplinePieces::take_longest(const C& curve, double tolerance) {
   return found;
 }
 
-// Joined cubics leave the spline by up to five times what each would alone: so the pieces are chosen for less.
+// Joined cubics leave the spline by up to five times what each would alone. So the pieces are first chosen for a fifth
+// of the tolerance, then for less. If that does not suffice, the pieces are not joined.
 template <class C>
 void SplinePieces::take_stretch(const C& curve) {
   const double start = u_;
@@ -268,7 +270,7 @@ void SplinePieces::take_stretch(const C& curve) {
       u_ = stretch_.back().from;
       stretch_.pop_back();
     }
-    if (share == 1.0 || stretch_.front().straight) return;  // as they are
+    if (share == 1.0 || stretch_.front().straight) return;  // not joined
     join(stretch_);
     if (all_within(curve, stretch_, tolerance_)) return;
   }

@@ -8,13 +8,15 @@ namespace passo {
 namespace {
 
 constexpr double per_minute = 60;
-// A spindle may need this many times the room that it needs by its run-up, and some turns more.
+// How much room a spindle may need to come to rest: this many times the room that follows from its run-up, and some
+// turns more.
 constexpr double room_factor = 2;
 constexpr double more_turns = 2;
 
 }  // namespace
 
-// In step with the spindle down, on until it has turned round, and in step back to where it began.
+// The tap goes down in step with the spindle, goes on until the spindle has reversed, and goes back in step to where
+// the tap began.
 bool PathBuilder::take_tap(const operation::RigidTap& tap, PathItem& item) {
   if (answers_.tap_rest() == nullptr) return expand(tap), false;
   tap_start_ = position_;
@@ -57,15 +59,15 @@ bool PathBuilder::take_tap_step(PathItem& item) {
   return false;
 }
 
-// A tap that nothing follows: with the spindle's speed down to the end, and with the spindle reversed back to where it
-// began.
+// A tap that does not follow the spindle through the reversal. It goes down to its end at the spindle's speed, reverses
+// the spindle, and goes back to where it began.
 void PathBuilder::expand(const operation::RigidTap& tap) {
   tap_ = {operation::StraightFeed{tap.end}, operation::TurnSpindle{reversed(commanded_.spindle)},
           operation::StraightFeed{frame_.work_from_machine(position_)}, operation::TurnSpindle{commanded_.spindle}};
   tap_step_ = 0;
 }
 
-// Within the travel.
+// The way in which the spindle comes to rest after a tap's end, as far as the travel allows.
 Mm PathBuilder::room_to_turn(const Curve& way) const {
   const double turns_a_second = commanded_.revolutions_per_minute / per_minute;
   const double to_rest = turns_a_second * turns_a_second * options_.spindle_run_up.value() * per_minute / 1000 / 2;

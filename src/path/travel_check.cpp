@@ -8,14 +8,15 @@
 namespace passo {
 namespace {
 
-// Rounding at a limit that is met exactly is no excursion.
+// A move to exactly the limit may be beyond the limit by rounding. That is no excursion.
 constexpr double slack = 1e-6;
 
 const char* unit_of(Axis axis) {
   return is_rotary(axis) ? "degrees" : "mm";
 }
 
-// The place of the curve where `axis` reaches `reached`; there an arc's other axis is level with the centre.
+// The place of the curve where `axis` reaches `reached`. At an arc's extreme, the arc's other axis is level with the
+// centre.
 Point place_of(const Curve& curve, Axis axis, double reached) {
   if (curve.start()[axis] == reached) return curve.start();
   Point place = curve.end();
@@ -47,7 +48,8 @@ void PathBuilder::check_travel(const Curve& curve) {
   }
 }
 
-// The curve leaves the travel on this side. A new excursion is reported; it lasts until a move ends back inside.
+// The curve leaves the travel on this side. A new excursion is reported. The excursion lasts until a move ends inside
+// the travel.
 void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside) {
   const TravelLimit& travel = options_.travel[axis];
   const double limit = high_side ? travel.high : travel.low;
@@ -67,7 +69,7 @@ void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Cu
       fmt::format("{} within {:.3f} to {:.3f}, machine coordinates", letter_of(axis), travel.low, travel.high), axis);
 }
 
-// Once an axis: a program for a machine with more axes moves them in most of its lines.
+// Each missing axis is reported once, because a program for a machine with more axes moves them in most of its lines.
 void PathBuilder::check_axes(const Curve& curve) {
   for (const Axis axis : all_axes) {
     if (options_.axes.has(axis) || missing_.has(axis) || curve.steepest()[axis] == 0) continue;

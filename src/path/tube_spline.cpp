@@ -9,12 +9,13 @@
 namespace passo {
 namespace {
 
-// Between the places that the sweeps watch the deviation may be a little more than there.
+// Between the places that the sweeps watch, the deviation may be a little larger than at them. So the sweeps use only
+// this share of the tube.
 constexpr double share_of_tube = 0.99;
-// What is left of the tube, at least, where vertices between those places stick out.
+// Where vertices between those places stick out, the sweeps use less, but at least this share.
 constexpr double least_share = 0.1;
 
-// Behind how many controls a stage works on the one before it; a control feels three on each side.
+// How many controls a stage works behind the stage before it. A control depends on three controls on each side.
 constexpr std::int64_t reach_of_control = 3;
 constexpr std::int64_t lag = reach_of_control + 1;
 
@@ -75,7 +76,7 @@ void TubeSpline::close() {
   }
 }
 
-// One control more begins, and every sweep goes on by one.
+// Begins one more control. Every sweep and every check goes on by one.
 void TubeSpline::advance() {
   if (controls_ == -1) {
     begin_control(-1);
@@ -109,7 +110,7 @@ bool TubeSpline::is_in_tube(std::int64_t k) const {
   return at(k).checked || worst_of(k).excess <= 0;
 }
 
-// The ends of a stretch are the path's own, to the bit.
+// At the ends of a stretch, place and tangent are those of the path, bit for bit.
 TubeSpline::End TubeSpline::end_at(std::int64_t k) const {
   const Site& site = at(k);
   End end{.knot = site.knot, .t = site.t, .place = site.place, .tangent = {}, .deviation = 0};
@@ -192,7 +193,8 @@ void TubeSpline::find_factors(std::int64_t k) {
   site.value[1] = 1 - site.value[0] - site.value[2];
 }
 
-// What the steps of a free control need: its part in p'' at three knots and in the middles of four spans.
+// Finds what the steps of a free control need: its effect on p and p'' at three knots, and on p in the middles of four
+// spans.
 void TubeSpline::find_steps(std::int64_t k) {
   Relaxation::Factors factors;
   double sum = 0;
@@ -216,8 +218,9 @@ void TubeSpline::find_steps(std::int64_t k) {
   relaxation_.set_factors(k, factors);
 }
 
-// The sum over the spans k-2 to k+1 of their width times |p'''|², where p''' is the difference of p'' at their ends
-// divided by the width: its derivative by control k, over its second derivative.
+// The sum that slow bending makes least is, over the spans k-2 to k+1, the width times |p'''|². p''' is the difference
+// of p'' at a span's ends, divided by the width. `change_pull` gives the sum's derivative by control k, divided by the
+// second derivative.
 void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) const {
   const std::array<double, 5> bend = {0, factors.bend[0], factors.bend[1], factors.bend[2], 0};  // at knots k-2 to k+2
   double sum = 0;
@@ -231,7 +234,7 @@ void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) 
   for (double& pull : factors.change_pull) pull /= sum;
 }
 
-// The control that a polynomial has: its blossom, here of the path's Taylor polynomial at a knot.
+// The control of a polynomial is its blossom. Here the polynomial is the path's Taylor polynomial at a knot.
 Point TubeSpline::taylor_control(std::int64_t number, std::int64_t k) const {
   const Knot& knot = at(number).knot;
   const double t = at(number).t;
@@ -244,7 +247,8 @@ Point TubeSpline::taylor_control(std::int64_t number, std::int64_t k) const {
          curve.second_derivative(along) * ((a * b + b * c + c * a) / 6);
 }
 
-// Where pieces meet nearby: of the parabola through three knots.
+// The control where pieces meet nearby: a blossom as in taylor_control(). Its slope is the mean of the slopes of the
+// chords to the two knots beside. Its second derivative is the mean of the path's at these knots.
 Point TubeSpline::secant_control(std::int64_t k) const {
   const Site& before = at(k - 1);
   const Site& here = at(k);
@@ -329,9 +333,9 @@ TubeSpline::Place TubeSpline::place_in(const Site& site, const SpanForm& form, c
           .off_bend = form.bend + form.change * u - path_bend};
 }
 
-// Between two places d apart the deviation e is at most the larger of both plus d²/8 of the largest |e''|. p'' is a
-// straight line of t; the path's P'' leaves its chord by at most d²/8 |P''''| (at an even pace c³ on an arc of the
-// curvature c, and nothing on a line). So |e''| is at most its larger end plus that.
+// Between two places d apart, the deviation e is at most the larger of its two ends plus d²/8 of the largest |e''|. p''
+// is linear in t. The path's P'' leaves its chord by at most d²/8 |P''''|. (At an even pace |P''''| is c³ on an arc of
+// the curvature c, and 0 on a line.) So |e''| is at most the larger of its two ends plus that.
 TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, const Piece& path, const Pace& pace) {
   const double curl = pace.curl_of(path.segment.curve.curvature());
   const double square = (to.along - from.along) * (to.along - from.along) / 8;
@@ -343,7 +347,7 @@ TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, 
   return {.excess = std::max(from_off, to_off) + between - path.tube, .along = worse.along, .off = worse.off};
 }
 
-// A rough bound is often enough; else the span is gone through quarter by quarter, and from vertex to vertex.
+// A rough bound is often enough. Otherwise the span is measured quarter by quarter, and from vertex to vertex.
 TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const Site& site = at(k);
   const double width = site.pace.width;
@@ -394,7 +398,7 @@ void TubeSpline::check(std::int64_t k) {
   }
 }
 
-// What each of the four controls of a span does at a place in it.
+// The effect that each of a span's four controls has at a place in the span.
 std::array<double, 4> TubeSpline::weights_at(std::int64_t k, double along) const {
   const Site& site = at(k);
   const Site& next = at(k + 1);
@@ -408,7 +412,7 @@ std::array<double, 4> TubeSpline::weights_at(std::int64_t k, double along) const
   return weights;
 }
 
-// Moves the controls the least way that takes the excess off.
+// Makes the smallest move of the controls that removes the excess.
 void TubeSpline::push_back(std::int64_t k, const Worst& worst) {
   constexpr double a_little_more = 1e-3;  // of the tube
   const double off = length_of(worst.off);

@@ -16,8 +16,8 @@
 // stretch is. The deviations are updated, not computed anew: moving a control by d changes them at seven places by
 // known multiples of d.
 //
-// After the sweeps each span is checked without gaps (TubeCheck), and corrected if it would leave the tube. Time: 0.7
-// us a knot, 1.3 for slow bending.
+// After the sweeps each span is checked without gaps (check()), and corrected if it would leave the tube. Time: 0.7 us
+// a knot, 1.3 for slow bending.
 #pragma once
 
 #include <array>

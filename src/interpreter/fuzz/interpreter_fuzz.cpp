@@ -1,5 +1,6 @@
-// Any bytes as a program with subs, loops and parameters, in either dialect: bounded work, every place and every number
-// of an operation finite, canon printed, and explain() says the same as the run itself.
+// Takes any bytes as a program with subs, loops and parameters, in either dialect. The work must be bounded, and every
+// place and every number of an operation finite. Every operation must have a canonical call. explain() must say
+// something of each line that ran, and nothing of the others.
 //
 // The first byte chooses: bit 0 the dialect, bit 1 inches, bit 2 block delete, bit 3 whether it is explained.
 #include <cmath>

@@ -1,5 +1,5 @@
-// Any bytes as a tool table, a parameter file or a settings file: refused with places inside their lines, or taken with
-// bounded, finite contents; and what a parameter file says is what it says when it is written and read again.
+// Takes any bytes as a tool table, a parameter file or a settings file. The file must be refused with places inside its
+// lines, or taken with bounded, finite contents. A parameter file that is written and read again must say the same.
 //
 // The first byte chooses the kind of file.
 #include <cmath>

@@ -1,4 +1,4 @@
-// Counts every allocation of the test program: a warm interpreter makes none a line.
+// Counts every allocation of the test program. A warm interpreter makes none for a line.
 #include "../kept_blocks.hpp"
 #include "interpreted.hpp"
 #include "kit/allocation_count.hpp"
@@ -8,7 +8,7 @@
 namespace passo {
 namespace {
 
-// How often the program allocates behind this many operations, and how many there are.
+// How often the interpreter allocates after a number of operations, and how many operations there are.
 struct Run {
   std::size_t operations = 0;
   std::size_t allocations = 0;
@@ -62,7 +62,8 @@ TEST(Interpreting, allocates_nothing_a_call_of_a_sub) {
       "o<hop> call [#<i>] [#<i> + 1]\n#<i> = [#<i> + 1]\no2 endrepeat\nM2\n");
 }
 
-// All that a program may hold, one after the other. Warm when each place of a kept line held each of them.
+// All that a program may hold, one after the other. The interpreter is warm when each place for a kept line has held
+// each of them.
 TEST(Interpreting, allocates_nothing_a_line_once_warm) {
   std::string program = "G21 G90 F1000 M3 S1000\no1 sub\n#<a>=[#1+1]\nG1 X#<a>\no1 endsub\n";
   const std::string pass =

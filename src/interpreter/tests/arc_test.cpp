@@ -43,7 +43,8 @@ TEST(Arc, radius_may_fall_short_of_a_semicircle_by_a_rounding_error_only) {
 TEST(Arc, radii_may_differ_as_far_as_rounded_numbers_make_them) {
   EXPECT_EQ(check_center({0, 0}, {10.02, 0}, {5, 0}, arc_tolerance_mm).fault, ArcFault::none);
   EXPECT_EQ(check_center({0, 0}, {10.1, 0}, {5, 0}, arc_tolerance_mm).fault, ArcFault::radii_differ);
-  // A tenth of a percent of a large radius, but never above a hundred times the tolerance.
+  // The radii may differ by a tenth of a percent of a large radius, but never by more than a hundred times the
+  // tolerance.
   EXPECT_EQ(check_center({0, 0}, {2000.9, 0}, {1000, 0}, arc_tolerance_mm).fault, ArcFault::none);
   EXPECT_EQ(check_center({0, 0}, {20003, 0}, {10000, 0}, arc_tolerance_mm).fault, ArcFault::radii_differ);
   EXPECT_EQ(check_center({0, 0}, {0, 0}, {0.001, 0}, arc_tolerance_mm).fault, ArcFault::zero_radius);

@@ -1,4 +1,4 @@
-// Lines said in words, with the values, positions and modes that they have when they run.
+// explain(): lines in words, with the values, positions and modes that they have when they run.
 #include "passo/interpreter/explain.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// Whatever the text: no crash, no endless loop, and every operation finite. Run it under the sanitizers.
+// Whatever the text is, there is no crash and no endless loop, and every operation is finite. Run it under the
+// sanitizers.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

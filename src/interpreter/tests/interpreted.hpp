@@ -19,7 +19,8 @@ struct Interpreted {
   Diagnostics diagnostics{1000};
 
   std::string rendered() const { return render(diagnostics, false); }
-  // The calls alone, one a line: no counter, no N column, without the six that start every program and what ends it.
+  // The calls alone, one a line: without the counter, the N column, the six calls that start every program, and
+  // ON_RESET.
   std::string calls() const;
   template <class What>
   std::vector<What> all() const {

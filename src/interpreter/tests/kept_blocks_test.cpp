@@ -1,4 +1,4 @@
-// Lines that come again: what is kept of them changes nothing but the speed.
+// Lines that come again. Keeping their blocks changes nothing but the speed.
 #include "../kept_blocks.hpp"
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 namespace passo {
 namespace {
 
-// G1 alone is a feed to where it is.
+// G1 alone is a feed to where the tool is.
 constexpr const char* head = "G21 G90 F100 G1\n";
 
-// Where the feeds behind the head end.
+// The X of the ends of the feeds after the head.
 std::vector<double> ends(const Interpreted& result) {
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
   std::vector<double> ends;
@@ -86,7 +86,7 @@ TEST(KeptBlocks, a_construct_left_open_in_a_sub_is_shown_in_its_line_each_time) 
 }
 
 TEST(KeptBlocks, lines_of_two_files_are_told_apart) {
-  // The places of the sub's lines are those of the lines around its call.
+  // The lines of the sub have the same places in KeptBlocks as the lines around its call.
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "passo_kept_blocks";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "twin.ngc") << "o<twin> sub\nX[#1 * 2]\no<twin> endsub\n";
@@ -106,7 +106,7 @@ TEST(KeptBlocks, deleted_lines_stay_deleted) {
   EXPECT_EQ(ends(interpret_text(program, options)), (std::vector<double>{1, 2, 3}));
 }
 
-// The reader's buffer holds one of the two places at a time.
+// The reader's buffer can hold the sub or the calls, but not both.
 TEST(KeptBlocks, a_sub_may_be_far_from_its_calls) {
   const std::string path = (std::filesystem::temp_directory_path() / "passo_far_sub.ngc").string();
   std::string program = std::string(head) + "o1 sub\n#<a>=[#1 + 1]\nX#<a>\no1 endsub\n";

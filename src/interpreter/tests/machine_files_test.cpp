@@ -1,4 +1,5 @@
-// The files beside a program: tool table, saved parameters, settings. What is good in them, and what is wrong where.
+// The files beside a program: tool table, saved parameters, settings. Good files are read, and errors are reported at
+// their places.
 #include <filesystem>
 
 #include "interpreted.hpp"

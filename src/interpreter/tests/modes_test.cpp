@@ -1,4 +1,4 @@
-// What is modal, what comes before what, and what a block may say together.
+// What is modal, in which order a block is executed, and which words a block may have together.
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 namespace passo {
 namespace {
 
-// The plain comments that are reached, joined.
+// The plain comments that the program reaches, joined.
 std::string path(const std::string& program) {
   const Interpreted result = interpret_text(program + "M2\n");
   EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();

@@ -1,4 +1,4 @@
-// LinuxCNC's own programs and cases: the same calls in the same order, the same numbers.
+// LinuxCNC's own programs and cases give the same calls in the same order, with the same numbers.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ const fs::path peers = fs::path(PASSO_SOURCE_DIR) / "../shared/peers/linuxcnc";
 #define SKIP_WITHOUT_PEERS() \
   if (!fs::exists(peers)) GTEST_SKIP() << "no ../shared/peers/linuxcnc beside the checkout"
 
-// As rs274 does, nothing is printed after the first error but what its own block did before.
+// As in rs274, only the calls that the first wrong block made before its error are printed after that error.
 std::string canon_up_to_an_error(const fs::path& path, const InterpreterOptions& options, bool& refused) {
   Diagnostics diagnostics;
   auto reader = ProgramReader::open(path.string());
@@ -55,7 +55,7 @@ Interpreted interpret_file(const fs::path& path, const InterpreterOptions& optio
   return result;
 }
 
-// rs274 alone is a machine of inches: that is what the lengths in its tables and parameters are.
+// rs274 alone is a machine of inches. So the lengths in its tables and parameters are inches.
 InterpreterOptions options_of_rs274() {
   InterpreterOptions options;
   options.machine_units = LengthUnits::inch;
@@ -67,8 +67,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// As `awk '{$1=""; print}'` does it, with which most of the expected calls were cut: the counter goes, and of what
-// (PRINT,…) says the first word.
+// Cuts the text as `awk '{$1=""; print}'` does. Most of the expected calls were cut in this way: the counter goes, and
+// the first word of each text of (PRINT,…).
 std::string without_first_word(const std::string& text) {
   std::istringstream lines(text);
   std::string cut;
@@ -80,7 +80,7 @@ std::string without_first_word(const std::string& text) {
   return cut;
 }
 
-// Where a line's call begins, behind the counter and the N column; 0 where the line is no call.
+// Where a line's call begins, behind the counter and the N column. 0: the line is no call.
 std::size_t call_in(const std::string& line) {
   std::size_t at = line.find_first_not_of(' ');
   if (at == std::string::npos) return 0;
@@ -91,7 +91,7 @@ std::size_t call_in(const std::string& line) {
   return std::min(line.find_first_not_of(' ', line.find(' ', at)), line.size());
 }
 
-// Without counter and N column; empty for what LinuxCNC's own versions do not agree on.
+// The call of a line, without counter and N column. Empty for a call on which LinuxCNC's own versions do not agree.
 std::string call_of(std::string line) {
   line.erase(0, call_in(line));
   line.erase(0, line.find_first_not_of(' '));
@@ -109,7 +109,7 @@ std::vector<std::string> calls_of(const std::string& text) {
   return calls;
 }
 
-// Texts are the same, numbers in them to 1e-4 (what four decimals leave).
+// Texts must be the same. Numbers in them may differ by 1e-4, which is what four decimals leave.
 bool same_call(const std::string& a, const std::string& b) {
   constexpr double tolerance = 1.0001e-4;
   const char* p = a.c_str();
@@ -213,13 +213,13 @@ std::vector<Case> read_cases() {
 
 // One call of rs274 in a case's command.
 struct Invocation {
-  std::vector<fs::path> programs;  // more than one where the name has a shell's variable in it
+  std::vector<fs::path> programs;  // more than one if the name has a shell's variable in it
   InterpreterOptions options;
-  bool cut = false;       // by awk '{$1=""; print}'
-  bool messages = false;  // only these are kept
+  bool cut = false;       // the calls are cut by awk '{$1=""; print}'
+  bool messages = false;  // only messages are kept
 };
 
-// The files that a name with ${t} in it stands for: those that have the same text before and behind it.
+// The files that a name with ${t} in it stands for. They have the same text before and behind it.
 std::vector<fs::path> files_like(const fs::path& folder, std::string name) {
   std::erase(name, '"');
   const std::size_t variable = name.find("${t}");
@@ -277,7 +277,7 @@ std::vector<Invocation> invocations_of(const Case& found) {
   return invocations;
 }
 
-// What a case's command leaves of the calls.
+// The part of the calls that a case's command keeps.
 std::string filtered(const Invocation& invocation, const std::string& calls) {
   const std::string canon = invocation.cut ? without_first_word(calls) : calls;
   if (!invocation.messages) return canon;
@@ -289,7 +289,7 @@ std::string filtered(const Invocation& invocation, const std::string& calls) {
   return kept;
 }
 
-// Where what rs274 says of errors is among the expected calls, only calls are compared.
+// Some expected calls have rs274's error messages among them. Then only the calls are compared.
 std::string calls_alone(const std::string& text) {
   std::istringstream lines(text);
   std::string kept;
@@ -303,7 +303,7 @@ bool may_fail(const Case& found) {
   return found.kind == "ERR" || found.command.starts_with("!") || found.command.find("2>&1") != std::string::npos;
 }
 
-// Whether rs274 refuses a program of which this is expected: it says so, and does not get to the end.
+// Whether rs274 refused the program for which this is expected. Then the program did not get to its end.
 bool is_refusal(const std::string& expected) {
   return expected.find("PROGRAM_END()") == std::string::npos && expected.find("FINISH()") == std::string::npos;
 }
@@ -318,7 +318,7 @@ std::string canon_of(const Invocation& invocation, bool& refused) {
   return canon;
 }
 
-// Empty when the case passes, else what is different.
+// Empty: the case passes. Otherwise it says what is different.
 std::string verdict_of_calls(const Case& found) {
   const std::string expected = contents((peers / found.expected).string());
   std::string ours;
@@ -345,7 +345,7 @@ std::string verdict(const Case& found) {
   return found.kind == "BAD" ? "is not refused" : result.rendered();
 }
 
-// The word that a case needs and that is not there yet.
+// The cases that are expected to fail, with the reason.
 std::map<std::string, std::string> expected_failures() {
   const char* const tapping = "on purpose: taps along the axis, LinuxCNC mixes up the axes outside G17";
   const char* const several = "its script runs several programs in its own order: see the next test";
@@ -381,7 +381,7 @@ TEST(Peers, interpreter_cases_agree_with_linuxcnc) {
   EXPECT_EQ(counts.size(), 5U);
 }
 
-// Only what both sides number: what (PRINT,…) says was cut differently from file to file.
+// Only the calls with a number, because texts of (PRINT,…) were cut differently from file to file.
 std::vector<std::string> numbered_calls(const std::string& text) {
   std::vector<std::string> calls;
   std::istringstream lines(text);
@@ -404,7 +404,7 @@ TEST(Peers, main_programs_with_o_words_give_the_calls_of_linuxcnc_up_to_their_en
         "illegal-end-main-with-eof", "illegal-no-m30-before-osub", "illegal-sub-after-percent"}) {
     calls += interpret_file(folder / ("test-" + std::string(program) + ".ngc"), options_of_rs274()).canon;
   }
-  // LinuxCNC ends where it finds no sub, in the last of them. Passo goes on, for more errors.
+  // In the last program LinuxCNC ends where it finds no sub. Passo goes on, to find more errors.
   const std::size_t gone_on = calls.rfind('\n', calls.rfind("returned from sub 2"));
   calls.erase(gone_on, calls.find('\n', gone_on + 1) - gone_on);
   EXPECT_EQ(first_difference(numbered_calls(contents((folder / "expected").string())), numbered_calls(calls)), "");

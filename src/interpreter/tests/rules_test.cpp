@@ -1,4 +1,4 @@
-// Every mistake of the language names where its rule is written, and what it names is there.
+// Every mistake of the language names the chapter of its rule, and that chapter exists.
 #include "../rules.hpp"
 
 #include <algorithm>

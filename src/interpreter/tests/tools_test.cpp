@@ -1,4 +1,4 @@
-// Tools of the table in a program: selecting, changing, their offsets, and what G10 makes of them.
+// Tools of the table in a program: selecting them, changing them, their offsets, and G10.
 #include "interpreted.hpp"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 namespace passo {
 namespace {
 
-// What the program says there, of the last operation of this kind; with an axis, at its word.
+// The text of the words that the last operation of this kind points at. With an axis, the text of that axis word.
 template <class What>
 std::string words_of(const std::string& program, std::optional<Axis> axis = std::nullopt) {
   Diagnostics diagnostics;
@@ -51,7 +51,7 @@ TEST(WordPlaces, the_moves_of_a_contour_have_those_of_the_lathe_cycle) {
   EXPECT_EQ(words_of<operation::StraightFeed>(program, Axis::z), "Z1");
 }
 
-// They are given when other lines have been read.
+// These moves are given after other lines were read.
 TEST(WordPlaces, moves_that_cutter_compensation_held_back_keep_theirs) {
   Diagnostics diagnostics;
   Interpreter interpreter(

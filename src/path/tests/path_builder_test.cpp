@@ -76,7 +76,7 @@ TEST_F(PathTest, work_positions_become_machine_positions) {
   EXPECT_NEAR(end[Axis::z], 7, 1e-12);
 }
 
-// Every case by hand: where the arc starts and ends on a unit circle (in degrees), `turns`, and the sweep.
+// Cases worked out by hand: where the arc starts and ends on a unit circle (in degrees), `turns`, and the sweep.
 TEST_F(PathTest, arcs_sweep_as_rs274_counts_turns) {
   struct Case {
     double start, end;

@@ -74,7 +74,7 @@ TEST_F(PathSmootherTest, a_corner_is_rounded_by_nearly_all_of_the_tolerance) {
       nearest = std::min(nearest, apart(segment.curve.at(segment.curve.length() * (i / 100.0)), xyz(10, 0)));
     }
   }
-  EXPECT_GT(nearest, 0.6 * tolerance_);  // at equal s: the nearest place of the curve is nearer than its middle
+  EXPECT_GT(nearest, 0.6 * tolerance_);  // the tolerance counts at equal s; the nearest place is nearer
   EXPECT_LE(nearest, tolerance_);
 }
 
@@ -208,7 +208,7 @@ TEST_F(PathSmootherTest, rotary_axes_move_along) {
   end[Axis::y] = 10;
   end[Axis::c] = -30;
   add(Curve::line(position_, end));
-  end[Axis::b] = 45;  // turns alone
+  end[Axis::b] = 45;  // only this axis turns
   add(Curve::line(position_, end));
   expect_good(path_);
   EXPECT_EQ(smoothed().back().curve.end(), end);
@@ -255,8 +255,8 @@ TEST_F(PathSmootherTest, slow_bending_keeps_to_the_tube_of_a_rough_path) {
   expect_good(path_, Smoothness::slow_bending);
 }
 
-// From leg to leg of a right angle p goes on as the machine does: slower at the corner, and evenly so that the second
-// derivative changes little.
+// Around a right angle p advances as the machine does: slower at the corner, and so evenly that the second derivative
+// changes little.
 TEST_F(PathSmootherTest, slow_bending_goes_slowly_around_a_corner) {
   go(10, 0);
   go(10, 10);
@@ -277,7 +277,7 @@ TEST_F(PathSmootherTest, slow_bending_goes_slowly_around_a_corner) {
   EXPECT_LT(change, quickest_change / 4);
 }
 
-// Gives what it has in small portions, each through a smoother of a shorter program that ends the same way.
+// A path that is cut off far ahead comes out the same, to the bit, up to shortly before the cut.
 TEST_F(PathSmootherTest, what_comes_out_depends_on_nothing_far_ahead) {
   for (int i = 1; i <= 3000; ++i) go(0.3 * i, std::round(10000 * std::sin(0.2 * i)) / 10000);
   const std::vector<Segment> all = smoothed();

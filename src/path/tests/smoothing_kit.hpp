@@ -71,7 +71,7 @@ class ByLength {
 struct Faults {
   double excess = -1;       // the largest excess of the deviation over the tolerance
   std::size_t gaps = 0;     // ends that differ from the next start; rests not met in order
-  double tangent_jump = 0;  // where the path does not stop
+  double tangent_jump = 0;  // the largest one, where the path does not stop
   double bend_jump = 0;     // the jump of d²P/ds² there, relative to 1/mm and to itself
   std::string where;        // where the deviation is largest
 };
@@ -128,7 +128,7 @@ inline ByLength by_length(const std::vector<PathItem>& items) {
 struct Rest {
   double s = 0;
   Point place;
-  bool asked_for = true;  // else the path turns back, and merged lines may move the place a little
+  bool asked_for = true;  // false: the path turns back, and merged lines may move the place a little
 };
 
 inline std::vector<Rest> rests_of(const ByLength& path) {
@@ -141,11 +141,12 @@ inline std::vector<Rest> rests_of(const ByLength& path) {
   return rests;
 }
 
-// Both go by the same length, but for lines that were merged: they are up to 1 % shorter. So a place is looked for from
-// where it would be without, up to as far as that may have come to since the last rest (and a little beyond: spans that
-// were cut); for slow bending, where the parameter goes on faster at corners than s, from where it was last. `shift` is
-// how far it was when last looked for. Where the path passes itself it may be that of another place near by: so it
-// counts for nothing but as a first guess, and ends at the next rest, which both paths meet.
+// Finds the place of the programmed path that belongs to a place of the smoothed path. Both have the same length,
+// except for merged lines, which are up to 1 % shorter. So the search goes from the place without merging to the
+// farthest place that merging since the last rest explains, and a little beyond for spans that were cut. For slow
+// bending the parameter advances faster than s at corners, so the search begins at the last place. `shift` is how far
+// off the last found place was. Where the path passes itself, the search may have found another place near by. So
+// `shift` is only a first guess, and ends at the next rest, which both paths meet.
 struct LengthAlong {
   double since_rest = 0;
   double rest = 0;
@@ -153,9 +154,9 @@ struct LengthAlong {
 
   double estimate() const { return rest + since_rest + shift; }
 
-  // The least value of a measure over the places of the path that may be meant: first close to the last place, then at
-  // `likely` places, then anywhere. Where rotary axes turn hundreds of degrees a millimetre, only the likely places are
-  // dense enough.
+  // The least value of a measure over the places of the path that may be meant. The search goes first close to the last
+  // place, then around it, then through the `likely` places, then anywhere. Where rotary axes turn hundreds of degrees
+  // a millimetre, only the likely places are dense enough.
   template <class Measure>
   double search(const Measure& measure, double end, const std::pair<double, double>& likely) {
     constexpr double close = 1e-3;
@@ -268,7 +269,8 @@ inline Faults faults_of(const std::vector<PathItem>& programmed, const std::vect
   return faults;
 }
 
-// Corners and smooth runs, dust and long moves, arcs that begin along the path and others, actions.
+// Draws random paths of corners and smooth runs, tiny and long moves, arcs that begin along the path and other arcs,
+// and actions.
 class RandomPath {
  public:
   explicit RandomPath(Random& random) : random_(random) {}

@@ -13,7 +13,7 @@
 namespace passo {
 namespace {
 
-// The curves are worked out here by de Casteljau's rule and by the basis functions, apart from the geometry
+// The curves are worked out here by de Casteljau's rule and by the basis functions, independently of the geometry
 // module.
 struct Place {
   double x = 0;
@@ -31,7 +31,7 @@ Place cubic_at(const std::array<operation::ControlPoint, 4>& control, double u) 
   return {row[0].x, row[0].y};
 }
 
-// The curve is looked at in small steps, and closer around the nearest of them.
+// Goes along the curve in small steps, and then closer around the nearest step.
 double distance_to(const Place& place, const Segment& segment) {
   const auto distance_at = [&](double s) {
     const Point point = segment.curve.at(Mm(s));
@@ -141,8 +141,7 @@ TEST_F(PathTest, random_splines_are_walked_within_a_tenth_of_the_tolerance) {
   }
 }
 
-// Where the parameter stands still the direction turns at once: a cusp, and there and back on
-// a line.
+// Where the parameter stands still, the direction changes at once: at a cusp, and where the curve goes back on a line.
 TEST_F(PathTest, a_spline_with_a_cusp_is_walked_to_its_tip) {
   constexpr std::array<operation::ControlPoint, 4> cusp = {{{0, 0}, {10, 10}, {0, 10}, {10, 0}}};
   constexpr std::array<operation::ControlPoint, 3> there_and_back = {{{10, 0}, {30, 0}, {10, 0}}};

@@ -13,7 +13,7 @@
 
 namespace passo {
 
-// Both of them too.
+// `first` and `last` belong to the range.
 struct LineRange {
   std::uint32_t first = 1;
   std::uint32_t last = 1;

@@ -49,8 +49,8 @@ struct SelectPlane {
 struct SetFeedMode {
   FeedMode mode = FeedMode::units_per_minute;
 };
-// Units per minute: millimetres a second. Per revolution: mm a revolution. Inverse time (G93) never gets here: the
-// interpreter knows each move's length and says units per minute, as LinuxCNC's does.
+// In units per minute the rate is in mm a second. In units per revolution it is in mm a revolution. Inverse time (G93)
+// never gets here: the interpreter knows each move's length and gives units per minute, as LinuxCNC's does.
 struct SetFeedRate {
   double rate = 0;
   double rotary_rate = 0;  // for moves of A B C alone: degrees a second (a revolution), in any length units
@@ -68,9 +68,9 @@ struct StraightTraverse {
 struct StraightFeed {
   Point end;
 };
-// End and centre in the plane's own axes are read from `end` and `center`; the axis through the plane and all
-// others move along (helix). `turns`: +n counterclockwise seen from the plane's positive axis, −n clockwise; 1 is at
-// most one full turn, 2 one more.
+// The end is in `end`, and the centre, in the plane's own two axes, in `first_center` and `second_center`. The axis
+// through the plane and all others move along (helix). `turns`: +n counterclockwise seen from the plane's positive
+// axis, −n clockwise. 1 is at most one full turn, and 2 is one more.
 struct ArcFeed {
   Plane plane = Plane::xy;
   Point end;
@@ -78,9 +78,9 @@ struct ArcFeed {
   Mm second_center;
   std::int32_t turns = 1;
 };
-// A feed along a rational B-spline in X and Y; the other axes stay. Its degree is `order` - 1 (2 to 9), its knots are
-// clamped with all spans 1 long; so it begins at the first control point, where the tool is, and ends at the last.
-// A Bézier curve (G5, G5.1) is one with as many control points as its order.
+// A feed along a rational B-spline in X and Y; the other axes stay. Its degree is `order` - 1 (2 to 9). Its knots are
+// clamped, with all spans 1 long. So the curve begins at the first control point, where the tool is, and ends at the
+// last. A Bézier curve (G5, G5.1) has as many control points as its order.
 struct ControlPoint {
   double x = 0;  // mm
   double y = 0;

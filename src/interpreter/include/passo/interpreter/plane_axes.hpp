@@ -23,7 +23,7 @@ constexpr PlaneAxes axes_of(Plane plane) {
   }
   return {Axis::x, Axis::y, Axis::z};
 }
-// U V W beside X Y Z. Only cycles know them.
+// True: a plane of U V W. Only cycles know these planes.
 constexpr bool is_of_uvw(Plane plane) {
   return plane == Plane::uv || plane == Plane::wu || plane == Plane::vw;
 }

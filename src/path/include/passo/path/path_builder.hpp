@@ -1,10 +1,10 @@
 // PathBuilder: operations -> segments. The builder follows the frame, keeps geometry exact (no chords), and checks the
 // travel.
 //
-// There is one exception. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
+// There are two exceptions. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
 // the machine. Such an arc becomes chords within a thousandth of a millimetre. A spline becomes cubics in its length.
-// The cubics leave the spline by at most a tenth of the path's tolerance, or a thousandth of a millimetre where the
-// tolerance is 0.
+// The cubics leave the spline by at most a tenth of the path's tolerance (but 0.00001 mm is always allowed), or a
+// thousandth of a millimetre where the tolerance is 0.
 //
 // Place on the street: between the interpreter and the planner. Segments join without a gap: each begins, bit for bit,
 // where the one before ended. Moves shorter than a thousandth of a nanometre are rounding, and are dropped. Outputs
