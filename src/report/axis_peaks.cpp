@@ -20,7 +20,7 @@ double acceleration_at(const Phase& phase, double t) {
 double highest_speed(const Phase& phase, Stretch time) {
   double highest = std::max(std::abs(phase.velocity_at(Seconds(time.begin)).value()),
                             std::abs(phase.velocity_at(Seconds(time.end)).value()));
-  if (phase.jerk.value() != 0) {  // the speed may turn inside
+  if (phase.jerk.value() != 0) {  // the speed may have an extreme value inside
     const double turn = -phase.acceleration.value() / phase.jerk.value();
     if (turn > time.begin && turn < time.end) {
       highest = std::max(highest, std::abs(phase.velocity_at(Seconds(turn)).value()));
@@ -111,8 +111,8 @@ class CubicAxis {
 };
 
 // The highest speed and acceleration of an axis in one phase, each to a thousandth. A stretch is halved until it cannot
-// hold more than the highest value seen: away from its middle a value changes at most by the highest rate of change. On
-// most curves the first look is enough.
+// hold more than the highest value seen. The value at its middle and the highest rate of change bound all values in the
+// stretch. On most curves the first look is enough.
 template <class CurvedAxis>
 class PeakSearch {
  public:
@@ -139,8 +139,8 @@ class PeakSearch {
   }
 
  private:
-  struct Look {  // a look at one stretch: the largest speed and acceleration in it, its way, and the values at its
-                 // middle
+  struct Look {  // what is known of a stretch: the path's largest speed and acceleration in it, its way, and the values
+                 // at its middle
     double v, a;
     Way way;
     double half, middle_s, middle_v, middle_a;
@@ -166,7 +166,7 @@ class PeakSearch {
     left_ = 10'000;
     const double duration = phase_.duration.value();
     if (cannot_raise(examine(look_at({0, duration})), peak)) return;
-    // The ends come first, because the highest acceleration of a ramp is at one of them.
+    // The ends are examined first, because the highest acceleration of a ramp is at one of them.
     for (const double end : {0.0, duration}) peak = std::max(peak, examine(look_at({end, end})).here);
     search({0, duration}, peak, examine, 30);
   }
@@ -187,7 +187,7 @@ class PeakSearch {
 
   const CurvedAxis& axis_;
   const Phase& phase_;
-  int left_ = 0;  // a limit on all work; ordinary curves need only a few looks
+  int left_ = 0;  // how many more looks are allowed; ordinary curves need only a few
 };
 
 template <class CurvedAxis>

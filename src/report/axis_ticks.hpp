@@ -1,4 +1,4 @@
-// Ticks of an axis: round numbers, as many as there is room for. Private to report/.
+// Ticks of a chart's axis: round numbers, as many as there is room for. Private to report/.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct Tick {
 
 // The smallest of …, 0.1, 0.2, 0.5, 1, 2, 5, 10, … that is not below `least`.
 double round_step(double least);
-// "12.5": as many decimals as `step` needs, and no "-0".
+// The label has as many decimals as `step` needs ("12.5"), and is never "-0".
 std::string tick_label(double value, double step);
 
 // The ticks in low…high, far enough apart that the widest label has room. One unit is `pixels` long, and `room(label)`

@@ -1,7 +1,7 @@
 // Canvas: a few drawing operations over cairo's C interface. Private to report/.
 //
-// Coordinates are units of the picture, x to the right and y down from the upper left corner. A Canvas owns its surface
-// and context. cairo keeps errors, and finish() returns them.
+// Coordinates are in units of the picture: x to the right and y down, from the upper left corner. A Canvas owns its
+// surface and context. cairo keeps the first error, and finish() returns it.
 #pragma once
 
 #include <memory>
@@ -61,20 +61,20 @@ class Canvas {
   void frame(const Area& area, const Pen& pen);
   void line(Spot from, Spot to, const Pen& pen);
   void disc(Spot centre, double radius, const Colour& colour);
-  // `y` is the middle of the digits' height.
+  // The y of `place` is at the middle of the digits' height.
   void text(Spot place, const std::string& text, const Font& font, Align align = Align::left);
   double text_width(const std::string& text, const Font& font);
 
-  // A path that may have several starts. stroke() draws it.
+  // These two build a path, which may have several pieces. stroke() draws the path.
   void move_to(Spot spot);
   void line_to(Spot spot);
   void stroke(const Pen& pen);
 
-  // Between these two calls drawing shows only inside `area`.
+  // Between clip() and end_clip(), drawing shows only inside `area`.
   void clip(const Area& area);
   void end_clip();
 
-  // Writes everything that was not written yet.
+  // Writes what is left. Returns cairo's error, if there was one.
   Status<OutputError> finish();
 
  private:
@@ -88,7 +88,7 @@ class Canvas {
   PictureFormat format_;
   OutputFile& file_;
   std::unique_ptr<cairo_surface_t, Free> surface_;
-  std::unique_ptr<cairo_t, Free> context_;  // is destroyed before its surface
+  std::unique_ptr<cairo_t, Free> context_;  // must be destroyed before its surface, so it is declared after it
 };
 
 }  // namespace passo

@@ -24,7 +24,7 @@ double share(const Chart::Axis& axis, double value) {
   return (value - axis.begin) / (axis.end - axis.begin);
 }
 
-// On a logarithmic axis a tick for each power of ten; on others as many as fit.
+// A logarithmic axis has a tick for each power of ten. Any other axis has as many ticks as fit.
 std::vector<Tick> ticks_of(const Chart::Axis& axis, double length,
                            const std::function<double(const std::string&)>& room) {
   if (!axis.logarithmic) return ticks(axis.begin, axis.end, length / (axis.end - axis.begin), room);
@@ -76,7 +76,7 @@ void Chart::draw_upper_scale(const std::string& title, double x_per_unit) {
   const double end = x_.end / x_per_unit;
   const double title_left = area_.right() - canvas_.text_width(title, heading);
   canvas_.text({area_.right(), area_.y - 34}, title, heading, Align::right);
-  // The left end belongs to the other axis's title.
+  // The left end of the edge is left free for the title of the other axis.
   const double free_left = area_.x + canvas_.text_width(y_.title, heading) + 24;
   for (const Tick& tick : ticks(0, end, area_.width / end, width)) {
     const double x = at(tick.value * x_per_unit, 0).x;
@@ -93,7 +93,8 @@ void Chart::draw_frame() {
 std::vector<Spot> Chart::spots(const Function& function, double end) const {
   std::vector<Spot> all;
   const double last = std::min(end, x_.end);
-  // Points are as close as the eye needs. The end itself is included, because a curve may stop there with a step.
+  // The points are so close that the eye sees a curve. The end is one of the points, because a curve may stop there
+  // with a step.
   constexpr double distance = 2;
   const int count = std::max(1, static_cast<int>(std::ceil(area_.width * last / x_.end / distance)));
   for (int i = 0; i <= count; ++i) {

@@ -38,7 +38,7 @@ struct Scale {
   double low = 0;
   double high = 1;
   double origin = 0;  // where `low` is drawn
-  double pixels = 1;  // for one unit; below 0 for upwards
+  double pixels = 1;  // for one unit; negative if values grow upwards
   double operator()(double value) const { return origin + (value - low) * pixels; }
 };
 
@@ -51,7 +51,7 @@ double exaggeration_for(const ChordDrawing& drawing, double pixels_per_mm) {
   return (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1) * decade;
 }
 
-// A view along one axis: the coordinate that points right and the one that points up.
+// A view along one axis: the coordinate that points right, and the coordinate that points up.
 struct View {
   std::string name;
   double Vector3::*right;
@@ -76,7 +76,7 @@ Extent extent_of(const ChordDrawing& drawing, double Vector3::*axis) {
   return extent;
 }
 
-// Both axes have the same scale, and the curve is in the middle. Room left over shows more of the plane.
+// Both axes have the same scale, and the curve is in the middle. If there is more room, more of the plane is shown.
 struct Frame {
   Area area;
   Scale right;
@@ -87,7 +87,7 @@ struct Frame {
 Frame fitted(const ChordDrawing& drawing, const View& view, const Area& area) {
   const Extent x = extent_of(drawing, view.right);
   const Extent y = extent_of(drawing, view.up);
-  constexpr double inside = 44;  // free on all sides, for tube and points
+  constexpr double inside = 44;  // free space on all sides, for the tube and the points
   const double least = 1e-9;
   double scale = std::min((area.width - 2 * inside) / std::max(x.high - x.low, least),
                           (area.height - 2 * inside) / std::max(y.high - y.low, least));
@@ -132,7 +132,7 @@ void draw_ends(Canvas& canvas, const ChordDrawing& drawing, const View& view, co
   for (std::size_t i = 1; i < drawing.ends.size(); ++i) {
     way += length(drawing.ends[i] - drawing.ends[i - 1]) * frame.right.pixels;
   }
-  // Points that touch each other show nothing.
+  // Points that are too close to each other would hide the curve.
   const double apart = way / static_cast<double>(std::max<std::size_t>(1, drawing.ends.size() - 1));
   if (apart < 7 && drawing.ends.size() > 2) return;
   const double radius = std::min(3.6, apart / 5);
@@ -149,7 +149,7 @@ void draw_view(Canvas& canvas, const ChordDrawing& drawing, const View& view, co
     return frame.spot(view, sample.curve + (sample.chord - sample.curve) * factor);
   };
   const double half_width = drawing.tolerance.value() * factor * frame.right.pixels;
-  // A tolerance as wide as the picture is no tube.
+  // A tube need not be drawn wider than the picture.
   const double shown = std::min(half_width, area.height);
   canvas.clip(area);
   draw_polyline(canvas, drawing, {.colour = tube_colour, .width = 2 * shown}, on_curve);
@@ -176,7 +176,7 @@ double farthest(const ChordDrawing& drawing) {
   return most;
 }
 
-// Draws the distance of the chords from the curve along its length, under the line of the tolerance.
+// Draws the distance of the chords from the curve along the curve's length, with the tolerance as a line above.
 void draw_deviation(Canvas& canvas, const ChordDrawing& drawing, const Area& area) {
   const bool small = drawing.tolerance < Mm(0.5);
   const double unit = small ? 1000 : 1;

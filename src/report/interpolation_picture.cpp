@@ -98,7 +98,7 @@ class View {
   Area frame_;
 };
 
-// A line at every step if there is room for it, else only at the ticks.
+// Draws a line at every step if there is room for it, else only at round numbers of steps.
 void draw_grid(Canvas& canvas, const View& view) {
   const Pen pen{.colour = grid_colour, .width = 1};
   const Area& frame = view.frame();
@@ -223,7 +223,7 @@ const std::array<RuleLook, speed_rules> rule_looks = {{{"every pulse the same ti
                                                        {"\u221An for a pulse of n axes", {0.93, 0.55, 0.10}},
                                                        {"exact", {0.18, 0.55, 0.34}}}};
 
-using Lags = std::array<std::vector<Spot>, speed_rules>;  // x: time 0 … 1, y: steps ahead of a point with even speed
+using Lags = std::array<std::vector<Spot>, speed_rules>;  // x: time 0…1; y: steps ahead of a point at even speed
 
 Lags lags(const StudiedMethod& studied, const StepMove& move) {
   double way = 0;
@@ -280,7 +280,7 @@ void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove&
 
 struct Panel {
   std::size_t method = 0;
-  std::size_t up = 1;  // the axis that points up, where x points right
+  std::size_t up = 1;  // the axis that points up; X points right
 };
 
 std::vector<Panel> panels(const StepMove& move, std::size_t methods) {

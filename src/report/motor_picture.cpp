@@ -16,7 +16,7 @@ const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
 const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
 const Font caption{.size = 14};
 const Colour paper{1, 1, 1};
-// Blue and orange: everyone can tell them apart, also in grey.
+// Everyone can tell blue and orange apart, even in grey.
 const Pen pull_out_pen{.colour = {0.10, 0.33, 0.60}, .width = 2.6};
 const Pen pull_in_pen{.colour = {0.80, 0.40, 0.05}, .width = 2.6};
 const Pen friction_pen{.colour = {0.45, 0.20, 0.45}, .width = 1.8, .opacity = 1, .dashes = {9, 6}};
@@ -27,7 +27,7 @@ const Colour ramp_shade{0.86, 0.92, 0.98};
 const Colour acceleration_shade{0.87, 0.95, 0.90};
 constexpr double margin = 48;
 
-// All values as functions of the rate, which is along x in both charts.
+// All values as functions of the rate. The rate is along x in both charts.
 struct Functions {
   explicit Functions(const MotorScene& motor) : scene(motor) {}
   RadiansPerSecond speed(double rate) const { return scene.curve.speed_at(Hertz(rate)); }
@@ -39,12 +39,12 @@ struct Functions {
     return scene.curve.available_acceleration(speed(rate), scene.load, scene.margin).value;
   }
   double starting_rate() const { return scene.curve.rate_at(scene.curve.maximum_starting_speed(scene.load)).value(); }
-  // For the load. Empty where the model has no end.
+  // The fastest rate with the load. Empty if the model has no fastest rate.
   std::optional<double> fastest_rate() const {
     const auto speed = scene.curve.fastest_speed(scene.load);
     return speed ? std::optional(scene.curve.rate_at(*speed).value()) : std::nullopt;
   }
-  // The end of the curve. Where only points are known, the curve ends there with a step down.
+  // The rate at which the curve of torque ends. If the curve was made of points, it ends there with a step down.
   double end_of_pull_out() const {
     const auto speed = scene.curve.fastest_speed({});
     return speed ? scene.curve.rate_at(*speed).value() : HUGE_VAL;
@@ -56,8 +56,8 @@ struct Functions {
   const MotorScene& scene;
 };
 
-// Draws words on a backing, so that lines pass behind them. They stand right of `spot` and above it, or left and below
-// if there is no room on the right. A falling curve passes on the other sides.
+// Draws words on a backing, so that lines pass behind the words. The words stand to the right of `spot` and above it,
+// or to the left and below if there is no room on the right. A falling curve through `spot` passes on the other sides.
 void draw_note(Canvas& canvas, const Chart& chart, Spot spot, const std::string& text) {
   const Area& frame = chart.area();
   const double width = canvas.text_width(text, caption);
@@ -161,7 +161,7 @@ Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOpt
   const double accelerations = axis_end(1.08 * motor.acceleration(0));
   constexpr double left = margin + 52;
   constexpr double upper = 148;
-  const double space = height - upper - 130;  // for both charts and the gap between them
+  const double space = height - upper - 130;  // height for both charts and the gap between them
   const Area upper_area{left, upper, width - left - margin, 0.64 * space};
   const Area lower_area{left, upper_area.bottom() + 48, upper_area.width, space - upper_area.height - 48};
   Chart torque(canvas, upper_area, {.title = "", .end = rates}, {.title = "Torque, N\u00B7m", .end = torques});

@@ -15,8 +15,8 @@
 namespace passo {
 namespace {
 
-// The temporary names now in use, for a signal handler: no lock, no heap. A file that finds no free place is written
-// all the same. It is just not removed when the program is interrupted.
+// The temporary names now in use. A signal handler reads them, so there is no lock and no heap. A file that finds no
+// free place here is written as usual. But it is not removed when the program is interrupted.
 constexpr std::size_t most_unfinished = 32;
 std::array<std::atomic<const char*>, most_unfinished> unfinished{};
 
@@ -49,8 +49,8 @@ std::string reason(int error) {
   }
 }
 
-// A name in the same directory, so that rename() stays inside one file system. It is short, so that it fits wherever
-// the name itself fits.
+// A name in the same directory, so that rename() stays inside one file system. The name is short, so that it is not too
+// long for the file system.
 std::string temporary_name(const std::string& path, unsigned attempt) {
   const std::size_t slash = path.rfind('/');
   const std::string directory = slash == std::string::npos ? "" : path.substr(0, slash + 1);
@@ -67,7 +67,7 @@ std::string resolved(const std::string& path) {
 
 struct OutputFile::State {
   std::string shown;      // as the user named it
-  std::string path;       // what it resolves to
+  std::string path;       // the path without symbolic links
   std::string temporary;  // empty: the file is written directly
   int descriptor = -1;
   int error = 0;  // errno of the first failure
@@ -164,7 +164,7 @@ Result<OutputFile, OutputError> OutputFile::open(const std::string& path) {
   } else if (exists && !S_ISREG(existing.st_mode)) {
     error = state->open_directly();
   } else if (exists && ::access(path.c_str(), W_OK) != 0) {
-    error = errno;  // without this check rename() would replace a write-protected file
+    error = errno;  // without this check, rename() would replace a write-protected file
   } else {
     if (exists) state->path = resolved(path);
     error = state->open_temporary(exists ? &existing : nullptr);

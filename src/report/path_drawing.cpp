@@ -11,8 +11,8 @@ double distance(Spot a, Spot b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// Collects pieces of the same look until they are worth a stroke. A few long strokes keep an SVG small; strokes that
-// are too long make cairo slow. Pieces too short to be seen are joined.
+// Collects pieces of the same look and draws them in one stroke. A few long strokes keep an SVG small, but strokes that
+// are too long make cairo slow. Pieces that are too short to be seen are joined.
 class Stroke {
  public:
   void piece(Canvas& canvas, const Pen& pen, Spot from, Spot to) {
@@ -47,7 +47,7 @@ class Stroke {
     bool begins;
   };
 
-  // The last short pieces are drawn too: seen from above, a plunge is a dot.
+  // Adds the last short pieces, so that they are drawn too. Seen from above, a plunge is only a dot.
   void close() {
     if (!spots_.empty() && (length_ > 0 || spots_.back().begins)) spots_.push_back({end_, false});
     length_ = 0;
@@ -83,12 +83,12 @@ double feed_width(const PathRecorder& path, const Projection& projection) {
   });
   constexpr double finest = 0.25;
   constexpr double broadest = 2.2;
-  constexpr double least = 60;  // beside a narrow path there is blank paper too
+  constexpr double least = 60;  // a narrow path has blank paper beside it
   const double paper = std::max(high.x - low.x, least) * std::max(high.y - low.y, least);
   return length > 0 ? std::clamp(0.4 * paper / length, finest, broadest) : broadest;
 }
 
-// A piece that points at the eye, like a plunge seen from above, would be lost in the width of a line.
+// A piece that points at the eye, like a plunge seen from above, is only a dot. A dot as wide as a line would be lost.
 Pen dot_pen(Pen pen) {
   pen.width = 2.2 * pen.width;
   return pen;

@@ -1,5 +1,5 @@
-// Draws a recorded path through a projection: rapids below, feeds above in the colours of their speed. Private to
-// report/.
+// Draws a recorded path in a projection. Feeds have the colours of their speed and are drawn over the rapids. Private
+// to report/.
 #pragma once
 
 #include "projection.hpp"

@@ -18,15 +18,16 @@ double diagonal(const Box& box) {
                     box.high[Axis::z] - box.low[Axis::z]);
 }
 
-// The number of chords that leave a circle of `radius` by at most `tolerance`, or by a two-thousandth of the radius,
-// which nobody sees. `angle` is the whole angle in radians.
+// How many chords an arc needs. The chords may leave the arc by `tolerance`, or by 1/2000 of the radius if that is
+// more, because nobody sees that. `angle` is the whole angle in radians.
 double chords_of(double radius, double angle, double tolerance) {
   if (!(radius > 0)) return 1;
   const double sagitta = std::min(std::max(tolerance, radius / 2000), radius);
   return angle / std::sqrt(8 * sagitta / radius);
 }
 
-// The number for a part `length` of the curve. A cubic counts as an arc of its sharpest bend.
+// How many chords a part of the curve needs that has this `length`. A cubic counts as an arc with the cubic's sharpest
+// bend.
 double chords_of(const Curve& curve, double length, double tolerance) {
   switch (curve.shape()) {
     case Curve::Shape::arc: {
@@ -87,7 +88,7 @@ void PathRecorder::record(const PlannedMove& move) {
   const bool continues = vertices_.size() > 1 && before.x == begin.x && before.y == begin.y && before.z == begin.z;
   if (continues) vertices_.pop_back();
   for (const Phase& phase : move) {
-    // The next piece begins exactly where this one ends.
+    // A phase ends exactly where the next phase begins.
     record(move, phase, &phase + 1 == move.end() ? move.to : (&phase + 1)->start);
   }
 }

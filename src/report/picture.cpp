@@ -33,7 +33,8 @@ std::string size_text(const PathRecorder& path) {
   return fmt::format("X {} \u00D7 Y {} \u00D7 Z {} mm", size(Axis::x), size(Axis::y), size(Axis::z));
 }
 
-// Cuts text out of its middle if it is wider than `room`: the start names the job, the end its kind.
+// Cuts text out of the middle if the text is wider than `room`. The start of a name tells the job, the end tells the
+// kind of file.
 std::string shortened(Canvas& canvas, const std::string& text, const Font& font, double room) {
   std::string shown = text;
   for (std::size_t kept = text.size(); canvas.text_width(shown, font) > room && kept > 8;) {

@@ -16,9 +16,9 @@ const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Font label{.size = 12, .colour = ink};
 const Font heading{.size = 14, .colour = quiet_ink};
 constexpr double mark = 5;            // length of a tick
-constexpr double axis_name_gap = 28;  // from the axis, without the labels between
+constexpr double axis_name_gap = 28;  // from the axis to its name, not counting the labels between them
 
-// The axes have the colours of most drawing programs.
+// The axes have the same colours as in most drawing programs.
 struct Arm {
   Axis axis;
   Colour colour;
@@ -94,7 +94,8 @@ void draw_scale_bar(Canvas& canvas, Spot right_end, double scale, double view_wi
   canvas.text(moved(left_end, length * scale / 2, -13), tick_label(length, length) + " mm", label, Align::centre);
 }
 
-// Widens the box so that it fills the frame of the top view: a wide or narrow view also shows what is beside the path.
+// Widens the box so that it fills the frame of the top view. So a wide or narrow view also shows what is beside the
+// path.
 Box filled_box(const Box& box, const Projection& projection, const Area& area) {
   Box filled = box;
   widen(filled, Axis::x, area.width / projection.scale());
@@ -105,7 +106,7 @@ Box filled_box(const Box& box, const Projection& projection, const Area& area) {
 void draw_top_frame(Canvas& canvas, const Scene& scene, const Projection& projection, const Area& area) {
   const Box shown = filled_box(scene.box, projection, area);
   const double scale = projection.scale();
-  // Both axes use the same room, so that the grid is square.
+  // Labels need the same room on both axes, so that the grid is square.
   const auto room = [&](const std::string& text) { return canvas.text_width(text, label) + 22; };
   for (const Tick& tick : axis_ticks(scene, shown, Axis::x, scale, room)) {
     const double x = projection.spot(scene.zero[Axis::x] + tick.value, 0, 0).x;
@@ -124,16 +125,16 @@ void draw_top_frame(Canvas& canvas, const Scene& scene, const Projection& projec
   canvas.text({area.x - mark - 4, area.y - 16}, "Y, mm", heading, Align::right);
 }
 
-// One edge of the isometric box with its ticks. The axis runs along the edge; labels stand outside.
+// One edge of the isometric box with its ticks. The axis runs along the edge, and the labels stand outside of the box.
 struct EdgeOfBox {
   Axis axis;
   Point begin;   // the end where the axis is lowest
-  double out_x;  // the direction outwards, a unit vector of the picture
+  double out_x;  // the direction outwards, as a unit vector in the picture
   double out_y;
   Align align;
 };
 
-// Labels of a slanting edge stand below each other, half as far apart as their ticks.
+// The labels of a slanting edge stand below each other. Their vertical distance is half the distance of their ticks.
 std::vector<Tick> edge_ticks(const Scene& scene, const Projection& projection, Axis axis) {
   const double height = axis == Axis::z ? 20 : 40;
   return axis_ticks(scene, scene.box, axis, projection.scale(), [height](const std::string&) { return height; });
@@ -161,7 +162,8 @@ void draw_edge(Canvas& canvas, const Scene& scene, const Projection& projection,
               std::string{letter_of(side.axis)} + ", mm", heading, side.align);
 }
 
-// As large as possible, with room for the labels on the left, on the right and below. Their widths depend on the scale.
+// The isometric view, as large as possible, with room for the labels on the left, on the right and below. The widths of
+// the labels depend on the scale.
 Projection fitted_isometric(Canvas& canvas, const Scene& scene, const Area& area) {
   Projection projection = Projection::isometric();
   projection.fit(scene.box, area);
@@ -218,7 +220,7 @@ Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extent
   }
   const auto largest_span = [this] { return std::max({span(box, Axis::x), span(box, Axis::y), span(box, Axis::z)}); };
   double largest = largest_span();
-  // A work zero near the path is shown. One far away would make the path small.
+  // A work zero near the path is shown. A work zero that is far away is not shown, because the path would become small.
   for (const Point& origin : path.origins()) {
     if (!inside(box, origin, largest / 3)) continue;
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
@@ -227,7 +229,7 @@ Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extent
     }
   }
   largest = largest_span();
-  constexpr double some = 40;  // mm, if nothing moves
+  constexpr double some = 40;  // mm; the size of the box if nothing moves
   if (!(largest > 0)) largest = some;
   widen(box, Axis::x, largest / 4);
   widen(box, Axis::y, largest / 4);

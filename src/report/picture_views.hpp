@@ -7,13 +7,13 @@
 
 namespace passo {
 
-// What is shown: the path's box, which is never flat, and the zero of its ticks.
+// What a view shows: the box of the path, which is widened so that it is never flat, and the zero of the ticks.
 struct Scene {
   explicit Scene(const PathRecorder& path);
 
   const PathRecorder& path;
   Box box;     // machine coordinates
-  Point zero;  // zero of the ticks: the work zero if there is one, else the machine's
+  Point zero;  // zero of the ticks: the work zero if there is exactly one, else machine zero
   bool work_coordinates = false;
 };
 

@@ -35,7 +35,7 @@ class Run {
       : vertices_(vertices), anchor_(anchor), tolerance_(tolerance), speed_step_(speed_step) {}
 
   bool takes(std::size_t next) const {
-    // Limits the work; the next joining continues a longer run.
+    // This limits the work. The next joining can make a longer run.
     constexpr std::size_t longest = 64;
     if (next - anchor_ > longest) return false;
     const Vertex& vertex = vertices_[next];

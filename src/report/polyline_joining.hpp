@@ -7,8 +7,9 @@
 
 namespace passo {
 
-// Every vertex that is left out is within `tolerance` of the piece that replaces it. Pieces whose kind or speed differs
-// from their neighbours' stay, unless they are shorter than `tolerance`. Speeds within `speed_step` count as equal.
+// Every vertex that is left out is within `tolerance` of the piece that replaces it. A piece stays if its kind or speed
+// differs from its neighbours', unless the piece is shorter than `tolerance`. Speeds within `speed_step` count as
+// equal.
 void join_pieces(std::vector<PathRecorder::Vertex>& vertices, double tolerance, double speed_step);
 
 }  // namespace passo

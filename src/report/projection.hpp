@@ -14,7 +14,8 @@ class Projection {
  public:
   // Seen from above: X points right, Y up.
   static Projection top() { return {{1, 0}, {0, 1}, {0, 0}}; }
-  // Seen from the front, the right and above, all axes equally foreshortened: X points right and down, Y right and up.
+  // Seen from the front, the right and above. All axes are equally foreshortened: X points right and down, Y right and
+  // up.
   //
   //            back
   //     left  /    \        Z
@@ -39,7 +40,7 @@ class Projection {
  private:
   Projection(Spot x, Spot y, Spot z) : x_(x), y_(y), z_(z) {}
 
-  // The step in the picture for one millimetre of each axis, y up.
+  // How one millimetre of each axis moves a spot of the picture at scale 1. Here y points up.
   Spot x_;
   Spot y_;
   Spot z_;

@@ -15,11 +15,11 @@ const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
 const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
 const Font caption{.size = 14};
 constexpr double margin = 48;
-// With more intervals than this, single ones cannot be told apart.
+// With more intervals than this, single intervals cannot be told apart.
 constexpr std::size_t most_single = 120;
 
-// Blue, orange and green: everyone can tell them apart. The first is broad and pale, so that it stays visible under a
-// curve on top.
+// Everyone can tell blue, orange and green apart. The first curve is broad and pale, so that it stays visible under the
+// others.
 const std::array<Pen, 3> trace_pens = {Pen{.colour = {0.52, 0.70, 0.90}, .width = 5},
                                        Pen{.colour = {0.80, 0.40, 0.05}, .width = 2},
                                        Pen{.colour = {0.05, 0.42, 0.25}, .width = 1.4}};
@@ -73,7 +73,7 @@ void draw_rates(Canvas& canvas, const Area& area, const RampScene& scene, const 
     std::vector<Spot> line;
     for (const RampSample& sample : scene.traces[i].samples) {
       const double rate = 1 / (sample.ticks * scene.tick);
-      if (single(scene)) {  // a stair of the mean rates of single steps
+      if (single(scene)) {  // a stair: the mean rate of each step
         line.push_back({sample.begin * scale, rate});
         line.push_back({sample.end * scale, rate});
       } else {
@@ -118,7 +118,8 @@ void draw_intervals(Canvas& canvas, const Area& area, const RampScene& scene, co
   chart.draw_frame();
 }
 
-// An error of rounding jumps from step to step. Dots show its band, where a line would fill it.
+// Whether errors are drawn as a line. A rounding error jumps from step to step, and a line would fill the whole band.
+// Dots show the band better.
 bool smooth_errors(const RampTrace& trace) {
   return std::ranges::any_of(trace.samples, [](const RampSample& sample) { return std::abs(sample.error) > 3; });
 }
@@ -139,7 +140,7 @@ void draw_errors(Canvas& canvas, const Area& area, const RampScene& scene, const
     for (const RampSample& sample : scene.traces[i].samples) {
       const double error = std::abs(sample.error);
       if (error >= least_error) line.push_back({sample.n, error});
-      // An error of 0 has no place on this scale: the line ends and begins anew.
+      // An error of 0 has no place on a logarithmic scale, so the line ends there and begins anew after it.
       if (error >= least_error && &sample != &scene.traces[i].samples.back()) continue;
       if (smooth && line.size() > 1) chart.polyline(line, pen);
       if (smooth) line.clear();

@@ -1,9 +1,9 @@
 // SpeedColours: the colour for each speed. Private to report/.
 //
-// Viridis (Smith and van der Walt, matplotlib, CC0) is perceptually even, and readable by the colour-blind and in grey.
-// It is used backwards: the full speed of most of a path is dark on white paper, and slow places are bright. Left out
-// are the palest fifth, which paper would swallow, and the darkest tenth, which looks black. Speeds are sorted into a
-// few classes, so that neighbouring pieces become one stroke.
+// Viridis (Smith and van der Walt, matplotlib, CC0) is perceptually even. The colour-blind can read it, and it can be
+// read in grey. It is used backwards: the full speed of most of a path is dark on white paper, and slow places are
+// bright. The palest fifth is left out, because it would hardly show on paper. The darkest tenth is left out, because
+// it looks black. Speeds are sorted into a few classes, so that neighbouring pieces become one stroke.
 #pragma once
 
 #include <array>

@@ -68,7 +68,7 @@ class SummaryBuilder::Implementation {
   }
 
  private:
-  // For a segment that is not followed to its end, adds the part that was.
+  // If only a part of a segment is played, adds only that part.
   void add_extents(const PlannedMove& move, const Point& machine_minus_work) {
     const Curve& whole = move.segment.curve;
     const bool is_part = move.from() > Mm(0) || move.to < whole.length();

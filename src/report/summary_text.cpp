@@ -23,7 +23,7 @@ std::string counted(std::uint64_t number, std::string_view noun) {
   return fmt::format("{} {}{}", grouped(number), noun, number == 1 ? "" : "s");
 }
 
-// Hours appear only if there are some. Always three digits after the point, so that a column aligns at the point.
+// Hours appear only if there are some. There are always three digits after the point, so that columns align at it.
 std::string duration(Seconds time) {
   const auto milliseconds = std::llround(time.value() * 1000);
   const auto seconds = milliseconds / 1000;

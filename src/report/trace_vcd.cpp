@@ -129,7 +129,7 @@ void TraceVcd::on_outputs(Ticks time, const BoardOutputs& outputs) {
   const unsigned changed = outputs_.switches ^ outputs.switches;
   if (changed == 0 && outputs.spindle_rpm == outputs_.spindle_rpm) return;
   const std::uint64_t at = scale_.units(static_cast<std::uint64_t>(time.count));
-  // If the step comes at the same time, its pulse stays high.
+  // A pulse that rises at the same time stays high.
   if (at > rose_at_) close_pulse((at - rose_at_) / 2);
   put_time(at);
   for (unsigned i = 0; i < switch_names.size(); ++i) {

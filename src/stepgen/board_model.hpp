@@ -1,7 +1,8 @@
-// BoardModel: what the host knows of the board, to the last bit: each motor's fixed-point place, and the board's time.
+// BoardModel: the host's copy of the board's state, exact to the last bit: each motor's fixed-point place and the
+// board's time.
 //
-// Player plays a segment event by event. Here a segment is one sum for each motor and one for the time, a tenth of the
-// work of making the segment. A test compares the two.
+// The board's Player plays a segment event by event. BoardModel computes one sum for each motor and one for the time.
+// That takes a tenth of the time of making the segment. A test compares BoardModel with Player.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ class BoardModel {
  public:
   explicit BoardModel(std::uint8_t motors) : motors_(motors) { position_.fill(whole_step / 2); }
 
-  // In 1/65536 tick, with half a tick added; in 1/65536 step, with half a step added.
+  // The time is in 1/65536 tick with half a tick added, a position in 1/65536 step with half a step added.
   std::int64_t time() const { return time_; }
   std::int64_t position(unsigned motor) const { return position_[motor]; }
   void set_steps(unsigned motor, std::int64_t steps) {

@@ -7,8 +7,8 @@ namespace passo {
 namespace {
 
 constexpr double crossing_precision = 0.01;  // places
-constexpr double behind_turn = 1e-7;         // a share of the length
-// A target at most this far behind counts as just reached; no rounding of a place is as large.
+constexpr double behind_turn = 1e-7;         // share of the length
+// A target at most this far behind the motor counts as just reached. The rounding of a place is always smaller.
 constexpr double place_rounding = 1;
 
 }  // namespace
@@ -42,7 +42,7 @@ CubicPlace::CubicPlace(const Curve& curve, const Motor& motor, double end) : end
   const auto inside = [&](double s) { return s > 0 && s < end_ ? s : infinity; };
   const double one = third_ != 0 ? inside(q / (3 * third_)) : infinity;
   const double other = inside(first_ / q);
-  // A turn there and back within almost nothing is no turn.
+  // Two turning points that are almost at the same s cancel each other.
   if (std::fabs(one - other) < 2 * behind_turn_) return;
   first_turn_ = std::min(one, other);
   second_turn_ = std::max(one, other);
@@ -61,7 +61,8 @@ double CubicPlace::crossing(double target, double from) const {
   return from + ahead.time_to(way, end - from, ahead.soon(way), crossing_precision);
 }
 
-// The slope grows with the bend, whichever its sign. Near a turning point that makes the motor fast.
+// Adds the bend to the slope without regard to signs: near a turning point the slope is 0, and the bend alone moves the
+// motor.
 double CubicPlace::travel(double distance, double from) const {
   const double steep = std::fabs(slope(from));
   const double bend = std::fabs(second_ + 3 * third_ * from);

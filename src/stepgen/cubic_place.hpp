@@ -1,9 +1,10 @@
-// CubicPlace: the place of one motor on a cubic, a polynomial of s, and the inverse of that.
+// CubicPlace: the place of one motor on a cubic as a polynomial of s, and its inverse: the s at which the motor is at a
+// place.
 //
 // Between the roots of its derivative the polynomial is monotone. There it has the form of motion at constant jerk,
-// with s for the time, and is inverted as such (units/constant_jerk.hpp): by Newton's method from where the last event
-// leads to, inside the bracket that the turning points give. One or two rounds find a crossing to 0.01 place; this
-// takes about 30 ns.
+// with s in the role of the time, so units/constant_jerk.hpp inverts it. Newton's method starts where the last event
+// leads to, and stays between the turning points. One or two rounds find a crossing to 0.01 place. This takes about
+// 30 ns.
 #pragma once
 
 #include <limits>
@@ -22,7 +23,7 @@ struct Parabola {
   double c = 0;
 
   double at(double s) const { return a + s * (b + s * c); }
-  // The first s >= from at which it is above zero or becomes so. Infinity if there is none.
+  // The first s >= from at which the parabola is above zero or begins to be. Infinity if there is none.
   double above_zero(double from) const;
 };
 
@@ -39,7 +40,7 @@ class CubicPlace {
   // Whether the place rises just after `s`, also on a turning point.
   bool rises(double s) const { return at(next_end(s)) > at(s); }
 
-  // As in MotorPath.
+  // The same meanings as in MotorPath.
   double crossing(double target, double from) const;
   double turning_point(double from) const { return next_turn(from) + behind_turn_; }
   double travel(double distance, double from) const;
@@ -58,10 +59,10 @@ class CubicPlace {
   double second_ = 0;
   double third_ = 0;
   double end_ = 0;
-  // Where the slope is 0, between 0 and the end; else infinity.
+  // The places between 0 and the end where the slope is 0. Infinity if there is none.
   double first_turn_ = infinity;
   double second_turn_ = infinity;
-  double behind_turn_ = 0;  // far enough after a turn to be past it for certain, without a change of place
+  double behind_turn_ = 0;  // so far after a turn, s is certainly past the turn, and the place has hardly changed
 };
 
 }  // namespace passo

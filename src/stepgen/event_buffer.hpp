@@ -1,7 +1,7 @@
 // EventBuffer: the events that will become board segments, with their exact times and each motor's exact place.
 //
-// A stretch is a run of events with one master. Events lie where the master's place crosses multiples of `grid`. So the
-// master's increment is exactly the grid, and its steps come at the exact times.
+// A stretch is a series of events with the same master. Events lie where the master's place crosses multiples of
+// `grid`. So the master's increment is exactly the grid, and its steps come at the exact times.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class EventBuffer {
   EventBuffer() = default;
   EventBuffer(const EventBuffer& other) { *this = other; }
   EventBuffer& operator=(const EventBuffer& other) {
-    // Copies only the part in use, not all of the hundred kilobytes.
+    // Copies only the part in use, because the whole buffer has 150 kilobytes.
     const auto copy = [&](const auto& from, auto& to, std::size_t end) {
       std::copy(from.begin() + static_cast<std::ptrdiff_t>(other.first_),
                 from.begin() + static_cast<std::ptrdiff_t>(end),
@@ -41,10 +41,11 @@ class EventBuffer {
   bool empty() const { return first_ == last_; }
 
   std::int64_t time(std::size_t i) const { return time_[first_ + i]; }
-  // `i` = 0 is the event before the first one in the buffer.
+  // Index 0 is the event before the first one in the buffer.
   const double* places(unsigned motor) const { return &place_[motor][first_]; }
 
-  // Adds an event: its exact time in 1/65536 tick (half a tick added, as the board does) and each motor's exact place.
+  // Adds an event with its exact time and each motor's exact place. The time is in 1/65536 tick, with half a tick added
+  // as on the board.
   void push(std::int64_t time, const std::array<double, max_motors>& places, unsigned motors) {
     if (last_ == capacity) make_room();
     time_[last_] = time;
@@ -59,7 +60,7 @@ class EventBuffer {
   }
 
  private:
-  static constexpr std::size_t capacity = 2048;  // twice what is needed at once, so that events are seldom moved
+  static constexpr std::size_t capacity = 2048;  // twice what a segment needs, so that events are seldom moved
 
   void make_room() {
     std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),

@@ -8,11 +8,11 @@ namespace passo {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A move's events stay between these multiples of the slow rate. Outside of them, a new stretch divides steps more
-// finely or less.
+// The rate of a stretch's events stays between these multiples of the slow rate. If the rate leaves the range, a new
+// stretch begins with a finer or coarser grid.
 constexpr double rate_before_finer = 0.5;
 constexpr double rate_before_coarser = 4;
-// The slow rate, under which the grid is made finer: a share of the board's highest event rate, or
+// Below the slow rate the grid is made finer. The slow rate is this share of the board's highest event rate, or
 // Exactness::least_rate if that is lower.
 constexpr double slow_share = 1.0 / 16;
 constexpr std::int64_t finest_grid = whole_step / 256;
@@ -36,7 +36,7 @@ EventStream::EventStream(const StepOptions& options)
 }
 
 std::int64_t EventStream::fixed_time(double seconds) const {
-  const double units = (fraction_ + seconds * tick_rate_) * whole_tick;  // not negative: the cast rounds to the nearest
+  const double units = (fraction_ + seconds * tick_rate_) * whole_tick;  // never negative, so the cast below rounds
   return (ticks_ << 16) + static_cast<std::int64_t>(units + 0.5) + whole_tick / 2;
 }
 
@@ -70,14 +70,14 @@ void EventStream::start_move(const PlannedMove& move) {
   if (in_stretch_) leads_until_ = path_.leads_until(stretch_.master, stretch_.sign, takeover, spot_.s);
 }
 
-// The square of the rate at which a motor of this slope would move one step on from here. Close to a rest that rate is
-// what counts, and it is the same on both sides of a stop.
+// The square of the rate that a motor of this slope would have one step from here if the path sped up all the way.
+// Close to a rest the present rate says little. This rate is useful there, and it is the same before and after a stop.
 double EventStream::rate_squared(double slope) const {
   const double speed = slope * moment_.speed;
   return speed * speed + 2 * std::fabs(moment_.acceleration) * slope * place_per_step;
 }
 
-// Whether no motor is faster than the master, and the master still moves in its direction.
+// Whether the master still moves in its direction, and no motor is faster than the master.
 bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   const double slope = path_.slope(stretch_.master, spot) * stretch_.sign;
   if (slope <= 0) return false;
@@ -87,11 +87,11 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   return true;
 }
 
-// The range of event rates in which no other division would be better.
+// The range of event rates for which this grid is the best one.
 EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
   const double slow = slow_rate_ * static_cast<double>(grid);
-  // Where nothing is divided for slowness, a grid fits only if it is no finer than its path needs.
+  // If steps are never divided for slowness, a grid fits only if it is no finer than the path needs.
   const double before_coarser = slow == 0 ? -1 : squared(rate_before_coarser * slow);
   return {.above = grid == finest_grid || slow == 0 ? -1 : squared(rate_before_finer * slow),
           .most = grid == whole_step ? infinity : before_coarser};
@@ -102,7 +102,7 @@ bool EventStream::rate_fits() const {
   return rates_.hold(rate) || (rate > rates_.most && stretch_.grid >= coarsest_grid(stretch_.master));
 }
 
-// One step. On an arc of few steps less: so little that the direction hardly changes from event to event.
+// One step, or less on a curve of few steps: from event to event the direction must hardly change.
 std::int64_t EventStream::coarsest_grid(unsigned motor) const {
   std::int64_t grid = whole_step;
   const double most = path_.reach(motor, spot_) * turn_an_event;
@@ -110,15 +110,15 @@ std::int64_t EventStream::coarsest_grid(unsigned motor) const {
   return grid;
 }
 
-// The next line of the grid after `place`, in the direction of the master.
+// The first line of the grid after `place`, in the direction of the master.
 double EventStream::next_target(double place) const {
   const auto grid = static_cast<double>(stretch_.grid);
   const double along = stretch_.sign * place / grid;
   return stretch_.sign * (std::floor(along + 1e-6) + 1) * grid;
 }
 
-// The motor that first moves a certain distance from here: one step, or less on an arc so small that motors turn back
-// within a step.
+// The motor that is the first to get a certain distance away from here. The distance is one step, or less on a curve so
+// small that motors turn back within a step.
 EventStream::Fastest EventStream::fastest() const {
   Fastest best;
   for (double distance = place_per_step; distance >= smallest_distance; distance /= 4) {
@@ -143,7 +143,7 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   rates_ = fitting_rates(stretch_.grid);
   target_ = next_target(path_.place(master, spot_));
   if (path_.crossing(master, target_, spot_) == infinity) {
-    // The master turns back before the next line. The first crossing is on the way back.
+    // The master turns back before the next line of the grid. The first crossing is on the way back.
     const double turn = path_.turning_point(master, spot_.s);
     if (!(turn < path_.end())) return Start::nothing_moves;
     go_to(turn);
@@ -155,8 +155,8 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   return Start::done;
 }
 
-// The path may have gone on from the last event to the border between two stretches. A step that fell due on this way
-// gets an event here, at the border.
+// A step may be due between the last event and the border between two stretches. Such a step gets an event here, at the
+// border.
 bool EventStream::push_border(EventBuffer& events) {
   double most = 0;
   bool due = false;
@@ -176,7 +176,7 @@ bool EventStream::push_border(EventBuffer& events) {
 
 // Adds an event at which all motors are at `here_`.
 void EventStream::push(std::int64_t time, EventBuffer& events) {
-  // Two events are never too close for the board: where the master changes, the new one may have to wait.
+  // Where the master changes, two events could be too close for the board. Then the second event waits.
   last_event_ = std::max(time, last_event_ + shortest_interval_);
   events.push(last_event_, here_, options_.motor_count);
 }
@@ -187,7 +187,8 @@ void EventStream::go_to(double s) {
   for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.place(m, spot_);
 }
 
-// Going down, the step is the crossing itself: after it the place is below the line.
+// A place just after the step at a line. Going up, a place on the line is after the step. Going down, only a place
+// below the line is after the step.
 double EventStream::behind_line(double target) const {
   return stretch_.sign < 0 ? target - 0.5 : target;
 }
@@ -204,8 +205,8 @@ void EventStream::push_master(double target, const MotorPath::Spot& spot, EventB
   in_stretch_ = rate_fits();
 }
 
-// Does for a line what the loop of fill() does, event by event, while stretch and phase last. The motors move in
-// proportion and none turns back, so little work is left. Returns false if there is nothing of the kind to do.
+// A faster form of the loop of fill() for a line. The motors move in proportion and none turns back, so each event
+// takes little work. Ends with the stretch or the phase. Returns false if no event was added.
 bool EventStream::fill_line(EventBuffer& events, std::size_t enough) {
   const double end = std::min(path_.end(), clock_.phase_end());
   const MotorPath::Line master = path_.line(stretch_.master);
@@ -250,12 +251,12 @@ EventStream::Stop EventStream::fill(EventBuffer& events, std::size_t enough) {
     }
     if (path_.is_straight() && fill_line(events, enough)) continue;
     const double s = path_.crossing(stretch_.master, target_, spot_);
-    if (s == infinity) {  // the master turns back first: choose again
+    if (s == infinity) {  // the master turns back before the line, so choose a master anew
       in_stretch_ = false;
       continue;
     }
     if (s > path_.end()) return finish_move();
-    // On a curve another motor may have become the fastest on the way.
+    // On a curve, another motor may become the fastest before the next event.
     const MotorPath::Spot spot = path_.at(s);
     const bool leads = s <= leads_until_ || master_leads(spot);
     if (!leads && !events.empty()) {

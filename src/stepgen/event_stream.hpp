@@ -1,11 +1,13 @@
-// EventStream: planned moves -> exact events. It chooses the master and how finely its steps are divided, and inverts
-// the phases at each line of the grid.
+// EventStream: planned moves -> exact events. EventStream chooses the master and how finely the master's steps are
+// divided. Then it inverts the phases at each line of the grid.
 //
-// The master is the motor that moves fastest. Its events come at the lowest power-of-two multiple of its step rate
-// above a sixteenth of the board's highest rate or 10 kHz. So on a slow move the other motors are late by at most one
-// short event. A stretch goes on from move to move while its master leads and its rate fits: many short moves make
-// segments as long as one long move does. With fitting and replay about 17 ns an event on a line, 70 ns on a cubic, 100
-// ns on an arc; 10 ns more with jerk.
+// The master is the motor that moves fastest. The rate of events is the lowest power-of-two multiple of the master's
+// step rate that reaches the slow rate: a sixteenth of the board's highest rate, or 10 kHz if that is lower. So on a
+// slow move the other motors are late by at most one short event. A stretch goes on from move to move while its master
+// leads and its rate fits. So many short moves make segments as long as one long move does.
+//
+// With fitting and replay, an event takes about 17 ns on a line, 70 ns on a cubic and 100 ns on an arc. Jerk adds
+// 10 ns.
 #pragma once
 
 #include <array>
@@ -25,29 +27,31 @@ class EventStream {
 
   // Why filling stopped.
   enum class Stop : std::uint8_t {
-    full,         // enough events for a segment
-    stretch_end,  // the events of this stretch are complete: play them, then go on
-    move_end,     // the move is used up: give the next one
+    full,         // there are enough events for a segment
+    stretch_end,  // the events of this stretch are complete; play them before filling again
+    move_end,     // the move is used up; start the next one
     rest,         // the move is used up and ends at rest
   };
 
-  // Begins the next move; only after move_end, rest or at the start. `move` must stay alive until it is used up.
+  // Begins the next move. Call it only at the start, or after move_end or rest. `move` must stay alive until it is used
+  // up.
   void start_move(const PlannedMove& move);
   bool in_move() const { return in_move_; }
-  // Call when a copy of the present move has taken its place in memory.
+  // Call it when the present move has been copied to another place in memory. `move` is the copy.
   void move_lives_in(const PlannedMove& move) {
     path_.curve_lives_in(move.segment.curve);
     clock_.move_lives_in(move);
   }
   // Adds events of the present move, until there are `enough`.
   Stop fill(EventBuffer& events, std::size_t enough);
-  // The next event chooses its master anew. Waiting events belong to the stretch before.
+  // Ends the stretch, so that the next event chooses its master anew. Events in the buffer still belong to the old
+  // stretch.
   void end_stretch() { in_stretch_ = false; }
-  // The grid is made finer below this rate of events, or below a sixteenth of the board's highest if that is lower. 0:
-  // never.
+  // Below this rate of events the grid is made finer. A sixteenth of the board's highest rate counts instead if that is
+  // lower. 0: the grid is never made finer for slowness.
   void divide_below(Hertz rate) { slow_rate_ = std::min(rate.value(), slowest_share_); }
   void wait(Seconds time) { advance(time.value()); }
-  // Between moves, as now() has it.
+  // Sets the time back between two moves. `time` is in the units of now().
   void go_back_to(std::int64_t time);
 
   const Stretch& stretch() const { return stretch_; }
@@ -65,7 +69,7 @@ class EventStream {
     double slope = 0;  // the largest |d place / ds| on the way
   };
 
-  // Squares, in the unit of rate_squared().
+  // Squares of rates, in the unit of rate_squared().
   struct FittingRates {
     double above = 0;
     double most = 0;
@@ -93,10 +97,10 @@ class EventStream {
   StepOptions options_;
   double tick_rate_;
   std::int64_t shortest_interval_;
-  double slowest_share_;  // a share of the board's highest rate
-  double slow_rate_;      // events a second; below this the grid is made finer
+  double slowest_share_;  // slow_share of the board's highest rate; events a second
+  double slow_rate_;      // events a second; below this rate the grid is made finer
 
-  // Start time of the present move: whole ticks, and the rest. So nothing is lost over hours.
+  // Start time of the present move, as whole ticks and a fraction. So no precision is lost over hours.
   std::int64_t ticks_ = 0;
   double fraction_ = 0;
 
@@ -111,9 +115,9 @@ class EventStream {
 
   bool in_stretch_ = false;
   Stretch stretch_;
-  FittingRates rates_;      // for its grid
+  FittingRates rates_;      // for the grid of the stretch
   double leads_until_ = 0;  // the place s up to which the master is known to lead
-  double target_ = 0;       // the master's next line of the grid
+  double target_ = 0;       // the line of the grid that the master reaches next
   std::int64_t last_event_ = INT64_MIN / 2;
 };
 

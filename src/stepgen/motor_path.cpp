@@ -6,7 +6,7 @@ namespace passo {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Radians: far enough after a turning point to be past it for certain, without a change of place.
+// Radians. So far after a turning point, s is certainly past the turn, and the place has hardly changed.
 constexpr double behind_turn = 1e-7;
 
 bool goes_straight(const Curve::CubicData& cubic, Axis axis) {
@@ -79,7 +79,7 @@ double MotorPath::travel(unsigned motor, double distance, double from) const {
   return term.scale == 0 ? infinity : distance / std::fabs(term.scale);
 }
 
-// Not for a motor that moves on a circle.
+// Do not call it for a motor that moves round.
 Parabola MotorPath::slope_of(unsigned motor) const {
   const Term& term = terms_[motor];
   return term.way == Way::cubic ? cubics_[motor].slope() : Parabola{.a = term.scale};
@@ -132,7 +132,7 @@ double MotorPath::crossing_round(unsigned motor, double target, const Spot& spot
   const Term& term = terms_[motor];
   const double sine = (target - term.base) / (term.scale * radius_at(from));
   if (!(std::fabs(sine) <= 1)) return infinity;
-  // The sine rises on one half of the turn and falls on the other. Stay on the half that holds `from`.
+  // The sine rises on one half of the turn and falls on the other. The result must be on the same half as `from`.
   const double here = angle_at(term, from);
   const bool sine_rises = (slope_round(term, spot) > 0) == (term.scale * turn_ > 0);
   const double principal = sine_rises ? std::asin(sine) : pi - std::asin(sine);
@@ -142,8 +142,8 @@ double MotorPath::crossing_round(unsigned motor, double target, const Spot& spot
   return std::max(from, s);
 }
 
-// The closed form assumes a constant radius and gives a guess. Newton's method makes it exact, and bisection helps
-// where Newton's method runs away near a turning point.
+// `guess` is the crossing on a circle of constant radius. Newton's method makes the guess exact. Near a turning point
+// Newton's method may run away; then bisection finds the crossing.
 double MotorPath::crossing_on_spiral(unsigned motor, double target, double from, double guess) const {
   const double turn = turning_point(motor, from);
   double s = guess;
@@ -162,8 +162,8 @@ double MotorPath::crossing_on_spiral(unsigned motor, double target, double from,
 }
 
 double MotorPath::turning_point_round(const Term& term, double from) const {
-  // The sine turns back at odd multiples of a right angle. On a spiral this comes a little later, because the radius
-  // grows.
+  // The sine turns back at odd multiples of a right angle. On a spiral whose radius grows, the motor turns back a
+  // little later.
   const double lag = std::atan(growth_ / (radius_at(from) * turn_));
   const double quarter = (angle_at(term, from) - lag - pi / 2) / pi;
   const double next = turn_ > 0 ? std::floor(quarter + 1e-9) + 1 : std::ceil(quarter - 1e-9) - 1;

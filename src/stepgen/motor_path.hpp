@@ -1,7 +1,7 @@
 // MotorPath: the place of every motor as a function of s, for a curve or a part of one. place.hpp defines places.
 //
-// A motor moves straight, in proportion to s; or round, as an axis of an arc's plane; or along a cubic. Finding a
-// crossing takes about 5 ns straight, 50 ns round and 30 ns on a cubic.
+// A motor moves in one of three ways. Straight: in proportion to s. Round: as an axis of an arc's plane. Cubic: along a
+// cubic. Finding a crossing takes about 5 ns straight, 50 ns round and 30 ns on a cubic.
 #pragma once
 
 #include <array>
@@ -15,11 +15,12 @@ namespace passo {
 
 class MotorPath {
  public:
-  // Begins a curve, which is followed up to `end`. `curve` must stay alive until the next one begins.
+  // Begins a curve, which is followed up to `end`. `curve` must stay alive until the next curve begins.
   void start(const Curve& curve, double end, const StepOptions& options);
   void curve_lives_in(const Curve& curve) { curve_ = &curve; }
 
-  // A place on the curve, with values that all motors need, computed once: on an arc, the place on its circle.
+  // A place on the curve, with the values that all motors need, computed once. On an arc these are the cosine and the
+  // sine of the angle.
   struct Spot {
     double s = 0;
     double cosine = 1;
@@ -36,7 +37,7 @@ class MotorPath {
     }
     return term.base + term.scale * spot.s;
   }
-  // d place / ds: negative where the motor counts down.
+  // d place / ds. Negative where the motor counts down.
   double slope(unsigned motor, const Spot& spot) const {
     const Term& term = terms_[motor];
     switch (term.way) {
@@ -46,13 +47,13 @@ class MotorPath {
     }
     return term.scale;
   }
-  // Whether the motor counts up from here on, also on a turning point.
+  // Whether the motor counts up just after `spot`. On a cubic this is right at a turning point too.
   bool rises(unsigned motor, const Spot& spot) const {
     return terms_[motor].way == Way::cubic ? cubics_[motor].rises(spot.s) : slope(motor, spot) > 0;
   }
 
-  // The first s >= from at which the motor reaches `target`, moving in its direction at `from`. Infinity if it turns
-  // back before, or stands still. The result may lie beyond the end.
+  // The first s >= from at which the motor reaches `target` without turning back. Infinity if the motor turns back
+  // before that, or stands still. The result may lie beyond the end.
   double crossing(unsigned motor, double target, const Spot& from) const {
     const Term& term = terms_[motor];
     switch (term.way) {
@@ -62,19 +63,19 @@ class MotorPath {
     }
     return term.scale == 0 ? infinity : std::max(from.s, (target - term.base) / term.scale);
   }
-  // Just after the first place after `from` where the motor turns back. Infinity if it never does.
+  // The s just after the first turning point after `from`. Infinity if the motor never turns back.
   double turning_point(unsigned motor, double from) const;
-  // The change of s until the motor is `distance` away from its place at `from`, whether it turns back or not. This
-  // measures how fast a motor is, also where it turns back and its slope is 0. Infinity if it never gets that far.
+  // The change of s until the motor is `distance` away from its place at `from`, in either direction. This measures how
+  // fast a motor is, even at a turning point, where its slope is 0. Infinity if the motor never gets that far.
   double travel(unsigned motor, double distance, double from) const;
-  // The place up to which no other motor is faster than `master` by the factor `takeover`; the master counts in
-  // direction `sign`. On an arc only `from` itself, because there this is checked from place to place.
+  // The s up to which no other motor is faster than `master` by the factor `takeover`. The master counts in the
+  // direction `sign`. On an arc the result is `from`, because there the caller checks each place.
   double leads_until(unsigned master, int sign, double takeover, double from) const;
-  // The radius on which the motor turns at `spot`, in places. Infinity where it moves straight.
+  // The radius on which the motor turns at `spot`, in units of place. Infinity if the motor moves straight.
   double reach(unsigned motor, const Spot& spot) const;
   bool is_turning(unsigned motor) const { return terms_[motor].way != Way::straight; }
 
-  // For a motor that moves straight.
+  // The motion of a motor that moves straight.
   struct Line {
     double base = 0;  // place at s = 0
     double slope = 0;
@@ -93,8 +94,8 @@ class MotorPath {
     Way way = Way::straight;
     bool on_cosine = false;  // the first axis of the plane
     double base = 0;         // place at s = 0, or the place of the centre
-    double scale = 0;        // slope, or places a millimetre of radius
-    double angle = 0;        // at s = 0; the argument of a sine for both axes
+    double scale = 0;        // slope, or units of place a millimetre of radius
+    double angle = 0;        // at s = 0, turned so that the place is a sine of the angle for both axes
   };
 
   void start_arc(const Curve::ArcData& arc, double length);
@@ -117,7 +118,7 @@ class MotorPath {
   std::array<CubicPlace, max_motors> cubics_;  // for motors that move along a cubic
   const Curve* curve_ = nullptr;
   double end_ = 0;
-  // For an arc; other curves do not turn.
+  // The arc. For other curves, turn_ is 0.
   double angle_ = 0;   // at s = 0
   double turn_ = 0;    // radians a millimetre of s
   double radius_ = 0;  // at s = 0

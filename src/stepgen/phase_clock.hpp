@@ -1,8 +1,9 @@
-// PhaseClock: the time at which the path is at s. It inverts the phases of one move; s only grows from call to call.
+// PhaseClock: the time at which the path is at s. PhaseClock inverts the phases of one move. s never falls from call to
+// call.
 //
 // Times count from the start of the move, so that no error adds up from step to step. units/constant_jerk.hpp inverts a
-// phase. With jerk the search begins where the last event leads to, and takes one or two rounds. About 5 ns an event at
-// constant speed, 10 ns at constant acceleration, 30 ns with jerk.
+// phase. With jerk the search begins where the last event leads to, and takes one or two rounds. An event takes about
+// 5 ns at constant speed, 10 ns at constant acceleration and 30 ns with jerk.
 #pragma once
 
 #include "passo/trajectory/phase.hpp"
@@ -18,10 +19,10 @@ class PhaseClock {
     double acceleration = 0;  // mm/s²
   };
 
-  // `move` must stay alive until the clock is started for the next one.
+  // `move` must stay alive until the clock is started for the next move.
   void start(const PlannedMove& move);
   void move_lives_in(const PlannedMove& move) { move_ = &move; }
-  // `s` must not be less than at the last call.
+  // `s` must not be less than in the last call.
   Moment at(double s) {
     while (s > end_ && phase_ + 1 < move_->phase_count) begin_phase(phase_ + 1, phase_start_ + duration_);
     const double way = s - start_;
@@ -45,7 +46,7 @@ class PhaseClock {
   std::size_t phase_ = 0;
   ConstantJerk motion_;
   double phase_start_ = 0;  // seconds from the start of the move
-  double start_ = 0;        // s
+  double start_ = 0;        // the s at which the phase begins
   double end_ = 0;
   double duration_ = 0;
   double time_ = 0;  // within the phase, at the last call

@@ -1,5 +1,5 @@
-// Places are in the board's own units: 1/65536 of a step, with half a step added. So a motor's step count is the whole
-// part of place/65536, and a step happens where the place crosses a multiple of 65536.
+// Places are in the board's own units: 1/65536 of a step, with half a step added. So a motor's step count is
+// place/65536, rounded down. A step happens where the place crosses a multiple of 65536.
 #pragma once
 
 #include "passo/geometry/axes.hpp"

@@ -10,10 +10,11 @@ namespace {
 
 // An interval must fit the board's timer.
 constexpr std::int64_t longest_interval = 65535 * whole_tick;
-// Where the error of the fit is zero, as shares of the segment: the zeros of T3, with the first zero at the start.
+// The places where the error of the fit is zero, as shares of the segment. They are the zeros of the Chebyshev
+// polynomial T3, moved so that the first zero is at the start.
 constexpr double first_node = 0.464;
 constexpr double second_node = 0.928;
-// A motor that moves less than this in one event stands still (in 1/65536 step).
+// A motor that moves less than this in one event stands still. In 1/65536 step.
 constexpr double still = 1e-4;
 
 std::int64_t floor_to_int(double x) {
@@ -27,7 +28,8 @@ std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
-// Going down mirrors a fixed-point place by its complement: the fraction left becomes the fraction done.
+// The place in the direction of travel. For a motor that goes down, the complement mirrors the place: what is left of a
+// step becomes what is done of the step.
 std::int64_t along(int sign, std::int64_t position) {
   return sign > 0 ? position : ~position;
 }
@@ -68,7 +70,7 @@ bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, cons
 }
 
 SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::int64_t now, unsigned most) {
-  // A single event is always met exactly, unless it is too near or too far.
+  // A segment of one event always meets the event exactly, unless the event is too near or too far.
   const std::int64_t first = events.time(0) - now;
   if (first > longest_interval) return {};
   const Timing single{.interval = static_cast<std::uint32_t>(std::max(first, shortest_interval_)), .events = 1};
@@ -82,7 +84,7 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
     double change = std::round(2 * (slope2 - slope1) / (m2 - m1));
     if (std::fabs(change) > fine_change) change = std::round(change / coarse_change) * coarse_change;
     if (std::fabs(change) > largest_change) continue;
-    // After the change is rounded, the interval still places the far node where it belongs.
+    // The change was rounded. The interval is computed from the rounded change, so that the second node is still met.
     const double interval = std::round(slope2 - change * (m2 - 1) / 2);
     if (interval < 1 || interval > static_cast<double>(longest_interval)) continue;
     const Timing timing{
@@ -97,7 +99,7 @@ SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std
   const double ideal = stretch.sign > 0 ? first_target : -first_target;
   const std::int64_t step = std::llround(ideal) - along(stretch.sign, position);
   const std::int64_t increment = std::clamp<std::int64_t>(step, 0, whole_step);
-  // Where a stretch begins between two lines of its grid, a first segment of one event brings the master onto the grid.
+  // If a stretch begins between two lines of its grid, a first segment of one event brings the master onto the grid.
   return {.sign = stretch.sign, .increment = increment, .events = step == stretch.grid ? events : 1};
 }
 
@@ -109,11 +111,11 @@ SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place
   return {.sign = sign, .increment = std::min<std::int64_t>(missing, whole_step), .events = 1};
 }
 
-// The longest run of events that one increment can serve, if the straight guess fails. It should end at the motor's
-// proper place. An increment at a bound would leave the motor ahead or behind, and a short next segment would be the
-// price.
+// Finds the longest series of events that one increment can serve. Used if the straight guess fails. The series should
+// end with the motor at its exact place: an increment at a bound would leave the motor ahead or behind, and then the
+// next segment would be short.
 //
-// Products test whether a quotient is beyond a bound: few quotients are needed.
+// Products test whether a quotient is beyond a bound, so that few quotients have to be computed.
 SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned count) const {
   std::int64_t low = 0;
   std::int64_t high = whole_step;
@@ -131,7 +133,7 @@ SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned
     pushed = {.increment = is_low ? low : high, .events = k};
     if (!is_low && !is_high) straight = k;
   }
-  // Far behind or ahead of its place no increment fits, and the best possible one is used.
+  // If the motor is far behind or ahead of its place, no increment fits. Then the best possible one is used.
   if (straight == 0) return pushed;
   return {.increment = ceil_divide(ideal_[straight] - place, straight), .events = straight};
 }
@@ -144,7 +146,7 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   if (first > count) return settle(position, places[count], count);
   const int sign = places[first] > places[first - 1] ? 1 : -1;
   for (unsigned k = 1; k <= count; ++k) {
-    if (sign * (places[k] - places[k - 1]) <= -still) {  // turns back here: the rest is left to the next segment
+    if (sign * (places[k] - places[k - 1]) <= -still) {  // the motor turns back here, so the segment ends before
       count = k - 1;
       break;
     }
@@ -154,7 +156,7 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   ideal_[count + 1] = goes_on ? floor_to_int(sign * places[count + 1]) : ideal_[count];
 
   const std::int64_t start = along(sign, position);
-  // Rounded up, so that a step exactly at an event is not missed by a few 65536ths.
+  // Rounded up, so that a step that is due exactly at an event is not missed by a few 65536ths.
   const std::int64_t straight = std::clamp<std::int64_t>(ceil_divide(ideal_[count] - start, count), 0, whole_step);
   std::int64_t place = start;
   bool holds = true;
@@ -180,7 +182,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
   advances[stretch.master] =
       advance_master(stretch, board.position(stretch.master), events.places(stretch.master)[1], count);
   count = advances[stretch.master].events;
-  // One motor may shorten the segment, and earlier motors may then need another increment. So repeat until all agree.
+  // If one motor shortens the segment, the motors before it may need another increment. So repeat until all agree.
   for (bool agreed = false; !agreed;) {
     agreed = true;
     for (unsigned m = 0; m < motors_; ++m) {
@@ -202,7 +204,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
     set_increment(segment, m, sign, advances[m].increment);
   }
-  // Next to a rest a segment has at most two events, and soon after many.
+  // Next to a rest a segment has at most two events, and soon after that many. So two events or less are no good guess.
   if (timing.events > 2) guess_ = timing.events;
   return count;
 }

@@ -77,7 +77,8 @@ class StepGenerator::Implementation {
   }
 
  private:
-  // Makes one segment of waiting events. Returns false if there are none, or too few to be sure.
+  // Makes one segment of waiting events. Returns false if there are none, or so few that more could still make the
+  // segment longer.
   bool fit(BoardItem& item) {
     if (events_.empty() || (more_ && !enough())) return false;
     const unsigned used = fitter_.fit(events_, stream_.stretch(), board_, last_);
@@ -86,7 +87,7 @@ class StepGenerator::Implementation {
     return send(last_, item);
   }
 
-  // Enough means: events for the longest segment and one more, or all that may be waited for.
+  // Whether there are events for the longest segment and one more, or events as far ahead as may be waited for.
   bool enough() const { return events_.size() > fitter_.longest() || stream_.now() - board_.time() >= longest_wait_; }
 
   bool send(const BoardSegment& segment, BoardItem& item) {
@@ -95,13 +96,14 @@ class StepGenerator::Implementation {
     return true;
   }
 
-  // Adds events without steps, for a time that no interval can hold. The time left fits one interval.
+  // Gives events without steps, because the time is too long for one interval. After them, the time left fits one
+  // interval.
   bool wait_until(std::int64_t time, BoardItem& item) {
     constexpr std::int64_t idle = 32768 * whole_tick;
     constexpr int longest_idle = 255;
     const std::int64_t gap = time - board_.time();
-    // Where what is given is to be little, so are waits.
-    // A dwell that is cut short ends with the segment that is played.
+    // With exact times, a wait has no more events than a segment may have. A dwell that is cut short ends with the
+    // segment that is played.
     const std::int64_t most =
         std::min<std::int64_t>(exactness_.one_in > 0 ? most_events : fitter_.longest(), longest_idle);
     const std::int64_t events = std::clamp<std::int64_t>(gap / idle - 1, 1, most);
@@ -115,7 +117,7 @@ class StepGenerator::Implementation {
     return last_;
   }
 
-  // At rest: brings every motor to the exact place of the programmed end, and the board's time to that of the path.
+  // At a rest: brings every motor to its place at the programmed end, and the board's time to the path's time.
   bool come_to_rest(BoardItem& item) {
     std::array<std::int64_t, max_motors> missing{};
     bool moves = false;
@@ -173,7 +175,7 @@ class StepGenerator::Implementation {
     stream_.end_stretch();
     stream_.wait(action.dwell);
     more_ = false;
-    play_ = rest_ = rests_ = true;  // an action comes at rest, even if rounding left some speed
+    play_ = rest_ = rests_ = true;  // an action always comes at rest, even if rounding has left some speed
     action_ = action;
   }
 
@@ -200,10 +202,10 @@ class StepGenerator::Implementation {
 
   bool play_ = false;  // events wait to be played
   bool more_ = false;  // more events of the same stretch may follow
-  bool rest_ = false;  // after the events, come to rest
+  bool rest_ = false;  // after the events, the motors come to rest
   bool rests_ = true;  // all motion pulled so far ends at rest
   bool finished_ = false;
-  std::optional<Action> action_;  // pass this on after the rest
+  std::optional<Action> action_;  // to be passed on after the rest
 };
 
 StepGenerator::StepGenerator(Source<MotionItem>& motion, const StepOptions& options)

@@ -1,4 +1,5 @@
-// Counts every allocation of a test program. Include it in only one file of the program: it replaces operator new.
+// Counts every allocation of a test program. Include this file in only one file of the program, because it replaces
+// operator new.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@ namespace passo::test {
 inline std::size_t allocations = 0;
 }  // namespace passo::test
 
-// Not inlined, because g++ takes new and free in one function for a mistake.
+// Not inlined, because g++ warns of new and free in one function.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++passo::test::allocations;
   if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;

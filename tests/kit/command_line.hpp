@@ -1,6 +1,6 @@
-// The program as a user starts it: its output, the files it leaves, and its exit code.
+// Runs `passo` as a user starts it. Tests can look at its output, its files and its exit code.
 //
-// A test program that uses it defines PASSO_PROGRAM.
+// A test program that includes this file defines PASSO_PROGRAM.
 #pragma once
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ inline std::string read(const fs::path& path) {
   return text.str();
 }
 
-// Each test has a directory of its own, which is removed afterwards.
+// Each test has a directory of its own, which is removed after the test.
 class CommandLine : public testing::Test {
  protected:
   CommandLine() { fs::create_directories(dir_); }
@@ -47,7 +47,7 @@ class CommandLine : public testing::Test {
     const int status = std::system(command.c_str());
     return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(path("out")), .err = read(path("err"))};
   }
-  // Files beside the program and the captured output.
+  // The files in the directory, without the G-code program, the machine file and the captured output.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(dir_)) {

@@ -1,5 +1,5 @@
-// Feeds each file of a fuzzer's corpus to its function once, so that errors found by fuzzing stay corrected. The
-// function aborts where something is wrong.
+// Feeds each file of a fuzzer's corpus to the fuzzer's function once, so that errors found by fuzzing stay corrected.
+// The function aborts if something is wrong.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
-// A program, a homing or a jog on a drive of its own, without a machine session: for tests of the street from text to
-// the board. What a session adds is tested in session/ and by the soak.
+// A program, a homing or a jog on a drive of its own, without a machine session. For tests of all stages from the text
+// to the board. What a session adds is tested in session/ and by the soak.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@
 
 namespace passo::test {
 
-// A virtual line may be slow, but a board that lives answers at once; a real one may be in its boot loader.
+// Over a virtual line, a board that lives answers at once. Over a real line, a board may still be in its boot loader.
 inline constexpr LineCare virtual_line_care{.answer_within = Seconds(0.05)};
 inline constexpr LineCare real_line_care{.answer_within = Seconds(0.1), .patience = Seconds(60)};
 
@@ -30,25 +30,26 @@ inline StepOptions steps_from(const MachineDescription& machine, const Point& st
   return options;
 }
 
-// Lets time pass in a hold, or until something is switched on.
+// Lets this much time pass while the drive waits: in a hold, or while outputs are switched on. Ends early if the drive
+// ends.
 inline void let_pass(MotionDrive& drive, Seconds time) {
   for (const Seconds end = drive.now() + time; end - drive.now() > hardly_any && drive.turn(end - drive.now());) {
   }
 }
 
 struct DriveOn {
-  std::optional<LineOptions> line = {};  // the virtual machine at its other end
-  BoardPort* board = nullptr;            // in the place of the virtual machine, which then follows what the board did
+  std::optional<LineOptions> line = {};  // a line to the virtual machine; empty: no line
+  BoardPort* board = nullptr;            // drives this board; the virtual machine then repeats what the board has done
   std::uint16_t session = 1;
   std::uint8_t greeting = 0;
   std::optional<ResumePoint> resume_at = {};
-  Plant* plant = nullptr;  // behind the virtual machine where that is the board; null: as the machine file says
+  Plant* plant = nullptr;  // behind the virtual machine if that is the board; null: the plant of the machine file
   bool answers_probes = true;
   bool waits_for_operator = false;
   Commitment live = endless_commitment;
 };
 
-// The board that a drive drives, greeted.
+// The board of a drive. The board has been greeted.
 class DrivenBoard {
  public:
   DrivenBoard(const MachineDescription& machine, const Point& start, const DriveOn& on)
@@ -79,7 +80,7 @@ class DrivenBoard {
   BoardSession& session() { return *session_; }
   const BoardSession& session() const { return *session_; }
   bool is_remote() const { return remote_; }
-  // The virtual machine does what a real board has done.
+  // Lets the virtual machine do what the real board has done.
   void follow(MotionDrive& drive) {
     if (!shadow_ || drive.refiller() == nullptr) return;
     drive.refiller()->watch_executed([this](const LinkItem& item) { send(*shadow_, item); });
@@ -104,7 +105,7 @@ class DrivenProgram {
       : on_(on),
         start_(on.resume_at ? on.resume_at->point : options.start),
         board_(machine, start_, on),
-        // Over a line no tap turns round with the spindle; nor with limits of jerk.
+        // A tap cannot turn round with the spindle over a line, or with limits of jerk.
         answers_({.probes = on.answers_probes,
                   .taps = !board_.is_remote() && machine.spindle.counts_per_turn > 0 && !has_jerk_limit(machine)}),
         program_(std::move(reader), machine, options, answers_, diagnostics),
@@ -115,13 +116,13 @@ class DrivenProgram {
     board_.follow(drive_);
   }
 
-  // Goes on a little. False at the end.
+  // Lets the drive go on a little. False at the end of the program.
   [[nodiscard]] bool advance() {
     const bool goes_on = drive_.turn();
     if (!goes_on || drive_.state() == MotionDrive::State::held) board_.catch_up();
     return goes_on;
   }
-  // Switches on what is on where a job is resumed.
+  // Switches on the outputs that are on at the place where the job is resumed.
   void resume() {
     if (on_.resume_at && drive_.refiller() != nullptr) {
       drive_.switch_on(on_.resume_at->outputs, on_.resume_at->spindle_wait);
@@ -196,7 +197,7 @@ class DrivenHoming {
   MotionDrive drive_;
 };
 
-// A jog without a lease: to its end, or until somebody stops it.
+// A jog without a lease. It goes on to its end, or until somebody stops it.
 class DrivenJog {
  public:
   DrivenJog(const MachineDescription& machine, const Point& start, const JogWay& way, const DriveOn& on = {})
@@ -212,7 +213,7 @@ class DrivenJog {
 
   [[nodiscard]] bool advance() { return drive_.turn(); }
   const Point& target() const { return path_.target(); }
-  // The end of the motion that is committed.
+  // The end of the committed motion.
   const Point& place() const { return place_; }
   MotionDrive& drive() { return drive_; }
   VirtualMachine& machine() { return board_.machine(); }

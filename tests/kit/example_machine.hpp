@@ -1,4 +1,5 @@
-// The machines of examples/, for tests of the whole street. A test program that uses it defines PASSO_SOURCE_DIR.
+// The machines of examples/, for tests of all stages together. A test program that includes this file defines
+// PASSO_SOURCE_DIR.
 #pragma once
 
 #include <string>
@@ -16,7 +17,7 @@ inline MachineDescription example_machine(const std::string& name) {
   return machine.value_or(MachineDescription());
 }
 
-// Adds limits of jerk with which full acceleration takes 20 ms.
+// Adds limits of jerk, so that reaching full acceleration takes 20 ms.
 inline MachineDescription with_jerk_limits(MachineDescription machine) {
   for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(axis.acceleration.value() / 0.02);
   return machine;

@@ -1,5 +1,5 @@
-// Finds whole frames among any bytes, at each place separately. It follows the words of docs/wire.md, without the
-// Decoder.
+// Finds whole frames among any bytes, by looking at each place separately. The code follows the text of docs/wire.md
+// and does not use the Decoder.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace passo::test {
 
-// The remainder of the division, computed bit by bit.
+// The CRC of the bytes: the remainder of the division, computed bit by bit.
 inline unsigned frame_crc(std::span<const std::uint8_t> bytes) {
   unsigned remainder = 0xffff;
   for (const std::uint8_t byte : bytes) {

@@ -1,4 +1,4 @@
-// Golden files hold what a text must be, byte for byte. Only PASSO_UPDATE_GOLDEN=1 rewrites them.
+// A golden file holds the expected text, byte for byte. Only PASSO_UPDATE_GOLDEN rewrites golden files.
 #pragma once
 
 #include <cstdlib>

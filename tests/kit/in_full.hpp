@@ -1,7 +1,7 @@
 // The number of trials that tests make.
 //
-// PASSO_IN_FULL=N runs the tests that take minutes, with one in N of their trials. 1 means all trials.
-// PASSO_ONE_IN, a definition of the test program (cmake/PassoModule.cmake): the other tests make one in so many trials.
+// PASSO_IN_FULL=N in the environment runs the tests that take minutes, with one in N of their trials. 1 means all
+// trials. cmake/PassoModule.cmake defines PASSO_ONE_IN: all other tests make one in so many of their trials.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace passo::test {
 
-// 0 means that they do not run.
+// PASSO_IN_FULL. 0: the tests that take minutes do not run.
 inline std::uint64_t in_full() {
   const char* const text = std::getenv("PASSO_IN_FULL");
   return text != nullptr ? std::strtoull(text, nullptr, 10) : 0;

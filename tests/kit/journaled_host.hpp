@@ -1,5 +1,5 @@
-// A host that may die at any moment. It keeps a journal as `passo run` does over a line, and continues from the journal
-// it finds as `passo run --resume` does.
+// A host that may die at any moment. It keeps a journal like `passo run` over a line. The next life of the host goes on
+// from that journal like `passo run --resume`.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace passo::test {
 
-// How a host ends at its moment: before, amid or after sending a frame; or it brakes on the path and leaves.
+// How a host ends: it dies before, amid or after sending a frame; or it brakes on the path and leaves.
 enum class HostEnd : std::uint8_t { before_frame, amid_frame, behind_frame, stopped };
 struct HostDied {};
 constexpr std::uint64_t never = UINT64_MAX;
 
-// What a host sees of the line until it dies: each moment at which it sends a frame or has heard something.
+// The line as a host sees it until the host dies. A moment is each time when the host sends a frame or hears something.
 class MortalPort final : public BoardPort {
  public:
   MortalPort(BoardPort& line, std::uint64_t dies_at, HostEnd end) : line_(line), dies_at_(dies_at), end_(end) {}
@@ -57,7 +57,7 @@ class JournaledHost {
   JournaledHost(const MachineDescription& machine, std::string program)
       : machine_(machine), program_(std::move(program)) {}
 
-  // Returns whether the program reached its end. `moments` is set to the number of moments it lived through.
+  // Returns whether the program reached its end. `moments` is set to the number of moments that the host lived through.
   bool live(BoardPort& line, std::uint64_t ends_at, HostEnd end, std::uint64_t& moments) {
     MortalPort port(line, ends_at, end);
     bool done = false;
@@ -70,7 +70,7 @@ class JournaledHost {
     return done;
   }
   MemoryStore store;
-  bool may_fail = false;  // the line is so bad that the job may give up, with a reason in words
+  bool may_fail = false;  // the line is so bad that the job may give up with a message
 
  private:
   void work(MortalPort& port, bool& done) {

@@ -1,4 +1,4 @@
-// A program run with its board at the other end of a line, and someone who spoils what goes over it.
+// Runs a program with the board at the other end of a line. A test may spoil what goes over the line.
 #pragma once
 
 #include <functional>
@@ -17,18 +17,18 @@ namespace passo::test {
 struct Outcome {
   StepLog::Steps steps;
   std::vector<int> outputs;
-  std::uint64_t frames = 0;  // both ways
+  std::uint64_t frames = 0;  // in both directions
   int recoveries = 0;
 };
 
-// Sees each frame with its number, and gives back what passes.
+// Gets each frame with its number. Returns the bytes that pass.
 using Trouble = std::function<Bytes(DrivenProgram& job, std::uint64_t number, bool to_board, Bytes bytes)>;
 
 inline Outcome run(const MachineDescription& machine, const std::string& program, bool with_line,
                    const Trouble& trouble = nullptr) {
   Diagnostics diagnostics;
   const auto line = with_line ? std::optional(LineOptions{}) : std::nullopt;
-  // Trouble begins with the first frame behind the greeting: a job that does not find its board never begins.
+  // Trouble begins with the first frame after the greeting, because a job that does not find its board never begins.
   DrivenProgram job(ProgramReader::from_text("t", program), machine, InterpreterOptions(), diagnostics, {.line = line});
   StepLog log;
   job.machine().add_observer(log);

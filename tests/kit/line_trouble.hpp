@@ -1,4 +1,4 @@
-// RandomTrouble: spoils data as a bad line does.
+// RandomTrouble: spoils data like a bad line.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace passo::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Loses, doubles and flips bytes, loses and swaps frames.
+// Loses, doubles and flips bytes. Loses and swaps frames.
 class RandomTrouble {
  public:
   explicit RandomTrouble(std::uint64_t seed) : random_(seed), rate_(between(0.0001, 0.001)) {}
@@ -55,11 +55,11 @@ class RandomTrouble {
 
   std::mt19937_64 random_;
   double rate_;
-  std::array<Bytes, 2> late_;  // to be swapped with what comes next
+  std::array<Bytes, 2> late_;  // frames that are to be swapped with the next frame; one for each direction
 };
 
-// The frame with another payload and a right CRC. Nothing if it is neither an item nor a replace. `which` chooses the
-// bit of the payload that changes.
+// The frame with a changed payload and the right CRC for it. Nothing if the frame is neither an item nor a replace.
+// `which` chooses the bit of the payload that changes.
 inline std::optional<Bytes> forged(const Bytes& bytes, std::uint8_t which) {
   constexpr std::uint8_t motors = 3;
   Decoder decoder;

@@ -1,5 +1,5 @@
-// Runs a program as a job under the eyes of the referee, either undisturbed or with holds, resumes and overrides at
-// random instants.
+// Runs a program as a job and lets MotionProver measure the motion. The job runs undisturbed, or with holds, resumes
+// and overrides at random instants.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace passo::test {
 
-// Watches a job, filters out what the proof does not know, and checks each hold.
+// Watches a job, leaves out what the proof does not know, and checks each hold.
 class Watch {
  public:
   Watch(DrivenProgram& job, const MachineDescription& machine) : prover_(proof_options(machine)) {
@@ -44,7 +44,7 @@ class Watch {
   bool rests_ = true;
 };
 
-// The sum over all runs.
+// What was done in all runs together.
 struct Acts {
   int holds = 0;
   int rests = 0;
@@ -52,14 +52,14 @@ struct Acts {
   void print() const { std::printf("%d holds, %d rests, %d overrides\n", holds, rests, overrides); }
 };
 
-// For one run.
+// Disturbs one run.
 struct Meddling {
   Random& random;
   Acts& acts;
   double highest_override = 1;
-  int chances = 10'000;  // afterwards it is left alone, because a slow program would rest at every millimetre
+  int chances = 10'000;  // after these the run is left alone, because a slow program would rest at every millimetre
 
-  // One act in mid-run, or none.
+  // Does one thing to the run, or nothing.
   void act(MotionDrive& drive) {
     if (chances > 0 && --chances == 0) drive.set_feed_override(1);
     switch (drive.state()) {
@@ -70,7 +70,7 @@ struct Meddling {
         }
         break;
       case MotionDrive::State::holding:
-        // Seldom: it takes many turns to come to rest.
+        // Seldom, because coming to rest takes many turns.
         if (random.chance(0.008)) drive.resume();
         break;
       case MotionDrive::State::held:

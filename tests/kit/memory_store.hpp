@@ -1,4 +1,4 @@
-// MemoryStore: stores a journal in memory. It can be told to fail.
+// MemoryStore: keeps a journal in memory. A test can tell it to fail.
 #pragma once
 
 #include <string>

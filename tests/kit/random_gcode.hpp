@@ -1,5 +1,6 @@
-// Random programs as text, and random machines, for tests of the whole street. Each program is short, has no error, and
-// has what programs have: lines, arcs, helices, curves, dust, dense runs, cycles, modes, units, feeds.
+// Random programs as text, and random machines, for tests of all stages together. Each program is short and has no
+// error. It has what real programs have: lines, arcs, helices, curves, very short lines, many close points, cycles,
+// modes, units, feeds.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,8 @@
 
 namespace passo::test {
 
-// A motor whose torque falls from some speed on. At rest it gives at least the axis's acceleration, at full speed some
-// of it.
+// A motor whose torque falls from some speed on. At rest the motor gives at least the axis's acceleration, at full
+// speed only a part of it.
 inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
   const Rotor rotor{.inertia = {1e-5}};
   const double at_rest = axis.acceleration.value() * random.between(1, 1.5);
@@ -37,7 +38,8 @@ inline AxisMotor random_motor(Random& random, const AxisDescription& axis) {
   return {.curve = *curve, .share = 1, .radians_per_unit = 1};
 }
 
-// Two to five axes, sluggish or nimble, with or without limits of jerk, some with a motor's torque.
+// A machine with two to five axes, sluggish or nimble. Some machines have limits of jerk, and some have the torque of
+// motors.
 inline MachineDescription random_machine(Random& random) {
   static constexpr std::array order = {Axis::x, Axis::y, Axis::z, Axis::a, Axis::c};
   MachineDescription machine;
@@ -133,7 +135,7 @@ class RandomGcode {
     for (int i = 0; i < lines; ++i) line(random_.chance(0.2) ? "G0" : "G1");
   }
 
-  // Includes full turns, helices and spirals.
+  // Arcs, full turns, helices and spirals.
   void arc() {
     const double radius = size_ * std::exp(random_.between(-2, 0.5));
     const double from = random_.between(-std::numbers::pi, std::numbers::pi);
@@ -158,7 +160,7 @@ class RandomGcode {
     place_[Axis::y] += way();
     say("G5 I{:.4f} J{:.4f} P{:.4f} Q{:.4f} X{:.4f} Y{:.4f}", i, j, p, q, place_[Axis::x], place_[Axis::y]);
   }
-  // Chords as CAM writes them.
+  // Chords like those that CAM programs write.
   void chords() {
     const int count = static_cast<int>(random_.between(3, 60));
     const double step = std::exp(random_.between(-5, -1));
@@ -223,8 +225,9 @@ inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
   return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-// Calls `try_one` with PASSO_RUNS numbers (fewer under sanitizers) from PASSO_SEED on, each with its job and its
-// generator, up to the first failure. Each job depends on its number alone.
+// Calls `try_one` for PASSO_RUNS numbers from PASSO_SEED on, each time with the number's job and generator. Ends at the
+// first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, or fewer as PASSO_ONE_IN says. Each job depends
+// only on its number.
 template <class Try>
 void for_each_job(int runs_otherwise, const Try& try_one) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);

@@ -1,5 +1,5 @@
-// require(): states what a fuzzer holds to be true for every input. Ends the program if it is not true, so that the
-// fuzzer keeps the input.
+// require(): states what must be true for every input of a fuzzer. If it is not true, require() ends the program, so
+// that the fuzzer keeps the input.
 #pragma once
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// The seed of a random test: PASSO_SEED, or always the same, so that a run can be repeated and CI does not depend on
-// luck. The seed is always printed. Longer runs set PASSO_SEED from outside.
+// The seed of a random test. Without PASSO_SEED the seed is always the same, so that a run can be repeated and CI does
+// not depend on luck. Longer runs set PASSO_SEED from outside. The seed is always printed.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// SoakWorld: a virtual machine at the end of a line, the plant behind it, and all that may happen to the three: the
-// line is cut or spoils bytes, somebody opens the door, presses buttons, closes limit switches, or resets the board.
+// SoakWorld: a virtual machine at the end of a line, and the plant behind the machine. Troubles happen to all three:
+// the line is cut or spoils bytes; somebody opens the door, presses buttons, closes limit switches or resets the board.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,8 @@ class SoakWorld {
 
   Seconds now() const { return machine.elapsed(); }
   Truth truth() { return plant_.truth_at(now()); }
-  // Lets happen what is due, and says what has. `homes`: nobody fools the machine about where it is.
+  // Ends troubles that are over, and begins a new one from time to time. Returns the words of the new trouble, or null.
+  // With `homes`, nobody presses limit switches, because that would give the machine a wrong place.
   const char* act(bool homes) {
     for (std::size_t i = 0; i < due_.size();) {
       if (due_[i].at > now()) {
@@ -57,7 +58,7 @@ class SoakWorld {
     next_ = now() + wait();
     return trouble(homes);
   }
-  // At rest: somebody turns those axes back that are beyond their travel.
+  // Somebody turns the axes back by hand that are beyond their travel. Call it at rest.
   void turn_back() {
     MotorSteps steps{};
     for (std::size_t m = 0; m < description_.axes.size(); ++m) {
@@ -67,9 +68,9 @@ class SoakWorld {
       steps[m] = std::llround(std::clamp(place, axis.travel_low, axis.travel_high) * scale);
     }
     plant_.stand_at(steps);
-    machine.set_switch(0, false);  // looks at the plant
+    machine.set_switch(0, false);  // makes the machine look at the plant
   }
-  // A limit switch is closed by hand: what homing finds now may be wrong.
+  // Whether a limit switch is pressed by hand. Then homing may find a wrong place.
   bool fools() const { return fools_; }
 
   LimitWatch limits;
@@ -82,7 +83,7 @@ class SoakWorld {
   std::uint64_t emergency_stops = 0;
   std::uint64_t limit_presses = 0;
   std::uint64_t resets = 0;
-  std::uint64_t stops = 0;  // of the board, at once
+  std::uint64_t stops = 0;  // how often the board stopped at once
 
  private:
   struct Due {
@@ -90,7 +91,7 @@ class SoakWorld {
     std::function<void()> happen;
   };
 
-  // Under the whole table, for the probe to touch.
+  // A plate under the whole table, for the probe to touch.
   static TouchBox plate() {
     TouchBox box;
     box.ranges[Axis::z].high = -25;

@@ -1,5 +1,5 @@
-// Helpers for tests of a stage: feed it from a list, compare its text with a golden file (golden.hpp), draw seeded
-// random numbers.
+// Helpers for tests of a stage: feed the stage from a list, compare its text with a golden file (golden.hpp), draw
+// seeded random numbers.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// StepLog: every step of a run, and what must hold for it on a troubled line: the machine goes the same way and within
-// its limits.
+// StepLog: every step of a run. The functions below check a run over a troubled line: the machine must go the same way
+// as without trouble, and stay within its limits.
 #pragma once
 
 #include <array>
@@ -41,11 +41,12 @@ class StepLog final : public MachineObserver {
   Steps steps;
 };
 
-// Expects the same steps in the same order as without trouble, with each other motor where it was then. A motor that
-// turns back just where a step is due may make that step and undo it within an event or two, or leave it out. So one
-// run may have at most `most_touches` such pairs that the other lacks.
+// Expects the same steps in the same order as in `reference`, the run without trouble. At each step the other motors
+// must be at the same places as in the reference, within a few steps. A motor that turns back just where a step is due
+// may make the step and undo it within an event or two, or leave it out. So one run may have at most `most_touches`
+// such pairs of steps that the other run lacks.
 inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& reference, int most_touches = 0) {
-  constexpr std::int64_t beside = 3;  // steps of another motor: at times both come to rest
+  constexpr std::int64_t beside = 3;  // steps by which another motor may be elsewhere, as where both come to rest
   int touches = 0;
   const auto is_touch = [](const std::vector<StepLog::Step>& steps, std::size_t i) {
     return i + 1 < steps.size() && steps[i].down != steps[i + 1].down;
@@ -75,7 +76,7 @@ inline void expect_same_way(const StepLog::Steps& run, const StepLog::Steps& ref
   }
 }
 
-// The place of a motor at times that only grow.
+// The place of a motor at a time. The time may only grow from call to call.
 class PlaceAt {
  public:
   PlaceAt(const std::vector<StepLog::Step>& steps, unsigned motor) : steps_(steps), motor_(motor) {}
@@ -90,8 +91,8 @@ class PlaceAt {
   std::size_t next_ = 0;
 };
 
-// Compares places at equal time distances. A bounded acceleration bounds the second difference of three places, and a
-// bounded jerk the third difference of four.
+// Compares places at equal distances of time. A bounded acceleration bounds the second difference of three places. A
+// bounded jerk bounds the third difference of four places.
 template <std::size_t count>
 void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned motor,
                               const std::array<int, count>& factors, double window, double most) {
@@ -107,12 +108,13 @@ void expect_small_differences(const std::vector<StepLog::Step>& steps, unsigned 
   }
 }
 
-// `slack` is in steps. Steps are whole (less than 2), and events are not exact: 4 times the share of an interval by
-// which they may be off (decision 0031: 4 in a tail at most; less has been enough in most cases).
+// `slack`, in steps, allows for two errors. Steps are whole, which makes less than 2. Events are not exact, which makes
+// 4 times the share of an interval by which an event may be off: at most 4, in a tail (decision 0031). A slack below
+// the sum has been enough in most cases.
 inline void expect_within_limits(const MachineDescription& machine, const StepLog::Steps& run, double slack = 4) {
   constexpr double apart = 0.008;  // seconds
-  // For the jerk. With a shorter time a jump of the acceleration by its limit shows better, but whole steps disturb
-  // more; a longer time is the reverse.
+  // The time between two places for the jerk. With a shorter time, a jump of the acceleration by its limit shows
+  // better, but whole steps disturb more. A longer time does the opposite.
   constexpr double apart_of_four = 0.009;
   const double clock = machine.board.clock.value();
   for (unsigned m = 0; m < machine.axes.size(); ++m) {
@@ -122,8 +124,8 @@ inline void expect_within_limits(const MachineDescription& machine, const StepLo
     expect_small_differences<3>(run[m], m, {1, -2, 1}, clock * apart, bend * 1.02 + slack);
     if (axis.jerk.value() == 0) continue;
     const double jolt = axis.jerk.value() * steps * apart_of_four * apart_of_four * apart_of_four;
-    // Whole steps make 4 of that. With eight places, an event is at most a quarter of its interval off, and a whole
-    // interval in a tail where places are few.
+    // Whole steps make 4 of this slack. The factors add up to 8. An event is off by at most a quarter of its interval,
+    // which makes 2. In a tail where places are few an event may be off by a whole interval, which makes 8.
     const bool few_places = machine.board.held_items < 100;
     expect_small_differences<4>(run[m], m, {-1, 3, -3, 1}, clock * apart_of_four, jolt * 1.02 + (few_places ? 12 : 6));
   }

@@ -1,5 +1,5 @@
-// The steps as they should be, computed from the phases in long double by bisection; and the steps that a list of board
-// segments plays, computed from the definition in board_segment.hpp. Shares no code with the step generator or the
+// The exact steps, computed from the phases by bisection in long double. And the steps that a list of board segments
+// plays, computed from the definition in board_segment.hpp. This code shares nothing with the step generator or the
 // player.
 #pragma once
 
@@ -26,13 +26,13 @@ struct ExactStep {
 struct PlayedStep {
   std::int64_t tick = 0;
   int direction = 0;
-  bool of_master = false;     // of the motor that sets the event clock of its segment
-  bool held_back = false;     // its event, or the one before, came as early as the board allows
-  std::int64_t interval = 0;  // the longer of the two intervals beside its event, ticks
+  bool of_master = false;     // a step of the motor that sets the events of its segment
+  bool held_back = false;     // the step's event, or the event before, came as early as the board allows
+  std::int64_t interval = 0;  // ticks; the longer of the intervals before and after the step's event
 };
 
 struct Playback {
-  std::vector<std::vector<PlayedStep>> steps;  // by motor
+  std::vector<std::vector<PlayedStep>> steps;  // of each motor
   std::vector<std::int64_t> counts;
   std::vector<std::int64_t> event_ticks;
   std::int64_t end_tick = 0;
@@ -41,7 +41,7 @@ struct Playback {
   std::int64_t shortest_interval = INT64_MAX;  // ticks
 };
 
-// start + first s + second s² + third s³.
+// place = start + first s + second s² + third s³.
 struct Cubic {
   long double first, second, third;
 };
@@ -50,7 +50,7 @@ inline Cubic cubic_of(const Motor& motor, const Curve& curve) {
   return {data.first[motor.axis], data.second[motor.axis], data.third[motor.axis]};
 }
 
-// A motor's step count is the whole part of this place.
+// A motor's step count is this place, rounded down.
 inline long double exact_place(const Motor& motor, const Curve& curve, long double s) {
   const long double scale = motor.steps_per_unit;
   const long double length = curve.length().value();
@@ -63,7 +63,7 @@ inline long double exact_place(const Motor& motor, const Curve& curve, long doub
     if (motor.axis == arc.second) return (arc.second_center + radius * std::sin(angle)) * scale + 0.5L;
   }
   const long double start = curve.start()[motor.axis];
-  if (curve.shape() == Curve::Shape::cubic && s < length) {  // its end is exactly the given end
+  if (curve.shape() == Curve::Shape::cubic && s < length) {  // at s = length, the curve's given end is exact
     const auto [first, second, third] = cubic_of(motor, curve);
     return (start + s * (first + s * (second + s * third))) * scale + 0.5L;
   }
@@ -97,7 +97,7 @@ inline long double exact_time(const PlannedMove& move, long double s) {
   return time;
 }
 
-// The places where an axis of an arc's plane turns back. The sign of its slope changes at most once between samples.
+// The places where an axis of an arc's plane turns back. Between two samples, the slope changes its sign at most once.
 inline std::vector<long double> turns_on_arc(const Motor& motor, const Curve& curve) {
   const Curve::ArcData& arc = curve.arc_data();
   const long double length = curve.length().value();
@@ -136,7 +136,7 @@ inline std::vector<long double> turns_on_cubic(const Motor& motor, const Curve& 
   return turns;
 }
 
-// Values of s between which the motor does not turn back, over the part of its curve that a move covers.
+// Values of s between which the motor does not turn back. They cover the part of the curve that the move covers.
 inline std::vector<long double> monotone_pieces(const Motor& motor, const PlannedMove& move) {
   const Curve& curve = move.segment.curve;
   const Curve::ArcData& arc = curve.arc_data();
@@ -165,7 +165,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
   const Motor& motor = options.motors[m];
   const long double ticks = options.clock.tick_rate.value();
   long double start = 0;              // seconds
-  std::optional<std::int64_t> count;  // steps so far
+  std::optional<std::int64_t> count;  // the motor's step count so far
   for (const MotionItem& item : items) {
     if (const auto* action = std::get_if<Action>(&item)) {
       start += action->dwell.value();
@@ -178,7 +178,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
     for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
       const bool rises = exact_place(motor, curve, pieces[i + 1]) > exact_place(motor, curve, pieces[i]);
       const std::int64_t last = whole_place(exact_place(motor, curve, pieces[i + 1]));
-      // The count continues from move to move: a line on which two moves meet is crossed only once.
+      // The count goes on from move to move, so that a line on which two moves meet is crossed only once.
       for (; rises ? *count < last : *count > last; *count += rises ? 1 : -1) {
         const auto line = static_cast<long double>(rises ? *count + 1 : *count);
         const long double s = bisect([&](long double at) { return (exact_place(motor, curve, at) < line) == rises; },
@@ -191,7 +191,7 @@ inline std::vector<ExactStep> exact_steps(const std::vector<MotionItem>& items, 
   return steps;
 }
 
-// If the path crosses a line and comes back before the next event, the board may leave out both steps.
+// Whether the board may leave out two steps: the path crosses a line and comes back before the next event.
 inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
                             const std::vector<std::int64_t>& event_ticks) {
   const auto event_after = [&](const ExactStep& step) {
@@ -201,7 +201,7 @@ inline bool may_be_left_out(const ExactStep& there, const ExactStep& back,
   return there.direction != back.direction && event_after(back) - event_after(there) <= 1;
 }
 
-// The signed increment as in board_segment.hpp's table.
+// The signed increment, as in the table of board_segment.hpp.
 inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   const bool flip = (segment.flips >> m & 1U) != 0;
   const bool down = (segment.directions >> m & 1U) != 0;
@@ -220,8 +220,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
     std::size_t index;
   };
   std::vector<Pending> pending;  // steps whose next interval is not known yet
-  // Events without any motion only bridge a time that is too long for one interval, so the interval goes on. At an
-  // action the machine rests, and the interval ends.
+  // Events without any motion only fill a time that is too long for one interval, so the interval goes on through them.
+  // At an action the machine rests, and the interval ends.
   std::int64_t last_motion = 0;  // ticks
   const auto end_interval = [&](std::int64_t tick) {
     for (const Pending& p : pending) {
@@ -240,8 +240,8 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       continue;
     }
     ++result.segments;
-    // The master moves by a power of two, and more than any other motor. Two motors that move alike cannot be told
-    // apart here.
+    // The master moves by a power of two, and more than any other motor. If two motors move alike, this code cannot
+    // tell which one is the master.
     std::int64_t most = 0;
     unsigned alike = 0;
     for (unsigned m = 0; m < options.motor_count; ++m) {

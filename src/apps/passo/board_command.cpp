@@ -1,4 +1,4 @@
-// passo board list, info, monitor: what boards there are, what they are, and what they do.
+// passo board list, info, monitor: which boards there are, what each board is, and what it does.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -24,10 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An Arduino that was just opened is in its boot loader for a second or two: it is asked again and again.
+// An Arduino whose line was just opened is in its boot loader for a second or two. So it is asked again and again.
 constexpr LineCare inquiry_care{.answer_within = Seconds(0.25), .patience = Seconds(3600)};
 
-// The names that stay the same wherever a board is plugged in; else those that the kernel gives.
+// The names of this computer's serial lines. Names in by-id stay the same wherever a board is plugged in. If there are
+// none, the kernel's names are used.
 std::vector<std::string> serial_lines() {
   std::vector<std::string> lines;
   std::error_code none;
@@ -42,7 +43,7 @@ std::vector<std::string> serial_lines() {
   return lines;
 }
 
-// Null, and said why, where there is no such board. `code`: what to exit with.
+// Opens a board by its address. If that fails, shows the reason, sets `code` to the exit code and returns null.
 std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
   const auto address = parse_board_address(board);
   if (!address || address->kind == BoardAddress::Kind::virtual_machine) {
@@ -161,7 +162,7 @@ int board_monitor(const BoardMonitorArguments& arguments) {
       if (live) fmt::print("\n");
       return fail(exit_failed, arguments.board + ": " + silence(board));
     }
-    // On a terminal one line that changes, in a pipe a line each.
+    // A terminal shows one line that changes. A pipe gets a line for each status.
     fmt::print("{}{}", arguments.json ? to_json(*status).dump() : line_of(*status), live ? "\033[K\r" : "\n");
     std::fflush(stdout);
   }

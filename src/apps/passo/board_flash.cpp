@@ -1,6 +1,7 @@
-// passo board flash: puts the firmware on a board by avrdude, after a look whether it fits, and keeps what was there.
+// passo board flash: checks that the firmware fits the board, saves the old contents, and writes the firmware. avrdude
+// does the writing.
 //
-// avrdude compares the chip's signature with what we say it is, and reads back what it has written.
+// avrdude checks by the chip's signature that the chip is the expected one, and reads back what it has written.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -24,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Chip {
-  const char* board;       // its name's beginning
-  const char* part;        // avrdude's -p
-  const char* programmer;  // its -c for the boot loader
-  unsigned flash;          // bytes that the boot loader leaves
+  const char* board;       // the beginning of the board's name
+  const char* part;        // avrdude's option -p
+  const char* programmer;  // avrdude's option -c for the boot loader
+  unsigned flash;          // bytes of flash without the boot loader
 };
 constexpr std::array chips = {Chip{"uno", "atmega328p", "arduino", 32'768 - 512},
                               Chip{"mega", "atmega2560", "wiring", 262'144 - 8'192}};
@@ -71,7 +72,7 @@ std::optional<HexRecord> read_record(const std::string& line) {
       .address = bytes[1] * 256 + bytes[2], .type = bytes[3], .data = {bytes.begin() + 4, bytes.end() - 1}};
 }
 
-// How far up in the flash the image reaches, or what is wrong with it.
+// The address in the flash at which the image ends, or what is wrong with the image.
 Result<unsigned, std::string> size_of_image(const std::string& path) {
   std::ifstream file(path);
   if (!file) return Failure{path + ": cannot be read"};
@@ -91,7 +92,8 @@ Result<unsigned, std::string> size_of_image(const std::string& path) {
   return Failure{path + ": ends before its end record: is it whole?"};
 }
 
-// No shell in between: names are what they are. Its exit code; 127 where there is no such program.
+// Runs a program and returns its exit code; 127 if there is no such program. There is no shell in between, so a file
+// name may have any characters.
 int start(const std::vector<std::string>& words) {
   std::fflush(nullptr);
   const pid_t child = fork();
@@ -124,7 +126,7 @@ int board_flash(const BoardFlashArguments& arguments) {
   }
   const std::string backup =
       arguments.backup.empty() ? fmt::format("passo-backup-{}.hex", arguments.board) : arguments.backup;
-  // The way back is not to be lost by a second attempt.
+  // The backup is the way back to the old contents. A second attempt must not overwrite it.
   if (fs::exists(backup)) {
     return fail(exit_bad_program, backup + " is there already: what the board held before; name another with --backup");
   }

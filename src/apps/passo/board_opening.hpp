@@ -13,8 +13,8 @@
 
 namespace passo {
 
-// The path, seen from this program, where the build puts the firmware `motion` for `board`. `extension`: ".hex" or
-// ".elf".
+// The path at which the build puts the firmware `motion` for `board`, found from the place of this program.
+// `extension`: ".hex" or ".elf".
 std::filesystem::path built_image(std::string_view board, std::string_view extension);
 std::string message_of_missing(const std::filesystem::path& image);
 

@@ -1,4 +1,4 @@
-// passo board serve: the virtual machine as a board in the network, in real time, for those who have no board at hand.
+// passo board serve: the virtual machine as a board in the network, in real time. It is for people without a board.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -19,11 +19,11 @@
 namespace passo {
 namespace {
 
-// How often a board that plays looks whether the host has sent something.
+// How long a board waits for bytes of the host before its time goes on: while it plays, and while it is idle.
 constexpr Seconds look{0.001};
 constexpr Seconds idle_look{0.05};
 
-// Only for this computer: whoever can connect can turn the motors.
+// Listens for this computer only, because whoever can connect can turn the motors. `found` is set to the port.
 int listen_on_loopback(unsigned port, unsigned& found) {
   const int listening = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   const int on = 1;
@@ -42,12 +42,12 @@ int listen_on_loopback(unsigned port, unsigned& found) {
   return listening;
 }
 
-// The machine's time follows the clock, whether a host is there or not.
+// Lets the machine's time follow the clock, with a host or without.
 class RealTime {
  public:
   explicit RealTime(VirtualMachine& machine) : machine_(machine) {}
 
-  // Up to now. What the machine says meanwhile goes to the host, if there is one.
+  // Runs the machine up to now. What the machine says meanwhile goes to the host, if there is one.
   void catch_up(StreamPort* host) {
     const Seconds before = machine_.elapsed();
     for (Seconds now = elapsed(); machine_.elapsed() < now;) {
@@ -77,7 +77,7 @@ void serve(StreamPort& host, VirtualMachine& machine, RealTime& time) {
   }
 }
 
-// The next host; less than 0 when there will be none.
+// Waits for the next host and returns its descriptor; less than 0 if waiting fails.
 int wait_for_host(int listening, RealTime& time) {
   for (;;) {
     pollfd one{.fd = listening, .events = POLLIN, .revents = 0};

@@ -12,7 +12,7 @@ std::string name_of(const About& about) {
   std::string name;
   for (const char letter : about.name) {
     if (letter == 0) break;
-    // It comes off a line: nothing of it may be more than text on a terminal.
+    // The name comes off a line. Control characters must not reach the terminal.
     name += std::isprint(static_cast<unsigned char>(letter)) != 0 ? letter : '?';
   }
   return name.empty() ? "without a name" : name;

@@ -1,4 +1,4 @@
-// passo canon: the seam after the interpreter, printed.
+// passo canon: prints the operations that the interpreter makes of a program.
 #include <cstdio>
 
 #include "commands.hpp"
@@ -31,7 +31,7 @@ int canon(const CanonArguments& arguments) {
     output->write(line);
   }
   show(findings);
-  // To standard output what was good is printed up to its end; a file appears only when all was.
+  // Standard output gets what was good. A file appears only if the whole program is good.
   if (findings.any_error() && !arguments.output.empty()) return exit_bad_program;
   const Status<OutputError> written = output->commit();
   if (!written) {

@@ -1,5 +1,5 @@
-// passo check: interpret the program and build its path, and say what is wrong. Nothing runs; with --motion the path is
-// planned and stepped all the same, and the motion measured.
+// passo check: interprets the program, builds its path, and says what is wrong. Nothing runs on a machine. With
+// --motion the path is also planned and stepped, and the motion is measured.
 #include <cstdio>
 #include <utility>
 
@@ -24,7 +24,7 @@ nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
   return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
 }
 
-// Plays the whole program on a virtual machine, watched; `nominal` is for the progress line.
+// Plays the whole program on a virtual machine and measures its motion. `nominal` is the time for the progress line.
 MotionProof prove(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                   Seconds nominal, Diagnostics& findings) {
   constexpr unsigned turns_between_looks = 1024;

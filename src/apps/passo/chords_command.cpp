@@ -27,7 +27,7 @@ Result<StepScale, std::string> scale_of(const std::string& text) {
 }
 
 void add_row(std::string& text, std::int64_t number, const Vector3& place, Mm deviation) {
-  // An exact zero of a formula comes out as 1e-16; nobody wants to read that, and it is no place of any machine.
+  // A formula whose exact result is zero may give 1e-16. Nobody wants to read that, and no machine is that fine.
   const auto clean = [](double mm) { return std::abs(mm) < 1e-12 ? 0.0 : mm; };
   fmt::format_to(std::back_inserter(text), "{},{:.15g},{:.15g},{:.15g},{:.6g}", number, clean(place.x), clean(place.y),
                  clean(place.z), clean(deviation.value()));
@@ -52,7 +52,7 @@ std::optional<CurveError> write_chords(const C& curve, ChordTolerance tolerance,
   return std::nullopt;
 }
 
-// Chords that are shorter than a step have no row: they are in the next one.
+// A chord that is shorter than a step has no row of its own: the next row includes it.
 template <ParametricCurve C>
 std::optional<CurveError> write_step_chords(const C& curve, ChordTolerance tolerance, const StepScale& scale,
                                             OutputFile& file) {
@@ -129,7 +129,7 @@ int chords(const ChordsArguments& arguments) {
   if (!tolerance) return fail(exit_bad_program, "--tolerance: " + tolerance.error().message);
   if (arguments.picture.empty()) return print_chords(*curve, *tolerance, arguments);
   const int code = draw(*curve, *tolerance, arguments);
-  // A picture is an answer by itself; numbers beside it go where they are asked to.
+  // A picture is an answer by itself. The numbers are written too only if a file for them is named.
   if (code != exit_done || arguments.output.empty()) return code;
   return print_chords(*curve, *tolerance, arguments);
 }

@@ -1,5 +1,5 @@
-// The commands of `passo`, one function each. command_line.cpp fills in the arguments; each command returns an exit
-// code.
+// The commands of `passo`, one function each. main.cpp, board_options.cpp and study_options.cpp fill in the arguments.
+// Each command returns an exit code.
 #pragma once
 
 #include <cstdint>
@@ -22,20 +22,20 @@ enum ExitCode : int {
 struct ProgramArguments {
   std::string program;                   // "-": standard input
   bool block_delete = false;             // skip lines that start with '/'
-  bool inches = false;                   // until the program says G20 or G21
+  bool inches = false;                   // lengths are inches until the program says G20 or G21
   bool user_codes = false;               // M100 to M199 are allowed
-  std::uint64_t loop_limit = 1'000'000;  // passes of a loop without an operation
+  std::uint64_t loop_limit = 1'000'000;  // most passes of a loop that makes no operation
   std::string tools;                     // tool table; empty: none
   std::string parameters;                // parameter file; empty: none
   std::string settings;                  // ini file; empty: none
   std::vector<std::string> sub_folders;
   std::string machine_units;  // "mm" or "inch"; empty: as the settings say, else `default_units`
   const char* default_units = "mm";
-  // True: the settings may name the tool table and the parameter file too. rs274, whose form `canon` prints, ignores
-  // them.
+  // True: the settings may name the tool table and the parameter file too. `canon` prints what rs274 prints, and rs274
+  // ignores these two names.
   bool files_of_settings = true;
-  bool parameters_may_lack = false;  // the file need not exist: the run writes it at the end
-  std::string dialect = "linuxcnc";  // or grbl
+  bool parameters_may_lack = false;  // the parameter file need not exist, because the run writes it at the end
+  std::string dialect = "linuxcnc";  // or "grbl"
 };
 
 struct RunArguments {
@@ -43,36 +43,36 @@ struct RunArguments {
   std::string machine;
   std::vector<std::string> pictures;   // .svg or .png
   std::vector<std::string> traces;     // .vcd or .csv
-  std::string report;                  // .json or text
-  std::uint64_t passes = 1;            // of a main program that ends with M99
+  std::string report;                  // a name that ends in .json, or any other name for text
+  std::uint64_t passes = 1;            // how often a main program that ends with M99 is run
   std::vector<std::string> holds;      // SECONDS or SECONDS:SECONDS
   std::vector<std::string> overrides;  // PERCENT@SECONDS
-  std::vector<std::string> touches;    // LOW:HIGH of axes, as X10:60,Z:-2
+  std::vector<std::string> touches;    // ranges LOW:HIGH of axes: "X10:60,Z:-2"
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
-  std::string board = "virtual";       // as parse_board_address() has it
+  std::string board = "virtual";       // an address for parse_board_address()
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was interrupted
-  bool home = false;                   // homes the machine first; the program begins where homing ends
+  bool home = false;                   // homes the machine first; the program then begins where homing ends
   bool yes = false;                    // goes on at M0, M1 and M6 without asking
-  bool json = false;                   // the summary on standard output as JSON
+  bool json = false;                   // prints the summary as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
 
 struct JogArguments {
   std::string machine;
-  std::string board = "virtual";   // as parse_board_address() has it
-  std::vector<std::string> moves;  // "X+10", or "X+" to the end of the travel; empty: by keys
+  std::string board = "virtual";   // an address for parse_board_address()
+  std::vector<std::string> moves;  // "X+10", or "X+" to the end of the travel; empty: keys jog
   double feed = 600;               // mm a minute along the way
   double lease = 0.2;              // s
-  std::optional<double> held;      // s for which the lease is renewed; empty: to the end
+  std::optional<double> held;      // s for which the lease is renewed; empty: until the jog ends
   bool json = false;
 };
 int jog(const JogArguments& arguments);
 
 struct HomeArguments {
   std::string machine;
-  std::string board = "virtual";  // as parse_board_address() has it
+  std::string board = "virtual";  // an address for parse_board_address()
   bool json = false;
   bool quiet = false;
 };
@@ -81,7 +81,7 @@ int home(const HomeArguments& arguments);
 struct CheckArguments {
   ProgramArguments program;
   std::string machine;
-  bool motion = false;  // plan it too, and measure the motion
+  bool motion = false;  // plans the path too, and measures the motion
   bool json = false;
 };
 int check(const CheckArguments& arguments);
@@ -93,7 +93,7 @@ struct CanonArguments {
 int canon(const CanonArguments& arguments);
 
 struct ExplainArguments {
-  ProgramArguments program;  // its `program`: FILE, FILE:LINE or FILE:FROM-TO
+  ProgramArguments program;  // its member `program` is FILE, FILE:LINE or FILE:FROM-TO
   bool json = false;
 };
 int explain(const ExplainArguments& arguments);
@@ -105,13 +105,13 @@ int machine(const MachineArguments& arguments);
 
 struct BoardListArguments {
   std::vector<std::string> devices;  // empty: all serial lines of this computer
-  double wait = 2.5;                 // seconds for each
+  double wait = 2.5;                 // seconds to wait for an answer on each line
   bool json = false;
 };
 int board_list(const BoardListArguments& arguments);
 
 struct BoardInfoArguments {
-  std::string board;  // as parse_board_address() has it
+  std::string board;  // an address for parse_board_address()
   double wait = 5;
   bool json = false;
 };
@@ -119,16 +119,16 @@ int board_info(const BoardInfoArguments& arguments);
 
 struct BoardMonitorArguments {
   std::string board;
-  double every = 0.2;       // seconds
-  std::uint64_t count = 0;  // 0: until Ctrl-C
-  bool json = false;        // an object a line
+  double every = 0.2;       // seconds between two lines
+  std::uint64_t count = 0;  // number of lines; 0: until Ctrl-C
+  bool json = false;        // each line is a JSON object
 };
 int board_monitor(const BoardMonitorArguments& arguments);
 
 struct BoardFlashArguments {
   std::string board;  // uno or mega
   std::string device;
-  std::string image;   // empty: the one that was built with this program
+  std::string image;   // empty: the image that was built with this program
   std::string backup;  // file for the old contents; empty: passo-backup-BOARD.hex
   std::string programmer;
   unsigned baud = 115'200;
@@ -141,8 +141,8 @@ struct BoardServeArguments {
   unsigned motors = 4;
   double clock = 16e6;
   unsigned port = 7070;
-  std::string machine;  // a machine file, whose switches exist, at machine zero; empty: none
-  bool once = false;    // one host, then end
+  std::string machine;  // a machine file: the board has its switches and begins at machine zero; empty: no switches
+  bool once = false;    // ends after one host
 };
 int board_serve(const BoardServeArguments& arguments);
 
@@ -150,11 +150,11 @@ struct InterpolateArguments {
   std::string method;  // a name of method_names(); empty with `compare`
   std::string to;      // "10,4", in steps
   std::string from;    // empty: zero
-  std::string center;  // an arc about it
+  std::string center;  // the centre of an arc; empty: a line
   bool clockwise = false;
-  bool half_loaded = false;  // DDA
-  int register_bits = 0;     // DDA; 0: as few as hold the move
-  std::string end;           // point comparison: coordinates, projection or total
+  bool half_loaded = false;  // for DDA
+  int register_bits = 0;     // for DDA; 0: as few bits as can hold the move
+  std::string end;           // for point comparison: coordinates, projection or total
   bool compare = false;
   std::string picture;  // .svg or .png
   std::string output;   // empty: standard output
@@ -163,9 +163,9 @@ struct InterpolateArguments {
 };
 int interpolate(const InterpolateArguments& arguments);
 
-// Values are in the units of data sheets, as in the options.
+// Values are in the units of data sheets, like the command's options.
 struct MotorArguments {
-  std::vector<std::string> pull_out;  // "rate:torque" each
+  std::vector<std::string> pull_out;  // each "rate:torque"
   std::vector<std::string> pull_in;
   int steps_per_revolution = 200;
   double rotor_inertia = 0;              // g·cm²
@@ -175,7 +175,7 @@ struct MotorArguments {
   std::optional<double> inductance;      // mH
   std::optional<double> supply;          // V
   std::string drive = "bipolar";         // or unipolar
-  std::string data;                      // which of the two the values are for; empty: as the drive
+  std::string data;                      // bipolar or unipolar: which the values are for; empty: the same as `drive`
   std::string regulation = "chopper";    // or resistive
   double load_inertia = 0;               // g·cm²
   double friction = 0;                   // N·m
@@ -191,9 +191,9 @@ struct RampArguments {
   std::string method;                  // exact, recursive, table
   std::optional<double> clock;         // Hz
   std::optional<double> acceleration;  // rad/s²
-  std::optional<double> max_rate;      // steps/s, as the next
-  std::optional<double> start_rate;
-  std::optional<double> jerk;  // rad/s³
+  std::optional<double> max_rate;      // steps/s
+  std::optional<double> start_rate;    // steps/s
+  std::optional<double> jerk;          // rad/s³
   std::optional<std::int32_t> steps_per_turn;
   std::optional<std::int32_t> table_size;
   std::optional<std::int64_t> steps;
@@ -209,17 +209,17 @@ int ramp(const RampArguments& arguments);
 
 struct ChordsArguments {
   std::string curve;   // line, arc, helix, ellipse, parabola, bezier or nurbs
-  std::string from;    // "X,Y" or "X,Y,Z" in mm, as all places
-  std::string to;      // Z as that of `from` unless it says otherwise
+  std::string from;    // "X,Y" or "X,Y,Z" in mm, like all places
+  std::string to;      // without a Z, its Z is that of `from`
   std::string center;  // arc, helix, ellipse
   bool clockwise = false;
-  int turns = 1;       // arc, helix: the last turn may be partial
+  int turns = 1;       // arc, helix: number of turns; the last turn may be partial
   std::string radii;   // ellipse: "A,B" in mm
   double rotate = 0;   // ellipse: degrees
   std::string angles;  // ellipse: "FROM,TO" in degrees; empty: all of it
   std::string vertex;  // parabola
   std::string focus;
-  std::vector<std::string> control;  // bezier: between the ends; nurbs: all
+  std::vector<std::string> control;  // bezier: the control points between the ends; nurbs: all control points
   int degree = 3;                    // nurbs
   std::vector<double> weights;
   std::vector<double> knots;

@@ -16,7 +16,7 @@ using Parsed = Result<T, std::string>;
 using Built = Result<AnyCurve, std::string>;
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
-// How far a place may be beside the curve that it should lie on: programs and people round their numbers.
+// How far a place may be from the curve on which it should lie. Programs and people round their numbers.
 constexpr double rounding_mm = 0.01;
 
 Parsed<Vector3> place_of(std::string_view option, const std::string& text, double z = 0) {
@@ -45,7 +45,7 @@ struct Ends {
   Vector3 to;
 };
 
-// The end lies as high as the start unless it says otherwise.
+// If the end has no Z, it is as high as the start.
 Parsed<Ends> ends_of(const ChordsArguments& arguments) {
   const auto from = place_of("--from", arguments.from);
   if (!from) return Failure{from.error()};
@@ -60,7 +60,7 @@ Built line_of(const ChordsArguments& arguments) {
   return built(CurveInSpace::of(Curve::line(point_of(ends->from), point_of(ends->to))));
 }
 
-// In X Y about a centre; Z in proportion to the angle.
+// An arc or a helix: X and Y turn about a centre, and Z grows in proportion to the angle.
 Built arc_of(const ChordsArguments& arguments) {
   const auto ends = ends_of(arguments);
   if (!ends) return Failure{ends.error()};
@@ -77,7 +77,7 @@ Built arc_of(const ChordsArguments& arguments) {
   }
   double turn = std::atan2(out.x * end.y - out.y * end.x, out.x * end.x + out.y * end.y);
   if (arguments.clockwise) turn = -turn;
-  // Start and end the same: a full circle.
+  // If start and end are the same place, the arc is a full circle.
   if (turn <= 1e-12) turn += 2 * std::numbers::pi;
   turn += 2 * std::numbers::pi * (arguments.turns - 1);
   const Curve curve = Curve::arc(point_of(ends->from), point_of(ends->to), Axis::x, Axis::y, centre->x, centre->y,
@@ -99,7 +99,7 @@ Built ellipse_of(const ChordsArguments& arguments) {
                              {((*angles)[1] - (*angles)[0]) * radians_per_degree}));
 }
 
-// Where the parabola is level with `place`, which must be there.
+// The distance of `place` from the parabola's axis. Fails if `place` is not on the parabola.
 Parsed<Mm> across(std::string_view option, const Vector3& place, const Vector3& vertex, const Vector3& focus) {
   const double focal_length = std::hypot(focus.x - vertex.x, focus.y - vertex.y);
   const Vector3 axis = {(focus.x - vertex.x) / focal_length, (focus.y - vertex.y) / focal_length, 0};
@@ -176,7 +176,7 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-// The first option given that this kind of curve does not have.
+// The first given option that this kind of curve does not have.
 std::string_view foreign_option(const ChordsArguments& given, const Kind& kind) {
   const std::array<std::pair<std::string_view, bool>, 13> options = {{{"--from", !given.from.empty()},
                                                                       {"--to", !given.to.empty()},

@@ -1,4 +1,4 @@
-// passo explain: what a line of a program does, in words, and which modes it runs under.
+// passo explain: what a line of a program does, in words, and under which modes the line runs.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -36,7 +36,8 @@ bool read_range(std::string_view text, LineRange& range) {
          (read_number(text.substr(dash + 1), range.last) && range.last >= range.first);
 }
 
-// FILE, FILE:LINE or FILE:FROM-TO. A colon may be a part of the file's name: what is behind the last one decides.
+// Reads FILE, FILE:LINE or FILE:FROM-TO. A colon may also be a part of the file's name. The text after the last colon
+// decides.
 bool read_place(const std::string& text, Place& place) {
   const std::size_t colon = text.rfind(':');
   const bool has_range =
@@ -88,7 +89,7 @@ class Writer {
   const std::string& text() const { return out_; }
 
  private:
-  // What a program holds may not steer the terminal.
+  // Control characters in a program must not reach the terminal.
   static std::string printable(std::string text) {
     for (char& c : text) {
       if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = ' ';

@@ -1,4 +1,4 @@
-// passo home: finds where a machine stands, by its limit switches.
+// passo home: finds the machine position by the limit switches.
 #include <cstdio>
 #include <memory>
 #include <optional>

@@ -25,7 +25,7 @@ const char* name_of(HomingStage stage) {
   return "";
 }
 
-// One line on a terminal, which is gone in the end.
+// Shows the present stage on one line of the terminal, and clears the line at the end.
 class StageLine {
  public:
   explicit StageLine(bool shows) : shows_(shows && is_terminal(STDERR_FILENO)) {}
@@ -50,7 +50,7 @@ class StageLine {
   std::string shown_;
 };
 
-// What stopped the motors may still be closed.
+// Adds the closed switches to the message. The switch that stopped the motors may still be closed.
 void note_closed_switches(BoardSession& board, HomingReport& report) {
   board.hang_up();
   const auto status = ask_status(board, answer);

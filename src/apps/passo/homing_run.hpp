@@ -14,16 +14,16 @@ namespace passo {
 struct HomingReport {
   std::vector<HomedAxis> axes;
   Seconds time{0};
-  // What went wrong: a stable code, and a sentence without a full stop. Empty: nothing.
+  // What went wrong: a stable code, and a sentence without a full stop. Both are empty if the machine is homed.
   std::string code;
   std::string message;
-  std::optional<Axis> axis;  // the axis that was being homed then
+  std::optional<Axis> axis;  // the axis that was being homed when something went wrong
 };
 
-// Homes a machine that has been greeted. Ctrl-C brakes. `shows`: shows the progress on standard error, if that is a
+// Homes a machine that has been greeted. Ctrl-C brakes. With `shows`, shows the progress on standard error if that is a
 // terminal.
 HomingReport home_machine(OpenedMachine& machine, bool shows);
-// Says why the machine is not homed, and why homing is not possible with a machine file.
+// words_of() says why the machine is not homed. words_without_homing() says why a machine with this file cannot home.
 std::string words_of(const HomingReport& report);
 std::string words_without_homing(const std::string& machine_file);
 

@@ -1,5 +1,5 @@
-// passo interpolate: one move in steps, pulse by pulse, by any of the classic methods; as numbers, as a picture, or all
-// methods side by side.
+// passo interpolate: one move in steps, pulse by pulse, by any of the classic methods. The result is shown as numbers
+// or as a picture, for one method or for all methods side by side.
 #include <charconv>
 #include <cstdio>
 #include <iterator>

@@ -20,7 +20,7 @@ namespace {
 constexpr Seconds lease{0.12};
 constexpr Seconds a_turn{0.01};
 constexpr double step_of_speed = 1.25;
-constexpr double fastest = 1e4;  // mm/s; the axes' limits hold
+constexpr double fastest = 1e4;  // mm/s; the axes' own limits still hold
 constexpr double slowest = 0.01;
 
 // What a key asks for.
@@ -42,7 +42,7 @@ Point toward(double x, double y) {
   return direction;
 }
 
-// As terminals send them: arrows and page keys, and the numeric keypad with its diagonals.
+// Finds the key for the bytes that a terminal sends: arrows, page keys, and the numeric keypad with its diagonals.
 Key key_of(std::string_view bytes) {
   struct Known {
     std::string_view bytes;
@@ -68,7 +68,7 @@ Key key_of(std::string_view bytes) {
       Known{"3", toward(1, -1)},
       Known{"1", toward(-1, -1)},
   };
-  // Of several that have come at once the last one counts.
+  // If several keys come at once, the last one counts. But a key that quits counts always.
   Key key;
   for (std::size_t at = 0; at < bytes.size();) {
     const auto rest = bytes.substr(at);
@@ -87,7 +87,7 @@ Key key_of(std::string_view bytes) {
   return key;
 }
 
-// Keys come one by one and are not shown; as it was before in the end.
+// Sets the terminal so that keys come one by one and are not shown. The destructor restores the old settings.
 class RawTerminal {
  public:
   RawTerminal() {
@@ -125,7 +125,7 @@ class KeyJog {
         "The machine moves while a key is held. + and - change the speed, q ends.\n");
     const RawTerminal terminal;
     while (interrupted_by() == 0) {
-      // A virtual machine has no time of its own: the turn that the keys were waited for passes there too.
+      // A virtual machine's time passes only in turns. So each turn follows a wait of the same length.
       const Key key = terminal.read_key(real_time_ ? Seconds(0) : a_turn);
       if (key.kind == Key::Kind::quit) break;
       act(key);

@@ -38,10 +38,10 @@ bool write_all(int descriptor, std::string_view bytes, std::size_t offset) {
   return true;
 }
 
-// A head with two long names, and the lines: half a megabyte would be much.
+// The most bytes of a journal. Even half of this would be much for a head with two long names, and the lines.
 constexpr std::size_t largest_journal = 1 << 20;
 
-// Until `take` has enough. False where the file cannot be read.
+// Hands the file to `take`, piece by piece, until `take` returns false. Returns false if the file cannot be read.
 template <typename Take>
 bool read_pieces(const std::string& path, const Take& take) {
   std::ifstream file(path, std::ios::binary);
@@ -71,7 +71,7 @@ std::optional<std::string> read_journal(const std::string& path) {
       })) {
     return {};
   }
-  if (text.size() > largest_journal) text.clear();  // none at all
+  if (text.size() > largest_journal) text.clear();  // this file is no journal
   return text;
 }
 
@@ -94,7 +94,8 @@ JournalFile::~JournalFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-// On the disk, before it gets its name: a board is greeted next, and forgets what the journal before was for.
+// The text must be on the disk before the file gets its name. The board is greeted next, and the hello makes the old
+// journal useless.
 bool JournalFile::replace(std::string_view text) {
   if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
   std::error_code none;

@@ -1,5 +1,5 @@
-// JournalFile: a journal on the disk. The journal survives when its program is killed. A computer that loses power may
-// keep an older state of the journal. That state does not know the board's rest, and is refused.
+// JournalFile: a journal on the disk. The journal survives when its program is killed. If the computer loses power, the
+// disk may keep an older state of the journal. That state does not know the board's rest, so it is refused.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@ namespace passo {
 
 // The path of the journal for a board, in XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
 std::string usual_journal(const std::string& board);
-// Reads a journal's file, but no more than a journal may have. Empty: there is no readable file.
+// Reads a journal's file. A file that is too long for a journal gives an empty text. Nothing: there is no readable
+// file.
 std::optional<std::string> read_journal(const std::string& path);
 // The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
 FileStamp stamp_of(const std::string& path);

@@ -1,7 +1,7 @@
-// passo: from a drawing to motor phases, on the command line.
+// The program `passo`: reads the command line and calls the command.
 //
-// Only this, board_options.cpp and study_options.cpp know CLI11 (it compiles slowly). What the commands do is in a file
-// each.
+// Only this file, board_options.cpp and study_options.cpp know CLI11, because CLI11 compiles slowly. Each command is in
+// a file of its own.
 #include <cstdio>
 #include <exception>
 
@@ -54,7 +54,8 @@ void add_program(CLI::App& command, ProgramArguments& arguments,
       ->capture_default_str();
 }
 
-// Files of the machine that a program depends on. `letters`: with LinuxCNC's short names too (run has a -t of its own).
+// Adds the options for the machine's files on which a program depends. With `letters`, the options have LinuxCNC's
+// short names too. Not every command can have these names: `run` has a -t of its own.
 void add_files(CLI::App& command, ProgramArguments& arguments, bool letters) {
   const auto name = [letters](const char* letter, const char* word) {
     return letters ? std::string(letter) + "," + word : std::string(word);

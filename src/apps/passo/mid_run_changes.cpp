@@ -12,7 +12,7 @@ namespace passo {
 namespace {
 
 constexpr double most_percent = 200;
-// A time beyond it is a slip of the pen, and would not fit a clock of ticks.
+// A longer time is a typing error, and may be too long for a count of ticks.
 constexpr double most_seconds = 1e6;
 
 std::optional<double> number(std::string_view text) {
@@ -94,7 +94,7 @@ Seconds MidRunChanges::act(MachineSession& session, const VirtualMachine& machin
                            const MachineDescription& description) {
   const Seconds most = mind_rest(session, machine, description);
   for (; next_ < changes_.size() && changes_[next_].at <= now(session) && session.busy(); ++next_) {
-    // One hold after the other.
+    // The next hold waits until this hold is over.
     if (!changes_[next_].factor && holds_now_) break;
     apply(changes_[next_], session);
   }
@@ -113,7 +113,8 @@ void MidRunChanges::apply(const Change& change, MachineSession& session) {
   holds_.push_back({.asked = now(session), .reaction = committed});
 }
 
-// At rest: in a hold until its pause is over; at a feed of nothing until the next change, or for good where none comes.
+// Decides how long the machine goes on resting, and returns that time. A hold lasts until its pause is over; a hold
+// without a pause stops the program. A feed of 0 lasts until the next change; if there is none, the program is stopped.
 Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& machine,
                                  const MachineDescription& description) {
   const MachineStatus status = session.status();

@@ -1,4 +1,4 @@
-// MidRunChanges: what `passo run` does to a program while it runs: holds and feed overrides at given times.
+// MidRunChanges: what `passo run` does to a program while the program runs: holds and feed overrides at given times.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,13 @@ struct CableCut {
   Seconds at{0};
   Seconds missing{0};
 };
-// Reads "SECONDS:SECONDS". Empty if the text is something else, which is reported on standard error.
+// Reads "SECONDS:SECONDS". Any other text is reported on standard error, and the result is empty.
 std::optional<CableCut> read_cable_cut(const std::string& text);
 
-// Where a virtual machine stands on each axis, from the counted steps of its motors.
+// The machine position of each axis of a virtual machine, computed from the counted steps of its motors.
 std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description);
 
-// Reports rests at the ends of braking tails during a run.
+// Collects the rests at the ends of braking tails during a run.
 class TailWatch {
  public:
   // Call after each turn of the session.
@@ -37,25 +37,25 @@ class TailWatch {
 class MidRunChanges {
  public:
   // `holds`: "2.5" ends the run with a hold at 2.5 s; "2.5:1" goes on after one second of rest. `overrides`: "50@2.5"
-  // halves the feed from 2.5 s on. Times are the board's, from the start of the program. Empty if a text is something
-  // else, which is reported on standard error.
+  // halves the feed from 2.5 s on. Times are the board's, from the start of the program. Any other text is reported on
+  // standard error, and the result is empty.
   static std::optional<MidRunChanges> read(const std::vector<std::string>& holds,
                                            const std::vector<std::string>& overrides);
 
   bool any() const { return !changes_.empty(); }
-  // Tells that the program begins now.
+  // Call it when the program begins. `now` is the board's time.
   void begin(Seconds now) { begun_ = now; }
   // Call before each turn of the session. Returns how long the turn may take at most.
   Seconds act(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
 
-  // The changes that came before the end of the program.
+  // The holds in which the machine came to rest.
   std::vector<HoldSummary> holds() const;
 
  private:
   struct Change {
     Seconds at{0};
     std::optional<double> factor = {};  // factor of the feed; empty: a hold
-    std::optional<Seconds> pause = {};  // pause of a hold, until the program goes on
+    std::optional<Seconds> pause = {};  // how long a hold rests; empty: the hold ends the run
   };
   Seconds now(const MachineSession& session) const { return session.now() - begun_; }
   Seconds mind_rest(MachineSession& session, const VirtualMachine& machine, const MachineDescription& description);
@@ -64,7 +64,7 @@ class MidRunChanges {
   std::vector<Change> changes_;  // by time
   std::size_t next_ = 0;
   Seconds begun_{0};
-  bool holds_now_ = false;            // a hold was requested, and is not over
+  bool holds_now_ = false;            // a hold was requested and is not over yet
   std::optional<Seconds> pause_;      // the pause of that hold
   std::optional<Seconds> resume_at_;  // the machine rests until then
   std::vector<HoldSummary> holds_;

@@ -19,7 +19,8 @@ namespace {
 constexpr double kg_m2_per_g_cm2 = 1e-7;
 constexpr double henries_per_millihenry = 1e-3;
 
-// The whole text, finite or not: what a value may be is judged where its meaning is known.
+// Reads the whole text as a number, which need not be finite. Whether the value is sensible is checked later, where its
+// meaning is known.
 bool read_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size();
@@ -98,7 +99,8 @@ Result<TorqueCurve, MotorError> curve_of(const MotorArguments& arguments) {
   return TorqueCurve::from_motor(data, drive);
 }
 
-// A little beyond where the load can be driven, or a twentieth of the torque is left.
+// The rate at which tables and pictures end. The load can be driven up to some rate, and from some rate on less than a
+// twentieth of the torque is left. The result is a little above the lower of the two.
 Hertz natural_end(const TorqueCurve& curve, const Load& load) {
   const double standstill = curve.pull_out({0}).value;
   std::optional<RadiansPerSecond> end = curve.fastest_speed(load);
@@ -161,7 +163,7 @@ void print_json(const MotorScene& scene) {
   fmt::print("{}\n", json.dump(2));
 }
 
-// What the picture is of, in a line.
+// One line that says which motor the picture shows.
 std::string motor_text(const MotorArguments& arguments) {
   if (!arguments.pull_out.empty()) return "from measured points";
   return fmt::format("{:g} N\u00B7m, {:g} A, {:g} \u2126, {:g} mH   \u00B7   {:g} V, {} {}", *arguments.holding_torque,

@@ -13,11 +13,11 @@
 namespace passo {
 namespace {
 
-// While somebody is waited for, the machine is heard so often.
+// How often the machine is heard while the program waits for somebody.
 constexpr Seconds between_looks{0.05};
 constexpr std::size_t most_told = 5;
 
-// Whether a line was typed meanwhile.
+// Whether Enter is pressed within this time.
 bool enter_was_pressed(Seconds within) {
   pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
   if (poll(&input, 1, static_cast<int>(within.value() * 1e3)) <= 0) return false;
@@ -65,7 +65,7 @@ void ProgramStops::tell(const RunArguments& arguments) const {
 }
 
 Seconds OperatorPrompt::look(MachineSession& session) {
-  // Looked at in each turn: the status is made only where the program may wait.
+  // This runs in each turn, and making the status takes time. So the status is made only if the program may wait.
   if (session.state() == MachineState::run) {
     asked_ = false;
     return endless;

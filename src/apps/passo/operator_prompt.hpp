@@ -1,5 +1,5 @@
 // OperatorPrompt: asks a person on the terminal to do what the program waits for (M0, M1, M6). Meanwhile the session
-// goes on hearing the machine. ProgramStops: the stops and tool changes of a program.
+// still hears the machine. ProgramStops: the stops and tool changes of a program.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace passo {
 
-// True: somebody can be asked, because standard input and standard error are a terminal.
+// Whether somebody can be asked: standard input and standard error are a terminal.
 bool asks_operator();
 // "line 12: tool 2 (M6)".
 std::string words_of(const OperatorWait& wait);
 
-// Where nobody is asked, the stops of a program are reported before the program runs.
+// If nobody is asked, the stops of a program are reported before the program runs.
 class ProgramStops {
  public:
-  // Call for each item of the path.
+  // Call it for each item of the path.
   void watch(const PathItem& item);
   // Reports the stops on standard error, if there are any.
   void tell(const RunArguments& arguments) const;
@@ -34,7 +34,7 @@ class ProgramStops {
 class OperatorPrompt {
  public:
   explicit OperatorPrompt(std::string program) : program_(std::move(program)) {}
-  // Call before each turn. Asks when the program waits, and hears whether Enter was pressed. Returns how long the turn
+  // Call it before each turn. Asks when the program waits, and notices when Enter is pressed. Returns how long the turn
   // may take. If nobody can be asked, the program is stopped.
   Seconds look(MachineSession& session);
   bool gave_up() const { return fault_.has_value(); }

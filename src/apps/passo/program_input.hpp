@@ -14,8 +14,9 @@ namespace passo {
 // Opens the program, or reports the reason on standard error.
 std::optional<ProgramReader> open_program(const ProgramArguments& arguments);
 
-// The interpreter's options, after reading the files that the arguments name. Errors in the files are reported on
-// standard error. The first function is for a look at what the program means, the second for a run on the machine.
+// The interpreter's options, after reading the files that the arguments name. If a file is wrong, reports that on
+// standard error and returns nothing. interpreter_options() is for finding out what the program means,
+// machine_options() for a run on the machine.
 std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments);
 std::optional<InterpreterOptions> machine_options(const ProgramArguments& arguments);
 

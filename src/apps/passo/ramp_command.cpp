@@ -1,5 +1,5 @@
-// passo ramp: the intervals of a ramp or of a whole move, by any method; as numbers, as a picture, or what a table can
-// do.
+// passo ramp: the intervals of a ramp or of a whole move, by any method, as numbers or as a picture. With --limit it
+// says what a table can do.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace {
 
 // --- what was asked for ---------------------------------------------------------------------------------------------
 
-// Empty, or what is wrong.
+// What is wrong with the numbers; empty: nothing.
 std::string wrong_number(const RampArguments& arguments) {
   struct Number {
     const char* option;
@@ -68,7 +68,8 @@ std::string missing_options(const RampArguments& arguments) {
   return missing;
 }
 
-// How many steps to show where neither --steps nor --move says it: up to the wanted rate, or to the table's end.
+// How many steps to show if neither --steps nor --move says it: up to the wanted rate, else up to the table's end, else
+// 256.
 std::int64_t natural_steps(const RampArguments& arguments, const RampSetup& setup) {
   if (arguments.max_rate) {
     const double steps = *arguments.max_rate * *arguments.max_rate * step_angle(setup.steps_per_turn).value /
@@ -142,7 +143,7 @@ int write_intervals(const RampRequest& request, const std::string& path) {
 
   file->write("n,c,t_end\n");
   std::string line;
-  long double total = 0;  // more digits than are printed, over any number of steps
+  long double total = 0;  // keeps more digits than are printed, however many steps are added
   for (std::int64_t n = 0; !sequence->done() && !file->failed(); ++n) {
     const double interval = sequence->next();
     total += interval;

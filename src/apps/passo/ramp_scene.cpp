@@ -24,7 +24,7 @@ RampRequest by(RampMethod method, RampRequest request, bool whole_ticks) {
   return request;
 }
 
-// Every interval beside the exact one of the same step.
+// The intervals of a method, each with its difference from the exact interval of the same step.
 Result<RampTrace, RampError> trace_of(const std::string& name, const RampRequest& request) {
   RampRequest reference = by(RampMethod::exact, request, false);
   reference.jerk = {0};
@@ -50,7 +50,7 @@ Result<RampTrace, RampError> trace_of(const std::string& name, const RampRequest
   return trace;
 }
 
-// The rate of constant acceleration as it is meant: straight up, level, straight down.
+// The intended rate of constant acceleration: a straight line up, a level one, a straight line down.
 std::vector<RampPoint> ideal_rates(const RampRequest& request, double duration) {
   const double slope = request.setup.acceleration.value / step_angle(request.setup.steps_per_turn).value;
   const double first = first_interval(request.setup);
@@ -75,7 +75,7 @@ std::vector<RampPoint> ideal_rates(const RampRequest& request, double duration) 
   return {{0, lowest}, {climb, top}, {duration - climb, top}, {duration, lowest}};
 }
 
-// The S-curve's own rate and acceleration at its steps.
+// Adds the S-curve's own rate and acceleration at each of its steps.
 void add_s_curve(const RampRequest& request, RampScene& scene) {
   const double rate = request.rate > Hertz(0) ? request.rate.value() : HUGE_VAL;
   SCurveMove move({.setup = request.setup, .jerk = request.jerk, .rate = Hertz(rate), .start = request.start});
@@ -120,10 +120,10 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
   if (!exact) return Failure{exact.error()};
   const Status<RampError> recursive = add("recursive", by(RampMethod::recursive, request, false));
   if (!recursive) return Failure{recursive.error()};
-  // Where K_b is too long for a table, the others are shown without it, unless it was asked for.
+  // If K_b is too long for a table, the picture shows the other methods only. But a request for the table then fails.
   const Status<RampError> table = add("table", by(RampMethod::table, request, true));
   if (!table && request.method == RampMethod::table) return Failure{table.error()};
-  if (request.stop_after > 0) return scene;  // what was meant is not what came
+  if (request.stop_after > 0) return scene;  // the move was stopped early, so the intended rate does not apply
   scene.ideal_name = "ideal";
   scene.ideal = ideal_rates(request, scene.traces.front().samples.back().end);
   return scene;

@@ -25,7 +25,8 @@ void note(const std::string& words) {
   fmt::print(stderr, "passo: note: {}\n", words);
 }
 
-// By which the board is known again. Another than those that it knows or may have had.
+// A number for the new session, by which the board is recognised later. Differs from `before`, the board's last
+// session, and is never 0 or 1.
 std::uint16_t any_session(std::uint16_t before) {
   std::random_device random;
   std::uniform_int_distribution<unsigned> numbers(2, 65535);
@@ -47,7 +48,7 @@ std::string place_words(const ResumePoint& point, const MachineDescription& mach
   return words + " (machine coordinates)";
 }
 
-// Another program than the journal's, or not as it was.
+// Refuses a program that is not the journal's, or that was changed since.
 int refuse_changed(const FileStamp& now, const FileStamp& then, std::string_view code) {
   if (now.name == then.name) return refuse(code, now.name + " was changed since the job began");
   return refuse(code, fmt::format("the job that was not finished is of {}", then.name.empty() ? "-" : then.name));
@@ -128,7 +129,7 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
   if (resumes_) {
     if (!find_place(machine, program, subject, code)) return false;
   } else {
-    // The journal that was there is of the board as it was before the hello.
+    // The old journal knows the board as it was before the hello.
     if (before_ && before_->is_of(machine.before())) {
       const std::string name = std::filesystem::path(before_->head().program.name).filename().string();
       note(fmt::format("{} was not finished on this board; --resume would have gone on with it",
@@ -162,7 +163,7 @@ bool ResumableRun::write_head(const Subject& subject, int& code) {
   return true;
 }
 
-// The board was greeted, and is as it was before.
+// Whether the board, which was greeted meanwhile, still stands where the job is to be resumed.
 bool ResumableRun::stands_there(const BoardSession& board, int& code) const {
   if (!point_ || (board.status() && stands_at(head_, *point_, *board.status()))) return true;
   code = refuse(ResumeRefusal::counts_differ);
@@ -179,7 +180,7 @@ void ResumableRun::end(const MachineSession& session, const Answered& answered) 
   const bool ended = !trouble && answered.outcome == Outcome::done;
   const bool by_program = answered.fault && answered.fault->code == "program.wrong";
   if (ended || by_program) return file_.remove();
-  // Where it stands is not certain: --resume would be refused, and the reason said.
+  // The machine's place is not certain. So --resume would be refused, and the note below would be wrong.
   if (trouble == LinkError::stopped || trouble == LinkError::was_reset) return;
   if (writer_.failed()) return note(file_.path() + ": this journal could not be written");
   note("the program has not come to its end; the same command with --resume goes on with it");

@@ -1,5 +1,5 @@
-// ResumableRun: writes what a run over a line leaves, so that another run can go on, and goes on from what another run
-// has left.
+// ResumableRun: keeps the journal of a run over a line, so that another run can go on with the job. With --resume, it
+// goes on with the job of an earlier journal.
 #pragma once
 
 #include <cstdint>
@@ -26,17 +26,18 @@ class ResumableRun {
     const ProgramCheck& check;
     std::uint64_t path;  // the path's fingerprint
   };
-  // Reads the journal, if there is one. With --resume there must be a journal of this program on this machine;
-  // otherwise returns null, with a message and the exit code in `code`. Also null, with exit_done, if no journal is
-  // kept.
+  // Reads the journal, if there is one. With --resume there must be a journal of this program on this machine. If there
+  // is none, shows a message, sets `code` and returns null. If no journal can be kept, returns null with `code` ==
+  // exit_done.
   static std::unique_ptr<ResumableRun> open(const Subject& subject, int& code);
 
-  // Waits until the board rests, finds the place with --resume, and writes the head of the new journal. Then greets the
-  // board with the head's numbers, or only names the session if the machine is already ready. False, with a message:
-  // the program cannot go on.
+  // With --resume, waits until the board rests and finds the place to go on from. Writes the head of the new journal.
+  // Then greets the board with the head's numbers; if the machine is already ready, only names the session. If the
+  // program cannot begin, shows a message and returns false.
   [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
   void add_to(request::Start& start);
-  // Tells that the program has come to its end. Otherwise the journal stays.
+  // Call it after the run. Removes the journal if the program has come to its end or is wrong. Otherwise the journal
+  // stays.
   void end(const MachineSession& session, const Answered& answered);
 
  private:

@@ -1,4 +1,4 @@
-// passo run: check the program, run it on the machine, and write what was asked for.
+// passo run: checks the program, runs it on the machine, and writes the files that were asked for.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -31,10 +31,11 @@
 namespace passo {
 namespace {
 
-// How often the clock is read for the progress line: every so many turns.
+// The clock for the progress line is read once in so many turns.
 constexpr unsigned turns_between_looks = 1024;
 
-// What the machine had done when the program began, if it was homed before. The hello counts as the program's.
+// What the machine and the line had done before the program began. If the machine was homed first, this is all up to
+// the end of homing. If not, this is nothing, so the hello counts as the program's.
 struct Before {
   MachineCounts counts;
   Ticks time;
@@ -84,7 +85,7 @@ void stop(MachineSession& session) {
   ask(session, request::Stop{});
 }
 
-// How often the board had to brake by itself.
+// Tells how often the board had to brake by itself.
 void tell_tails(const MachineSession& session) {
   const int rests = session.refiller()->recoveries();
   if (rests == 0) return;
@@ -114,7 +115,7 @@ void count(const ProbeOutcome& outcome, const MachineDescription& machine, Probe
   probes.farthest_overrun = std::max(probes.farthest_overrun, Mm(length_of(outcome.rest - outcome.contact)));
 }
 
-// What a run is of, beside its arguments.
+// All that a run needs.
 struct Run {
   const RunArguments& arguments;
   const MachineDescription& machine;
@@ -124,7 +125,7 @@ struct Run {
   RunOutputs& outputs;
 };
 
-// Runs the program to its end, watched.
+// Runs the program to its end and returns the summary. `answered` is set to the outcome.
 RunSummary play(const Run& run, request::Start start, Answered& answered) {
   MachineSession& session = run.opened.session();
   const MachineDescription& machine = run.machine;
@@ -171,7 +172,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   return summary;
 }
 
-// Why a run ended before its program did, and where.
+// Says why a run ended before its program did, and where the machine rests.
 std::string stopped_words(const Answered& answered, const RunSummary& summary) {
   std::string words = interrupted_by() != 0 ? "interrupted; " : answered.fault->message + "; ";
   words += "the machine rests at";
@@ -179,7 +180,7 @@ std::string stopped_words(const Answered& answered, const RunSummary& summary) {
   return words + " (machine coordinates), and nothing was written";
 }
 
-// The names of the files tell their kinds: a wrong one is a mistake of the command line.
+// Whether the name of each picture and trace ends as it must, because the end of a name tells the kind of file.
 bool names_are_good(const RunArguments& arguments) {
   for (const std::string& path : arguments.pictures) {
     if (is_picture_name(path)) continue;
@@ -194,12 +195,12 @@ bool names_are_good(const RunArguments& arguments) {
   return true;
 }
 
-// An emulated board ends with the run.
+// An emulated board ends with the run, so its journal would be useless.
 bool keeps_journal(const RunArguments& arguments) {
   return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
 }
 
-// The machine is homed before the program. The exit code.
+// Homes the machine before the program. Returns the exit code.
 int home_first(OpenedMachine& machine, bool shows) {
   const HomingReport report = home_machine(machine, shows);
   if (report.code.empty()) return exit_done;
@@ -207,13 +208,14 @@ int home_first(OpenedMachine& machine, bool shows) {
   return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }
 
-// The machine becomes ready, is homed if that is asked for, and a journal is begun. From here on Ctrl-C brakes.
+// Makes the machine ready, homes it if that is asked for, and begins the journal. If there is a board, Ctrl-C brakes
+// from here on. Returns the exit code.
 int make_ready(const ResumableRun::Subject& subject, const ProgramReader& program, OpenedMachine& machine,
                ResumableRun* resumable) {
   const RunArguments& arguments = subject.arguments;
   int code = exit_done;
   if (machine.has_board()) brake_on_signals();
-  // A program that is resumed began so.
+  // With --resume the machine is not homed again, because it was homed before the job began.
   const bool homes = arguments.home && !arguments.resume;
   if ((homes || resumable == nullptr) && !machine.greet(machine.usual_greeting(), code)) return code;
   if (homes) code = home_first(machine, !arguments.quiet);

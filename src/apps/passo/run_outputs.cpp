@@ -41,7 +41,7 @@ struct RunOutputs::State {
     PictureFormat format;
   };
   struct TraceFile {
-    // At a fixed place in memory: the trace writes into it.
+    // The trace writes into this file, so the file must stay at one place in memory.
     std::unique_ptr<OutputFile> file;
     std::unique_ptr<Trace> trace;
   };
@@ -51,7 +51,7 @@ struct RunOutputs::State {
   std::optional<OutputFile> report;
   std::optional<OutputFile> parameters;
   std::optional<OutputFile> tools;
-  std::string tool_lines;  // as they were before the run
+  std::string tool_lines;  // the text of the tool table before the run
   bool report_is_json = false;
   PathRecorder recorder;
   VirtualMachine* machine = nullptr;
@@ -145,7 +145,7 @@ bool RunOutputs::failed() const {
   return false;
 }
 
-// Everything is written before the first file gets its name: all of them appear, or none.
+// Writes all files before the first one gets its name, so that a failed write leaves none of them.
 Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedParameters& parameters,
                                        const ToolTable& tools, LengthUnits machine_units) {
   for (State::TraceFile& trace : state_->traces) trace.trace->finish(state_->machine->now());

@@ -1,5 +1,5 @@
-// RunOutputs: the files that a run was asked to write. They are opened before the run, filled during the run, and get
-// their names after the run.
+// RunOutputs: the files that a run was asked to write. The files are opened before the run, filled during the run, and
+// get their names after the run.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace passo {
 
-// True: the name tells what kind of file is wanted.
+// Whether the end of a name is that of a picture, or of a trace.
 bool is_picture_name(const std::string& path);
 bool is_trace_name(const std::string& path);
 
@@ -34,11 +34,11 @@ class RunOutputs {
   RunOutputs& operator=(RunOutputs&&) noexcept;
   ~RunOutputs();
 
-  // Call before the first step of the program. `machine` does what the board does.
+  // Call it before the first step of the program. `machine` is a virtual machine that does what the board does.
   void watch(VirtualMachine& machine, Watchers& watchers);
-  // True: a file cannot take more, so there is no point in going on.
+  // Whether a file cannot be written any more. Then there is no point in going on.
   bool failed() const;
-  // Call after the program has come to its end.
+  // Call it after the program has come to its end.
   Status<OutputError> commit(const RunSummary& summary, const SavedParameters& parameters, const ToolTable& tools,
                              LengthUnits machine_units);
 

@@ -1,4 +1,5 @@
-// Signals to a command at work. Ctrl-C ends the command. If a board moves, Ctrl-C brakes first.
+// The signals that Ctrl-C and `kill` send to a command. A command that moves a board brakes first; any other command
+// ends.
 #pragma once
 
 namespace passo {

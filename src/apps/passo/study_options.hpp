@@ -1,4 +1,4 @@
-// The options of the commands that study one thing at a time. There are many of these options.
+// The options of the commands that study one thing at a time: pulses, chords, ramps, motors.
 #pragma once
 
 #include "commands.hpp"

@@ -11,14 +11,14 @@
 namespace passo {
 namespace {
 
-// An end that is not given leaves the value as it is.
+// An empty text leaves the value as it is.
 bool read_end(std::string_view text, double& value) {
   if (text.empty()) return true;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-// One of "X10:60".
+// Reads one range: "X10:60".
 bool read_range(std::string_view text, const MachineDescription& machine, TouchBox& box) {
   const std::size_t colon = text.find(':');
   if (text.size() < 3 || colon == std::string_view::npos) return false;

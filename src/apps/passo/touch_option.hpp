@@ -11,8 +11,8 @@
 namespace passo {
 
 // "Z:-1.5" is everything below -1.5; "X10:60,Y10:50,Z:-2" is a block. The ranges are in machine coordinates. A missing
-// end or a missing axis means no limit. Empty if a text is something else, or names an axis that the machine does not
-// have; that is reported on standard error.
+// end or a missing axis means no limit. Any other text, or an axis that the machine does not have, is reported on
+// standard error, and the result is empty.
 std::optional<std::vector<TouchBox>> read_touch_options(const std::vector<std::string>& texts,
                                                         const MachineDescription& machine);
 

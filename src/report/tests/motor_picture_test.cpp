@@ -121,7 +121,8 @@ TEST_F(MotorPicture, shows_the_friction_and_the_two_rates_where_there_are_any) {
   const std::string bare = draw({.curve = falling, .end = Hertz(2000)}, PictureFormat::svg);
   const std::string loaded =
       draw({.curve = falling, .load = {.friction = {0.1}}, .end = Hertz(2000)}, PictureFormat::svg);
-  // Dashed lines: without load the guides of both rates in each chart; with friction its line and the legend's too.
+  // Without load, the dashed lines are the guides of both rates in each chart. With friction, the line of the friction
+  // and its line in the legend are added.
   EXPECT_EQ(count(bare, "dasharray"), 4U);
   EXPECT_EQ(count(loaded, "dasharray"), 6U);
 }

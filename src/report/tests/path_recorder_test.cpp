@@ -143,7 +143,8 @@ TEST(PathRecorder, a_million_lines_stay_in_bounds_near_the_path_and_keep_their_e
   EXPECT_EQ(path.extents().low, expected.low);
   EXPECT_EQ(path.extents().high, expected.high);
 
-  // Vertices are points of the path in its order, and never far apart along it. So walk both together.
+  // Vertices are points of the path, in the order of the path, and never far apart along it. So the test walks along
+  // both together.
   int i = 0;
   double worst = 0;
   for (std::size_t vertex = 1; vertex < path.vertices().size(); ++vertex) {

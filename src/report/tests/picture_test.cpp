@@ -64,7 +64,7 @@ Image decode(const std::string& bytes) {
   return image;
 }
 
-// Whether every element is closed in order and every attribute is quoted. cairo writes no more of XML than that.
+// Whether every element is closed in order and every attribute is quoted. cairo uses no other feature of XML.
 bool well_formed(const std::string& xml) {
   std::vector<std::string> open;
   for (std::size_t i = xml.find('<'); i != std::string::npos; i = xml.find('<', i)) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// A rapid, a cut, a half circle and a dwell, with the work's zero at X 10 Y 20.
+// A rapid, a cut, a half circle and a dwell. The work zero is at X 10 Y 20.
 RunSummary small_job() {
   SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
   const Point offset = at(10, 20);
@@ -142,7 +142,7 @@ TEST(SummaryBuilder, finds_the_top_of_a_speed_that_turns_inside_a_phase) {
   EXPECT_DOUBLE_EQ(builder.summary().axes[0].peak_speed.value(), 20);
 }
 
-// The peaks by differences of positions in small time steps. This knows nothing of slopes and angles.
+// The peaks, computed from differences of positions in small time steps. This code knows nothing of slopes and angles.
 struct SampledPeaks {
   Point speed;
   Point acceleration;
@@ -150,7 +150,7 @@ struct SampledPeaks {
 SampledPeaks sample(const PlannedMove& move) {
   SampledPeaks peaks;
   for (const Phase& phase : move) {
-    // Not shorter than 20 µs, because the second difference would then be rounding.
+    // A time step is not shorter than 20 µs, because the second difference would then be mostly rounding.
     const int samples = static_cast<int>(std::clamp(phase.duration.value() / 20e-6, 2.0, 4000.0));
     const double h = phase.duration.value() / samples;
     if (h < 1e-5) continue;
@@ -242,8 +242,8 @@ TEST(SummaryBuilder, a_long_helix_is_understood_as_quickly_as_a_short_one) {
   builder.watch(move, Point());
   for (const AxisSummary& axis : builder.summary().axes) {
     EXPECT_NEAR(axis.peak_speed.value(), 20, 0.03);
-    // Nearly all of it is 20 mm/s on a radius of 10 mm. While the speed still changes, the two parts add at right
-    // angles.
+    // Most of the acceleration comes from 20 mm/s on a radius of 10 mm. While the speed changes, the change of speed is
+    // added at a right angle.
     EXPECT_GE(axis.peak_acceleration.value(), 40);
     EXPECT_LE(axis.peak_acceleration.value(), std::hypot(200, 40) * 1.001);
   }

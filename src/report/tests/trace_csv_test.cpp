@@ -91,7 +91,7 @@ TEST(TraceCsv, tells_the_nearest_nanosecond_for_random_clocks_and_times) {
     const std::string text = time_of(ticks, static_cast<double>(hertz));
     const std::size_t point = text.find('.');
     ASSERT_EQ(text.size() - point, 10U);
-    // t − ticks/hertz| is at most half a nanosecond. In whole numbers, the unit is 1/(2·10⁹·hertz) seconds.
+    // |t − ticks/hertz| is at most half a nanosecond. To use whole numbers, the unit is 1/(2·10⁹·hertz) seconds.
     const auto nanoseconds = std::stoll(text.substr(point + 1));
     const std::int64_t rest = ticks - std::stoll(text.substr(0, point)) * hertz;
     __extension__ using Wide = __int128;

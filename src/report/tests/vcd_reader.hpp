@@ -1,4 +1,4 @@
-// A strict reader of value change dumps for tests. It refuses what a viewer would forgive.
+// A strict reader of value change dumps, for tests. It refuses mistakes that a viewer would accept.
 #pragma once
 
 #include <cstdint>

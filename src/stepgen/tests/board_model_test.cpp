@@ -1,4 +1,4 @@
-// The sums of BoardModel compared with the board's own Player, event by event.
+// Compares the sums of BoardModel with the board's own Player, which plays event by event.
 #include "board_model.hpp"
 
 #include <random>
@@ -17,7 +17,7 @@ class Segments {
     BoardSegment segment;
     segment.events = static_cast<std::uint8_t>(between(1, 255));
     segment.interval = static_cast<std::uint32_t>(between(80 * whole_tick, 65535 * whole_tick));
-    // At both ends of the segment the interval stays in its range.
+    // The change is so small that the interval stays in its range up to the end of the segment.
     const std::int64_t room = std::min<std::int64_t>(segment.interval, 65535 * whole_tick - segment.interval);
     const std::int64_t most = std::min<std::int64_t>(room / segment.events, largest_change);
     segment.change = static_cast<std::int32_t>(between(-most, most));

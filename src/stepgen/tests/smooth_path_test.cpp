@@ -1,4 +1,5 @@
-// The output of a smoother and a planner with jerk: cubics, parts of segments, phases of constant jerk.
+// Tests the step generator with motion as a smoother and a planner with jerk make it: cubics, parts of segments, phases
+// of constant jerk.
 #include <cstdlib>
 
 #include "kit/smooth_motion.hpp"
@@ -34,7 +35,7 @@ double length_of(const std::vector<Curve>& curves) {
   return length;
 }
 
-// The highest speed that the board can count and a machine can hold in the bend.
+// The highest speed at which the board can give the steps, and a machine can follow the bends.
 double fastest_along(const std::vector<Curve>& curves, const StepOptions& options) {
   constexpr double sideways = 4000;  // mm/s²
   double speed = 1e9;
@@ -48,7 +49,7 @@ double fastest_along(const std::vector<Curve>& curves, const StepOptions& option
   return speed;
 }
 
-// From rest to rest, with jerk.
+// Phases with jerk, from rest to rest.
 std::vector<Phase> one_rise_and_fall(double length, double speed) {
   test::PhaseChain chain;
   chain.change_speed(1, 1, 0.3);
@@ -142,7 +143,7 @@ TEST(SmoothPaths, a_dense_relief_keeps_its_segments_long) {
   EXPECT_GT(played.events, 25 * played.segments);
 }
 
-// Splines through random points, at speeds that change with jerk and without, in parts.
+// Splines through random points, cut into parts. The speeds change with jerk or without.
 class RandomSmoothPaths : public testing::Test {
  protected:
   test::Random random_;

@@ -13,7 +13,7 @@ namespace {
 
 using oracle::generate;
 
-// The number of random programs: few at every change, many in the slow test.
+// The number of random programs. Few in the usual tests, many in the slow test.
 int runs() {
   const char* text = std::getenv("PASSO_RUNS");
   return text != nullptr ? std::atoi(text) : 25;
@@ -29,7 +29,8 @@ StepOptions machine(std::initializer_list<double> steps_per_mm, double event_rat
   return options;
 }
 
-// Changes the speed from `from` to `to` over the whole length, through `peak` if the length allows.
+// A move over the whole curve whose speed changes from `from` to `to`. If the length allows, the speed reaches `peak`
+// in between.
 PlannedMove planned(const Curve& curve, double from, double peak, double to, double acceleration) {
   PlannedMove move;
   move.segment.curve = curve;
@@ -164,10 +165,10 @@ TEST(StepGenerator, a_long_cruise_fills_whole_segments) {
   EXPECT_LE(played.segments, played.events / 250);
 }
 
-// A machine brakes with few segments: each step is within an interval of its time, and the end is exact.
+// A machine brakes with few segments. Each step is within one interval of its exact time, and the end is exact.
 TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
   const StepOptions options = machine({640, 640});
-  // 61,440 steps a second to rest, in 3,840 steps.
+  // Brakes from 61,440 steps a second to rest, in 3,840 steps.
   const MotionItem move = planned(Curve::line(xyz(0, 0), xyz(6, 1.75)), 100, 100, 0, 800);
   test::ListSource<MotionItem> source({move});
   StepGenerator generator(source, options);
@@ -241,7 +242,7 @@ class RandomPrograms : public testing::Test {
     return Curve::arc(start, end, Axis::x, Axis::y, center_x, center_y, sweep);
   }
 
-  // No machine takes a bend of a hundredth of a millimetre at full speed.
+  // The highest speed in the bend of a curve. No machine takes a bend of a hundredth of a millimetre at full speed.
   static double fastest_round(const Curve& curve) {
     constexpr double sideways = 4000;  // mm/s²
     if (curve.shape() == Curve::Shape::line) return 1e9;
@@ -264,7 +265,7 @@ class RandomPrograms : public testing::Test {
       const double peak = uniform(0.05, 1) * std::min(fastest, fastest_round(curve));
       const bool last = i + 1 == curves.size();
       const double most = last ? 0 : std::min({fastest, fastest_round(curve), fastest_round(curves[i + 1])});
-      // Enough to slow down in time for the next move.
+      // The acceleration that is enough to slow down in time for the next move.
       const double needed = (speed * speed - most * most) / (2 * length) * (1 + 1e-9);
       const double acceleration = std::max(needed, std::pow(10.0, uniform(1.5, 3.5)));
       const double reach = std::sqrt(speed * speed + 2 * acceleration * length);

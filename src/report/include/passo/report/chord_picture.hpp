@@ -1,8 +1,8 @@
 // A picture of a curve and its chords. It has a top view, a front view if the curve leaves the plane, and the distance
 // of the chords from the curve along its length.
 //
-// A chord's distance from its curve is small beside both. So the views enlarge it, together with the tube of the
-// tolerance around the curve, by a factor that the picture states.
+// The distance between a chord and its curve is too small to be seen. So the views enlarge this distance by a factor
+// that the picture states. They enlarge the tube of the tolerance around the curve by the same factor.
 #pragma once
 
 #include <algorithm>

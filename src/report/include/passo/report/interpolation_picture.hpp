@@ -1,7 +1,7 @@
 // A picture of a move in steps: the grid, the ideal path, and the pulses of each method.
 //
-// One method fills the picture, with its evenness of speed below. Several methods stand side by side. A move of three
-// axes or more is seen from two sides, X Y and X Z. The move may have up to `most_pictured_pulses`.
+// A single method fills the picture, with its evenness of speed below. Several methods stand side by side. A move of
+// three axes or more is seen from two sides, X Y and X Z. The move may have up to `most_pictured_pulses` pulses.
 #pragma once
 
 #include <string>
@@ -21,7 +21,8 @@ struct StudiedMethod {
   Measures measures;
 };
 
-// Draws a checked move and at least one method that takes it. Draws into `file`, which the caller commits.
+// Draws a checked move, as made by each of the methods. There is at least one method, and each must be able to make the
+// move. Draws into `file`, which the caller commits.
 Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<StudiedMethod>& methods,
                                        PictureFormat format, OutputFile& file);
 

@@ -1,5 +1,5 @@
-// A picture of the abilities of a motor with its load. It shows torque over speed, with the start/stop region and the
-// friction, and below that the acceleration that is left.
+// A picture of what a motor can do with its load. The upper chart shows torque over speed, with the start/stop region
+// and the friction. The lower chart shows the acceleration that is left.
 //
 // Rates are full steps a second.
 #pragma once
@@ -13,8 +13,8 @@ namespace passo {
 struct MotorScene {
   TorqueCurve curve;
   Load load = {};
-  double margin = 1;  // share of the torque to accelerate with
-  Hertz end;          // the least end of the axis of rates
+  double margin = 1;  // share of the torque that may accelerate
+  Hertz end;          // the axis of rates reaches at least this far
 };
 
 // `options.program` is the title, `options.machine` the line below it. Draws into `file`, which the caller commits.

@@ -1,11 +1,11 @@
-// OutputFile: a file that appears either whole or not at all. Every writer of the program uses it.
+// OutputFile: a file that appears either whole or not at all. Every writer of the program uses OutputFile.
 //
 // Bytes go to a temporary name in the same directory. commit() gives the file its name in one step (rename). So a
 // reader never sees half a file, and an older file stays until the new one is complete. Without commit() nothing
-// remains. "-" is standard output. What is no regular file (a device, a pipe) is written to directly.
+// remains. "-" is standard output. A path that is no regular file (a device, a pipe) is written to directly.
 //
-// write() never reports an error. The first error is kept, the bytes after it are dropped, and commit() returns it. A
-// writer of gigabytes asks failed() now and then.
+// write() never reports an error. The first error is kept, all bytes after the error are dropped, and commit() returns
+// the error. A writer of gigabytes should ask failed() now and then.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class OutputFile {
   bool failed() const;
   // All bytes written so far, including buffered ones.
   std::uint64_t size() const;
-  // Hands the rest to the system and gives the file its name. Call it once.
+  // Hands the last bytes to the system and gives the file its name. Call it once.
   Status<OutputError> commit();
 
   // For a signal handler that ends the program: removes the temporary files of all OutputFiles that are open.

@@ -1,11 +1,11 @@
 // PathRecorder: watches the motion and keeps what a picture needs, in bounded memory.
 //
-// The path becomes one polyline in machine coordinates; each piece has its speed. Lines are cut where their speed
-// changes; arcs and cubics are flattened. When the polyline is full, pieces that run nearly straight are joined, with a
-// tolerance that doubles until there is room again. Even a coarse polyline may be too long (a path of kilometres over
-// the same place); then evenly spread stretches are left out. Extents stay exact.
+// The path becomes one polyline in machine coordinates, and each piece has its speed. Lines are cut where their speed
+// changes; arcs and cubics become chords. When the polyline is full, pieces that run nearly straight are joined. The
+// tolerance for that doubles until there is room again. Even a coarse polyline may be too long, as for a path of
+// kilometres over the same place. Then evenly spread stretches are left out. Extents stay exact.
 //
-// Memory: most_vertices of 20 bytes (2 MB) for a job of any length. About 0.3 µs for a line.
+// A job of any length takes most_vertices of 20 bytes (2 MB). A line takes about 0.3 µs.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ class PathRecorder {
   static constexpr std::size_t most_vertices = 100'000;
 
   enum class Kind : std::uint8_t { jump, rapid, feed };  // jump: the polyline starts again here
-  // Coordinates are relative to base(). So single precision is enough for a picture, however far away and small the
-  // path is.
+  // Coordinates are relative to base(). So single precision is enough for a picture, even if the path is small and far
+  // from machine zero.
   struct Vertex {
     float x = 0;
     float y = 0;
@@ -36,7 +36,7 @@ class PathRecorder {
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const Point& base() const { return base_; }
-  // True if nothing moved along X, Y or Z; the extents then have no meaning.
+  // True if nothing moved along X, Y or Z. Then the extents have no meaning.
   bool empty() const { return !any_; }
   const Box& extents() const { return extents_; }  // machine coordinates
   // The highest speed at feed, mm/s. 0 if there were only rapids.
@@ -61,8 +61,8 @@ class PathRecorder {
   Seconds time_{0};
   std::vector<Point> origins_;
 
-  double tolerance_ = 0;  // mm, of the joining so far; 0: nothing is joined
-  // Of so many stretches of moves one is kept and the others are left out.
+  double tolerance_ = 0;  // mm, the tolerance of the joining so far; 0: nothing is joined yet
+  // One of so many stretches of moves is kept, and the others are left out.
   std::uint64_t keep_one_of_ = 1;
   std::uint64_t moves_ = 0;
 };

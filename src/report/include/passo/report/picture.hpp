@@ -1,6 +1,6 @@
 // A picture of the path: an isometric view and a top view side by side. Feeds are coloured by their real speed.
 //
-// The same drawing serves both formats (cairo). An SVG stays under 10 MB for any recording.
+// cairo makes both formats from the same drawing. An SVG stays under 10 MB for any recording.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace passo {
 
 enum class PictureFormat : std::uint8_t { svg, png };
 
-// Chooses by the end of the name, in any case: ".svg", ".png".
+// Chooses the format by the end of the name: ".svg" or ".png", in upper or lower case.
 std::optional<PictureFormat> picture_format_of(std::string_view path);
 
 struct PictureOptions {

@@ -1,7 +1,8 @@
 // ProgressLine: the progress and remaining time of a long job, on one terminal line that rewrites itself.
 //
-// It reads no clock: the caller passes the elapsed time. Nothing is shown in the first second, more often than ten
-// times a second, or where standard error is no terminal. An update that shows nothing takes about 5 ns.
+// ProgressLine reads no clock: the caller passes the elapsed time. The line first appears after a second and changes at
+// most ten times a second. It never appears if standard error is no terminal. An update that shows nothing takes about
+// 5 ns.
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@ class ProgressLine {
 
   // Returns the text to write now; empty for none. `fraction` is the share of the work done, 0…1.
   std::string update(double fraction, Seconds elapsed);
-  // Returns the text that removes the line; empty if no line is shown. Afterwards the line may begin anew.
+  // Returns the text that removes the line; empty if no line is shown. After that the line may begin anew.
   std::string clear();
 
  private:

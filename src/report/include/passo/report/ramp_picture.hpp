@@ -1,5 +1,5 @@
-// A picture of ramps: each method's rate over time against the ideal line, the intervals, and the error of each
-// interval in ticks. For moves with bounded jerk the acceleration takes the place of the error.
+// A picture of ramps. It has each method's rate over time beside the ideal line, the intervals, and the error of each
+// interval in ticks. For moves with bounded jerk, the picture has the acceleration instead of the error.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace passo {
 
-// The interval of step `n`: its start in seconds and its length in ticks.
+// The interval of step `n`: its start and end in seconds, and its length in ticks.
 struct RampSample {
   double n = 0;
   double begin = 0;
@@ -20,7 +20,8 @@ struct RampSample {
   double error = 0;  // ticks, compared with the exact interval
 };
 
-// The ramp as a method makes it. A long ramp has only one in so many intervals, but always the first and the last.
+// The ramp as a method makes it. For a long ramp only some of the intervals are here, but always the first and the
+// last.
 struct RampTrace {
   std::string name;
   std::vector<RampSample> samples;
@@ -35,7 +36,7 @@ struct RampScene {
   std::vector<RampTrace> traces = {};  // at most three
   std::vector<RampPoint> ideal = {};   // the intended rate
   std::string ideal_name = {};
-  std::vector<RampPoint> acceleration = {};  // of the first trace; empty: errors are drawn instead
+  std::vector<RampPoint> acceleration = {};  // of the first trace; empty: the picture shows errors
   double tick = 1;                           // s
 };
 

@@ -1,8 +1,7 @@
-// RunSummary: the results of a run, in numbers. SummaryBuilder fills in the motion; whoever drives the board adds the
-// rest.
+// RunSummary: the results of a run, in numbers. SummaryBuilder fills in the motion. The program that drives the board
+// adds the rest.
 //
-// Two renderings: text for a person, JSON for a program. Keys of the JSON are a promise: they may be added but not
-// changed.
+// to_text() is for people, to_json() for programs. New keys may be added to the JSON, but a key never changes.
 #pragma once
 
 #include <cstdint>
@@ -41,34 +40,34 @@ struct BoardSummary {
   std::uint64_t frames = 0;  // sent down the wire
   std::uint64_t bytes = 0;
   std::uint64_t busiest_second = 0;  // bytes; 0: the run took less than a second
-  // For a board on a line, which always ends what it holds at rest.
+  // Only for a board on a line. The motion that such a board holds always ends at rest.
   int held_items = 0;  // places in its list; 0: no line
-  int rests = 0;       // rests because no more motion had come in time
+  int rests = 0;       // how often the board came to rest because no more motion had come in time
 };
 
 // A hold in mid-run. Times are the board's.
 struct HoldSummary {
   Seconds asked{0};
-  Seconds reaction{0};                  // from then until the machine slowed down: the committed motion
+  Seconds reaction{0};                  // from `asked` until the machine slowed down: the committed motion
   Seconds rest{0};                      // when the machine stood still
   std::vector<double> place = {};       // of each axis, machine coordinates, from the counted steps
   std::optional<Seconds> resumed = {};  // empty: the run ended in the hold
 };
 
-// Results of probe moves. Places of each axis, in machine coordinates.
+// Results of probe moves. Places have a value for each axis, in machine coordinates.
 struct ProbeSummary {
   std::uint64_t moves = 0;
   std::uint64_t touched = 0;
   bool last_touched = false;
   std::vector<double> last_contact = {};  // exact to the step; without contact, the end of the move
-  std::vector<double> last_rest = {};     // where the machine then came to rest
-  Mm farthest_overrun{0};                 // from contact to rest, the largest of all moves
+  std::vector<double> last_rest = {};     // where the machine came to rest after that
+  Mm farthest_overrun{0};                 // the longest way from contact to rest
 };
 
 // A rest at the end of a braking tail, because no more motion had come from the computer. Times are the board's.
 struct TailSummary {
   Seconds rest{0};                 // when the machine stood still
-  std::vector<double> place = {};  // as in a hold
+  std::vector<double> place = {};  // as in HoldSummary
   Seconds resumed{0};
 };
 
@@ -76,7 +75,7 @@ struct RunSummary {
   std::string program;
   std::string machine;
 
-  // From the phases of the motion. Cutting is everything at feed.
+  // Computed from the phases of the motion. Everything at feed counts as cutting.
   Seconds cutting_time{0};
   Seconds rapid_time{0};
   Seconds dwell_time{0};

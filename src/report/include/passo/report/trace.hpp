@@ -1,7 +1,7 @@
 // Trace: a file with every step of a machine. TraceVcd and TraceCsv are its two forms.
 //
-// A trace watches a virtual machine and hands on its text in large pieces, to an OutputFile or another sink. It needs
-// the same memory for a job of any length.
+// A trace watches a virtual machine and hands on its text in large pieces, to an OutputFile or another sink. A trace
+// needs the same memory for a job of any length.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@
 
 namespace passo {
 
-// A motor of the machine, and the axis it turns.
+// A motor of the machine, and the axis that the motor turns.
 struct TraceMotor {
   Axis axis = Axis::x;
   bool inverted = false;  // true: the axis goes up when the motor counts down
@@ -30,7 +30,7 @@ using TraceSink = std::function<void(std::string_view)>;
 
 class Trace : public MachineObserver {
  public:
-  // Writes the rest; the machine has come to rest at `end`. Call it once; nothing may come after it.
+  // Writes what is left. The machine has come to rest at `end`. Call it once, after everything else.
   virtual void finish(Ticks end) = 0;
 };
 

@@ -17,7 +17,7 @@ class TraceBuffer {
  public:
   explicit TraceBuffer(TraceSink sink) : sink_(std::move(sink)), text_(std::make_unique<char[]>(size)) {}
 
-  // Between two calls of this, at most `longest` bytes may be put.
+  // Between two calls of make_room(), at most `longest` bytes may be put.
   void make_room() {
     if (used_ > size - longest) flush();
   }

@@ -3,9 +3,9 @@
 //   t,x,y,z
 //   0.000010031,1,0,-1
 //
-// The first column is seconds from the start with nine decimals, rounded half up from the exact tick. Then each axis
-// has −1, 0 or 1: the direction of the axis, whichever way its motor turns. Outputs are not shown. Cost: about 20 ns a
-// row.
+// The first column is the time in seconds from the start. It has nine decimals, rounded half up from the exact tick.
+// Then each axis has −1, 0 or 1: the direction of the axis, whichever way its motor turns. Outputs are not shown. A row
+// takes about 20 ns.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ class TraceCsv final : public Trace {
   std::uint64_t ticks_a_second_;
   unsigned motors_;
   std::uint8_t inverted_ = 0;
-  // The whole second of the last row.
+  // The whole second in which the last row is.
   std::uint64_t second_ = 0;
   std::uint64_t second_start_ = 0;  // ticks
 };

@@ -1,15 +1,16 @@
 // TraceVcd: the board's lines over time as a value change dump (IEEE 1364-2005, 18), for GTKWave and similar viewers.
 //
-// Each axis of the machine has X_step and X_dir. X_dir is the level of the line (1: the motor counts down), so for an
-// inverted motor it is opposite to the axis's direction. Then follow spindle, spindle_reverse, mist, flood and
-// spindle_rpm.
+// Each axis of the machine has lines like X_step and X_dir. X_dir is the level of the line (1: the motor counts down).
+// So for an inverted motor, X_dir is opposite to the axis's direction. After the axes come spindle, spindle_reverse,
+// mist, flood and spindle_rpm.
 //
 //   X_dir  ____/‾‾‾‾‾‾‾‾‾‾‾‾     changes together with the first step in that direction
-//   X_step ____/‾\______/‾\_     high for the step pulse, but at most half the time to the next event with steps
+//   X_step ____/‾\______/‾\_     high for the step pulse, but at most half the time to the next steps or outputs
 //
-// Time is exact. The unit is the largest power of ten of which a tick is a multiple, but less than a tick, because half
-// a tick needs a place too. If a tick is no whole number of picoseconds, the unit is a picosecond and times are
-// rounded. There is no date: the same job gives the same bytes. Cost: about 30 ns an event.
+// Time is exact. The unit of time is the largest power of ten seconds of which a tick is a multiple. But the unit is
+// always less than a tick, because half a tick needs a place too. If a tick is no whole number of picoseconds, the unit
+// is a picosecond and times are rounded. The file has no date, so that the same job gives the same bytes. An event
+// takes about 30 ns.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +46,7 @@ class TraceVcd final : public Trace {
   void put_time(std::uint64_t time);
   void close_pulse(std::uint64_t longest);
 
-  // Wires in the order of their codes: step and direction of each motor, then the outputs.
+  // The wires in the order of their codes: step and direction of each motor, then the outputs.
   static unsigned step_wire(unsigned motor) { return 2 * motor; }
   static unsigned direction_wire(unsigned motor) { return 2 * motor + 1; }
   unsigned output_wire(unsigned output) const { return 2 * motors_ + output; }

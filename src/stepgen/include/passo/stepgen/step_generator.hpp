@@ -1,4 +1,4 @@
-// StepGenerator: phases -> board segments. Each step is where and when the exact motion has it.
+// StepGenerator: phases -> board segments. Each step comes at the place and time at which the exact motion has it.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace passo {
 
-// A motor of the board, and the axis it turns.
+// A motor of the board, and the axis that the motor turns.
 struct Motor {
   Axis axis = Axis::x;
-  double steps_per_unit = 0;  // for a millimetre or a degree; negative: the motor turns the other way
+  double steps_per_unit = 0;  // steps a millimetre or a degree; negative: the motor counts down when the axis goes up
 };
 
 struct BoardClock {
@@ -24,13 +24,13 @@ struct BoardClock {
   Hertz highest_event_rate{100e3};
 };
 
-// Where the board stands, to the last bit, so that the next path begins with what the last one has left: each motor in
-// 1/65536 step with half a step added, and the fraction of a tick.
+// Where the board stands, to the last bit: each motor in 1/65536 step with half a step added, and the fraction of a
+// tick. So the next path begins with the fractions that the last path has left.
 struct BoardPlace {
   std::array<std::int64_t, max_motors> motors{};
   std::uint16_t tick = whole_tick / 2;
   std::int64_t steps(std::size_t motor) const { return motors[motor] >> 16; }
-  // The motor is said to stand at another whole step.
+  // Says that the motor stands at another whole step. The fraction of a step stays as it is.
   void set_steps(std::size_t motor, std::int64_t steps) {
     motors[motor] = steps * whole_step + (motors[motor] & (whole_step - 1));
   }
@@ -42,21 +42,21 @@ struct StepOptions {
   std::uint8_t motor_count = 0;
   BoardClock clock;
   Point start;  // machine position at the start; the motors' step counts begin at its whole steps
-  std::optional<BoardPlace> place = {};  // where the board stands; nothing: it has just heard a hello, at `start`
+  std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
 };
 
-// The items that go down the wire, in order. The segments before an Action end at rest. A dwell has become segments
+// The items that go down the wire, in order. The segments before an Action end at rest. A dwell becomes segments
 // without steps.
 using BoardItem = std::variant<BoardSegment, Action>;
 
-// How exact the times of events are. With looser times, motion takes far fewer segments close to a rest. Every step is
+// How exact the times of events are. With looser times, motion close to a rest takes far fewer segments. Every step is
 // still made, and at the same place.
 struct Exactness {
-  // An event may be off its exact time by one part in so many of its interval. 0: at most by what shows in no whole
-  // tick.
+  // An event may be off its exact time by 1/one_in of its interval. 0: an event may be off by less than half a tick,
+  // before the board rounds to whole ticks.
   int one_in = 0;
-  // Below this rate, events divide the steps of the fastest motor; on a slow board below a sixteenth of its highest
-  // rate. 0: they are never divided for slowness.
+  // If the fastest motor steps slower than this rate, events divide its steps. On a slow board a sixteenth of the
+  // board's highest rate counts instead. 0: steps are never divided for slowness.
   Hertz least_rate{10'000};
   // The most events of a segment. Segments that are exact to the tick seldom have more than 255.
   int longest_segment = 255;
@@ -71,22 +71,23 @@ class StepGenerator final : public Source<BoardItem> {
 
   [[nodiscard]] bool next(BoardItem& item) override;
 
-  // From now on events wait at most this time for later ones that would make a longer segment. So motion is pulled
-  // ahead of the last segment by at most this time and a move. Segments get shorter, but no step less exact.
+  // From now on an event waits at most this time for later events that would make its segment longer. So motion is
+  // pulled ahead of the last segment by at most this time and one move. Segments get shorter, but steps stay as exact.
   void limit_waiting_to(Seconds time);
   void be_exact_to(const Exactness& exactness);
 
-  // Continues from the state of `other`, which was made with the same options, but with its own motion, waiting time
-  // and exactness. So a fork tells what another motion from here would be, and its end is a state to go on from.
+  // Takes over the state of `other`, but keeps its own source of motion, waiting time and exactness. `other` must have
+  // been made with the same options. So a copy can try another motion from here, and its end is a state to go on from.
   void assume(const StepGenerator& other);
-  // Whether the motion pulled so far ends at rest; at_rest(): and all of it was given too.
+  // Whether the motion pulled so far ends at rest.
   bool ends_at_rest() const;
+  // Whether the motion pulled so far ends at rest, and next() has given all of it.
   bool at_rest() const;
-  // Whether the last item waits at rest and more such items may follow: a dwell.
+  // Whether the last item was a part of a dwell, and more of the dwell may follow.
   bool waits_at_rest() const;
-  // The rest of that waiting is left out. How long it was.
+  // Leaves out what is left of the present dwell. Returns how long that was.
   Seconds cut_dwell();
-  // At rest, after all that was given.
+  // Where the board stands after all items given so far. Call it only at rest.
   BoardPlace place() const;
 
  private:
