@@ -40,11 +40,7 @@ Seconds time_of(const MotionItem& item) {
 }  // namespace
 
 DirectFeed::DirectFeed(const Stages& stages, const Options& options)
-    : stages_(stages),
-      options_(options),
-      live_(options.live),
-      ahead_(endless_commitment),
-      rested_(stages.link.now()) {
+    : stages_(stages), options_(options), live_(options.live), ahead_(endless_commitment), rested_(stages.link.now()) {
   apply(live_);
 }
 
@@ -90,9 +86,8 @@ void DirectFeed::watch(const MotionItem& motion) {
 
 Feed::Turn DirectFeed::advance() {
   if (stages_.link.error()) return Turn::ended;
-  if (!waiting_.empty() || action_ || ended_) {
-    if (!send_waiting()) return Turn::waits;
-    if (!action_ && !ended_) return Turn::goes_on;
+  if (!send_waiting()) return Turn::waits;
+  if (action_ || ended_) {
     if (stages_.link.busy()) return Turn::waits;
     if (!action_) return Turn::ended;
     if (action_->kind != Action::Kind::feed_hold) return Turn::at_action;
@@ -111,8 +106,7 @@ Feed::Turn DirectFeed::advance() {
       pass_on_outputs();
     }
   }
-  send_waiting();
-  return Turn::goes_on;
+  return send_waiting() ? Turn::goes_on : Turn::waits;
 }
 
 // False: something still waits for room on the board.

@@ -46,7 +46,7 @@ MotionProof prove(ProgramReader program, const MachineDescription& machine, cons
   start.watchers.path = [&](const PathItem& item) { prover.watch(item); };
   start.watchers.motion = [&](const MotionItem& item) { prover.watch(item); };
   start.watchers.items = [&](const BoardItem& item) { prover.watch(item); };
-  ask(session, std::move(start));
+  static_cast<void>(session.request(std::move(start)).has_value());
   for (unsigned turns = 0; session.busy(); ++turns) {
     session.turn(endless);
     if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / nominal);

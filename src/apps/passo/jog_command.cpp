@@ -81,10 +81,10 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
   bool brakes = false;
   while (session.busy()) {
     if (interrupted_by() != 0 && !std::exchange(brakes, true)) {
-      ask(session, request::Stop{});
+      try_request(session, request::Stop{});
     }
     const bool holds = !arguments.held || session.now() - begun < Seconds(*arguments.held);
-    if (holds && !brakes) ask(session, request::RenewLease{});
+    if (holds && !brakes) try_request(session, request::RenewLease{});
     session.turn(opened.has_board() ? between_renewals : endless);
   }
   const Answered answered = answer_of(session.take_changes(), *ticket);

@@ -135,7 +135,7 @@ class KeyJog {
       show();
       if (!session_.status().trouble_words.empty()) break;
     }
-    ask(session_, request::Stop{});
+    try_request(session_, request::Stop{});
     while (session_.busy()) session_.turn(a_turn);
     show();
     fmt::print("\n");
@@ -153,11 +153,11 @@ class KeyJog {
     if (!session_.busy()) {
       direction_ = key.direction;
       const JogWay way{.direction = direction_, .speed = speed_};
-      ask(session_, request::Jog{.way = way, .lease = lease});
+      try_request(session_, request::Jog{.way = way, .lease = lease});
     } else if (key.direction == direction_) {
-      ask(session_, request::RenewLease{});
+      try_request(session_, request::RenewLease{});
     } else {
-      ask(session_, request::Stop{});
+      try_request(session_, request::Stop{});
     }
   }
   bool has_axes(const Point& direction) const {

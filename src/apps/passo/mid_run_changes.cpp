@@ -4,6 +4,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "opened_machine.hpp"
 #include "program_input.hpp"
 
 #include "passo/link/await.hpp"
@@ -103,7 +104,7 @@ Seconds MidRunChanges::act(MachineSession& session, const VirtualMachine& machin
 
 void MidRunChanges::apply(const Change& change, MachineSession& session) {
   if (change.factor) {
-    ask(session, request::Override{.feed = change.factor});
+    try_request(session, request::Override{.feed = change.factor});
     return;
   }
   const Seconds committed = session.status().committed;
@@ -122,7 +123,7 @@ Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& 
   if (!holds_now_) {
     if (!status.holds.has(HoldReason::zero_feed)) return endless;
     if (next_ < changes_.size()) return std::max(changes_[next_].at - now(session), Seconds(0));
-    ask(session, request::Stop{});
+    try_request(session, request::Stop{});
     return endless;
   }
   HoldSummary& hold = holds_.back();
@@ -136,9 +137,9 @@ Seconds MidRunChanges::mind_rest(MachineSession& session, const VirtualMachine& 
   resume_at_.reset();
   if (pause_) {
     hold.resumed = now(session);
-    ask(session, request::Resume{});
+    try_request(session, request::Resume{});
   } else {
-    ask(session, request::Stop{});
+    try_request(session, request::Stop{});
   }
   return endless;
 }

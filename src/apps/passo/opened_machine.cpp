@@ -133,7 +133,7 @@ std::optional<std::string> OpenedMachine::compare() {
   return {};
 }
 
-void ask(MachineSession& session, Request wanted) {
+void try_request(MachineSession& session, Request wanted) {
   static_cast<void>(session.request(std::move(wanted)).has_value());
 }
 
@@ -141,7 +141,7 @@ void turn_to_the_end(MachineSession& session, const std::function<void()>& look)
   bool asked_to_stop = false;
   while (session.busy()) {
     if (interrupted_by() != 0 && !std::exchange(asked_to_stop, true)) {
-      ask(session, request::Stop{});
+      try_request(session, request::Stop{});
     }
     session.turn(endless);
     if (look) look();

@@ -71,7 +71,7 @@ class OpenedMachine {
 };
 
 // Makes a request that may be refused. A refusal means that the machine is already where the request would lead.
-void ask(MachineSession& session, Request wanted);
+void try_request(MachineSession& session, Request wanted);
 // Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.
 void turn_to_the_end(MachineSession& session, const std::function<void()>& look = {});
 // The result of a request that has been answered, and the reason.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "opened_machine.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <poll.h>
@@ -82,7 +83,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
           .message = fmt::format("{} waits at {}, and there is no terminal to ask on: run it on one, or with --yes "
                                  "when all is prepared, together with --resume to go on from here [run.waits]",
                                  program_, words_of(*wait))};
-      ask(session, request::Stop{});
+      try_request(session, request::Stop{});
     }
     return endless;
   }
@@ -90,7 +91,7 @@ Seconds OperatorPrompt::look(MachineSession& session) {
     fmt::print(stderr, "\r\033[K{} waits at {}. Press Enter to go on. ", program_, words_of(*wait));
     std::fflush(stderr);
   }
-  if (enter_was_pressed(between_looks)) ask(session, request::OperatorDone{});
+  if (enter_was_pressed(between_looks)) try_request(session, request::OperatorDone{});
   return Seconds(0);
 }
 

@@ -82,7 +82,7 @@ ActivityFault refused(const Refusal& refusal) {
 }
 
 void stop(MachineSession& session) {
-  ask(session, request::Stop{});
+  try_request(session, request::Stop{});
 }
 
 // Tells how often the board had to brake by itself.
