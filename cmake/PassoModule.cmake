@@ -64,11 +64,15 @@ function(passo_sanitized_library name)
   target_precompile_headers(${name} REUSE_FROM passo_standard_headers)
 endfunction()
 
+# Tests are optimised less than what they test: a third less time to compile, and they run hardly longer.
+set(PASSO_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
 # GoogleTest's headers, compiled once for all test programs.
 function(passo_test_headers)
   file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/test_headers.cpp" CONTENT "")
   add_library(passo_test_headers OBJECT "${PROJECT_BINARY_DIR}/test_headers.cpp")
   target_link_libraries(passo_test_headers PRIVATE GTest::gmock GTest::gtest passo_compiler)
+  target_compile_options(passo_test_headers PRIVATE ${PASSO_TEST_OPTIONS})
   target_precompile_headers(passo_test_headers PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
@@ -88,6 +92,7 @@ function(passo_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main passo_compiler)
+  target_compile_options(${name} PRIVATE ${PASSO_TEST_OPTIONS})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")  # "kit/…", what tests share
   target_compile_definitions(${name} PRIVATE
     PASSO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PASSO_ONE_IN=${ARG_ONE_IN}

@@ -70,7 +70,7 @@ void Refiller::watch(const MotionItem& motion) {
   const auto* move = std::get_if<PlannedMove>(&motion);
   given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
   if (move == nullptr || move->phase_count == 0) return;
-  speed_.note_speed(move->exit_velocity().value());
+  speed_.note_speed(move->exit_velocity());
 }
 
 Refiller::Turn Refiller::advance() {
@@ -226,7 +226,6 @@ void Refiller::note_executed() {
   if (executed != under_way.front().last) return;
   rested_ = std::move(under_way.front().rest);
   under_way.pop_front();
-  speed_.forget_fastest();
   if (!on_tail_) return;
   behind_ = executed;
   take_up();
@@ -252,7 +251,9 @@ void Refiller::take_up() {
 
 // The machine rests, and no refill fits into the board. False: the path cannot begin more slowly.
 bool Refiller::begin_more_slowly() {
-  if (!speed_.begin_more_slowly()) return false;
+  MmPerSecond highest{0};
+  for (const Pulled& pulled : pulled_) highest = std::max(highest, pulled.speed);
+  if (!speed_.begin_more_slowly(highest)) return false;
   take_up();
   return !(guards_threads_ && stages_.path.is_in_thread());
 }
@@ -284,7 +285,7 @@ void Refiller::pull() {
 }
 
 void Refiller::add(const LinkItem& item) {
-  pulled_.push_back({.item = item, .time = time_of(item)});
+  pulled_.push_back({.item = item, .time = time_of(item), .speed = speed_.speed()});
   pulled_time_ += pulled_.back().time;
   speed_.note_motion(pulled_.back().time);
   const StepGenerator& generator = stages_.generator;

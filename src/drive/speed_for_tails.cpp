@@ -20,11 +20,6 @@ constexpr double least_limit = 0.05;  // mm/s
 SpeedForTails::SpeedForTails(Planner& planner, std::size_t places, std::size_t least_refill)
     : planner_(planner), long_tail_((places - std::min(places, least_refill + 1)) / 2) {}
 
-void SpeedForTails::note_speed(double speed) {
-  speed_ = speed;
-  fastest_ = std::max(fastest_, speed_);
-}
-
 void SpeedForTails::note_tail(std::size_t items) {
   const bool is_long = items > long_tail_;
   if (is_long && speed_ > least_limit && (std::isinf(limit_) || limited_for_ > to_settle)) {
@@ -39,8 +34,9 @@ void SpeedForTails::note_tail(std::size_t items) {
   }
 }
 
-bool SpeedForTails::begin_more_slowly() {
-  const double limit = std::min(limit_, fastest_) * slower_from_rest;
+bool SpeedForTails::begin_more_slowly(MmPerSecond highest) {
+  // The present limit does not count. It was lowered in motion, and the motion may not have slowed down in time.
+  const double limit = highest.value() * slower_from_rest;
   if (limit < least_limit) return false;
   limit_to(limit);
   return true;

@@ -22,7 +22,9 @@ TEST(Render, points_at_the_place_and_says_what_was_expected) {
 
 TEST(Render, shows_a_window_of_a_very_long_line) {
   Diagnostic diagnostic = missing_feed();
-  diagnostic.text = std::string(500'000, 'x') + "Q9" + std::string(500'000, 'y');
+  diagnostic.text = std::string(500'000, 'x');
+  diagnostic.text += "Q9";
+  diagnostic.text.append(500'000, 'y');
   diagnostic.place = {.line = 1, .column = 500'001, .length = 2};
   const std::string text = render(diagnostic, false);
   EXPECT_LT(text.size(), 500U);

@@ -140,6 +140,7 @@ class Refiller final : public Feed {
   struct Pulled {
     LinkItem item;
     Seconds time{0};
+    MmPerSecond speed{0};           // about the speed at its end
     std::optional<Tail> tail = {};  // after the item; empty: no refill may end here
   };
 

@@ -16,17 +16,18 @@ class SpeedForTails {
   // `places`: of the board, for items. A refill has at least `least_refill` of them. The planner outlives this.
   SpeedForTails(Planner& planner, std::size_t places, std::size_t least_refill);
 
-  // The planner has given motion that ends with that speed, mm/s.
-  void note_speed(double speed);
+  // The planner has given motion that ends with that speed.
+  void note_speed(MmPerSecond speed) { speed_ = speed.value(); }
+  MmPerSecond speed() const { return MmPerSecond(speed_); }
   // So much motion was pulled since.
   void note_motion(Seconds time) { limited_for_ += time; }
   // Behind what was pulled last a tail would have so many items.
   void note_tail(std::size_t items);
-  // From rest, where nothing fits. False: it is as slow as can be already.
-  [[nodiscard]] bool begin_more_slowly();
-  // The machine rests, or a refill has been played whole.
-  void rest() { speed_ = fastest_ = 0; }
-  void forget_fastest() { fastest_ = speed_; }
+  // From rest, where none of the motion fits that was pulled. `highest` is the highest speed of that motion. False: the
+  // motion is as slow as can be already.
+  [[nodiscard]] bool begin_more_slowly(MmPerSecond highest);
+  // The machine rests.
+  void rest() { speed_ = 0; }
   // How often the speed was limited.
   int slowdowns() const { return slowdowns_; }
 
@@ -36,7 +37,6 @@ class SpeedForTails {
   Planner& planner_;
   std::size_t long_tail_;  // items: longer tails leave too few places
   double speed_ = 0;       // at the end of what the planner has given
-  double fastest_ = 0;     // since the last rest
   double limit_ = std::numeric_limits<double>::infinity();
   Seconds limited_for_{0};  // of motion that was pulled
   int slowdowns_ = 0;
