@@ -86,6 +86,7 @@ class GeneratedProgram {
   GeneratedProgram(const GeneratedProgram&) = delete;
   GeneratedProgram& operator=(const GeneratedProgram&) = delete;
 
+  std::ostream& text() { return file_; }
   std::ostream& line() { return file_ << "G1"; }
   std::string finish() {
     file_ << "G0 Z5\nM2\n";
@@ -113,6 +114,25 @@ void write_relief(GeneratedProgram& program, int moves) {
   }
 }
 
+// Writes waves of half circles of about 1.5 mm, to the left and to the right by turns. As in a CAM program the places
+// are rounded, so that the radius at an arc's end is not quite the radius at its start.
+void write_arcs(GeneratedProgram& program, int arcs) {
+  constexpr int a_row = 60;
+  constexpr double one_in = 1e4;  // four decimals
+  const auto rounded = [](double place) { return std::round(place * one_in) / one_in; };
+  double x = 0;
+  for (int i = 0; i < arcs; ++i) {
+    if (i % a_row == 0) {
+      x = 0;
+      program.line() << " X0 Y" << i / a_row * 0.1 << "\n";
+    }
+    const double radius = 1.5 + 0.1 * std::sin(i * 0.7);
+    const double end = rounded(x + 2 * radius);
+    program.text() << (i % 2 == 0 ? "G2" : "G3") << " X" << end << " I" << rounded(radius) << "\n";
+    x = end;
+  }
+}
+
 void measure_generated(const MachineDescription& machine) {
   std::printf("\nthe same with 400 steps/mm\n");
   GeneratedProgram relief("relief of 200000 moves");
@@ -123,6 +143,9 @@ void measure_generated(const MachineDescription& machine) {
     long_moves.line() << " X" << (i % 2 == 0 ? 200 : 0) << " Y" << i * 0.03 << " Z" << -(i % 7) * 0.5 << "\n";
   }
   measure(long_moves.finish(), machine);
+  GeneratedProgram arcs("20000 small arcs");
+  write_arcs(arcs, 20'000);
+  measure(arcs.finish(), machine);
 }
 
 void measure_memory() {

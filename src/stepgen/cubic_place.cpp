@@ -11,6 +11,15 @@ constexpr double behind_turn = 1e-7;         // share of the length
 // A target at most this far behind the motor counts as just reached. The rounding of a place is always smaller.
 constexpr double place_rounding = 1;
 
+// Crossings are near if the slope changes by less than this share on the way: then each round of the search comes much
+// closer.
+constexpr double near_change = 0.25;
+// A last round that begins this close, in places, ends within crossing_precision. The first terms of the series already
+// leave less than a tenth of the way, so the round changes the slope by less than a fortieth; it leaves half of the
+// square of that share.
+constexpr double last_off = 16;
+constexpr int most_rounds = 4;
+
 }  // namespace
 
 double Parabola::above_zero(double from) const {
@@ -61,8 +70,50 @@ double CubicPlace::crossing(double target, double from) const {
   return from + ahead.time_to(way, end - from, ahead.soon(way), crossing_precision);
 }
 
-// Adds the bend to the slope without regard to signs: near a turning point the slope is 0, and the bend alone moves the
-// motor.
+// The first terms of s as a series of the place come close. Newton's method with the bend makes that exact, mostly in
+// one round.
+std::size_t CubicPlace::look_ahead(double target, double step, double from, Lanes& s) const {
+  const double steep = slope(from);
+  const double third = third_;
+  const double bend = second_ + 3 * third * from;
+  const double slowness = 1 / steep;
+  const double gap = target - at(from);
+  const double first = gap * slowness;
+  const double each = step * slowness;
+  if (!(first >= 0 && each > 0)) return 0;
+  const auto is_near = [&](std::size_t lane) {
+    const double way = first + lane_numbers[lane] * each;
+    return way * (2 * std::fabs(bend) + 3 * std::fabs(third) * way) < near_change * std::fabs(steep);
+  };
+  std::size_t near = lane_count;
+  while (near > 0 && !is_near(near - 1)) --near;
+  if (near == 0) return 0;
+
+  Lanes way;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    const double straight = first + lane_numbers[i] * each;
+    const double bent = bend * slowness * straight;
+    const double changed = third * slowness * straight * straight;
+    way[i] = straight * (1 - bent * (1 - 2 * bent) - changed + 5 * bent * (changed - bent * bent));
+  }
+  for (int round = 0; round < most_rounds; ++round) {
+    Lanes off;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      const double u = way[i];
+      const double bend_there = bend + 3 * third * u;
+      const double slower = 1 / (steep + u * (2 * bend + u * 3 * third));
+      const double left = gap + lane_numbers[i] * step - u * (steep + u * (bend + u * third));
+      const double more = left * slower;
+      off[i] = std::fabs(left);
+      way[i] = u + more * (1 - more * slower * bend_there);
+      s[i] = from + (way[i] > 0 ? way[i] : 0);
+    }
+    if (*std::max_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(near)) <= last_off) return near;
+  }
+  return 0;
+}
+
+// The slope grows with the bend, whichever its sign. Near a turning point that makes the motor fast.
 double CubicPlace::travel(double distance, double from) const {
   const double steep = std::fabs(slope(from));
   const double bend = std::fabs(second_ + 3 * third_ * from);

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "lanes.hpp"
+
 #include "passo/wire/board_segment.hpp"
 
 namespace passo {
@@ -51,6 +53,14 @@ class EventBuffer {
     time_[last_] = time;
     ++last_;
     for (unsigned m = 0; m < motors; ++m) place_[m][last_] = places[m];
+  }
+  // Adds the first `count` of several events.
+  void push(const std::array<std::int64_t, lane_count>& times, const std::array<Lanes, max_motors>& places,
+            std::size_t count, unsigned motors) {
+    if (last_ + count > capacity) make_room();
+    std::copy_n(times.begin(), count, &time_[last_]);
+    for (unsigned m = 0; m < motors; ++m) std::copy_n(places[m].begin(), count, &place_[m][last_ + 1]);
+    last_ += count;
   }
   void drop(std::size_t events) { first_ += events; }
   // Empties the buffer. `before` are the places at the event before the first.

@@ -66,8 +66,8 @@ void EventStream::start_move(const PlannedMove& move) {
   }
   spot_ = path_.at(move.from().value());
   moment_ = clock_.at(spot_.s);
-  in_stretch_ = in_stretch_ && master_leads(spot_) && rate_fits();
-  if (in_stretch_) leads_until_ = path_.leads_until(stretch_.master, stretch_.sign, takeover, spot_.s);
+  in_stretch_ = in_stretch_ && master_leads(spot_) && rate_fits(master_slope(spot_));
+  if (in_stretch_) leads_until_ = leads_until(spot_);
 }
 
 // The square of the rate that a motor of this slope would have one step from here if the path sped up all the way.
@@ -87,7 +87,18 @@ bool EventStream::master_leads(const MotorPath::Spot& spot) const {
   return true;
 }
 
-// The range of event rates for which this grid is the best one.
+bool EventStream::still_leads(const MotorPath::Spot& spot) {
+  if (spot.s <= leads_until_) return true;
+  if (!master_leads(spot)) return false;
+  leads_until_ = leads_until(spot);
+  return true;
+}
+
+double EventStream::leads_until(const MotorPath::Spot& spot) const {
+  return path_.leads_until(stretch_.master, stretch_.sign, takeover, spot);
+}
+
+// The range of event rates in which no other division would be better.
 EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
   const auto squared = [](double x) { return x * x; };
   const double slow = slow_rate_ * static_cast<double>(grid);
@@ -97,8 +108,8 @@ EventStream::FittingRates EventStream::fitting_rates(std::int64_t grid) const {
           .most = grid == whole_step ? infinity : before_coarser};
 }
 
-bool EventStream::rate_fits() const {
-  const double rate = rate_squared(std::fabs(path_.slope(stretch_.master, spot_)));
+bool EventStream::rate_fits(double slope) const {
+  const double rate = rate_squared(slope);
   return rates_.hold(rate) || (rate > rates_.most && stretch_.grid >= coarsest_grid(stretch_.master));
 }
 
@@ -142,8 +153,8 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   for (; rate < slow_rate_ && stretch_.grid > finest_grid; rate *= 2) stretch_.grid /= 2;
   rates_ = fitting_rates(stretch_.grid);
   target_ = next_target(path_.place(master, spot_));
-  if (path_.crossing(master, target_, spot_) == infinity) {
-    // The master turns back before the next line of the grid. The first crossing is on the way back.
+  if (path_.crossing(master, target_, spot_).s == infinity) {
+    // The master turns back before the next line. The first crossing is on the way back.
     const double turn = path_.turning_point(master, spot_.s);
     if (!(turn < path_.end())) return Start::nothing_moves;
     go_to(turn);
@@ -151,7 +162,7 @@ EventStream::Start EventStream::start_stretch(EventBuffer& events) {
   }
   events.restart(here_);
   in_stretch_ = true;
-  leads_until_ = path_.leads_until(stretch_.master, stretch_.sign, takeover, spot_.s);
+  leads_until_ = leads_until(spot_);
   return Start::done;
 }
 
@@ -174,11 +185,14 @@ bool EventStream::push_border(EventBuffer& events) {
   return true;
 }
 
+// Two events are never too close for the board: where the master changes, the new one may have to wait.
+std::int64_t EventStream::possible(std::int64_t time) {
+  return last_event_ = std::max(time, last_event_ + shortest_interval_);
+}
+
 // Adds an event at which all motors are at `here_`.
 void EventStream::push(std::int64_t time, EventBuffer& events) {
-  // Where the master changes, two events could be too close for the board. Then the second event waits.
-  last_event_ = std::max(time, last_event_ + shortest_interval_);
-  events.push(last_event_, here_, options_.motor_count);
+  events.push(possible(time), here_, options_.motor_count);
 }
 
 void EventStream::go_to(double s) {
@@ -202,36 +216,44 @@ void EventStream::push_master(double target, const MotorPath::Spot& spot, EventB
   push(fixed_time(moment_.time), events);
   here_[stretch_.master] = at_last_event_[stretch_.master] = behind_line(target);
   target_ = target + stretch_.sign * static_cast<double>(stretch_.grid);
-  in_stretch_ = rate_fits();
+  in_stretch_ = rate_fits(master_slope(spot_));
 }
 
-// A faster form of the loop of fill() for a line. The motors move in proportion and none turns back, so each event
-// takes little work. Ends with the stretch or the phase. Returns false if no event was added.
-bool EventStream::fill_line(EventBuffer& events, std::size_t enough) {
-  const double end = std::min(path_.end(), clock_.phase_end());
-  const MotorPath::Line master = path_.line(stretch_.master);
+// Does what the loop of fill() does for several events at once, while stretch and move last.
+EventStream::Filled EventStream::fill_lanes(EventBuffer& events) {
+  const unsigned master = stretch_.master;
   const double step = stretch_.sign * static_cast<double>(stretch_.grid);
-  const double slope = std::fabs(master.slope);
-  const double first_target = target_;
+  MotorPath::Spots ahead;
+  path_.look_ahead(master, target_, step, spot_.s, ahead);
+  if (ahead.count > 0 && ahead.s[0] > path_.end()) return Filled::to_end;
+  std::size_t count = 0;
+  while (count < ahead.count && ahead.s[count] <= path_.end() && still_leads(ahead[count])) ++count;
+  if (count == 0) return Filled::nothing;
+
+  Lanes slopes;
+  path_.slopes(master, ahead, slopes);
+  PhaseClock::Moments moments;
+  std::array<std::int64_t, lane_count> times;
+  std::size_t made = 0;
   bool fits = true;
-  double s = spot_.s;
-  for (std::size_t room = enough - events.size(); room > 0 && fits; --room) {
-    const double next = std::max(s, (target_ - master.base) / master.slope);
-    if (next > end) break;
-    s = next;
-    moment_ = clock_.at(s);
-    for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = path_.line(m).at(s);
-    here_[stretch_.master] = target_;
-    push(fixed_time(moment_.time), events);
-    target_ += step;
-    fits = rates_.hold(rate_squared(slope));
+  while (made < count && fits) {
+    const std::size_t in_phase = clock_.at(ahead.s, made, count, moments);
+    for (; made < in_phase && fits; ++made) {
+      moment_ = moments[made];
+      times[made] = possible(fixed_time(moment_.time));
+      fits = rate_fits(std::fabs(slopes[made]));
+    }
   }
-  if (target_ == first_target) return false;
-  here_[stretch_.master] = behind_line(here_[stretch_.master]);
+  std::array<Lanes, max_motors> places;
+  for (unsigned m = 0; m < options_.motor_count; ++m) path_.places(m, ahead, places[m]);
+  for (std::size_t i = 0; i < made; ++i, target_ += step) places[master][i] = target_;
+  events.push(times, places, made, options_.motor_count);
+  for (unsigned m = 0; m < options_.motor_count; ++m) here_[m] = places[m][made - 1];
+  here_[master] = behind_line(here_[master]);
   at_last_event_ = here_;
-  spot_ = path_.at(s);
+  spot_ = ahead[made - 1];
   in_stretch_ = fits;
-  return true;
+  return Filled::some;
 }
 
 EventStream::Stop EventStream::finish_move() {
@@ -249,16 +271,17 @@ EventStream::Stop EventStream::fill(EventBuffer& events, std::size_t enough) {
       if (start == Start::nothing_moves) return finish_move();
       if (start == Start::turned) continue;
     }
-    if (path_.is_straight() && fill_line(events, enough)) continue;
-    const double s = path_.crossing(stretch_.master, target_, spot_);
-    if (s == infinity) {  // the master turns back before the line, so choose a master anew
+    const Filled filled = fill_lanes(events);
+    if (filled == Filled::some) continue;
+    if (filled == Filled::to_end) return finish_move();
+    const MotorPath::Spot spot = path_.crossing(stretch_.master, target_, spot_);
+    if (spot.s == infinity) {  // the master turns back first: choose again
       in_stretch_ = false;
       continue;
     }
-    if (s > path_.end()) return finish_move();
-    // On a curve, another motor may become the fastest before the next event.
-    const MotorPath::Spot spot = path_.at(s);
-    const bool leads = s <= leads_until_ || master_leads(spot);
+    if (spot.s > path_.end()) return finish_move();
+    // On a curve another motor may have become the fastest on the way.
+    const bool leads = still_leads(spot);
     if (!leads && !events.empty()) {
       in_stretch_ = false;
       continue;

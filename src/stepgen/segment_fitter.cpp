@@ -21,6 +21,10 @@ std::int64_t floor_to_int(double x) {
   const auto truncated = static_cast<std::int64_t>(x);
   return truncated - (x < static_cast<double>(truncated) ? 1 : 0);
 }
+// Halves away from zero.
+std::int64_t nearest(double x) {
+  return static_cast<std::int64_t>(x + (x < 0 ? -0.5 : 0.5));
+}
 std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
   return a >= 0 ? (a + b - 1) / b : -(-a / b);
 }
@@ -37,7 +41,7 @@ std::int64_t along(int sign, std::int64_t position) {
 }  // namespace
 
 std::int64_t rest_place(double place) {
-  const std::int64_t steps = std::llround(place / 65536.0 - 0.5);
+  const std::int64_t steps = nearest(place / 65536.0 - 0.5);
   return std::clamp(floor_to_int(place), steps * whole_step, steps * whole_step + whole_step - 1);
 }
 
@@ -55,6 +59,10 @@ void set_increment(BoardSegment& segment, unsigned motor, int sign, std::int64_t
 }
 
 bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, const Timing& timing) const {
+  // Most fits that fail do so at the last event: a look there spares the others.
+  const std::int64_t n = timing.events;
+  const std::int64_t end = now + n * timing.interval + timing.change * (n * (n - 1) / 2);
+  if (share_ == 0 && std::abs(end - events.time(timing.events - 1)) > exact) return false;
   std::int64_t interval = timing.interval;
   std::int64_t time = now;
   for (unsigned k = 0; k < timing.events; ++k) {
@@ -78,15 +86,15 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
   unsigned n = std::min(most, guess_ + guess_ / 4 + 4);
   for (; n > 1; n = std::min(n - 1, n * 3 / 4)) {
     const unsigned m1 = std::max(1U, static_cast<unsigned>(first_node * n));
-    const unsigned m2 = std::max(m1 + 1, static_cast<unsigned>(std::lround(second_node * n)));
+    const unsigned m2 = std::max(m1 + 1, static_cast<unsigned>(second_node * n + 0.5));
     const double slope1 = static_cast<double>(events.time(m1 - 1) - now) / m1;
     const double slope2 = static_cast<double>(events.time(m2 - 1) - now) / m2;
-    double change = std::round(2 * (slope2 - slope1) / (m2 - m1));
-    if (std::fabs(change) > fine_change) change = std::round(change / coarse_change) * coarse_change;
-    if (std::fabs(change) > largest_change) continue;
-    // The change was rounded. The interval is computed from the rounded change, so that the second node is still met.
-    const double interval = std::round(slope2 - change * (m2 - 1) / 2);
-    if (interval < 1 || interval > static_cast<double>(longest_interval)) continue;
+    std::int64_t change = nearest(2 * (slope2 - slope1) / (m2 - m1));
+    if (std::abs(change) > fine_change) change = nearest(static_cast<double>(change) / coarse_change) * coarse_change;
+    if (std::abs(change) > largest_change) continue;
+    // After the change is rounded, the interval still places the far node where it belongs.
+    const std::int64_t interval = nearest(slope2 - static_cast<double>(change) * (m2 - 1) / 2);
+    if (interval < 1 || interval > longest_interval) continue;
     const Timing timing{
         .interval = static_cast<std::uint32_t>(interval), .change = static_cast<std::int32_t>(change), .events = n};
     if (times_hold(events, now, timing)) return timing;
@@ -97,7 +105,7 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
 SegmentFitter::Advance SegmentFitter::advance_master(const Stretch& stretch, std::int64_t position, double first_target,
                                                      unsigned events) const {
   const double ideal = stretch.sign > 0 ? first_target : -first_target;
-  const std::int64_t step = std::llround(ideal) - along(stretch.sign, position);
+  const std::int64_t step = nearest(ideal) - along(stretch.sign, position);
   const std::int64_t increment = std::clamp<std::int64_t>(step, 0, whole_step);
   // If a stretch begins between two lines of its grid, a first segment of one event brings the master onto the grid.
   return {.sign = stretch.sign, .increment = increment, .events = step == stretch.grid ? events : 1};
@@ -145,26 +153,29 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   while (first <= count && std::fabs(places[first] - places[first - 1]) < still) ++first;
   if (first > count) return settle(position, places[count], count);
   const int sign = places[first] > places[first - 1] ? 1 : -1;
-  for (unsigned k = 1; k <= count; ++k) {
-    if (sign * (places[k] - places[k - 1]) <= -still) {  // the motor turns back here, so the segment ends before
-      count = k - 1;
-      break;
-    }
-    ideal_[k] = floor_to_int(sign * places[k]);
+  const auto turns_back = [&](unsigned k) { return sign * (places[k] - places[k - 1]) <= -still; };
+  for (unsigned k = first + 1; k <= count; ++k) {
+    if (turns_back(k)) count = k - 1;  // the rest is left to the next segment
   }
   const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
-  ideal_[count + 1] = goes_on ? floor_to_int(sign * places[count + 1]) : ideal_[count];
+  const std::int64_t end = floor_to_int(sign * places[count]);
+  const std::int64_t behind_end = goes_on ? floor_to_int(sign * places[count + 1]) : end;
 
   const std::int64_t start = along(sign, position);
-  // Rounded up, so that a step that is due exactly at an event is not missed by a few 65536ths.
-  const std::int64_t straight = std::clamp<std::int64_t>(ceil_divide(ideal_[count] - start, count), 0, whole_step);
+  // Rounded up, so that a step exactly at an event is not missed by a few 65536ths.
+  const std::int64_t straight = std::clamp<std::int64_t>(ceil_divide(end - start, count), 0, whole_step);
   std::int64_t place = start;
+  std::int64_t whole_before = INT64_MIN;
   bool holds = true;
-  for (unsigned k = 1; k <= count && holds; ++k) {
+  for (unsigned k = 1; k <= count; ++k) {
+    ideal_[k] = floor_to_int(sign * places[k]);
     place += straight;
-    const std::int64_t whole = place >> 16;
-    holds = whole >= ideal_[k] >> 16 && whole <= ideal_[k + 1] >> 16;
+    const std::int64_t due = ideal_[k] >> 16;
+    holds = holds & (whole_before <= due) & (place >> 16 >= due);
+    whole_before = place >> 16;
   }
+  ideal_[count + 1] = behind_end;
+  holds = holds && whole_before <= behind_end >> 16;
   Advance advance = holds ? Advance{.increment = straight, .events = count} : within_bounds(start, count);
   advance.sign = sign;
   return advance;

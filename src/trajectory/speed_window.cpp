@@ -68,12 +68,17 @@ class Region {
   std::size_t count_ = 4;
 };
 
-// The range of x that the demands allow for a given y. Most demands allow everything, which shows without a division: a
-// number above a rounded product, divided by one factor, is not below the other factor.
+// The range of x that the demands allow for a given y, empty if low is above high. Most demands allow everything, which
+// shows without a division: a number above a rounded product, divided by one factor, is not below the other factor.
 struct Interval {
   double low = 0;
   double high = 0;
-  bool shrinks = false;  // a larger y lowers the upper end
+  // By how much a larger y lowers either end.
+  double low_fall = 0;
+  double fall = 0;
+
+  bool is_empty() const { return low > high; }
+  bool shrinks() const { return fall > 0; }
 
   // Keeps |p x + q y| <= limit. With p = 0 nothing is left where that does not hold.
   void meet(double p, double q, double limit, double y) {
@@ -82,10 +87,13 @@ struct Interval {
     const double shift = toward * q;
     const double up = limit - shift * y;
     const double down = -limit - shift * y;
-    if (!(down < low * steep)) low = std::max(low, down / steep);
+    if (!(down < low * steep) && down / steep > low) {
+      low = down / steep;
+      low_fall = shift / steep;
+    }
     if (up > high * steep || !(up / steep < high)) return;
     high = up / steep;
-    shrinks = shift > 0;
+    fall = shift / steep;
   }
   // Keeps p x + q y <= limit.
   void keep(double p, double q, double limit, double y) {
@@ -93,10 +101,13 @@ struct Interval {
     if (p == 0) {
       if (bound < 0) high = -1;
     } else if (p < 0) {
-      low = std::max(low, bound / p);
+      if (bound / p > low) {
+        low = bound / p;
+        low_fall = q / p;
+      }
     } else if (bound / p < high) {
       high = bound / p;
-      shrinks = q > 0;
+      fall = q / p;
     }
   }
 };
@@ -181,7 +192,7 @@ double largest_entry_with(std::span<const AxisDemand> demands, std::span<const F
   Interval at_most = entries(demands, exit_most, entry_most);
   for_each_demand(demands, falling, lines,
                   [&](double p, double q, double limit) { at_most.keep(p, q, limit, exit_most); });
-  if (at_most.low <= at_most.high && !at_most.shrinks) return at_most.high;
+  if (!at_most.is_empty() && !at_most.shrinks()) return at_most.high;
 
   Region<corners_of_stripes + 4 * axis_count> region(entry_most, exit_most);
   cut_stripes(demands, region);
@@ -199,6 +210,37 @@ Interval exits_with(std::span<const AxisDemand> demands, std::span<const Falling
 
 // Each step of the iteration is one of Newton's method. Two are nearly always enough.
 constexpr int most_rounds = 5;
+// Relative, between two ways to compute a corner.
+constexpr double corner_rounding = 1e-14;
+
+// The largest x, if it lies below `y`, where the range of x is `above`. Two searches from line to line. First down to
+// the largest y that leaves any x: where the binding lines of the two ends meet. If the upper end falls there, then to
+// the summit between there and y = 0: where the binding lines of the upper end on both sides meet. A result below 0
+// means that a search did not end: rounding may do that.
+double corner_below(std::span<const AxisDemand> demands, double entry_most, double y, Interval above) {
+  int rounds = most_rounds;
+  for (; rounds > 0 && above.low > above.high * (1 + corner_rounding); --rounds) {
+    const double closing = above.fall - above.low_fall;
+    if (!(closing > 0 && closing < infinity)) return -1;
+    y = std::max(0.0, y - (above.low - above.high) / closing);
+    above = entries(demands, y, entry_most);
+  }
+  if (!above.shrinks()) return rounds > 0 ? above.high : -1;
+
+  double below_y = 0;
+  Interval below = entries(demands, below_y, entry_most);
+  if (below.shrinks()) return below.high;
+  for (; rounds > 0; --rounds) {
+    const double rise = above.high + above.fall * (y - below_y) - below.high;
+    const double middle_y = std::clamp(below_y + rise / (above.fall - below.fall), below_y, y);
+    const double meeting = below.high - below.fall * (middle_y - below_y);
+    const Interval middle = entries(demands, middle_y, entry_most);
+    if (middle.high >= meeting * (1 - corner_rounding)) return middle.is_empty() ? -1 : middle.high;
+    (middle.shrinks() ? above : below) = middle;
+    (middle.shrinks() ? y : below_y) = middle_y;
+  }
+  return -1;
+}
 
 }  // namespace
 
@@ -206,7 +248,9 @@ double largest_entry(std::span<const AxisDemand> demands, double entry_most, dou
   // Mostly the best point is that of the hardest braking, on y = Y. The upper end of x is concave in y, so it is the
   // maximum where it does not fall there.
   const Interval at_most = entries(demands, exit_most, entry_most);
-  if (at_most.low <= at_most.high && !at_most.shrinks) return at_most.high;
+  if (!at_most.is_empty() && !at_most.shrinks()) return at_most.high;
+  const double corner = corner_below(demands, entry_most, exit_most, at_most);
+  if (corner >= 0) return corner;
 
   Region<corners_of_stripes> region(entry_most, exit_most);
   cut_stripes(demands, region);

@@ -1,6 +1,7 @@
 // The two linear programs of a cell: an entry that the backward pass allows must have an exit in the forward pass.
 #include "../speed_window.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -72,6 +73,61 @@ TEST(SpeedWindow, what_is_let_in_comes_through) {
       ASSERT_LE(largest_share(demands, share * entry, exit), 1 + 1e-8) << "run " << run << ", share " << share;
     }
   }
+}
+
+// By all places where two of the region's edges meet.
+double farthest_corner(std::span<const AxisDemand> demands, double top, double exit_most) {
+  struct Edge {
+    double p, q, limit;
+  };
+  std::vector<Edge> edges{{1, 0, top}, {-1, 0, 0}, {0, 1, exit_most}, {0, -1, 0}};
+  for (const AxisDemand& demand : demands) {
+    for (const double sign : {1.0, -1.0}) {
+      edges.push_back({sign * demand.entry_x, sign * demand.entry_y, demand.limit});
+      edges.push_back({sign * demand.exit_x, sign * demand.exit_y, demand.limit});
+    }
+  }
+  double best = 0;
+  for (const Edge& a : edges) {
+    for (const Edge& b : edges) {
+      const double cross = a.p * b.q - b.p * a.q;
+      const double x = (a.limit * b.q - b.limit * a.q) / cross;
+      const double y = (a.p * b.limit - b.p * a.limit) / cross;
+      if (!(std::abs(cross) > 1e-12) || x < best) continue;
+      const bool inside = std::ranges::all_of(edges, [&](const Edge& edge) {
+        return edge.p * x + edge.q * y <=
+               edge.limit + 1e-9 * (std::abs(edge.p * x) + std::abs(edge.q * y) + edge.limit);
+      });
+      if (inside) best = x;
+    }
+  }
+  return best;
+}
+
+TEST(SpeedWindow, the_largest_entry_is_the_farthest_corner_of_the_region) {
+  test::Random random;
+  int by_corner = 0;
+  for (int run = 0; run < 5'000; ++run) {
+    const double length = std::exp(random.between(-4, 0));
+    const double per_way = 1 / (2 * length);
+    std::vector<AxisDemand> demands;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slope_in = random.between(-1, 1);
+      const double slope_out = slope_in + random.between(-0.1, 0.1);
+      const double bend = (slope_out - slope_in) / length;
+      demands.push_back({.entry_x = bend - slope_in * per_way,
+                         .entry_y = slope_in * per_way,
+                         .exit_x = -slope_out * per_way,
+                         .exit_y = bend + slope_out * per_way,
+                         .limit = random.between(100, 1000)});
+    }
+    const double top = std::exp(random.between(0, 12));
+    const double exit_most = random.between(0, top);
+    const double best = farthest_corner(demands, top, exit_most);
+    ASSERT_NEAR(largest_entry(demands, top, exit_most) / best, 1, 1e-8) << "run " << run;
+    if (best < top && largest_share(demands, best, exit_most) > 1 + 1e-6) ++by_corner;
+  }
+  EXPECT_GT(by_corner, 500);
 }
 
 }  // namespace
