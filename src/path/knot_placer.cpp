@@ -13,6 +13,10 @@ namespace {
 constexpr double bend_width = 10;
 // On arcs, in radii.
 constexpr double arc_width = 0.4;
+// Between nodes on fitted curves, in radii: the bend of the spline, a polygon, is then within a thousandth of an arc's.
+// A fit turns by a radian or two, so that few knots are needed, and never more than so many.
+constexpr double knots_on_bend = 0.08;
+constexpr double most_on_bend = 64;
 // Changes smaller than this (of a unit tangent; 1/mm) are rounding.
 constexpr double no_change = 1e-9;
 
@@ -202,7 +206,7 @@ void KnotPlacer::fill_gap() {
   const bool is_long = last - first > std::max(exact_from * spacing, least_exact);
   const bool has_knots = (width == 0 || knots >= least_knots) && (next_width == 0 || next_knots >= least_knots);
   const bool in_one_piece = first >= between.start && (next_width > 0 ? last < between.end() : last <= between.end());
-  const bool exact = is_whole || (is_long && has_knots && in_one_piece);
+  const bool exact = is_whole || (is_long && has_knots && in_one_piece && !between.is_fitted);
 
   if (in_stretch_ || width > 0 || !exact) {
     for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, i, knots));
@@ -215,11 +219,21 @@ void KnotPlacer::fill_gap() {
                   .to = next_width > 0 ? last - between.start : between.length};
     steps_.push_back({.mark = Mark::exact_piece, .knot = {}});
   }
+  if (!exact && between.is_fitted) add_knots_on_bend(first, last, spacing);
   for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i), rate_at(to, i, next_knots + 1));
   if (is_last && in_stretch_) {
     add_knot(to.s);
     steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
   }
+}
+
+// Where the path between two nodes was fitted, it is smoothed from node to node: neighbouring fits bend a little
+// differently, and what is between must even that out. So the spline needs knots enough to follow the bend.
+void KnotPlacer::add_knots_on_bend(double first, double last, double spacing) {
+  const double bend = piece(knot_piece_).segment.curve.curvature();
+  const double apart = std::max(spacing, knots_on_bend / std::max(bend, no_change));
+  const double parts = std::min(std::ceil((last - first) / apart), most_on_bend);
+  for (double i = 1; i < parts; ++i) add_knot(first + (last - first) * (i / parts));
 }
 
 // At the last two knots it is that of s, so that what is exact may go on there.

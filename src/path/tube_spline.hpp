@@ -33,7 +33,7 @@ class TubeSpline {
  public:
   static constexpr int bending_sweeps = 12;
   static constexpr int change_sweeps = 9;
-  static constexpr int checks = 3;
+  static constexpr int checks = 12;            // rounds: a span that is pushed back pushes its neighbours out
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
   TubeSpline(const RunReader& reader, Smoothness smoothness)
@@ -129,6 +129,7 @@ class TubeSpline {
   static Place place_in(const Site& site, const SpanForm& form, const Piece& path, double u);
   static Worst worse_between(const Place& from, const Place& to, const Piece& path, const Pace& pace);
   Worst worst_of(std::int64_t k) const;
+  Worst worst_in_parts(std::int64_t k, int parts) const;
   bool is_in_tube(std::int64_t k) const;
   void check(std::int64_t k);
   void push_back(std::int64_t k, const Worst& worst);

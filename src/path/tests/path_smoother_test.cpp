@@ -111,7 +111,8 @@ TEST_F(PathSmootherTest, lines_merge_within_the_merge_tolerance_only) {
     return smoothed().size();
   };
   EXPECT_EQ(count_with(0.0004), 1U);
-  EXPECT_GT(count_with(0.0021), 20U);
+  EXPECT_EQ(cubics(smoothed()), 0U);
+  EXPECT_GT(count_with(0.015), 20U);
 }
 
 TEST_F(PathSmootherTest, lines_of_different_feed_or_kind_do_not_merge) {
@@ -245,6 +246,58 @@ TEST_F(PathSmootherTest, dense_programs_get_fewer_pieces_than_they_have_and_no_s
   const std::vector<Segment> segments = smoothed();
   EXPECT_LT(segments.size(), 8000U);
   EXPECT_EQ(stops(segments), 1U);
+}
+
+// The rounding of the chords' ends bends the path up to a hundred times as much as the circle does.
+TEST_F(PathSmootherTest, a_circle_of_rounded_chords_bends_as_the_circle_does) {
+  constexpr double radius = 25;
+  constexpr double circumference = 2 * 3.14159265358979 * radius;
+  for (const double grid : {0.001, 0.00254, 0.005}) {
+    for (const double chord : {0.02, 0.05}) {
+      for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+        path_.clear();
+        position_ = xyz(radius, 0);
+        for (double s = chord; s <= circumference; s += chord) {
+          const Point end = xyz(std::round(radius * std::cos(s / radius) / grid) * grid,
+                                std::round(radius * std::sin(s / radius) / grid) * grid);
+          if (end != position_) go(end[Axis::x], end[Axis::y]);
+        }
+        expect_good(path_, smoothness);
+        const std::vector<Segment> segments = segments_of(smooth(path_, smoothness));
+        EXPECT_LT(segments.size(), 150U);
+        double most = 0;
+        double s = 0;
+        for (const Segment& segment : segments) {
+          s += segment.curve.length().value();
+          // Near its rests the path is slow, whatever its bend.
+          if (s > 5 && s < circumference - 5) most = std::max(most, segment.curve.curvature());
+        }
+        EXPECT_LT(most, 1.15 / radius) << grid << " " << chord;
+      }
+    }
+  }
+}
+
+// Beside a corner the chords stay, so that all of the tube is the corner's.
+TEST_F(PathSmootherTest, a_corner_beside_rounded_chords_is_rounded_like_one_between_lines) {
+  const auto nearest_to_the_corner = [&] {
+    double nearest = 1;
+    for (const Segment& segment : smoothed()) {
+      for (int i = 0; i <= 100; ++i) {
+        nearest = std::min(nearest, apart(segment.curve.at(segment.curve.length() * (i / 100.0)), xyz(10, 0)));
+      }
+    }
+    return nearest;
+  };
+  go(10, 0);
+  go(10, 10);
+  const double between_lines = nearest_to_the_corner();
+  path_.clear();
+  position_ = Point();
+  for (int i = 1; i <= 200; ++i) go(0.05 * i, i % 3 == 0 ? 0 : 0.001);
+  for (int i = 1; i <= 200; ++i) go(i % 3 == 0 ? 10 : 10.001, 0.05 * i);
+  expect_good(path_);
+  EXPECT_NEAR(nearest_to_the_corner(), between_lines, 0.2 * between_lines);
 }
 
 TEST_F(PathSmootherTest, slow_bending_keeps_to_the_tube_of_a_rough_path) {
