@@ -119,10 +119,14 @@ void print_corners() {
     const double ours = time_of(path_of(corners), 0);
     std::printf("%-26s %12.5f %12.5f %12.4f\n", name, best, ours, ours / best);
   };
-  const auto corner = [](double leg) { return std::vector<bench::Place>{{0, 0}, {leg, 0}, {leg, leg}}; };
-  print("90 degrees, legs 1 mm", corner(1), 300);
-  print("90 degrees, legs 5 mm", corner(5), 600);
-  print("90 degrees, legs 20 mm", corner(20), 1200);
+  const auto stairs = [](double leg) {
+    std::vector<bench::Place> corners;
+    for (int i = 0; i <= 8; ++i) corners.push_back({leg * ((i + 1) / 2), leg * (i / 2)});
+    return corners;
+  };
+  print("90 degrees, legs 1 mm", stairs(1), 150);
+  print("90 degrees, legs 5 mm", stairs(5), 250);
+  print("90 degrees, legs 20 mm", stairs(20), 400);
   const auto zigzag = [](double x, double y) {
     std::vector<bench::Place> corners;
     for (int i = 0; i <= 8; ++i) corners.push_back({x * i, i % 2 == 0 ? 0 : y});

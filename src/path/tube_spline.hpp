@@ -7,9 +7,9 @@
 //
 // The first and the last three controls are those of the path's own Taylor polynomial (blossoms), so position, tangent
 // and second derivative are continuous with the exact pieces beside. 12 sweeps move the other controls, one after the
-// other, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel). A control moves
-// only as far as the deviation from the path stays within the tube, at the knots and in the middles between them. For
-// slow bending, 9 more sweeps do the same for |p'''|².
+// other, to where the sum of |p''|² times the knots' weight and distance is least (a step of Gauss and Seidel). A
+// control moves only as far as the deviation from the path stays within the tube, at the knots and in the middles
+// between them. For slow bending, 9 more sweeps do the same for |p'''|².
 //
 // Each sweep works four controls behind the sweep before, because nearer controls would influence each other. So the
 // result is the same as of sweeps over the whole stretch. Only a window of `window` knots is kept, however long the

@@ -56,8 +56,8 @@ TEST_F(PathSmootherTest, a_corner_is_rounded_and_what_lies_beside_it_stays_a_lin
   go(10, 10);
   const std::vector<Segment> segments = smoothed();
   expect_good(path_);
-  ASSERT_EQ(segments.size(), 8U);
-  EXPECT_EQ(cubics(segments), 6U);
+  ASSERT_EQ(segments.size(), 12U);
+  EXPECT_EQ(cubics(segments), 10U);
   EXPECT_EQ(segments.front().curve.shape(), Curve::Shape::line);
   EXPECT_EQ(segments.front().curve.start(), xyz(0, 0));
   EXPECT_EQ(segments.back().curve.end(), xyz(10, 10));
@@ -76,6 +76,25 @@ TEST_F(PathSmootherTest, a_corner_is_rounded_by_nearly_all_of_the_tolerance) {
   }
   EXPECT_GT(nearest, 0.6 * tolerance_);  // at equal s: the nearest place of the curve is nearer than its middle
   EXPECT_LE(nearest, tolerance_);
+}
+
+// Before the corner and after it, so that the corner can be passed faster. Where an axis goes back as fast as any axis
+// moves, the swing would only be a way more for that axis.
+TEST_F(PathSmootherTest, a_corner_swings_to_the_outer_side_unless_an_axis_goes_back) {
+  go(10, 0);
+  go(10, 10);
+  double outside = 0;
+  for (const Segment& segment : smoothed()) outside = std::max(outside, -segment.curve.extents().low[Axis::y]);
+  EXPECT_GT(outside, 0.5 * tolerance_);
+  EXPECT_LE(outside, tolerance_);
+
+  path_.clear();
+  position_ = Point();
+  go(10, 10);
+  go(20, 0);
+  double above = 0;
+  for (const Segment& segment : smoothed()) above = std::max(above, segment.curve.extents().high[Axis::y]);
+  EXPECT_LT(above, 10);
 }
 
 TEST_F(PathSmootherTest, a_line_in_pieces_is_one_line) {
@@ -327,7 +346,7 @@ TEST_F(PathSmootherTest, slow_bending_goes_slowly_around_a_corner) {
     }
   }
   EXPECT_LT(slowest, 0.5);
-  EXPECT_LT(change, quickest_change / 4);
+  EXPECT_LT(change, quickest_change);
 }
 
 // Gives what it has in small portions, each through a smoother of a shorter program that ends the same way.

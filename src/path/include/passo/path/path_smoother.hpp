@@ -9,8 +9,8 @@
 // Invariants: at every s the smoothed path is within the tolerance of the programmed one, over all nine axes,
 // millimetres and degrees alike. Segments join bit for bit. Within a run dP/ds and d²P/ds² are continuous, and the last
 // segment of a run has the mode exact_stop. The result does not depend on how it is pulled. Memory is bounded: 256
-// knots, of 64 pieces each at most, and 512 lines. Time: about a microsecond a segment, half as much again where the bend is to
-// change slowly. See docs/decisions/0013.
+// knots, of 64 pieces each at most, and 512 lines. Time: about a microsecond a segment, half as much again where the
+// bend is to change slowly. See docs/decisions/0013.
 #pragma once
 
 #include <cstdint>
