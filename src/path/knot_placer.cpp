@@ -13,7 +13,11 @@ namespace {
 constexpr double bend_width = 10;
 // The largest width on arcs, in radii.
 constexpr double arc_width = 0.4;
-// Changes of a unit tangent, or of a curvature (1/mm), that are smaller than this are rounding.
+// Between nodes on fitted curves, in radii: the bend of the spline, a polygon, is then within a thousandth of an arc's.
+// A fit turns by a radian or two, so that few knots are needed, and never more than so many.
+constexpr double knots_on_bend = 0.08;
+constexpr double most_on_bend = 64;
+// Changes smaller than this (of a unit tangent; 1/mm) are rounding.
 constexpr double no_change = 1e-9;
 
 // Several junctions make one node under two conditions. The way from the first junction to the last is at most
@@ -22,6 +26,15 @@ constexpr double cluster_share = 0.5;
 constexpr double cluster_tube = 0.5;
 
 constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
+constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
+// A node swings if the axis that limits the speed goes back by less than this in it.
+constexpr double most_reversal = 0.7;
+// Knots for swinging are too far apart if none has room and the nodes are this share of a width apart.
+constexpr double too_far = 0.7;
+// How soon the weight of the bend falls, for no reversal; how it depends on the reversal; and the most. By trial.
+constexpr double weight_fall = 1.2;
+constexpr double weight_fall_less = 2.2;
+constexpr double most_weight_fall = 0.9;
 constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6, 2.2};
 constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot
 constexpr double share_of_room = 0.9;       // knots beyond this share of the room are left out
@@ -37,23 +50,42 @@ constexpr double unlimited = 1e9;
 
 }  // namespace
 
-struct KnotPlacer::Spacing {
-  // For corners. A curve that turns by `change` within the width w, and leaves the corner by e, has w = 4 e / change.
-  // For slow bending a larger factor was found to be better, although the curve cannot use all of that width.
-  double corner_width = 4;
-  std::span<const double> knots;  // distances from the node, in widths
-  // How much faster s advances away from a corner than at the corner: by this, times the change of the tangent, times
-  // the distance in widths.
-  double quickening = 0;
-};
+// Widths for swinging are found by trial: the spline then also uses the outer side of the tube, before and after a
+// corner.
+const KnotPlacer::Spacing KnotPlacer::slow_bending = {
+    .corner_width = 5, .knots = knots_for_slow_bending, .quickening = 0.6};
+const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .quickening = 0};
+const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending, .quickening = 0};
 
-const KnotPlacer::Spacing& KnotPlacer::spacing_for(Smoothness smoothness) {
-  static constexpr Spacing least_bending = {.corner_width = 4, .knots = knots_for_least_bending, .quickening = 0};
-  static constexpr Spacing slow_bending = {.corner_width = 5, .knots = knots_for_slow_bending, .quickening = 0.6};
-  return smoothness == Smoothness::slow_bending ? slow_bending : least_bending;
+KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
+    : reader_(reader), bends_slowly_(smoothness == Smoothness::slow_bending) {}
+
+// How far the axis that limits the speed before a corner and after it goes back in the corner: 0 to 1. At 1 that axis
+// brakes with all it has up to the corner, and goes on so after it. A swing to the outer side would only be a way more
+// for it.
+double KnotPlacer::reversal(const Piece& before, const Piece& after) {
+  double in = 0;
+  double out = 0;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    in = std::max(in, std::abs(before.last_tangent.values[i]));
+    out = std::max(out, std::abs(after.first_tangent.values[i]));
+  }
+  double most = 0;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double here = before.last_tangent.values[i] / in;
+    const double there = after.first_tangent.values[i] / out;
+    if (here * there < 0) most = std::max(most, std::min(std::abs(here), std::abs(there)));
+  }
+  return most;
 }
 
-KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness) : reader_(reader), spacing_(spacing_for(smoothness)) {}
+const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const {
+  if (bends_slowly_) return slow_bending;
+  const Piece& before = piece(cluster.first);
+  const Piece& after = piece(cluster.last + 1);
+  const bool swings = before.is_line() && after.is_line() && reversal(before, after) < most_reversal;
+  return swings ? swinging : inside;
+}
 
 void KnotPlacer::begin() {
   junction_ = reader_.begin();
@@ -95,14 +127,14 @@ bool KnotPlacer::find_node(Node& node) {
   }
   Cluster cluster{.first = first, .last = first, .tube = std::min(piece(first).tube, piece(first + 1).tube)};
   if (goes_on(piece(first), piece(first + 1))) {  // there is nothing to round
-    node.s = piece(first).end();
-    node.width = 0;
-    node.turn = 0;
+    node = {.s = piece(first).end(), .width = 0, .turn = 0, .before = first, .after = first + 1};
   } else {
     while (cluster.last - first + 1 < most_clustered && extend(cluster)) {
     }
     node.s = (piece(first).end() + piece(cluster.last).end()) / 2;
     node.width = width_of(cluster);
+    node.spacing = &spacing_of(cluster);
+    node.weight_fall = weight_fall_of(cluster);
     node.turn = turn_of(cluster);
   }
   node.before = first;
@@ -116,7 +148,7 @@ double KnotPlacer::width_of(const Cluster& cluster) const {
   const Piece& after = piece(cluster.last + 1);
   double width = unlimited;
   const double turn = distance(before.last_tangent, after.first_tangent);
-  if (turn > no_change) width = std::min(width, spacing_.corner_width * cluster.tube / turn);
+  if (turn > no_change) width = std::min(width, spacing_of(cluster).corner_width * cluster.tube / turn);
   if (before.is_line() && after.is_line()) return width;
   const double change = distance(before.last_bend, after.first_bend);
   if (change > no_change) width = std::min(width, std::sqrt(bend_width * cluster.tube / change));
@@ -163,6 +195,23 @@ double KnotPlacer::room_of(const Node& node, const Node& before, const Node& aft
   return std::min({node.width, node.s - before.s, after.s - node.s});
 }
 
+// The knots of a node that the room holds. If it is too small for the first of those for swinging, closer ones may be
+// needed: where the node is alone in the room, a stretch needs knots enough; and where the other node is not close, the
+// spline could not keep to the tube.
+KnotPlacer::Places KnotPlacer::places_of(const Node& node, double width, double room, bool alone) {
+  const auto within = [&](const Spacing& spacing, double w) {
+    Places places{.knots = spacing.knots, .width = w};
+    while (w > 0 && places.count < places.knots.size() && places.offset(places.count + 1) < share_of_room * room) {
+      ++places.count;
+    }
+    return places;
+  };
+  const Places places = within(*node.spacing, width);
+  if (places.count > 0 || node.spacing != &swinging) return places;
+  if (!alone && width < too_far * node.width) return places;
+  return within(inside, width * (inside.corner_width / swinging.corner_width));
+}
+
 void KnotPlacer::fill_gap() {
   const Node& from = nodes_[1];
   const Node& to = nodes_[2];
@@ -176,23 +225,22 @@ void KnotPlacer::fill_gap() {
   double room = 0;
   double next_room = 0;
   if (width > 0 && next_width > 0) {
-    const double reaches = last_knot_reaches * spacing_.knots.back();
-    room = std::min(reaches * width, length / 2);
-    next_room = std::min(reaches * next_width, length - room);
-    room = std::min(reaches * width, length - next_room);
+    const double reach = last_knot_reaches * from.spacing->knots.back() * width;
+    const double next_reach = last_knot_reaches * to.spacing->knots.back() * next_width;
+    room = std::min(reach, length / 2);
+    next_room = std::min(next_reach, length - room);
+    room = std::min(reach, length - next_room);
   } else if (width > 0) {
     room = share_of_room * length;
   } else if (next_width > 0) {
     next_room = share_of_room * length;
   }
-  const auto count = [&](double w, double within) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(spacing_.knots, [&](double k) { return w > 0 && k * w < share_of_room * within; }));
-  };
-  const std::size_t knots = count(width, room) + 1;  // with the one at the node
-  const std::size_t next_knots = count(next_width, next_room);
-  const auto offset = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1] * width; };
-  const auto next_offset = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1] * next_width; };
+  const Places own = places_of(from, width, room, next_width == 0);
+  const Places next = places_of(to, next_width, next_room, width == 0);
+  const std::size_t knots = own.count + 1;  // with the node
+  const std::size_t next_knots = next.count;
+  const auto offset = [&](std::size_t i) { return own.offset(i); };
+  const auto next_offset = [&](std::size_t i) { return next.offset(i); };
 
   const double first = from.s + offset(knots - 1);
   const double last = to.s - next_offset(next_knots);
@@ -204,7 +252,7 @@ void KnotPlacer::fill_gap() {
   const bool is_long = last - first > std::max(exact_from * spacing, least_exact);
   const bool has_knots = (width == 0 || knots >= least_knots) && (next_width == 0 || next_knots >= least_knots);
   const bool in_one_piece = first >= between.start && (next_width > 0 ? last < between.end() : last <= between.end());
-  const bool exact = is_whole || (is_long && has_knots && in_one_piece);
+  const bool exact = is_whole || (is_long && has_knots && in_one_piece && !between.is_fitted);
 
   if (in_stretch_ || width > 0 || !exact) {
     for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, i, knots));
@@ -217,6 +265,7 @@ void KnotPlacer::fill_gap() {
                   .to = next_width > 0 ? last - between.start : between.length};
     steps_.push_back({.mark = Mark::exact_piece, .knot = {}});
   }
+  if (!exact && between.is_fitted) add_knots_on_bend(first, last, spacing);
   for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i), rate_at(to, i, next_knots + 1));
   if (is_last && in_stretch_) {
     add_knot(to.s);
@@ -224,13 +273,39 @@ void KnotPlacer::fill_gap() {
   }
 }
 
-// The rate ds/dt at a knot. At the last two knots of a node the rate is 1, so that an exact piece may follow.
+// Where the path between two nodes was fitted, it is smoothed from node to node: neighbouring fits bend a little
+// differently, and what is between must even that out. So the spline needs knots enough to follow the bend.
+void KnotPlacer::add_knots_on_bend(double first, double last, double spacing) {
+  const double bend = piece(knot_piece_).segment.curve.curvature();
+  const double apart = std::max(spacing, knots_on_bend / std::max(bend, no_change));
+  const double parts = std::min(std::ceil((last - first) / apart), most_on_bend);
+  for (double i = 1; i < parts; ++i) add_knot(first + (last - first) * (i / parts));
+}
+
+// At the last two knots it is that of s, so that what is exact may go on there.
 double KnotPlacer::rate_at(const Node& node, std::size_t knot, std::size_t knots) const {
   constexpr std::size_t at_rate_of_s = 2;
   if (knot + at_rate_of_s >= knots) return 1;
-  const double quickening = spacing_.quickening * node.turn;
-  const auto distance = [&](std::size_t i) { return i == 0 ? 0 : spacing_.knots[i - 1]; };
+  const double quickening = node.spacing->quickening * node.turn;
+  const auto distance = [&](std::size_t i) { return i == 0 ? 0 : node.spacing->knots[i - 1]; };
   return (1 + quickening * distance(knot)) / (1 + quickening * distance(knots - at_rate_of_s));
+}
+
+// Least bending alone bends most in the middle of a node, because there the spline is pushed in. The speed at which a
+// gentle corner can be passed depends on the largest bend, so that even bending is better: the weight falls with the
+// distance. The more an axis goes back, the more the motion slows down toward the corner, and may bend more there.
+double KnotPlacer::weight_fall_of(const Cluster& cluster) const {
+  if (&spacing_of(cluster) != &swinging) return 0;
+  const double back = reversal(piece(cluster.first), piece(cluster.last + 1));
+  return std::clamp(weight_fall * (1 - weight_fall_less * back), 0.0, most_weight_fall);
+}
+
+double KnotPlacer::weight_at(double s) const {
+  double most = 0;
+  for (const Node* const node : {&nodes_[1], &nodes_[2]}) {
+    if (node->width > 0) most = std::max(most, 1 / (1 + node->weight_fall * std::abs(s - node->s) / node->width));
+  }
+  return most > 0 ? most : 1;
 }
 
 void KnotPlacer::add_knot(double s, double rate) {
@@ -238,7 +313,8 @@ void KnotPlacer::add_knot(double s, double rate) {
   in_stretch_ = true;
   const Piece& at = piece(knot_piece_);
   const double along = s >= at.end() ? at.length : std::min(s - at.start, at.length);
-  steps_.push_back({.mark = Mark::knot, .knot = {.s = s, .piece = knot_piece_, .along = along, .rate = rate}});
+  steps_.push_back({.mark = Mark::knot,
+                    .knot = {.s = s, .piece = knot_piece_, .along = along, .rate = rate, .weight = weight_at(s)}});
 }
 
 }  // namespace passo

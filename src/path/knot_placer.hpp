@@ -2,13 +2,16 @@
 //
 //       node            exact piece             node
 //   --+--+--O--+--+-----------------------+--+---O---+--+--
-//     knots at the node and at half its width, its width and one and a half (for slow bending farther, and one more)
+//     knots at the node and at multiples of its width
 //
 // A node is a junction, or several junctions close to each other. Its width w says how far around the node the path is
-// rounded. A corner within the tolerance e needs w = 4 e / |change of the tangent|. A change of curvature needs w =
-// sqrt(10 e / |change|). Knots that are at most 0.4 radii apart follow an arc well. Where the knots of two nodes would
-// meet, the nodes share the room. If the rest between two nodes is long compared with the knots' distance, it stays as
-// programmed: an exact piece. The knots between two exact pieces make one smoothed stretch.
+// rounded. A corner that is rounded on its inner side within the tolerance e needs w = 4 e / |change of the tangent|. A
+// change of curvature needs w = sqrt(10 e / |change|). A corner that may swing to its outer side too has a larger width
+// and knots farther out; it may not where the axis that limits the speed goes back. Knots that are at most 0.4 radii
+// apart follow an arc well. Where the knots of two nodes would meet, the nodes share the room. If the rest between two
+// nodes is long compared with the knots' distance, it stays as programmed: an exact piece. (A curve that was fitted to
+// chords never does; knots at most 0.08 radii apart follow it.) The knots between two exact pieces make one smoothed
+// stretch.
 //
 // For slow bending, s advances more slowly than the spline's parameter around a corner (Pace). The sharper the corner,
 // the slower s advances.
@@ -29,8 +32,9 @@ namespace passo {
 struct Knot {
   double s = 0;  // s in the run
   std::uint64_t piece = 0;
-  double along = 0;  // s in the piece
-  double rate = 1;   // ds/dt, t being the spline's parameter; 1 beside exact pieces
+  double along = 0;   // s in the piece
+  double rate = 1;    // ds/dt, t being the spline's parameter; 1 beside exact pieces
+  double weight = 1;  // of the bend here
 };
 
 struct ExactPiece {
@@ -55,12 +59,25 @@ class KnotPlacer {
   const ExactPiece& exact_piece() const { return exact_; }
 
  private:
+  struct Spacing {
+    // Corners: the curve that turns by `change` within the width w and leaves the corner by e has w = 4 e / change.
+    // Wider ones, which cannot use all of their width, are found to be better.
+    double corner_width = 4;
+    std::span<const double> knots;  // in widths from the node
+    // How much faster s goes on w times the change of the tangent away from a corner than at it.
+    double quickening = 0;
+  };
+  static const Spacing slow_bending;
+  static const Spacing swinging;
+  static const Spacing inside;
   struct Node {
     double s = 0;
     double width = 0;  // 0: the node is not rounded
     double turn = 0;   // the change of the unit tangent; 0 where t advances with s
     std::uint64_t before = 0;
     std::uint64_t after = 0;  // the pieces around the node
+    const Spacing* spacing = &inside;
+    double weight_fall = 0;  // how soon the weight of the bend falls with the distance, per width
   };
   const Piece& piece(std::uint64_t number) const { return reader_.pieces()[number]; }
   // The junctions after the pieces `first` to `last`.
@@ -70,6 +87,14 @@ class KnotPlacer {
     double turn = 0;  // how far the tangents between are from the first, at most
     double tube = 0;
   };
+  struct Places {
+    std::span<const double> knots;  // in widths from the node
+    double width = 0;
+    std::size_t count = 0;  // so many of them
+
+    double offset(std::size_t i) const { return i == 0 ? 0 : knots[i - 1] * width; }
+  };
+  static Places places_of(const Node& node, double width, double room, bool alone);
   bool find_node(Node& node);
   bool extend(Cluster& cluster);
   double width_of(const Cluster& cluster) const;
@@ -77,14 +102,17 @@ class KnotPlacer {
   static bool goes_on(const Piece& before, const Piece& after);
   static double room_of(const Node& node, const Node& before, const Node& after);
   void fill_gap();
+  void add_knots_on_bend(double first, double last, double spacing);
   void add_knot(double s, double rate = 1);
 
-  struct Spacing;
-  static const Spacing& spacing_for(Smoothness smoothness);
+  const Spacing& spacing_of(const Cluster& cluster) const;
+  static double reversal(const Piece& before, const Piece& after);
+  double weight_fall_of(const Cluster& cluster) const;
+  double weight_at(double s) const;
   double rate_at(const Node& node, std::size_t knot, std::size_t knots) const;
 
   RunReader& reader_;
-  const Spacing& spacing_;
+  const bool bends_slowly_;
   std::uint64_t junction_ = 0;  // the junction after this piece is the next to belong to a node
   bool all_found_ = false;
   std::array<Node, 4> nodes_;  // the gap is between the second and the third

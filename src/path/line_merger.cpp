@@ -13,18 +13,18 @@ constexpr double rounding = 1e-9;
 // A merged line may be shorter than its pieces by this share, so that its time is not less than theirs.
 constexpr double least_length = 0.99;
 
-bool are_alike(const Segment& before, const Segment& after) {
-  return before.speed == after.speed && before.rapid == after.rapid && before.tolerance == after.tolerance &&
-         before.merge == after.merge && before.mode != PathMode::exact_stop && before.work_zero == after.work_zero &&
-         before.heeds == after.heeds && before.lock == after.lock && before.pitch == after.pitch;
-}
-
 bool is_line(const PathItem& item) {
   const auto* segment = std::get_if<Segment>(&item);
   return segment != nullptr && segment->curve.shape() == Curve::Shape::line;
 }
 
 }  // namespace
+
+bool are_alike(const Segment& before, const Segment& after) {
+  return before.speed == after.speed && before.rapid == after.rapid && before.tolerance == after.tolerance &&
+         before.merge == after.merge && before.mode != PathMode::exact_stop && before.work_zero == after.work_zero &&
+         before.heeds == after.heeds && before.lock == after.lock && before.pitch == after.pitch;
+}
 
 void LineMerger::Cone::begin(const Point& direction, double length, double within) {
   tolerance = within;

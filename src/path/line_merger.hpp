@@ -15,6 +15,9 @@
 
 namespace passo {
 
+// Whether nothing but the curve changes from a segment to the next, and the path goes on between them.
+bool are_alike(const Segment& before, const Segment& after);
+
 class LineMerger {
  public:
   // Bounds how long an item can make its caller wait.

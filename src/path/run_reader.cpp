@@ -23,7 +23,7 @@ Point unit(const Point& vector) {
 
 bool RunReader::pull() {
   if (!has_ahead_ && !at_end_) {
-    has_ahead_ = merger_.next(ahead_, ahead_deviation_);
+    has_ahead_ = fitter_.next(ahead_, ahead_deviation_);
     at_end_ = !has_ahead_;
   }
   return has_ahead_;
@@ -59,6 +59,7 @@ void RunReader::read_piece() {
   Piece& piece = pieces_.append();
   piece.segment = std::get<Segment>(ahead_);
   const double deviation = ahead_deviation_;
+  piece.is_fitted = piece.segment.curve.shape() == Curve::Shape::cubic && deviation > 0;
   has_ahead_ = false;
 
   const Curve& curve = piece.segment.curve;

@@ -8,19 +8,20 @@
 
 #include <optional>
 
-#include "line_merger.hpp"
+#include "chord_fitter.hpp"
 
 #include "passo/base/window.hpp"
 
 namespace passo {
 
-// A programmed segment, or several merged ones.
+// A programmed segment, or several merged ones, or the cubic of several chords.
 struct Piece {
   Segment segment;
   double start = 0;  // s from the start of the run
   double length = 0;
   double tube = 0;  // how far the smoothed path may leave the piece: the tolerance minus what merging used
   bool rest_after = false;
+  bool is_fitted = false;  // a cubic in the place of chords
   // dP/ds and d²P/ds² at the piece's ends.
   Point first_tangent;
   Point last_tangent;
@@ -33,7 +34,7 @@ struct Piece {
 
 class RunReader {
  public:
-  explicit RunReader(Source<PathItem>& path) : merger_(path) {}
+  explicit RunReader(Source<PathItem>& path) : fitter_(path) {}
 
   // What comes next: a run, an action, or the end.
   enum class Next { run, action, end };
@@ -55,7 +56,7 @@ class RunReader {
   // How far the junction between two pieces may be rounded. 0: not at all, the junction is a rest.
   double tolerance_between(const Piece& before, const Segment& after) const;
 
-  LineMerger merger_;
+  ChordFitter fitter_;
   PathItem ahead_;
   double ahead_deviation_ = 0;
   bool has_ahead_ = false;

@@ -200,7 +200,7 @@ void TubeSpline::find_steps(std::int64_t k) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::int64_t knot = k - 1 + static_cast<std::int64_t>(i);
-    const double weight = (at(knot - 1).pace.width + at(knot).pace.width) / 2;
+    const double weight = at(knot).knot.weight * (at(knot - 1).pace.width + at(knot).pace.width) / 2;
     factors.off[i] = at(knot).value[2 - i];
     factors.bend[i] = at(knot).bend[2 - i];
     factors.pull[i] = weight * factors.bend[i];
@@ -347,7 +347,8 @@ TubeSpline::Worst TubeSpline::worse_between(const Place& from, const Place& to, 
   return {.excess = std::max(from_off, to_off) + between - path.tube, .along = worse.along, .off = worse.off};
 }
 
-// A rough bound is often enough. Otherwise the span is measured quarter by quarter, and from vertex to vertex.
+// A rough bound is often enough; else the span is gone through quarter by quarter, and from vertex to vertex. If the
+// bound between these places says more than the places themselves, smaller parts tell.
 TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const Site& site = at(k);
   const double width = site.pace.width;
@@ -357,23 +358,32 @@ TubeSpline::Worst TubeSpline::worst_of(std::int64_t k) const {
   const double slack = std::max(site.slack[0], site.slack[1]);
   Worst worst;
   worst.excess = off + slack + (bend + site.bend_of_path) * width * width / 32 - site.tube;
-  if (worst.excess <= 0) return worst;
+  for (const int parts : {4, 16}) {
+    if (worst.excess > 0) worst = worst_in_parts(k, parts);
+    if (length_of(worst.off) > site.tube) break;
+  }
+  return worst;
+}
 
+TubeSpline::Worst TubeSpline::worst_in_parts(std::int64_t k, int parts) const {
+  const Site& site = at(k);
+  const double width = site.pace.width;
+  Worst worst;
   worst.excess = -site.tube;
   const SpanForm form = form_of(k);
   const std::uint64_t last = at(k + 1).knot.piece;
   double from = 0;
-  int quarter = 1;
+  int part = 1;
   for (std::uint64_t number = site.knot.piece; from < width && number <= last; ++number) {
     const Piece& path = piece(number);
     const double end = number < last ? std::min(site.pace.reaches(path.end() - site.knot.s), width) : width;
     Place before = place_in(site, form, path, from);
     while (from < end) {
-      const double to = std::min(end, width * quarter / 4);
+      const double to = std::min(end, width * part / parts);
       const Place after = place_in(site, form, path, to);
       const Worst here = worse_between(before, after, path, site.pace);
       if (here.excess > worst.excess) worst = here;
-      if (to >= width * quarter / 4) ++quarter;
+      if (to >= width * part / parts) ++part;
       from = to;
       before = after;
     }

@@ -7,9 +7,9 @@
 //
 // The first and the last three controls are those of the path's own Taylor polynomial (blossoms), so position, tangent
 // and second derivative are continuous with the exact pieces beside. 12 sweeps move the other controls, one after the
-// other, to where the sum of |p''|² times the knots' distance is least (a step of Gauss and Seidel). A control moves
-// only as far as the deviation from the path stays within the tube, at the knots and in the middles between them. For
-// slow bending, 9 more sweeps do the same for |p'''|².
+// other, to where the sum of |p''|² times the knots' weight and distance is least (a step of Gauss and Seidel). A
+// control moves only as far as the deviation from the path stays within the tube, at the knots and in the middles
+// between them. For slow bending, 9 more sweeps do the same for |p'''|².
 //
 // Each sweep works four controls behind the sweep before, because nearer controls would influence each other. So the
 // result is the same as of sweeps over the whole stretch. Only a window of `window` knots is kept, however long the
@@ -33,7 +33,7 @@ class TubeSpline {
  public:
   static constexpr int bending_sweeps = 12;
   static constexpr int change_sweeps = 9;
-  static constexpr int checks = 3;
+  static constexpr int checks = 12;            // rounds: a span that is pushed back pushes its neighbours out
   static constexpr std::int64_t window = 256;  // knots; a power of two
 
   TubeSpline(const RunReader& reader, Smoothness smoothness)
@@ -129,6 +129,7 @@ class TubeSpline {
   static Place place_in(const Site& site, const SpanForm& form, const Piece& path, double u);
   static Worst worse_between(const Place& from, const Place& to, const Piece& path, const Pace& pace);
   Worst worst_of(std::int64_t k) const;
+  Worst worst_in_parts(std::int64_t k, int parts) const;
   bool is_in_tube(std::int64_t k) const;
   void check(std::int64_t k);
   void push_back(std::int64_t k, const Worst& worst);

@@ -56,8 +56,8 @@ TEST_F(PathSmootherTest, a_corner_is_rounded_and_what_lies_beside_it_stays_a_lin
   go(10, 10);
   const std::vector<Segment> segments = smoothed();
   expect_good(path_);
-  ASSERT_EQ(segments.size(), 8U);
-  EXPECT_EQ(cubics(segments), 6U);
+  ASSERT_EQ(segments.size(), 12U);
+  EXPECT_EQ(cubics(segments), 10U);
   EXPECT_EQ(segments.front().curve.shape(), Curve::Shape::line);
   EXPECT_EQ(segments.front().curve.start(), xyz(0, 0));
   EXPECT_EQ(segments.back().curve.end(), xyz(10, 10));
@@ -76,6 +76,25 @@ TEST_F(PathSmootherTest, a_corner_is_rounded_by_nearly_all_of_the_tolerance) {
   }
   EXPECT_GT(nearest, 0.6 * tolerance_);  // the tolerance counts at equal s; the nearest place is nearer
   EXPECT_LE(nearest, tolerance_);
+}
+
+// Before the corner and after it, so that the corner can be passed faster. Where an axis goes back as fast as any axis
+// moves, the swing would only be a way more for that axis.
+TEST_F(PathSmootherTest, a_corner_swings_to_the_outer_side_unless_an_axis_goes_back) {
+  go(10, 0);
+  go(10, 10);
+  double outside = 0;
+  for (const Segment& segment : smoothed()) outside = std::max(outside, -segment.curve.extents().low[Axis::y]);
+  EXPECT_GT(outside, 0.5 * tolerance_);
+  EXPECT_LE(outside, tolerance_);
+
+  path_.clear();
+  position_ = Point();
+  go(10, 10);
+  go(20, 0);
+  double above = 0;
+  for (const Segment& segment : smoothed()) above = std::max(above, segment.curve.extents().high[Axis::y]);
+  EXPECT_LT(above, 10);
 }
 
 TEST_F(PathSmootherTest, a_line_in_pieces_is_one_line) {
@@ -111,7 +130,8 @@ TEST_F(PathSmootherTest, lines_merge_within_the_merge_tolerance_only) {
     return smoothed().size();
   };
   EXPECT_EQ(count_with(0.0004), 1U);
-  EXPECT_GT(count_with(0.0021), 20U);
+  EXPECT_EQ(cubics(smoothed()), 0U);
+  EXPECT_GT(count_with(0.015), 20U);
 }
 
 TEST_F(PathSmootherTest, lines_of_different_feed_or_kind_do_not_merge) {
@@ -247,6 +267,58 @@ TEST_F(PathSmootherTest, dense_programs_get_fewer_pieces_than_they_have_and_no_s
   EXPECT_EQ(stops(segments), 1U);
 }
 
+// The rounding of the chords' ends bends the path up to a hundred times as much as the circle does.
+TEST_F(PathSmootherTest, a_circle_of_rounded_chords_bends_as_the_circle_does) {
+  constexpr double radius = 25;
+  constexpr double circumference = 2 * 3.14159265358979 * radius;
+  for (const double grid : {0.001, 0.00254, 0.005}) {
+    for (const double chord : {0.02, 0.05}) {
+      for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+        path_.clear();
+        position_ = xyz(radius, 0);
+        for (double s = chord; s <= circumference; s += chord) {
+          const Point end = xyz(std::round(radius * std::cos(s / radius) / grid) * grid,
+                                std::round(radius * std::sin(s / radius) / grid) * grid);
+          if (end != position_) go(end[Axis::x], end[Axis::y]);
+        }
+        expect_good(path_, smoothness);
+        const std::vector<Segment> segments = segments_of(smooth(path_, smoothness));
+        EXPECT_LT(segments.size(), 150U);
+        double most = 0;
+        double s = 0;
+        for (const Segment& segment : segments) {
+          s += segment.curve.length().value();
+          // Near its rests the path is slow, whatever its bend.
+          if (s > 5 && s < circumference - 5) most = std::max(most, segment.curve.curvature());
+        }
+        EXPECT_LT(most, 1.15 / radius) << grid << " " << chord;
+      }
+    }
+  }
+}
+
+// Beside a corner the chords stay, so that all of the tube is the corner's.
+TEST_F(PathSmootherTest, a_corner_beside_rounded_chords_is_rounded_like_one_between_lines) {
+  const auto nearest_to_the_corner = [&] {
+    double nearest = 1;
+    for (const Segment& segment : smoothed()) {
+      for (int i = 0; i <= 100; ++i) {
+        nearest = std::min(nearest, apart(segment.curve.at(segment.curve.length() * (i / 100.0)), xyz(10, 0)));
+      }
+    }
+    return nearest;
+  };
+  go(10, 0);
+  go(10, 10);
+  const double between_lines = nearest_to_the_corner();
+  path_.clear();
+  position_ = Point();
+  for (int i = 1; i <= 200; ++i) go(0.05 * i, i % 3 == 0 ? 0 : 0.001);
+  for (int i = 1; i <= 200; ++i) go(i % 3 == 0 ? 10 : 10.001, 0.05 * i);
+  expect_good(path_);
+  EXPECT_NEAR(nearest_to_the_corner(), between_lines, 0.2 * between_lines);
+}
+
 TEST_F(PathSmootherTest, slow_bending_keeps_to_the_tube_of_a_rough_path) {
   for (int i = 1; i <= 2000; ++i) {
     const double s = 0.2 * i;
@@ -274,7 +346,7 @@ TEST_F(PathSmootherTest, slow_bending_goes_slowly_around_a_corner) {
     }
   }
   EXPECT_LT(slowest, 0.5);
-  EXPECT_LT(change, quickest_change / 4);
+  EXPECT_LT(change, quickest_change);
 }
 
 // A path that is cut off far ahead comes out the same, to the bit, up to shortly before the cut.

@@ -287,7 +287,7 @@ class RandomPath {
       } else if (kind < 0.08) {
         straight_run();
       } else if (kind < 0.2) {
-        smooth_run();
+        random_.chance(0.5) ? smooth_run() : rounded_run();
       } else if (kind < 0.3) {
         zigzag();
       } else if (kind < 0.5) {
@@ -339,6 +339,25 @@ class RandomPath {
     const Point step = xyz(random_.between(-1, 1), random_.between(-1, 1), random_.between(-0.1, 0.1)) * any_size();
     const int pieces = static_cast<int>(random_.between(2, 100));
     for (int i = 0; i < pieces; ++i) line_to(position_ + step);
+  }
+
+  // A curve in chords whose ends are rounded, as CAM programs write it; sometimes a rotary axis turns with it.
+  void rounded_run() {
+    const double radius = std::exp(random_.between(-1, 4));
+    const double chord = std::exp(random_.between(-5, 0));
+    const double grid = std::min(tolerance_ * std::exp(random_.between(-4, 0)), chord / 2);
+    const double climb = random_.between(-0.3, 0.3);
+    const double turn = rotary && random_.chance(0.3) ? random_.between(-20, 20) : 0;
+    const double begin = random_.between(0, 6.28);
+    const Point center = position_ - xyz(radius * std::cos(begin), radius * std::sin(begin));
+    const int pieces = static_cast<int>(random_.between(8, 150));
+    for (int i = 1; i <= pieces; ++i) {
+      const double angle = chord * i / radius;
+      Point end = center + xyz(radius * std::cos(begin + angle), radius * std::sin(begin + angle), climb * chord * i);
+      end[Axis::a] += turn * chord * i;
+      for (double& value : end.values) value = std::round(value / grid) * grid;
+      line_to(end);
+    }
   }
 
   void smooth_run() {

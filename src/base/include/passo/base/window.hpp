@@ -37,6 +37,7 @@ class Window {
   void drop_before(std::uint64_t number) {
     if (number > first_) first_ = number < end_ ? number : end_;
   }
+  void drop_back() { --end_; }
   void drop_front() { drop_before(first_ + 1); }
   void clear() { first_ = end_; }
 

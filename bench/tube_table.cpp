@@ -1,0 +1,146 @@
+// What the tube gives, as two tables: circles in rounded chords against the same circle as an arc, with limits of
+// acceleration and with limits of jerk too; and corners against the fastest motion inside the tube (tube_optimum.hpp).
+//
+// Prints figures and decides nothing.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "tube_optimum.hpp"
+
+#include "passo/path/path_smoother.hpp"
+#include "passo/trajectory/planner.hpp"
+
+namespace {
+
+using namespace passo;
+
+constexpr double tolerance = 0.01;  // mm
+constexpr double feed = 1000;       // mm/s: more than any axis can do
+
+class ListedPath final : public Source<PathItem> {
+ public:
+  explicit ListedPath(std::vector<PathItem> items) : items_(std::move(items)) {}
+  [[nodiscard]] bool next(PathItem& item) override {
+    if (at_ == items_.size()) return false;
+    item = items_[at_++];
+    return true;
+  }
+
+ private:
+  std::vector<PathItem> items_;
+  std::size_t at_ = 0;
+};
+
+Segment segment_of(const Curve& curve) {
+  return {.curve = curve, .speed = MmPerSecond(feed), .tolerance = Mm(tolerance), .merge = Mm(tolerance / 20)};
+}
+
+// The machine of examples/machines/bench.toml. `jerk` in mm/s³; 0: no limit.
+MotionLimits bench_limits(double jerk) {
+  MotionLimits limits;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    limits.velocity[axis] = MmPerSecond(axis == Axis::z ? 50 : 100);
+    limits.acceleration[axis] = MmPerSecond2(500);
+    limits.jerk[axis] = MmPerSecond3(jerk);
+  }
+  return limits;
+}
+
+double time_of(const std::vector<PathItem>& path, double jerk) {
+  ListedPath source(path);
+  PathSmoother smoother(source, jerk > 0 ? Smoothness::slow_bending : Smoothness::least_bending);
+  Planner planner(smoother, bench_limits(jerk));
+  double time = 0;
+  for (MotionItem item; planner.next(item);) {
+    if (const auto* const move = std::get_if<PlannedMove>(&item)) time += move->duration().value();
+  }
+  return time;
+}
+
+Point place(double x, double y) {
+  Point point;
+  point[Axis::x] = x;
+  point[Axis::y] = y;
+  return point;
+}
+
+constexpr double radius = 25;
+
+std::vector<PathItem> arc_path() {
+  const Point start = place(radius, 0);
+  return {segment_of(Curve::arc(start, start, Axis::x, Axis::y, 0, 0, 2 * std::numbers::pi))};
+}
+
+// `grid`: what coordinates are rounded to, in mm.
+std::vector<PathItem> chord_path(double chord, double grid) {
+  std::vector<PathItem> path;
+  const double count = std::round(2 * std::numbers::pi * radius / chord);
+  Point from = place(radius, 0);
+  for (double i = 1; i <= count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    const Point to =
+        place(std::round(radius * std::cos(angle) / grid) * grid, std::round(radius * std::sin(angle) / grid) * grid);
+    const Curve line = Curve::line(from, to);
+    if (line.has_length()) path.emplace_back(segment_of(line));
+    from = to;
+  }
+  return path;
+}
+
+void print_circles() {
+  constexpr double jerk = 25'000;
+  const double arc = time_of(arc_path(), 0);
+  const double slow_arc = time_of(arc_path(), jerk);
+  std::printf("circle of R 25 as G3: %.4f s, with jerk %.4f s\n", arc, slow_arc);
+  std::printf("%-10s %-10s %12s %12s\n", "grid, um", "chord, mm", "acceleration", "jerk");
+  for (const double grid : {0.1, 1.0, 2.54, 5.0}) {
+    for (const double chord : {0.02, 0.05, 0.2}) {
+      const std::vector<PathItem> path = chord_path(chord, grid / 1000);
+      std::printf("%-10g %-10g %12.4f %12.4f\n", grid, chord, time_of(path, 0) / arc, time_of(path, jerk) / slow_arc);
+    }
+  }
+}
+
+std::vector<PathItem> path_of(const std::vector<bench::Place>& corners) {
+  std::vector<PathItem> path;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    path.emplace_back(
+        segment_of(Curve::line(place(corners[i].x, corners[i].y), place(corners[i + 1].x, corners[i + 1].y))));
+  }
+  return path;
+}
+
+void print_corners() {
+  std::printf("\n%-26s %12s %12s %12s\n", "", "optimum, s", "ours, s", "ratio");
+  const auto print = [](const char* name, const std::vector<bench::Place>& corners, int samples) {
+    const double best = bench::find_optimum(corners, {.tolerance = tolerance}, samples);
+    const double ours = time_of(path_of(corners), 0);
+    std::printf("%-26s %12.5f %12.5f %12.4f\n", name, best, ours, ours / best);
+  };
+  const auto stairs = [](double leg) {
+    std::vector<bench::Place> corners;
+    for (int i = 0; i <= 8; ++i) corners.push_back({leg * ((i + 1) / 2), leg * (i / 2)});
+    return corners;
+  };
+  print("90 degrees, legs 1 mm", stairs(1), 150);
+  print("90 degrees, legs 5 mm", stairs(5), 250);
+  print("90 degrees, legs 20 mm", stairs(20), 400);
+  const auto zigzag = [](double x, double y) {
+    std::vector<bench::Place> corners;
+    for (int i = 0; i <= 8; ++i) corners.push_back({x * i, i % 2 == 0 ? 0 : y});
+    return corners;
+  };
+  print("zigzag 5 x 2 mm", zigzag(5, 2), 300);
+  print("zigzag 5 x 0.5 mm", zigzag(5, 0.5), 300);
+  print("zigzag 0.5 x 0.1 mm", zigzag(0.5, 0.1), 150);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 1 || argv[1][0] == 'c') print_circles();
+  if (argc == 1 || argv[1][0] != 'c') print_corners();
+  return 0;
+}
