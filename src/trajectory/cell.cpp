@@ -62,6 +62,14 @@ void fill(const Segment& segment, double from, double to, Cell& cell) {
 
 }  // namespace
 
+void CellPlace::allow(double entry, double exit) const {
+  for (std::size_t k = 0; k < cell.demand_count; ++k) {
+    AxisDemand& demand = demands[k];
+    demand.limit = std::max({demand.limit, std::abs(demand.entry_x * entry + demand.entry_y * exit),
+                             std::abs(demand.exit_x * entry + demand.exit_y * exit)});
+  }
+}
+
 CellCutter::CellCutter(const MotionLimits& limits) {
   for (std::size_t i = 0; i < axis_count; ++i) {
     const AxisLimits axis{.axis = i,

@@ -57,23 +57,27 @@ TEST_P(RandomPrograms, play_every_segment_in_order_and_every_action) {
   ASSERT_EQ(at, path_.size());
 }
 
+// A move may end within a cell that was halved.
 TEST_P(RandomPrograms, are_planned_as_if_seen_whole) {
   SCOPED_TRACE(seed());
   const std::vector<double> exits = exits_offline(path_, limits_);
   std::size_t cell = 0;
   CellCutter cutter(limits_);
+  double end = 0;
   for (const MotionItem& item : motion_) {
     const auto* move = std::get_if<PlannedMove>(&item);
     if (move == nullptr) continue;
-    if (move->from() == Mm(0)) cutter.begin(move->segment, std::numeric_limits<double>::infinity());
+    if (move->from() == Mm(0)) {
+      cutter.begin(move->segment, std::numeric_limits<double>::infinity());
+      end = 0;
+    }
     LoneCell piece;
-    double end = 0;
-    do {
+    for (; end < move->to.value(); end = piece.cell.end) {
       ASSERT_FALSE(cutter.at_end());
       cutter.next(piece.place());
-      end = piece.cell.end;
       ++cell;
-    } while (end < move->to.value());
+    }
+    if (end > move->to.value()) continue;
     const double reached = exit_speed(*move);
     ASSERT_NEAR(reached * reached, exits[cell - 1], 1e-5 * (1 + exits[cell - 1])) << "cell " << cell;
   }
