@@ -57,6 +57,15 @@ TEST_P(RandomPrograms, play_every_segment_in_order_and_every_action) {
   ASSERT_EQ(at, path_.size());
 }
 
+TEST_P(RandomPrograms, take_no_longer_without_limits_of_jerk) {
+  SCOPED_TRACE(seed());
+  const std::vector<PathItem> path = smoothed(RandomProgram(random_).draw(200), Smoothness::slow_bending);
+  MotionLimits jerk = limits_;
+  const double rise = std::exp(random_.between(-6, -2));
+  for (const Axis axis : all_axes) jerk.jerk[axis] = MmPerSecond3(limits_.acceleration[axis].value() / rise);
+  EXPECT_LE(total_time(plan(path, limits_)), total_time(plan(path, jerk)) * 1.001);
+}
+
 // A move may end within a cell that was halved.
 TEST_P(RandomPrograms, are_planned_as_if_seen_whole) {
   SCOPED_TRACE(seed());
