@@ -19,11 +19,12 @@ namespace {
 // frames and inches.
 constexpr double still = 1e-9;
 
-// How far chords may leave an arc that lies in no plane of the machine.
-constexpr Mm chord_tolerance{0.001};
+// How far the curve of a program may be left in all where the path is exact: by pieces that stand for the curve, and by
+// rounding their joints. The pieces take half.
+constexpr Mm exact_tolerance{0.001};
+constexpr double piece_share = 0.5;
 
-// How far the pieces of a spline may leave the spline: this share of the path's tolerance, but at least
-// least_spline_tolerance. Where the path's tolerance is 0, chord_tolerance counts.
+// How far the pieces of a spline may leave it where the path is not exact: this share of its tolerance.
 constexpr double spline_share = 0.1;
 constexpr Mm least_spline_tolerance{1e-5};
 
@@ -279,7 +280,9 @@ bool PathBuilder::take_tilted_arc(const operation::ArcFeed& arc, PathItem& item)
   if (arc.turns == 0 || radius < still) return take_line(arc.end, false, item);
   const double sweep = sweep_between(angle_of(start), angle_of(arc.end), arc.turns);
   // A chord of angle a leaves its arc by r (1 - cos(a/2)).
-  const double chord = 2 * std::acos(std::max(0.0, 1 - chord_tolerance.value() / radius));
+  const Mm allowed = tolerance_ > Mm(0) ? std::min(tolerance_, exact_tolerance) : exact_tolerance;
+  piece_tolerance_ = allowed * piece_share;
+  const double chord = 2 * std::acos(std::max(0.0, 1 - piece_tolerance_.value() / radius));
   const auto chords = static_cast<std::uint32_t>(std::ceil(std::abs(sweep) / chord));
   tilted_ = TiltedArc{.work = Curve::arc(start, arc.end, axes.first, axes.second, first_center, second_center, sweep),
                       .next = 0,
@@ -296,12 +299,7 @@ bool PathBuilder::take_chord(PathItem& item) {
         last ? arc.work.end() : arc.work.at(arc.work.length() * (static_cast<double>(arc.next) / arc.chords));
     if (last) tilted_.reset();
     if (!take_line(end, false, item)) continue;
-    if (last) return true;
-    // The corners between chords are not the program's, so an exact path does not stop at them.
-    auto& segment = std::get<Segment>(item);
-    segment.mode = PathMode::continuous;
-    segment.tolerance = chord_tolerance;
-    segment.merge = Mm(0);
+    be_piece(last, std::get<Segment>(item));
     return true;
   }
   return false;
@@ -320,29 +318,29 @@ bool PathBuilder::take_spline(const operation::NurbsFeed& curve, PathItem& item)
   for (const operation::ControlPoint& point : curve.points) {
     spline_->add(Vector3::of(machine_of(point)), point.weight);
   }
-  spline_tolerance_ =
-      tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : chord_tolerance;
-  const auto error = spline_->begin(curve.order - 1, spline_tolerance_);
+  piece_tolerance_ =
+      tolerance_ > Mm(0) ? std::max(tolerance_ * spline_share, least_spline_tolerance) : exact_tolerance * piece_share;
+  const auto error = spline_->begin(curve.order - 1, piece_tolerance_);
   if (!error) return take_spline_piece(item);
   report(Severity::error, "path.bad-spline", "no tool can follow this spline", error->message);
   position_ = machine_of(curve.points.back());
   return false;
 }
 
-// Between two pieces the path never stops, whatever the path mode, because the spline goes on there. The part of the
-// tolerance that the pieces do not use is left for rounding junctions.
+// Where pieces of a curve meet, the curve goes on: the path does too, whatever the mode. What the pieces leave of the
+// tolerance is for rounding.
+void PathBuilder::be_piece(bool last, Segment& segment) const {
+  const Mm allowed = tolerance_ > Mm(0) ? tolerance_ : exact_tolerance;
+  segment.merge = Mm(0);
+  segment.tolerance = std::max(allowed - piece_tolerance_, Mm(0));
+  if (!last) segment.mode = PathMode::continuous;
+}
+
 bool PathBuilder::take_spline_piece(PathItem& item) {
   SplinePiece piece;
   while (spline_->next(piece)) {
     if (!take_curve(piece.curve_from(position_), false, item)) continue;
-    auto& segment = std::get<Segment>(item);
-    segment.merge = Mm(0);
-    if (path_mode_ == PathMode::continuous) {
-      segment.tolerance = std::max(tolerance_ - spline_tolerance_, Mm(0));
-    } else if (!spline_->at_end()) {
-      segment.mode = PathMode::continuous;
-      segment.tolerance = spline_tolerance_;
-    }
+    be_piece(spline_->at_end(), std::get<Segment>(item));
     return true;
   }
   return false;

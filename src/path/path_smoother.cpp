@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "pace.hpp"
 #include "tube_spline.hpp"
 
 #include "passo/geometry/euclid.hpp"
@@ -13,6 +14,14 @@ namespace {
 
 // How far chords may leave an arc: this share of the tube.
 constexpr double chord_share = 0.01;
+
+// Of a span: a shorter part is not worth a segment of its own.
+constexpr double least_part = 1e-3;
+
+bool are_played_alike(const Segment& before, const Segment& after) {
+  return before.speed == after.speed && before.rapid == after.rapid && before.heeds == after.heeds &&
+         before.lock == after.lock && before.pitch == after.pitch;
+}
 
 Segment& segment_in(PathItem& item) {
   auto* const segment = std::get_if<Segment>(&item);
@@ -34,7 +43,16 @@ class PathSmoother::Implementation {
   bool give_span(PathItem& item);
   void cut_span();
   void add_chord(const Piece& path, const Point& end);
-  void write_span(const TubeSpline::Span& span, Segment& segment) const;
+  // Of a span, in which the pieces from first to last are played alike.
+  struct Part {
+    double from = 0;  // t in the span
+    double to = 0;
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+  };
+  Part next_part() const;
+  void give_part(PathItem& item);
+  void write_part(const Part& part, Segment& segment) const;
   void stop_at_the_end(const Knot& knot, Segment& segment) const;
 
   RunReader reader_;
@@ -42,7 +60,9 @@ class PathSmoother::Implementation {
   TubeSpline spline_;
   bool in_run_ = false;
   TubeSpline::Span span_;
-  // For the last span that was cut: the place where its chords ended, and whether that place is not on the spline.
+  Part part_;             // the last one given
+  bool in_span_ = false;  // more parts follow
+  // Of a span that was cut: where it ended, and whether that was not on the spline.
   Point place_;
   bool broken_ = false;
   std::vector<Segment> chords_;
@@ -60,6 +80,10 @@ bool PathSmoother::next(PathItem& item) {
 
 bool PathSmoother::Implementation::next(PathItem& item) {
   for (;;) {
+    if (in_span_) {
+      give_part(item);
+      return true;
+    }
     if (chord_ < chords_.size()) {
       item = chords_[chord_++];
       return true;
@@ -101,50 +125,70 @@ void PathSmoother::Implementation::give_exact(const ExactPiece& exact, PathItem&
   reader_.drop_before(exact.piece);
 }
 
-// The segment is like the path in the middle of the span, but not faster than any of the path in the span. Where
-// |dp/dt| is above 1 (the smoothed path cuts a corner of s), the speed along t is less, so that the tool keeps to the
-// feed. Where t advances faster than s, the speed along t is more.
-void PathSmoother::Implementation::write_span(const TubeSpline::Span& span, Segment& segment) const {
-  const double middle = (span.from.knot.s + span.to.knot.s) / 2;
-  std::uint64_t number = span.from.knot.piece;
-  while (number < span.to.knot.piece && piece(number).end() <= middle) ++number;
+// As the path in its middle. Where |dp/dt| is above 1 (the smoothed path cuts a corner of s) the speed along t is less,
+// so that the tool keeps to the feed; and more where t goes on faster than s.
+void PathSmoother::Implementation::write_part(const Part& part, Segment& segment) const {
+  const double width = span_.to.t - span_.from.t;
+  const bool begins = part.from == 0;
+  const bool ends = part.to == width;
+  const double middle =
+      ((begins ? span_.from.knot.s : piece(part.first).start) + (ends ? span_.to.knot.s : piece(part.last).end())) / 2;
+  std::uint64_t number = part.first;
+  while (number < part.last && piece(number).end() <= middle) ++number;
   const CountedGroup group = counted_group(piece(number).first_tangent);
   segment = piece(number).segment;
-  for (std::uint64_t i = span.from.knot.piece; i <= span.to.knot.piece; ++i) {
-    if (i > span.from.knot.piece && piece(i).start >= span.to.knot.s) break;
-    segment.speed = std::min(segment.speed, piece(i).segment.speed);
-    segment.rapid = segment.rapid && piece(i).segment.rapid;
-    const Heeds& heeds = piece(i).segment.heeds;
-    segment.heeds.feed_override = segment.heeds.feed_override && heeds.feed_override;
-    if (piece(i).segment.lock != segment.lock || piece(i).segment.pitch != segment.pitch) {
-      segment.lock = SpindleLock::none;
-    }
-    segment.heeds.feed_hold = segment.heeds.feed_hold && heeds.feed_hold;
-  }
-  const Mm length(span.to.t - span.from.t);
-  segment.curve = Curve::cubic(span.from.place, span.from.tangent, span.to.place, span.to.tangent, length);
-  const double steepest = std::max({length_in(span.from.tangent, group), length_in(span.to.tangent, group),
-                                    length_in(segment.curve.tangent(length / 2), group)});
-  const bool even = span.from.knot.rate == 1 && span.to.knot.rate == 1;
+  segment.curve = Curve::cubic(span_.from.place, span_.from.tangent, span_.to.place, span_.to.tangent, Mm(width));
+  const Point in = begins ? span_.from.tangent : segment.curve.tangent(Mm(part.from));
+  const Point out = ends ? span_.to.tangent : segment.curve.tangent(Mm(part.to));
+  const Point between = segment.curve.tangent(Mm((part.from + part.to) / 2));
+  if (!(begins && ends)) segment.curve = segment.curve.part(Mm(part.from), Mm(part.to));
+  const double steepest = std::max({length_in(in, group), length_in(out, group), length_in(between, group)});
+  const bool even = span_.from.knot.rate == 1 && span_.to.knot.rate == 1;
   if (steepest > 1 || !even) segment.speed = segment.speed / steepest;
-  segment.mode = span.goes_on ? PathMode::continuous : PathMode::exact_stop;
-  stop_at_the_end(span.to.knot, segment);
+  segment.mode = span_.goes_on || !ends ? PathMode::continuous : PathMode::exact_stop;
+  if (ends) stop_at_the_end(span_.to.knot, segment);
+}
+
+// A span is cut where the feed changes, or what the motion heeds: a slow piece would slow the whole span.
+PathSmoother::Implementation::Part PathSmoother::Implementation::next_part() const {
+  const double width = span_.to.t - span_.from.t;
+  Part part{.from = part_.to, .to = width, .first = part_.last, .last = part_.last};
+  for (; part.last < span_.to.knot.piece; ++part.last) {
+    if (are_played_alike(piece(part.last).segment, piece(part.last + 1).segment)) continue;
+    const Pace pace = Pace::between(span_.from.knot.rate, span_.to.knot.rate, span_.to.knot.s - span_.from.knot.s);
+    const double end = pace.reaches(std::max(0.0, piece(part.last).end() - span_.from.knot.s));
+    if (end > (1 - least_part) * width) break;
+    if (end > part.from + least_part * width) {
+      part.to = end;
+      break;
+    }
+    part.first = part.last + 1;
+  }
+  return part;
 }
 
 // True: the function wrote an item. False: chords are given instead.
 bool PathSmoother::Implementation::give_span(PathItem& item) {
   const bool smooth = span_.in_tube && !broken_;
   if (smooth) {
-    write_span(span_, segment_in(item));
+    part_ = {.from = 0, .to = 0, .first = span_.from.knot.piece, .last = span_.from.knot.piece};
+    give_part(item);
   } else {
     cut_span();
+    reader_.drop_before(span_.to.knot.piece);
   }
-  reader_.drop_before(span_.to.knot.piece);
   return smooth;
 }
 
-// The last resort for a span that could not be kept in the tube. It becomes chords along the path itself, with a stop
-// after each. The chords lead back to the spline as soon as the spline is in the tube again.
+void PathSmoother::Implementation::give_part(PathItem& item) {
+  part_ = next_part();
+  write_part(part_, segment_in(item));
+  in_span_ = part_.to < span_.to.t - span_.from.t;
+  if (!in_span_) reader_.drop_before(span_.to.knot.piece);
+}
+
+// The last resort, where a span could not be kept in the tube: chords along the path itself, with a stop after each.
+// They lead back to the spline as soon as it is in the tube again.
 void PathSmoother::Implementation::cut_span() {
   chords_.clear();
   chord_ = 0;

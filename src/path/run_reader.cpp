@@ -15,6 +15,12 @@ constexpr double turning_back = -0.9998;
 constexpr double exact_turn = 0.01;
 constexpr double exact_tolerance = 0.001;
 
+// In exact path mode: what rounding may take. Less where the segment stands for a part of a curve, and leaves it.
+double exact_tolerance_of(const Segment& segment) {
+  const double given = segment.tolerance.value();
+  return given > 0 ? std::min(given, exact_tolerance) : exact_tolerance;
+}
+
 Point unit(const Point& vector) {
   return vector * (1 / length_of(vector));
 }
@@ -77,6 +83,7 @@ void RunReader::read_piece() {
   junction_tolerance_ = after != nullptr ? tolerance_between(piece, *after) : 0;
   piece.rest_after = junction_tolerance_ == 0;
   if (!piece.rest_after) tube = std::min(tube, junction_tolerance_);
+  if (piece.segment.mode == PathMode::exact_path) tube = std::min(tube, exact_tolerance_of(piece.segment));
   piece.tube = tube - deviation;
 }
 
@@ -86,7 +93,7 @@ double RunReader::tolerance_between(const Piece& before, const Segment& after) c
   const Point out = unit(after.curve.tangent(Mm(0)));
   if (dot(in, out) < turning_back) return 0;
   if (before.segment.mode != PathMode::exact_path) return before.segment.tolerance.value();
-  return distance(in, out) <= exact_turn ? exact_tolerance : 0;
+  return distance(in, out) <= exact_turn ? exact_tolerance_of(before.segment) : 0;
 }
 
 }  // namespace passo

@@ -2,27 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace passo::proof {
 namespace {
 
 constexpr double turn_of_a_cell = 0.02;  // radians
-constexpr double fewest_cells = 64;      // in a curve that turns
-// On a line under falling limits: the cells from rest to full speed, and those of a short line, which stays far below
-// that.
-constexpr double cells_of_a_ramp = 200;
-constexpr double fewest_cells_of_line = 100;
-constexpr std::size_t window = 65536;  // cells
-constexpr double fastest = 1e12;       // x where there is no limit
-constexpr double strongest = 1e12;
+constexpr double fewest_cells = 64;      // in a curve, and in a line under falling limits
+constexpr std::size_t window = 65536;    // cells
+constexpr double fastest = 1e12;         // x where there is no limit
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
 // The path rests where a kink may be passed only below this share of the lowest velocity limit.
 constexpr double as_good_as_rest = 1e-3;
+// A part of the direction smaller than this is rounding: the axis stands.
+constexpr double standing = 1e-9;
+// A cut nearer to a cell's end than this share of the cell is that end.
+constexpr double least_part = 1e-6;
+constexpr int halvings = 60;  // of a bisection: down to rounding
 
 double square(double value) {
   return value * value;
+}
+
+template <class Row>
+double squares_of(const Row& slope) {
+  double sum = 0;
+  for (const double part : slope) sum += square(part);
+  return sum;
+}
+
+// The least distance from 0 of the parabola through three values at even distances.
+double least_through(double first, double second, double third) {
+  if (!(first * second > 0 && second * third > 0)) return 0;
+  const double least = std::min({std::abs(first), std::abs(second), std::abs(third)});
+  const double rise = third - first;
+  const double bend = first - 2 * second + third;
+  if (!(std::abs(rise) < 2 * std::abs(bend))) return least;
+  return std::min(least, std::abs(second - rise * rise / (8 * bend)));
 }
 
 }  // namespace
@@ -30,6 +46,7 @@ double square(double value) {
 TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes) {
   for (const ProvenAxis& axis : axes_) {
     limits_.emplace_back(axis);
+    ramps_.emplace_back(axis, limits_.back());
     any_falls_ |= limits_.back().falls();
   }
 }
@@ -52,9 +69,9 @@ void TimeBound::rest(Seconds dwell) {
 
 void TimeBound::add_curve(const Segment& segment) {
   const ExactCurve curve(segment.curve);
-  const double length = curve.length();
-  const double feed = square(segment.speed.value());
-  const Joint start = joint_at(curve, 0);
+  const double feed = std::min(square(segment.speed.value()), fastest);
+  Place from = place_at(curve, 0);
+  const Joint start = joint_at(from);
   double scale = 1;
   double kink = fastest;
   if (joint_) {
@@ -68,59 +85,126 @@ void TimeBound::add_curve(const Segment& segment) {
     }
   }
   const std::size_t first = cells_.size();
-  const int count = curve.is_line() ? cells_of_line(curve, feed)
-                                    : static_cast<int>(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
-  const auto place = [&](int i) {
-    const double share = static_cast<double>(i) / count;
-    if (!any_falls_ || i == count) return length * i / count;
-    return length * (1 - std::cos(std::numbers::pi * share)) / 2;
-  };
-  for (int i = 0; i < count; ++i) add_cell(curve, place(i), place(i + 1), feed);
+  const bool one_cell = curve.is_line() && !any_falls_;
+  const double cells = one_cell ? 1 : std::ceil(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
+  for (double i = 1; i <= cells; ++i) {
+    const Place to = place_at(curve, curve.length() * (i / cells));
+    add_cells(curve, from, to, feed);
+    from = to;
+  }
   Cell& entry = cells_[first];
   entry.entry_scale = scale;
   entry.entry_cap = std::min({entry.entry_cap, kink, first > 0 ? cells_[first - 1].exit_cap * scale : fastest});
-  joint_ = joint_at(curve, length);
+  joint_ = joint_at(from);
   if (cells_.size() >= 2 * window) settle(window);
 }
 
-// Under constant limits one cell is exact. Else as many as are needed so that the speed changes little in each.
-int TimeBound::cells_of_line(const ExactCurve& curve, double feed) const {
-  if (!any_falls_) return 1;
-  double top = feed;
-  double strength = strongest;
+// Cuts where an axis turns back, and where its q' is steepest or flattest.
+void TimeBound::add_cells(const ExactCurve& curve, const Place& from, const Place& to, double feed) {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const double steep = std::abs(curve.at(axes_[i].axis, 0).first);
-    if (steep == 0) continue;
-    if (axes_[i].velocity.value() > 0) top = std::min(top, square(axes_[i].velocity.value() / steep));
-    if (limits_[i].constant() > 0) strength = std::min(strength, limits_[i].constant() / steep);
+    const bool bend = from.bend[i] * to.bend[i] < 0;
+    if (!bend && !(from.slope[i] * to.slope[i] < 0)) continue;
+    const Place turn = place_of_turn(curve, from, to, i, bend);
+    const double least = least_part * (to.s - from.s);
+    if (turn.s - from.s < least || to.s - turn.s < least) continue;
+    add_cells(curve, from, turn, feed);
+    add_cells(curve, turn, to, feed);
+    return;
   }
-  return static_cast<int>(
-      std::clamp(cells_of_a_ramp * std::sqrt(2 * strength * curve.length() / top), fewest_cells_of_line, 4000.0));
+  add_cell(curve, from, to, feed);
 }
 
-void TimeBound::add_cell(const ExactCurve& curve, double from, double to, double feed) {
+// Where q'', or else q', of the axis is 0.
+TimeBound::Place TimeBound::place_of_turn(const ExactCurve& curve, const Place& from, const Place& to, std::size_t axis,
+                                          bool bend) const {
+  const double at_start = bend ? from.bend[axis] : from.slope[axis];
+  double low = from.s;
+  double high = to.s;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    const Derivatives q = curve.at(axes_[axis].axis, middle);
+    ((bend ? q.second : q.first) * at_start > 0 ? low : high) = middle;
+  }
+  Place place = place_at(curve, high);
+  (bend ? place.bend : place.slope)[axis] = 0;
+  return place;
+}
+
+void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place& to, double feed) {
+  const Place middle = curve.is_line() ? from : place_at(curve, (from.s + to.s) / 2);
   Cell cell;
-  cell.length = to - from;
-  cell.line = curve.is_line() && !any_falls_;
-  const bool goes_on = from > 0 && !cells_.empty();
-  cell.entry_cap = goes_on ? cells_.back().exit_cap : cap_at(curve, from, feed);
-  cell.exit_cap = cap_at(curve, to, feed);
+  cell.length = to.s - from.s;
+  cell.cap = std::min(feed, cap_within(from, middle, to));
+  cell.entry_cap = std::min(feed, from.cap);
+  cell.exit_cap = std::min(feed, to.cap);
+  cell.standing = square(standing) * std::max(squares_of(from.slope), squares_of(to.slope));
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Derivatives q = curve.at(axes_[i].axis, (from + to) / 2);
-    cell.first[i] = q.first;
-    cell.second[i] = q.second;
+    cell.entry_slope[i] = square(from.slope[i]);
+    cell.exit_slope[i] = square(to.slope[i]);
+    // Simpson's rule, exact for cubics. A difference of places would lose the digits of a short way.
+    cell.way[i] = std::abs(from.slope[i] + 4 * middle.slope[i] + to.slope[i]) * cell.length / 6;
   }
   cells_.push_back(cell);
 }
 
-TimeBound::Joint TimeBound::joint_at(const ExactCurve& curve, double s) const {
-  Joint joint;
-  double sum = 0;
+TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
+  Place place{.s = s, .cap = fastest};
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    joint.direction[i] = curve.at(axes_[i].axis, s).first;
-    sum += square(joint.direction[i]);
+    const Derivatives q = curve.at(axes_[i].axis, s);
+    place.slope[i] = q.first;
+    place.bend[i] = q.second;
+    const double velocity = axes_[i].velocity.value();
+    if (velocity > 0 && q.first != 0) place.cap = std::min(place.cap, square(velocity / q.first));
   }
-  joint.steepness = std::sqrt(sum);
+  if (curve.is_line()) return place;
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j, ++pair) {
+      place.turning[pair] = turning_at(place, i, j);
+      if (place.turning[pair] != 0) place.cap = std::min(place.cap, 1 / std::abs(place.turning[pair]));
+    }
+  }
+  return place;
+}
+
+// u = s̈ drops out of |q'ᵢ u + q''ᵢ x| ≤ Aᵢ and |q'ⱼ u + q''ⱼ x| ≤ Aⱼ: what is left is
+// |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ| x ≤ Aᵢ |q'ⱼ| + Aⱼ |q'ᵢ|. The right side falls as x grows, if a limit falls with the speed.
+double TimeBound::turning_at(const Place& place, std::size_t i, std::size_t j) const {
+  if (!ramps_[i].limits() || !ramps_[j].limits()) return 0;
+  const double turn = place.bend[i] * place.slope[j] - place.bend[j] * place.slope[i];
+  if (turn == 0) return 0;
+  const auto strength = [&](double x) {
+    return limits_[i].at(place.slope[i] * std::sqrt(x)) * std::abs(place.slope[j]) +
+           limits_[j].at(place.slope[j] * std::sqrt(x)) * std::abs(place.slope[i]);
+  };
+  double high = strength(0) / std::abs(turn);
+  if (!any_falls_ || !(strength(high) < strength(0))) return std::copysign(1 / high, turn);
+  double low = 0;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    (std::abs(turn) * middle <= strength(middle) ? low : high) = middle;
+  }
+  return std::copysign(1 / high, turn);
+}
+
+// Each |q'| is least at an end.
+double TimeBound::cap_within(const Place& from, const Place& middle, const Place& to) const {
+  double cap = fastest;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double least = std::min(std::abs(from.slope[i]), std::abs(to.slope[i]));
+    const double velocity = axes_[i].velocity.value();
+    if (velocity > 0 && least > 0) cap = std::min(cap, square(velocity / least));
+  }
+  const std::size_t pairs = axes_.size() * (axes_.size() - 1) / 2;
+  for (std::size_t pair = 0; pair < pairs; ++pair) {
+    const double turning = least_through(from.turning[pair], middle.turning[pair], to.turning[pair]);
+    if (turning > 0) cap = std::min(cap, 1 / turning);
+  }
+  return cap;
+}
+
+TimeBound::Joint TimeBound::joint_at(const Place& place) const {
+  Joint joint{.direction = place.slope, .steepness = std::sqrt(squares_of(place.slope))};
   for (double& part : joint.direction) part = joint.steepness > 0 ? part / joint.steepness : 0;
   return joint;
 }
@@ -136,129 +220,35 @@ double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
   return cap;
 }
 
-double TimeBound::cap_at(const ExactCurve& curve, double s, double feed) const {
-  double cap = std::min(feed, fastest);
-  Row first{};
-  Row second{};
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Derivatives q = curve.at(axes_[i].axis, s);
-    first[i] = q.first;
-    second[i] = q.second;
-    const double velocity = axes_[i].velocity.value();
-    if (velocity > 0 && q.first != 0) cap = std::min(cap, square(velocity / q.first));
-  }
-  return curve.is_line() ? cap : curvature_cap(first, second, cap);
-}
-
-// The largest x for which some u keeps every axis within its acceleration.
-double TimeBound::curvature_cap(const Row& first, const Row& second, double most) const {
-  const auto possible = [&](double x) {
-    double low = -INFINITY;
-    double high = INFINITY;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      const double limit = limits_[i].at(first[i] * std::sqrt(x));
-      if (!(limit > 0)) continue;
-      const double pull = second[i] * x;
-      if (first[i] == 0) {
-        if (std::abs(pull) > limit) return false;
-        continue;
-      }
-      const double a = (-limit - pull) / first[i];
-      const double b = (limit - pull) / first[i];
-      low = std::max(low, std::min(a, b));
-      high = std::min(high, std::max(a, b));
-    }
-    return low <= high;
-  };
-  if (possible(most)) return most;
-  double low = 0;
-  double high = most;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    (possible(middle) ? low : high) = middle;
-  }
-  return low;
-}
-
-// At the middle u = (next - x) / 2h, and x is the mean of both ends. So a limit reads |α next + β x| ≤ A.
-TimeBound::Range TimeBound::next_of(const Cell& cell, double x) const {
-  if (any_falls_) return next_under_falling(cell, x);
-  Range range{.low = 0, .high = INFINITY};
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const double limit = axes_[i].acceleration.value();
-    if (!(limit > 0)) continue;
-    const double steep = cell.first[i] / (2 * cell.length);
-    const double alpha = cell.second[i] / 2 + steep;
-    const double beta = cell.second[i] / 2 - steep;
-    if (alpha == 0) {
-      if (std::abs(beta * x) > limit) range.high = -1;
-      continue;
-    }
-    const double a = (-limit - beta * x) / alpha;
-    const double b = (limit - beta * x) / alpha;
-    range.low = std::max(range.low, std::min(a, b));
-    range.high = std::min(range.high, std::max(a, b));
-  }
-  return range;
-}
-
-// The limit at the middle hardly depends on the next x, so a few rounds are enough.
-TimeBound::Range TimeBound::next_under_falling(const Cell& cell, double x) const {
-  Range range{.low = 0, .high = INFINITY};
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!(limits_[i].constant() > 0)) continue;
-    const double steep = cell.first[i] / (2 * cell.length);
-    const double alpha = cell.second[i] / 2 + steep;
-    const double beta = cell.second[i] / 2 - steep;
-    const auto limit = [&](double next) {
-      return limits_[i].at(cell.first[i] * std::sqrt((x + std::max(next, 0.0)) / 2));
-    };
-    if (alpha == 0) {
-      if (std::abs(beta * x) > limit(x)) range.high = -1;
-      continue;
-    }
-    double low = x;
-    double high = x;
-    for (int round = 0; round < 6; ++round) {
-      low = (-limit(low) * (alpha > 0 ? 1 : -1) - beta * x) / alpha;
-      high = (limit(high) * (alpha > 0 ? 1 : -1) - beta * x) / alpha;
-    }
-    range.low = std::max(range.low, low);
-    range.high = std::min(range.high, high);
-  }
-  return range;
-}
-
-// The greatest change of x on a line.
-double TimeBound::line_reach(const Cell& cell) const {
-  double most = strongest;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const double limit = axes_[i].acceleration.value();
-    if (limit > 0 && cell.first[i] != 0) most = std::min(most, limit / std::abs(cell.first[i]));
-  }
-  return 2 * most * cell.length;
-}
-
-// The largest x from which `exit` or less can be reached.
 double TimeBound::entry_for(const Cell& cell, double exit) const {
-  if (cell.line) return std::min(cell.entry_cap, exit + line_reach(cell));
-  const auto possible = [&](double x) {
-    const Range next = next_of(cell, x);
-    return next.low <= next.high && next.low <= exit;
-  };
-  if (possible(cell.entry_cap)) return cell.entry_cap;
-  double low = 0;
-  double high = cell.entry_cap;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (low + high) / 2;
-    (possible(middle) ? low : high) = middle;
+  double most = cell.entry_cap;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!ramps_[i].limits() || !(cell.entry_slope[i] > cell.standing)) continue;
+    most = std::min(most, ramps_[i].square_after(cell.exit_slope[i] * exit, cell.way[i]) / cell.entry_slope[i]);
   }
-  return low;
+  return most;
 }
 
-double TimeBound::exit_for(const Cell& cell, double entry, double most) const {
-  if (cell.line) return std::min(most, entry + line_reach(cell));
-  return std::max(std::min(most, next_of(cell, entry).high), 0.0);
+double TimeBound::exit_for(const Cell& cell, double entry) const {
+  double most = cell.exit_cap;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!ramps_[i].limits() || !(cell.exit_slope[i] > cell.standing)) continue;
+    most = std::min(most, ramps_[i].square_after(cell.entry_slope[i] * entry, cell.way[i]) / cell.exit_slope[i]);
+  }
+  return most;
+}
+
+double TimeBound::least_time(const Cell& cell, double entry, double exit) const {
+  double time = cell.length / std::sqrt(cell.cap);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double steepest = std::max(cell.entry_slope[i], cell.exit_slope[i]);
+    if (!ramps_[i].limits() || !(steepest > cell.standing)) continue;
+    double top = steepest * cell.cap;
+    if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, square(axes_[i].velocity.value()));
+    const AxisRamp::Squares squares{.start = cell.entry_slope[i] * entry, .end = cell.exit_slope[i] * exit, .top = top};
+    time = std::max(time, ramps_[i].least_time(squares, cell.way[i]));
+  }
+  return time;
 }
 
 // `last` is the largest x at the end of the window.
@@ -270,15 +260,6 @@ void TimeBound::plan_backwards(double last) {
   }
 }
 
-double TimeBound::time_of_line(const Cell& cell, double entry, double exit, double reach) {
-  const double acceleration = reach / (2 * cell.length);
-  // Both ends are below it, except for rounding.
-  const double top = std::max({entry, exit, std::min(cell.exit_cap, (entry + exit + reach) / 2)});
-  const double ramps = (2 * top - entry - exit) / (2 * acceleration);
-  const double ramp_time = (2 * std::sqrt(top) - std::sqrt(entry) - std::sqrt(exit)) / acceleration;
-  return ramp_time + std::max(cell.length - ramps, 0.0) / std::sqrt(top);
-}
-
 // Adds the time of the first `cells` cells, which are played.
 void TimeBound::settle(std::size_t cells) {
   const bool all = cells == cells_.size();
@@ -288,12 +269,8 @@ void TimeBound::settle(std::size_t cells) {
     const Cell& cell = cells_[i];
     x_ = std::min(x_ * cell.entry_scale, cell.controllable);
     const double next = i + 1 < cells_.size() ? cells_[i + 1].controllable / cells_[i + 1].entry_scale : 0;
-    const double exit = exit_for(cell, x_, std::min(next, cell.exit_cap));
-    if (cell.line) {
-      time_ += time_of_line(cell, x_, exit, line_reach(cell));
-    } else {
-      time_ += 2 * cell.length / (std::sqrt(x_) + std::sqrt(exit));
-    }
+    const double exit = std::min(next, exit_for(cell, x_));
+    time_ += least_time(cell, x_, exit);
     x_ = exit;
   }
   cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(cells));

@@ -1,22 +1,28 @@
-// TimeBound: the shortest time in which the planned path could be played within velocity, acceleration and feed.
+// TimeBound: a time that no motion on the planned path can beat within velocity, acceleration and feed.
 //
-// With x = ṡ² and u = s̈ = dx/ds / 2 every limit |q' u + q'' x| ≤ A is a strip of the plane (x, u). The path is cut
-// into small cells. In each, x is a straight line and the limits are taken at the middle. Backwards from the end of a
-// stretch: the largest x at each node from which the rest can still be played. Bisection finds it: is there an x at the
-// next node that keeps every limit? Then forwards from rest, always as fast as allowed. A line is a single, exact cell:
-// speed up, go on, brake. Where a limit falls with the speed, A is taken at the speed in the middle of each cell, and a
-// line is cut like a curve, with shorter cells at its ends. Pfeiffer and Johanni 1987; Pham and Pham 2018
-// (reachability).
+// With x = ṡ² each axis has q̇² = q'² x. The path is cut into small cells, in each of which every axis goes one way
+// only and its |q'| only rises or only falls. From one end of a cell to the other, the axis can change q̇² by no more
+// than its acceleration does on its own way |Δq|: q'₁² x₁ − q'₀² x₀ lies within ± 2 A |Δq|, whatever x does between
+// (AxisRamp; also where the limit falls with the speed). So the largest x at one end gives the largest x at the other
+// end, without an error of the cells: backwards from the end of a stretch, then forwards from rest.
+//
+// Two bounds hold at a single place. An axis's velocity limits x, and so does the bend of the path: if x is too large,
+// two axes leave no s̈ that keeps the acceleration q' s̈ + q'' x of both within its limit (turning_at).
+//
+// A cell takes at least the time that any of its axes needs for its own way, from and to the speeds found, and at least
+// the time of the whole cell at the largest x in it. What is lost is only that the axes may take turns within a cell;
+// so the bound can be a little too small, and never too large.
 //
 // The path rests where the program demands it: at actions, exact stops and the ends, and where the direction jumps by
 // more than rounding. Memory: a window of cells, many braking distances long. Motion after the window is assumed to be
-// as fast as its first cell allows, so the result stays a lower bound of the time.
+// as fast as its first cell allows.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <vector>
 
+#include "axis_ramp.hpp"
 #include "exact_curve.hpp"
 #include "speed_limit.hpp"
 
@@ -35,47 +41,51 @@ class TimeBound {
 
  private:
   using Row = std::array<double, max_motors>;  // one number for each axis
+  using Pairs = std::array<double, std::size_t{max_motors} * (max_motors - 1) / 2>;
+  struct Place {
+    double s = 0;
+    Row slope{};      // q'
+    Row bend{};       // q''
+    Pairs turning{};  // of each pair of axes: 1/x of the largest x, with the sign of the turn
+    double cap = 0;   // the largest x here
+  };
   struct Cell {
     double length = 0;
-    double entry_cap = 0;  // limit of x by velocity, feed and curvature, at its start and at the end of the cell before
-    double entry_scale = 1;  // x at its start divided by x at the end of the cell before
+    double cap = 0;        // the largest x anywhere in it
+    double entry_cap = 0;  // the largest x at its start and at the end of the cell before
     double exit_cap = 0;
-    bool line = false;
-    Row first{};  // q' and q'' at the cell's middle
-    Row second{};
+    double entry_scale = 1;   // x at its start divided by x at the end of the cell before
     double controllable = 0;  // the largest x at its start from which the path can be played
+    double standing = 0;      // an axis with a smaller q'² stands, but for rounding
+    Row entry_slope{};        // q'²
+    Row exit_slope{};
+    Row way{};  // |Δq|
   };
   struct Joint {  // the end of the last curve
     Row direction{};
     double steepness = 0;  // |q'|
-    double cap = 0;
-    bool stop = false;
-  };
-  struct Range {
-    double low, high;
   };
 
   void add_curve(const Segment& segment);
-  void add_cell(const ExactCurve& curve, double from, double to, double feed);
+  void add_cells(const ExactCurve& curve, const Place& from, const Place& to, double feed);
+  void add_cell(const ExactCurve& curve, const Place& from, const Place& to, double feed);
   void settle(std::size_t cells);
   void end_stretch();
   void plan_backwards(double last);
 
-  Joint joint_at(const ExactCurve& curve, double s) const;
-  double cap_at(const ExactCurve& curve, double s, double feed) const;
-  double curvature_cap(const Row& first, const Row& second, double most) const;
+  Place place_at(const ExactCurve& curve, double s) const;
+  Place place_of_turn(const ExactCurve& curve, const Place& from, const Place& to, std::size_t axis, bool bend) const;
+  double turning_at(const Place& place, std::size_t i, std::size_t j) const;
+  double cap_within(const Place& from, const Place& middle, const Place& to) const;
+  Joint joint_at(const Place& place) const;
   double kink_cap(const Joint& before, const Joint& after) const;
-  // The range of the next x that the cell's limits allow after x.
-  Range next_of(const Cell& cell, double x) const;
-  Range next_under_falling(const Cell& cell, double x) const;
-  int cells_of_line(const ExactCurve& curve, double feed) const;
   double entry_for(const Cell& cell, double exit) const;
-  double exit_for(const Cell& cell, double entry, double most) const;
-  double line_reach(const Cell& cell) const;
-  static double time_of_line(const Cell& cell, double entry, double exit, double reach);
+  double exit_for(const Cell& cell, double entry) const;
+  double least_time(const Cell& cell, double entry, double exit) const;
 
   std::vector<ProvenAxis> axes_;
   std::vector<SpeedLimit> limits_;
+  std::vector<AxisRamp> ramps_;
   bool any_falls_ = false;
   std::vector<Cell> cells_;
   std::optional<Joint> joint_;

@@ -16,6 +16,12 @@ constexpr double turn_a_cell_of_arc = 0.04;
 // turns, and the least speed in a cell counts for all of the cell.
 constexpr double turn_a_cell_of_fast_arc = 0.01;
 constexpr double turn_a_cell_of_cubic = 0.025;
+// Where turning lowers the speed, the motion is at some limit nearly everywhere. What an axis can add along the path
+// changes as the path turns, and the least of that in a cell counts for all of the cell. So the time lost grows with
+// the turn of a cell: at most 1.9 % in 3,000 random programs with the turns above, 1.0 % with half of them.
+constexpr double share_of_slow_turn = 0.5;
+// Turning lowers the speed if at the top speed it would take this many times the acceleration along the path.
+constexpr double slow_turning = 2;
 // The greatest share of an axis's limit that is taken off for what happens between the ends of a cell.
 constexpr double most_slack = 0.5;
 constexpr double cheap_slack = 0.02;  // for accelerations along the path that few cells need
@@ -62,6 +68,14 @@ void fill(const Segment& segment, double from, double to, Cell& cell) {
 
 }  // namespace
 
+void CellPlace::allow(double entry, double exit) const {
+  for (std::size_t k = 0; k < cell.demand_count; ++k) {
+    AxisDemand& demand = demands[k];
+    demand.limit = std::max({demand.limit, std::abs(demand.entry_x * entry + demand.entry_y * exit),
+                             std::abs(demand.exit_x * entry + demand.exit_y * exit)});
+  }
+}
+
 CellCutter::CellCutter(const MotionLimits& limits) {
   for (std::size_t i = 0; i < axis_count; ++i) {
     const AxisLimits axis{.axis = i,
@@ -105,17 +119,19 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
     straight_ = false;
   }
   if (line) return;
+  const double turning = curve.turning(steepest);
+  const bool is_slow = top * top * turning > slow_turning * strongest_here * length;
+  const double share = is_slow ? share_of_slow_turn : 1;
   if (curve.shape() == Curve::Shape::arc) {
-    const double turn = top < segment.speed.value() ? turn_a_cell_of_fast_arc : turn_a_cell_of_arc;
-    const double by_turn = length * turn / curve.turning(steepest);
+    const double turn = top < segment.speed.value() ? turn_a_cell_of_fast_arc : share * turn_a_cell_of_arc;
+    const double by_turn = length * turn / turning;
     longest_ =
         std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
     // At some speed turning takes all of the acceleration. Braking from that speed takes about one radius.
     const double slowing = std::min(braking, 1 / curve.curvature());
     shortest_ = std::clamp(slowing * braking_share, longest_ / 64, longest_);
   } else {
-    const double turn = curve.turning(steepest);
-    const double by_turn = length * turn_a_cell_of_cubic / std::max(turn, turn_a_cell_of_cubic);
+    const double by_turn = length * std::min(1.0, share * turn_a_cell_of_cubic / turning);
     const double wanted = std::min(by_turn, std::max(braking * braking_share, length * length_share));
     longest_ = shortest_ = length / std::ceil(length / wanted);
   }

@@ -71,6 +71,10 @@ struct CellPlace {
   Cell& cell;
   AxisDemand* demands;
   FallingDemand* falling;
+
+  // Allows a cell that was cut again what was planned for it in the longer cell: the demands at the ends of a cell
+  // leave room for what lies between them, so in the middle of a cell an axis may demand more.
+  void allow(double entry, double exit) const;
 };
 
 // Cuts segments into cells. A straight cell is a whole segment, and its only demand is its acceleration. Lines are cut

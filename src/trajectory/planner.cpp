@@ -22,6 +22,9 @@ namespace {
 constexpr double rounding = 1e-9;
 // A share of the longest time of a move. Phases are not cut into smaller parts; the move may be shorter by this.
 constexpr double smallest_part = 0.02;
+// A cell in which the square of the speed can change by less than this share of itself is short enough: in two halves
+// it would gain a quarter of the share at most.
+constexpr double least_change = 0.04;
 // In mm. A shorter rest of a cell is rounding.
 constexpr double smallest_rest = 1e-9;
 // In mm. A hold leaves at least this much of a cell, so that the rest can be halved.
@@ -51,11 +54,8 @@ class Planner::Implementation {
       brake(item);
       return true;
     }
-    if (std::exchange(braking_, false)) go_on();
-    for (;; halve_front()) {
-      while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
-      if (!goes_nowhere()) break;
-    }
+    if (std::exchange(braking_, false)) decided_ = 0;
+    while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
     if (!cells_.empty()) {
       give_move(item);
       return true;
@@ -136,17 +136,16 @@ class Planner::Implementation {
                              : wishes_.stands_on(segments_.front());
   }
 
-  // A bent cell from rest to rest, such as what a hold has left of a corner: as one cell it would take for ever.
-  bool goes_nowhere() const {
-    const bool rests = decided_ > 0 && speed_squared_ == 0 && cells_[0].decided_exit == 0;
-    return rests && !cells_[0].cell.straight && cells_[0].cell.length > smallest_rest;
+  // A bent cell either speeds up or brakes. From one slow place to the next it takes more than one; from rest to rest,
+  // as in what a hold has left of a corner, a single cell would take for ever.
+  bool is_front_too_long() const {
+    const Cell& cell = cells_[0].cell;
+    if (cell.straight || cell.length < smallest_rest) return false;
+    const double exit = exit_of_front();
+    if (2 * cell.acceleration * cell.length < least_change * (speed_squared_ + exit)) return false;
+    return is_too_long(cells_.demands(0), cells_.falling(0),
+                       {.length = cell.length, .entry = speed_squared_, .exit = exit, .top = cells_[0].top_squared});
   }
-  // Goes on after braking.
-  void go_on() {
-    decided_ = 0;
-    if (!cells_.empty() && !cells_[0].cell.straight && cells_[0].cell.length > smallest_cell) halve_front();
-  }
-
   // A pass over the queue comes only after as many new cells as the queue held. So planning takes amortised linear
   // time.
   void look_ahead() {
@@ -270,9 +269,9 @@ class Planner::Implementation {
     PlannedMove& move = begin_move(item);
     bool complete = false;
     while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
+      while (is_front_too_long()) halve_front();
       const Cell& cell = cells_[0].cell;
-      const bool as_decided = cells_[0].decided_entry == speed_squared_;
-      const double exit = as_decided ? cells_[0].decided_exit : planned_exit(0, speed_squared_);
+      const double exit = exit_of_front();
       // The feed was lowered: slow down at once, not only at the cell's end.
       const double too_fast = speed_squared_ - cells_[0].top_squared;
       const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
@@ -311,6 +310,10 @@ class Planner::Implementation {
     }
   }
 
+  double exit_of_front() const {
+    const bool as_decided = decided_ > 0 && cells_[0].decided_entry == speed_squared_;
+    return as_decided ? cells_[0].decided_exit : planned_exit(0, speed_squared_);
+  }
   // The exit of cell i, entered with this speed.
   double planned_exit(std::size_t i, double entry) const {
     return exit_from(i, entry, i + 1 < cells_.size() ? cells_[i + 1].entry_if_rest : 0);
@@ -357,36 +360,32 @@ class Planner::Implementation {
   void cut_front_again(const Segment& segment, double from, double to, double exit) {
     const CellPlace front = cells_.front_again();
     cutter_.cut(segment, from, to, front.cell.straight, front);
-    allow(speed_squared_, exit, front);
+    front.allow(speed_squared_, exit);
   }
 
-  // A curved cell either speeds up or brakes. From a rest in a stretch's last cell to the next rest it takes two cells.
+  // The exit stays, and with it all that was decided.
   void halve_front() {
-    decided_ = 0;
     const double start = cells_[0].cell.start;
     const double end = cells_[0].cell.end;
     const double middle = start + cells_[0].cell.length / 2;
-    const double exit = planned_exit(0, speed_squared_);
+    const double exit = exit_of_front();
     const double halfway = (speed_squared_ + exit) / 2;
     const CellPlace second = cells_.front_again();
     cutter_.cut(segments_.front(), middle, end, false, second);
-    allow(halfway, exit, second);
+    second.allow(halfway, exit);
     const CellPlace first = cells_.push_front();
     cutter_.cut(segments_.front(), start, middle, false, first);
-    allow(speed_squared_, halfway, first);
+    first.allow(speed_squared_, halfway);
     cells_[1].begins_at_rest = false;
-    cells_[1].entry_if_rest = halfway;
     set_caps(0);
     set_caps(1);
-  }
-
-  // The demands at the ends of a cell leave room for what lies between them. So in the middle of a cell an axis may
-  // demand more. What the motion was to do from here on must stay allowed.
-  static void allow(double entry, double exit, const CellPlace& place) {
-    for (std::size_t k = 0; k < place.cell.demand_count; ++k) {
-      AxisDemand& demand = place.demands[k];
-      demand.limit = std::max({demand.limit, std::abs(demand.entry_x * entry + demand.entry_y * exit),
-                               std::abs(demand.exit_x * entry + demand.exit_y * exit)});
+    cells_[1].entry_if_rest = std::max(halfway, entry_to(1, exit));
+    if (decided_ == 0) return;
+    ++decided_;
+    for (std::size_t i = 0; i < 2; ++i) {
+      CellQueue::Entry& half = cells_[i];
+      half.decided_entry = i == 0 ? speed_squared_ : cells_[0].decided_exit;
+      half.decided_exit = exit_from(i, half.decided_entry, i == 0 ? cells_[1].entry_if_rest : exit);
     }
   }
 

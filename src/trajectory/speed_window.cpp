@@ -242,6 +242,9 @@ double corner_below(std::span<const AxisDemand> demands, double entry_most, doub
   return -1;
 }
 
+// A cell is halved for a gain of this share of its time.
+constexpr double least_gain = 0.01;
+
 }  // namespace
 
 double largest_entry(std::span<const AxisDemand> demands, double entry_most, double exit_most) {
@@ -352,6 +355,19 @@ double sure_deceleration(std::span<const AxisDemand> demands, std::span<const Fa
     most = std::min(most, sure_deceleration({&lowered, 1}, length, entry));
   }
   return most;
+}
+
+bool is_too_long(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const CellRide& ride) {
+  const double mean = (ride.entry + ride.exit) / 2;
+  const double higher = std::max(ride.entry, ride.exit);
+  const double strength = sure_deceleration(demands, falling, ride.length, higher);
+  const double peak = std::min(ride.top, mean + strength * ride.length);
+  if (!(strength > 0) || peak < higher) return false;
+  const double top = std::sqrt(peak);
+  const double ends = std::sqrt(ride.entry) + std::sqrt(ride.exit);
+  const double ramps = (peak - mean) / strength;
+  const double best = (2 * top - ends) / strength + (ride.length - ramps) / top;
+  return 2 * ride.length > (1 + least_gain) * best * ends;
 }
 
 }  // namespace passo

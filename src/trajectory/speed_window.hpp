@@ -45,4 +45,15 @@ double least_exit(std::span<const AxisDemand> demands, std::span<const FallingDe
 double sure_deceleration(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, double length,
                          double entry);
 
+// What is known of a cell when it is played: its length, and the squares of the speeds at both ends and of its top.
+struct CellRide {
+  double length = 0;
+  double entry = 0;
+  double exit = 0;
+  double top = 0;
+};
+// Whether the straight line of v² from entry to exit takes noticeably longer than rising above both ends, with an
+// acceleration that all demands surely allow. In two halves the cell takes less time.
+bool is_too_long(std::span<const AxisDemand> demands, std::span<const FallingDemand> falling, const CellRide& ride);
+
 }  // namespace passo

@@ -146,6 +146,27 @@ TEST_F(PathTest, an_arc_of_another_plane_in_a_turned_frame_is_walked_in_chords_w
   EXPECT_NEAR(last[Axis::z], 4, 1e-12);
 }
 
+// What the chords take of the tolerance is not there for rounding their corners.
+TEST_F(PathTest, an_arc_in_chords_with_its_corners_rounded_is_within_the_tolerance) {
+  for (const double tolerance : {0.0, 0.0004, 0.01}) {
+    operations_.clear();
+    add(operation::SetPathMode{tolerance > 0 ? PathMode::continuous : PathMode::exact_path, Mm(tolerance)});
+    add(operation::SetRotation{30});
+    feed(10);
+    add(operation::ArcFeed{
+        .plane = Plane::zx, .end = xyz(0, 0, 4), .first_center = Mm(2), .second_center = Mm(0), .turns = 1});
+    double farthest = 0;
+    for (const Segment& segment : smoothed_segments()) {
+      for (int i = 0; i <= 8; ++i) {
+        const Point place = segment.curve.at(segment.curve.length() * (i / 8.0));
+        const double x = place[Axis::x] * std::cos(pi / 6) + place[Axis::y] * std::sin(pi / 6);
+        farthest = std::max(farthest, std::abs(std::hypot(x, place[Axis::z] - 2) - 2));
+      }
+    }
+    EXPECT_LE(farthest, tolerance > 0 ? tolerance : 0.001);
+  }
+}
+
 TEST_F(PathTest, feeds_follow_their_mode) {
   options_.axes.add(Axis::a);
   options_.travel[Axis::a] = {.low = -360, .high = 360};

@@ -248,6 +248,21 @@ TEST_F(PathSmootherTest, a_span_goes_no_faster_than_any_of_the_path_beside_it) {
   }
 }
 
+TEST_F(PathSmootherTest, a_slow_line_slows_no_other) {
+  go(5, 0);
+  go(5.2, 0.02).speed = MmPerSecond(1);
+  go(10, 0);
+  double slow = 0;
+  for (const Segment& segment : smoothed()) {
+    if (segment.speed > MmPerSecond(1)) continue;
+    slow += segment.curve.length().value();
+    EXPECT_GT(segment.curve.start()[Axis::x], 5 - 1e-3);
+    EXPECT_LT(segment.curve.end()[Axis::x], 5.2 + 1e-3);
+  }
+  EXPECT_NEAR(slow, std::hypot(0.2, 0.02), 1e-3);
+  expect_good(path_);
+}
+
 TEST_F(PathSmootherTest, dust_is_smoothed_over) {
   for (int i = 1; i <= 3000; ++i) go(1e-6 * i, 1e-6 * (i % 3));
   go(5, 0);

@@ -7,6 +7,7 @@
 #include "kit/stage_test.hpp"
 
 #include "passo/path/path_builder.hpp"
+#include "passo/path/path_smoother.hpp"
 #include "passo/path/path_text.hpp"
 
 namespace passo {
@@ -42,6 +43,16 @@ class PathTest : public testing::Test {
   std::vector<Segment> segments() {
     std::vector<Segment> found;
     for (const PathItem& item : build()) {
+      if (const auto* segment = std::get_if<Segment>(&item)) found.push_back(*segment);
+    }
+    return found;
+  }
+  // With its corners rounded, as a job does.
+  std::vector<Segment> smoothed_segments() {
+    test::ListSource<PathItem> source(build());
+    PathSmoother smoother(source);
+    std::vector<Segment> found;
+    for (const PathItem& item : test::drain(smoother)) {
       if (const auto* segment = std::get_if<Segment>(&item)) found.push_back(*segment);
     }
     return found;

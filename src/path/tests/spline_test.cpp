@@ -141,7 +141,32 @@ TEST_F(PathTest, random_splines_are_walked_within_a_tenth_of_the_tolerance) {
   }
 }
 
-// Where the parameter stands still, the direction changes at once: at a cusp, and where the curve goes back on a line.
+// What the pieces take of the tolerance is not there for rounding their joints. A NURBS of order 3 has a jump of
+// curvature at each knot.
+TEST_F(PathTest, a_spline_with_its_joints_rounded_is_within_the_tolerance) {
+  const std::vector<operation::ControlPoint> control = {{0, 0}, {3, 0}, {4, 3}, {1, 5}, {0, 2}, {6, 1}, {9, 4}};
+  Nurbs::Definition definition{.degree = 2};
+  for (const operation::ControlPoint& point : control) {
+    definition.control.push_back({point.x, point.y, 0});
+    definition.weights.push_back(1);
+  }
+  const Nurbs curve = *Nurbs::create(definition);
+  std::vector<Place> places;
+  for (int i = 0; i <= 500; ++i) {
+    const Vector3 place = curve.at(curve.range().low + (curve.range().high - curve.range().low) * i / 500);
+    places.push_back({place.x, place.y});
+  }
+  for (const double tolerance : {0.0, 0.002, 0.01}) {
+    operations_.clear();
+    add(operation::SetPathMode{tolerance > 0 ? PathMode::continuous : PathMode::exact_path, Mm(tolerance)});
+    feed(10);
+    add(operation::NurbsFeed{control, 3});
+    EXPECT_LE(farthest(smoothed_segments(), places), tolerance > 0 ? tolerance : 0.001);
+  }
+}
+
+// Where the parameter stands still the direction turns at once: a cusp, and there and back on
+// a line.
 TEST_F(PathTest, a_spline_with_a_cusp_is_walked_to_its_tip) {
   constexpr std::array<operation::ControlPoint, 4> cusp = {{{0, 0}, {10, 10}, {0, 10}, {10, 0}}};
   constexpr std::array<operation::ControlPoint, 3> there_and_back = {{{10, 0}, {30, 0}, {10, 0}}};

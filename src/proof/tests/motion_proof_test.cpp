@@ -153,7 +153,26 @@ TEST(MotionProof, a_turn_of_a_circle_is_eight_parabolas) {
   const double turn = bound_of({circle(radius, 4)}) - bound_of({circle(radius, 3)});
   EXPECT_NEAR(turn, 8 * std::sqrt(2 * radius * (1 - std::sqrt(0.5)) / 500), 1e-3 * turn);
   // Where the feed is low enough for the circle, the feed decides.
-  EXPECT_NEAR(bound_of({circle(radius, 4, 20)}) - bound_of({circle(radius, 3, 20)}), 2 * pi * radius / 20, 1e-9);
+  EXPECT_NEAR(bound_of({circle(radius, 4, 20)}) - bound_of({circle(radius, 3, 20)}), 2 * pi * radius / 20, 1e-8);
+}
+
+// The ramps at both ends are a thousandth of a millimetre long, much shorter than a cell.
+TEST(MotionProof, the_bound_of_a_slow_arc_is_not_above_its_best_time) {
+  const double length = 50 * pi;
+  const double bound = bound_of({circle(50, 0.5, 1)});
+  EXPECT_GE(bound, length);
+  EXPECT_LE(bound, length + 1.0 / 500 + 1e-9);
+}
+
+// From rest both axes speed up together, as on a line; then Y is at its highest velocity.
+TEST(MotionProof, the_bound_knows_an_axis_that_speeds_up_and_another_that_is_fast_enough) {
+  ProofOptions own = options();
+  own.axes[1].velocity = MmPerSecond(10);
+  MotionProver prover(own);
+  const Segment segment = line(xyz(0, 0), xyz(20, 5));
+  prover.watch(PathItem(segment));
+  prover.watch(MotionItem(steady(segment, 1)));
+  EXPECT_NEAR(prover.finish().time_bound.value(), 5.0 / 10 + 40.0 / 500, 1e-9);
 }
 
 TEST(MotionProof, the_bound_of_a_circle_does_not_depend_on_how_it_is_cut) {

@@ -1,10 +1,10 @@
 // PathBuilder: operations -> segments. The builder follows the frame, keeps geometry exact (no chords), and checks the
 // travel.
 //
-// There are two exceptions. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
-// the machine. Such an arc becomes chords within a thousandth of a millimetre. A spline becomes cubics in its length.
-// The cubics leave the spline by at most a tenth of the path's tolerance (but 0.00001 mm is always allowed), or a
-// thousandth of a millimetre where the tolerance is 0.
+// There is one exception. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
+// the machine. Such an arc becomes chords within half a thousandth of a millimetre, or half the tolerance if that is
+// less. A spline becomes cubics in its length. The cubics leave the spline by at most a tenth of the path's tolerance,
+// or half a thousandth of a millimetre where the tolerance is 0.
 //
 // Place on the street: between the interpreter and the planner. Segments join without a gap: each begins, bit for bit,
 // where the one before ended. Moves shorter than a thousandth of a nanometre are rounding, and are dropped. Outputs
@@ -72,6 +72,7 @@ class PathBuilder final : public Source<PathItem> {
   bool take_chord(PathItem& item);
   bool take_spline(const operation::NurbsFeed& curve, PathItem& item);
   bool take_spline_piece(PathItem& item);
+  void be_piece(bool last, Segment& segment) const;
   bool take_curve(const Curve& curve, bool rapid, PathItem& item);
 
   Point machine_end(const Point& work_end) const;
@@ -111,7 +112,7 @@ class PathBuilder final : public Source<PathItem> {
   std::optional<TiltedArc> tilted_;
   // A spline whose pieces are not all given yet.
   std::unique_ptr<SplinePieces> spline_;
-  Mm spline_tolerance_{0};
+  Mm piece_tolerance_{0};  // how far the pieces of the present curve may leave it
   // A probe move is three items. After them the path goes on from where the machine came to rest.
   enum class ProbeStep : std::uint8_t { none, move, end, rest };
   ProbeStep probe_step_ = ProbeStep::none;
