@@ -1,7 +1,7 @@
 // PathBuilder: operations -> segments. The builder follows the frame, keeps geometry exact (no chords), and checks the
 // travel.
 //
-// There is one exception. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
+// There are two exceptions. While the work frame is turned about Z, an arc of the planes ZX and YZ lies in no plane of
 // the machine. Such an arc becomes chords within half a thousandth of a millimetre, or half the tolerance if that is
 // less. A spline becomes cubics in its length. The cubics leave the spline by at most a tenth of the path's tolerance,
 // or half a thousandth of a millimetre where the tolerance is 0.
