@@ -108,7 +108,8 @@ class JerkCutter {
   double exit_ = 0;
   double shortest_ = 0;
   double longest_ = 0;
-  double tick_ = 0;  // about the time for one cell
+  double tick_ = 0;   // about the time for one cell
+  double reach_ = 0;  // the way in which the motion surely reaches the top from rest
   bool straight_ = false;
   Derivatives here_;
 };

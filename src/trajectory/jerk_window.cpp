@@ -117,8 +117,7 @@ bool JerkWindow::goes_from_rest_to_rest() {
 // Pulls one more cell. A segment is cut only when the next segment is known.
 void JerkWindow::pull() {
   if (cutting_ && cutter_.next(cell_, shapes_.data())) {
-    profile_.push(cell_, shapes_.data(), begins_at_rest_);
-    begins_at_rest_ = false;
+    profile_.push(cell_, shapes_.data());
     estimate_ =
         std::min(std::min(estimate_, profile_.last_cap()) + 2 * cell_.acceleration * cell_.length, cell_.top_squared);
     length_ += cell_.length;
@@ -135,11 +134,9 @@ void JerkWindow::pull() {
   const bool ends_at_rest = after == nullptr || rests_between(*segment, *after);
   const double exit = ends_at_rest ? 0 : cutter_.joint_cap(*segment, *after);
   if (!started_) {
-    begins_at_rest_ = start_.speed == 0;
     estimate_ = start_.speed * start_.speed;
   } else {
     const Segment& before = *path_.at(cut_ - 1);
-    begins_at_rest_ = false;
     estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
   }
   cutter_.begin(*segment, {.from = started_ ? 0 : start_.s,

@@ -59,7 +59,6 @@ class JerkWindow {
   std::size_t cut_ = 0;  // segments of the path whose cells are all in the profile
   bool started_ = false;
   bool cutting_ = false;
-  bool begins_at_rest_ = true;  // concerns the next cell
   double estimate_ = 0;         // squared: the highest entry speed of the next cell
   double length_ = 0;           // of all cells since the start
   bool closed_ = false;
