@@ -13,6 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_steps = 40;
 constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
 constexpr double last_target = 1e-4;
+constexpr int steps_with_rows = 6;  // then they are made again
 constexpr double target_falls = 0.2;     // the factor from step to step, at best
 constexpr double short_of_limit = 0.95;  // a step goes at most this part of the way to a slack or price of 0
 constexpr double least_share = 1e-3;     // of a step; if no more is possible, there is no solution
@@ -151,7 +152,7 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
     return;
   }
   // The jerk is the same in all of half a cell.
-  const double* const at = &at_[at_.size() - 4];
+  const double* const at = here_;
   const double middle = std::max(times(forms.middle_x, at), std::min(at[0], at[2]) / 4);
   const double first = outer_part * at[0] + (1 - outer_part) * middle;
   const double second = outer_part * at[2] + (1 - outer_part) * middle;
@@ -185,31 +186,36 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
 void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t last,
                       const std::vector<NodeState>& states) {
   tied_first_ = tied_last_ = {};
-  if (states[first].speed == 0) tied_first_ = {.node = first + 1, .factor = 2 / (3 * stretch.cells[first].length)};
-  if (states[last].speed == 0) tied_last_ = {.node = last - 1, .factor = -2 / (3 * stretch.cells[last - 1].length)};
+  if (states[first].speed == 0) tied_first_ = {.node = 1, .factor = 2 / (3 * stretch.cells[first].length)};
+  if (states[last].speed == 0) {
+    tied_last_ = {.node = last - first - 1, .factor = -2 / (3 * stretch.cells[last - 1].length)};
+  }
   at_.clear();
+  for (std::size_t k = first; k <= last; ++k) {
+    at_.push_back(states[k].speed * states[k].speed);
+    at_.push_back(states[k].acceleration);
+  }
+  for (const Tie& tied : {tied_first_, tied_last_}) {
+    if (tied.factor != 0) at_[2 * tied.node + 1] = tied.factor * at_[2 * tied.node];
+  }
+  make_rows(stretch, first, last);
+}
+
+void JerkLift::make_rows(const Stretch& stretch, std::size_t first, std::size_t last) {
   cells_.clear();
   rows_.clear();
   jolt_rows_.clear();
-  const auto put = [&](const NodeState& state) {
-    at_.push_back(state.speed * state.speed);
-    at_.push_back(state.acceleration);
-  };
-  put(states[first]);
   for (std::size_t k = first; k < last; ++k) {
-    put(states[k + 1]);
-    for (const Tie& tied : {tied_first_, tied_last_}) {
-      if (tied.factor != 0 && tied.node == k + 1) at_.back() = tied.factor * at_[at_.size() - 2];
-    }
-    const double h = stretch.cells[k].length;
-    cell_ = k;
-    const bool begins = k == first && tied_first_.factor != 0;
-    const bool has_rest = begins || (k + 1 == last && tied_last_.factor != 0);
+    cell_ = k - first;
+    here_ = &at_[2 * cell_];
+    const bool begins = here_[0] == 0;
+    const bool has_rest = begins || here_[2] == 0;
     if (has_rest) {
       add_cell_at_rest(stretch, k, begins);
     } else {
       add_rows(stretch, k, k == first);
     }
+    const double h = stretch.cells[k].length;
     Four middle = Forms(h).middle_x;
     tie(middle);
     cells_.push_back({.middle = middle,
@@ -218,8 +224,21 @@ void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t las
                       .rows_end = rows_.size(),
                       .jolt_rows_end = jolt_rows_.size()});
   }
-  tied_first_.node -= first;
-  tied_last_.node -= first;
+}
+
+// Where a cell bends, its rows have factors that hold for speeds near the present ones. Slacks and prices stay.
+void JerkLift::make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last) {
+  old_rows_.swap(rows_);
+  old_jolt_rows_.swap(jolt_rows_);
+  make_rows(stretch, first, last);
+  const auto take_over = [](const auto& from, auto& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      to[i].up = from[i].up;
+      to[i].down = from[i].down;
+    }
+  };
+  take_over(old_rows_, rows_);
+  take_over(old_jolt_rows_, jolt_rows_);
 }
 
 // Computes what is left of each limit.
@@ -456,6 +475,7 @@ bool JerkLift::raise(const Stretch& stretch, std::size_t first, std::size_t last
     const double share = look_along();
     if (!(share > least_share)) break;
     go(share, target);
+    if (step % steps_with_rows == steps_with_rows - 1) make_rows_again(stretch, first, last);
     measure(false);
     if (target <= last_target * unit && share > 0.5) break;
     double product = 0;

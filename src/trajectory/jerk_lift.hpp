@@ -89,6 +89,8 @@ class JerkLift {
   void tie_step(const Tie& tied);
 
   void set_up(const Stretch& stretch, std::size_t first, std::size_t last, const std::vector<NodeState>& states);
+  void make_rows(const Stretch& stretch, std::size_t first, std::size_t last);
+  void make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last);
   void add_rows(const Stretch& stretch, std::size_t cell, bool is_first);
   struct Place {
     double weight = 0;  // factor from x to the square of the axis's speed
@@ -120,9 +122,12 @@ class JerkLift {
   std::vector<Cell> cells_;
   std::vector<Row> rows_;
   std::vector<JoltRow> jolt_rows_;
+  std::vector<Row> old_rows_;
+  std::vector<JoltRow> old_jolt_rows_;
   Tie tied_first_;
   Tie tied_last_;
-  std::size_t cell_ = 0;     // the cell whose rows are being added
+  std::size_t cell_ = 0;           // the cell whose rows are being made, counted from the first
+  const double* here_ = nullptr;  // x and a at its ends
   std::vector<Four> system_;  // the diagonal, and the three beside it
   std::vector<double> step_;
 };
