@@ -1,8 +1,6 @@
 #include "jerk_profile.hpp"
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 namespace passo {
@@ -19,6 +17,12 @@ constexpr double guessed_speed_squared = 0.7;
 constexpr double guessed_acceleration = 0.5;
 constexpr double guessed_jerk = 0.5;
 constexpr double most_growth = 2.5;  // of the square of a guessed speed, from node to node
+// Cells are split where the square of the speed would grow more.
+constexpr double steepest = 6;
+constexpr int most_passes = 40;
+constexpr int most_lifts = 8;
+constexpr int most_attempts = 6;
+constexpr double worth = 0.98;  // of the time: a further lift is worth it
 
 // Where a cell exceeds a limit, the share is lowered to what would have been right, in these bounds.
 constexpr double least_lowering = 0.995;
@@ -86,7 +90,8 @@ void JerkProfile::prepare() {
 }
 
 // The highest x along the cells from a rest on, or from the state of a window that begins in motion.
-void JerkProfile::guess_from(std::size_t node, bool backwards, std::vector<double>& x) const {
+void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
+  std::vector<double>& x = guess_;
   const std::size_t n = cells_.size();
   const bool from_rest = x[node] == 0;
   double way = 0;  // from the rest
@@ -95,7 +100,7 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, std::vector<doubl
     const JerkCell& cell = cells_[std::min(node, next)];
     way += cell.length;
     double most = x[node] + 2 * guessed_acceleration * cell.acceleration * cell.length;
-    if (x[node] > 0) most = std::min(most, most_growth * x[node]);
+    if (x[node] > 0) most = std::min(most, growth * x[node]);
     if (from_rest) {
       // With constant jerk from rest, x = (j² (6 s)⁴)^(1/3) / 4.
       const double jerk = guessed_jerk * cell.jerk;
@@ -107,15 +112,44 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, std::vector<doubl
   }
 }
 
-void JerkProfile::guess() {
+// The motion slows down steeply before a slow place. Cells become shorter towards that place, so that the speed changes
+// evenly from cell to cell.
+void JerkProfile::grade() {
+  prepare();
+  for (int pass = 0; pass < most_passes; ++pass) {
+    guess(infinity);
+    if (!split_steep(guess_)) return;
+    prepare();
+  }
+}
+
+// Splits cells in which the square of the speed changes much. Returns whether there were any.
+bool JerkProfile::split_steep(const std::vector<double>& x) {
+  bool any = false;
+  for (std::size_t i = cells_.size(); i-- > 0;) {
+    const double low = std::min(x[i], x[i + 1]);
+    if (!(low > 0) || std::max(x[i], x[i + 1]) <= steepest * low) continue;
+    split(i);
+    any = true;
+  }
+  return any;
+}
+
+std::vector<double> JerkProfile::states_squared() const {
+  std::vector<double> x;
+  for (const NodeState& state : states_) x.push_back(state.speed * state.speed);
+  return x;
+}
+
+void JerkProfile::guess(double growth) {
   const std::size_t n = cells_.size();
   guess_.assign(n + 1, 0.0);
   for (std::size_t k = 0; k < n; ++k) guess_[k] = guessed_speed_squared * std::min(entry_cap_[k], node_cap_[k]);
   guess_[0] = in_motion_ ? states_[0].speed * states_[0].speed : 0;
   guess_[n] = 0;
-  guess_from(n, true, guess_);
+  guess_from(n, true, growth);
   guess_[0] = in_motion_ ? states_[0].speed * states_[0].speed : 0;
-  guess_from(0, false, guess_);
+  guess_from(0, false, growth);
   set_states(guess_);
 }
 
@@ -136,6 +170,12 @@ void JerkProfile::set_states(const std::vector<double>& x) {
   }
   states_[0] = front;
   states_[n] = {};
+}
+
+double JerkProfile::time() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) sum += 2 * cells_[i].length / (states_[i].speed + states_[i + 1].speed);
+  return sum;
 }
 
 bool JerkProfile::lift(const Stretch& stretch) {
@@ -205,37 +245,41 @@ bool JerkProfile::slow_down() {
 
 // Finds a motion over all cells that keeps the limits.
 bool JerkProfile::find_motion() {
-  const Stretch all{.first = 0, .last = cells_.size()};
-  guess();
-  bool l1 = lift(all), m1 = l1 && mend();
-  if (std::getenv("JD")) fprintf(stderr, "n %zu motion %d lift %d mend %d exceeded %zu\n", all.last, in_motion_, l1, m1, exceeded_.size());
-  if (std::getenv("JD") && !m1) for (size_t i=0;i<exceeded_.size()&&i<4;++i) { size_t c=exceeded_[i]; auto e=excess(c); auto p=pair_of(c); fprintf(stderr,"  cell %zu/%zu len %g straight %d A %g J %g force %g jolt %g pace %g share %g half %g j %g %g v %g a %g -> v %g a %g possible %d cap %g nodecap %g\n", c, all.last, cells_[c].length, cells_[c].straight, cells_[c].acceleration, cells_[c].jerk, e.force,e.jolt,e.pace,share_[c],p.half,p.first,p.second,states_[c].speed,states_[c].acceleration,states_[c+1].speed,states_[c+1].acceleration,is_possible(p,states_[c]),cell_cap_[c],node_cap_[c]); }
-  if (m1) return true;
-  if (in_motion_) return false;
-  // What is left may be so little that all of the motion can be slowed by it.
-  if (l1 && slowing() >= least_slowing && slow_down()) return true;
-  // Begin with a motion that keeps all limits.
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    guess(most_growth);
+    const bool is_lifted = lift({.first = 0, .last = cells_.size()});
+    if (is_lifted && mend()) return true;
+    // What is left may be so little that all of the motion can be slowed by it.
+    if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
+    if (!split_steep(states_squared())) break;
+    prepare();
+  }
+  return !in_motion_ && find_motion_from_slow();
+}
+
+// Begins with a motion that keeps all limits, and lifts it as far as it goes.
+bool JerkProfile::find_motion_from_slow() {
   prepare();
-  guess();
+  guess(most_growth);
   if (!slow_down()) {
     even_out();
     prepare();
-    guess();
+    guess(most_growth);
     if (!slow_down()) return false;
   }
   kept_ = states_;
-  l1 = lift({.first = 0, .last = cells_.size()}), m1 = l1 && mend();
-  if (std::getenv("JD")) fprintf(stderr, " second: lift %d mend %d exceeded %zu\n", l1, m1, exceeded_.size());
-  if (m1) return true;
-  const bool slowed = slow_down();
-  if (!slowed) states_ = kept_;
+  double before = infinity;
+  for (int i = 0; i < most_lifts && lift({.first = 0, .last = cells_.size()}) && time() < worth * before; ++i) {
+    before = time();
+  }
+  if (!mend() && !slow_down()) states_ = kept_;
   return true;
 }
 
 std::size_t JerkProfile::plan(bool closed) {
   kept_.assign(states_.begin(), states_.end());
-  if (cells_.size() < 3) even_out();
-  prepare();
+  if (cells_.size() < 4) even_out();
+  grade();
   fell_back_ = !find_motion();
   if (fell_back_) return go_on_as_planned();
   planned_ = cells_.size();

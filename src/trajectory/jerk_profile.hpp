@@ -88,10 +88,15 @@ class JerkProfile {
   void prepare();
   void split(std::size_t i);
   void even_out();
-  void guess();
-  void guess_from(std::size_t node, bool backwards, std::vector<double>& x) const;
+  void grade();
+  bool split_steep(const std::vector<double>& x);
+  std::vector<double> states_squared() const;
+  void guess(double growth);
+  void guess_from(std::size_t node, bool backwards, double growth);
+  double time() const;
   void set_states(const std::vector<double>& x);
   bool find_motion();
+  bool find_motion_from_slow();
   bool lift(const Stretch& stretch);
   bool mend();
   void find_exceeded(const Stretch& lifted);

@@ -18,9 +18,8 @@ std::vector<MotionItem> planned_with(int repairs, const std::vector<PathItem>& p
     cutter.begin(segments[i], {.entry_squared = i == 0 ? 0 : cutter.joint_cap(segments[i - 1], segments[i]),
                                .exit_squared = is_last ? 0 : cutter.joint_cap(segments[i], segments[i + 1]),
                                .feed = segments[i].speed.value()});
-    bool is_first = i == 0;
-    for (JerkCell cell; cutter.next(cell, shapes.data()); is_first = false) {
-      profile.push(cell, shapes.data(), is_first);
+    for (JerkCell cell; cutter.next(cell, shapes.data());) {
+      profile.push(cell, shapes.data());
     }
   }
   EXPECT_EQ(profile.plan(true), profile.size());
@@ -75,7 +74,7 @@ TEST(JerkProfile, keeps_every_limit_on_cells_that_hardly_fit_together) {
                     .acceleration = 500,
                     .jerk = limits.jerk[Axis::x].value(),
                     .straight = true},
-                   shapes.data(), i == 0);
+                   shapes.data());
       s += length;
     }
     ASSERT_EQ(profile.plan(true), profile.size());
