@@ -15,6 +15,7 @@ constexpr double share_of_straights = 0.998;
 // A guess needs room on all sides, or the lift begins with steps that are hardly any.
 constexpr double guessed_speed_squared = 0.7;
 constexpr double guessed_acceleration = 0.5;
+constexpr double hardest_guessed_braking = 0.9;
 constexpr double guessed_jerk = 0.5;
 constexpr double most_growth = 2.5;  // of the square of a guessed speed, from node to node
 // Cells are split where the square of the speed would grow more.
@@ -123,10 +124,12 @@ void JerkProfile::grade() {
   }
 }
 
-// Splits cells in which the square of the speed changes much. Returns whether there were any.
+// Splits cells in which the square of the speed changes much. Returns whether there were any. Cells of the plan before
+// stay as they are, because that plan may have to go on.
 bool JerkProfile::split_steep(const std::vector<double>& x) {
   bool any = false;
-  for (std::size_t i = cells_.size(); i-- > 0;) {
+  const std::size_t first = in_motion_ ? std::max<std::size_t>(planned_, 1) : 0;
+  for (std::size_t i = cells_.size(); i-- > first;) {
     const double low = std::min(x[i], x[i + 1]);
     if (!(low > 0) || std::max(x[i], x[i + 1]) <= steepest * low) continue;
     split(i);
@@ -150,6 +153,12 @@ void JerkProfile::guess(double growth) {
   guess_from(n, true, growth);
   guess_[0] = in_motion_ ? states_[0].speed * states_[0].speed : 0;
   guess_from(0, false, growth);
+  // A window that begins in motion cannot brake harder than that.
+  double least = in_motion_ ? guess_[0] : 0;
+  for (std::size_t k = 1; k < n && guess_[k] < least; ++k) {
+    least -= 2 * hardest_guessed_braking * cells_[k - 1].acceleration * cells_[k - 1].length;
+    guess_[k] = std::max(guess_[k], least);
+  }
   set_states(guess_);
 }
 
