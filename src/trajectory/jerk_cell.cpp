@@ -15,7 +15,7 @@ constexpr double cells_a_braking = 128;  // cells in the time that braking takes
 constexpr double turn_a_cell = 0.1;      // radians
 constexpr double most_cells = 20'000;    // in one segment
 constexpr double cells_of_cruise = 4;    // about the cells on each side of the middle where the speed is steady
-constexpr double fewest_from_rest = 16;   // cells of a segment that begins or ends at rest
+constexpr double fewest_from_rest = 16;  // cells of a segment that begins or ends at rest
 
 double limit_or_infinity(double limit) {
   return limit > 0 ? limit : infinity;

@@ -12,8 +12,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int most_steps = 40;
 constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
-constexpr double last_target = 1e-4;
-constexpr int steps_with_rows = 6;  // then they are made again
+constexpr double last_target = 1e-5;
+constexpr int steps_with_rows = 6;       // then they are made again
 constexpr double target_falls = 0.2;     // the factor from step to step, at best
 constexpr double short_of_limit = 0.95;  // a step goes at most this part of the way to a slack or price of 0
 constexpr double least_share = 1e-3;     // of a step; if no more is possible, there is no solution
@@ -79,7 +79,7 @@ double JerkLift::highest_beside_rest(const Stretch& stretch, std::size_t cell, b
   const double h = own.length;
   const double by_jerk = 1 / std::sqrt(6 * h);
   const double by_speed = std::sqrt(1.5 * h);
-  double most = infinity;   // of |a|
+  double most = infinity;    // of |a|
   double most_x = infinity;  // of x
   const auto meet = [&](double factor, double limit) {
     if (factor > 0 && limit < infinity) most = std::min(most, std::cbrt(limit * limit / (factor * factor)));
@@ -313,8 +313,10 @@ void JerkLift::add_time(std::size_t c, Block& block) const {
   put(x_out, cell.length / 6);
   // Without a price, an acceleration that goes to and fro within each cell costs nothing where the speed is steady.
   Four to_and_fro = {-1 / cell.length, -1, 1 / cell.length, -1};
-  if (c == tied_first_.node && tied_first_.factor != 0) to_and_fro[0] += tied_first_.factor * std::exchange(to_and_fro[1], 0);
-  if (c + 1 == tied_last_.node && tied_last_.factor != 0) to_and_fro[2] += tied_last_.factor * std::exchange(to_and_fro[3], 0);
+  if (c == tied_first_.node && tied_first_.factor != 0)
+    to_and_fro[0] += tied_first_.factor * std::exchange(to_and_fro[1], 0);
+  if (c + 1 == tied_last_.node && tied_last_.factor != 0)
+    to_and_fro[2] += tied_last_.factor * std::exchange(to_and_fro[3], 0);
   const double x = times(cell.middle, at);
   const double weight = calming * cell.length * cell.length * cell.length / (x * x * std::sqrt(x));
   block.add(to_and_fro, weight, -weight * times(to_and_fro, at));

@@ -126,9 +126,9 @@ class JerkLift {
   std::vector<JoltRow> old_jolt_rows_;
   Tie tied_first_;
   Tie tied_last_;
-  std::size_t cell_ = 0;           // the cell whose rows are being made, counted from the first
+  std::size_t cell_ = 0;          // the cell whose rows are being made, counted from the first
   const double* here_ = nullptr;  // x and a at its ends
-  std::vector<Four> system_;  // the diagonal, and the three beside it
+  std::vector<Four> system_;      // the diagonal, and the three beside it
   std::vector<double> step_;
 };
 

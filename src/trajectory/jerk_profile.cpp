@@ -21,6 +21,7 @@ constexpr double most_growth = 2.5;  // of the square of a guessed speed, from n
 // Cells are split where the square of the speed would grow more.
 constexpr double steepest = 6;
 constexpr int most_passes = 40;
+constexpr double room_to_lift = 0.5;  // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
 constexpr int most_attempts = 6;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
@@ -106,7 +107,8 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
       // With constant jerk from rest, x = (j² (6 s)⁴)^(1/3) / 4.
       const double jerk = guessed_jerk * cell.jerk;
       const double sixfold = 6 * way;
-      most = std::min(x[node] > 0 ? most : infinity, std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4);
+      most = std::min(x[node] > 0 ? most : infinity,
+                      std::cbrt(jerk * sixfold * jerk * sixfold) * std::cbrt(sixfold * sixfold) / 4);
     }
     x[next] = std::min(x[next], most);
     node = next;
@@ -183,7 +185,8 @@ void JerkProfile::set_states(const std::vector<double>& x) {
 
 double JerkProfile::time() const {
   double sum = 0;
-  for (std::size_t i = 0; i < cells_.size(); ++i) sum += 2 * cells_[i].length / (states_[i].speed + states_[i + 1].speed);
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    sum += 2 * cells_[i].length / (states_[i].speed + states_[i + 1].speed);
   return sum;
 }
 
@@ -238,16 +241,20 @@ double JerkProfile::slowing() const {
   return most <= 1 ? 1 : beyond / most;
 }
 
+void JerkProfile::slow_by(double factor) {
+  for (NodeState& state : states_) {
+    state.speed *= std::sqrt(factor);
+    state.acceleration *= factor;
+  }
+}
+
 // Slows the motion as a whole. Returns whether all limits are kept then.
 bool JerkProfile::slow_down() {
   for (int round = 0; round < most_slowings; ++round) {
     const double factor = slowing();
     if (factor == 1) return true;
     if (factor == 0) return false;
-    for (NodeState& state : states_) {
-      state.speed *= std::sqrt(factor);
-      state.acceleration *= factor;
-    }
+    slow_by(factor);
   }
   return false;
 }
@@ -277,6 +284,7 @@ bool JerkProfile::find_motion_from_slow() {
     if (!slow_down()) return false;
   }
   kept_ = states_;
+  slow_by(room_to_lift);
   double before = infinity;
   for (int i = 0; i < most_lifts && lift({.first = 0, .last = cells_.size()}) && time() < worth * before; ++i) {
     before = time();

@@ -6,16 +6,17 @@
 //
 //   1. A guess: a motion below all caps that brakes and speeds up gently.
 //   2. JerkLift makes the guess nearly the fastest motion.
-//   3. The phases are checked against every axis, just as they will be given. Cells that exceed a limit are lifted again
+//   3. The phases are checked against every axis, just as they will be given. Cells that exceed a limit are lifted
+//   again
 //      with a smaller share of the limits, together with the cells around them.
 //   4. If that does not help, the motion is slowed as a whole. With every speed times f, accelerations get f² and jerks
 //      f³ times as large. So limits can always be kept.
 //
-// A window that begins in motion cannot be slowed at its start. Then the plan before goes on, which was checked and ends
-// at rest. So no plan is given that was not found good.
+// A window that begins in motion cannot be slowed at its start. Then the plan before goes on, which was checked and
+// ends at rest. So no plan is given that was not found good.
 //
-// The window begins at rest or in motion, and ends at rest. If the path goes on after the window, only cells are decided
-// that come well before the place where the motion begins to brake for the window's end.
+// The window begins at rest or in motion, and ends at rest. If the path goes on after the window, only cells are
+// decided that come well before the place where the motion begins to brake for the window's end.
 #pragma once
 
 #include <algorithm>
@@ -66,7 +67,7 @@ class JerkProfile {
     double second = 0;
     NodeState middle;
   };
-  struct Excess {      // as multiples of the limits
+  struct Excess {  // as multiples of the limits
     double force = 0;
     double jolt = 0;
     double pace = 0;  // the square of the speed, which a cap limits
@@ -101,6 +102,7 @@ class JerkProfile {
   bool mend();
   void find_exceeded(const Stretch& lifted);
   double slowing() const;
+  void slow_by(double factor);
   bool slow_down();
   std::size_t go_on_as_planned();
   std::size_t decided_of_open() const;
@@ -122,15 +124,15 @@ class JerkProfile {
   std::vector<double> entry_cap_;  // for each cell, squared: for a guess
   // For each node: one more than cells.
   std::vector<NodeState> states_;
-  std::vector<NodeState> kept_;    // those of the plan before
-  std::vector<double> node_cap_;   // squared: by feed, velocities and jumps of the bend
-  std::vector<double> cell_cap_;   // for each cell
-  std::vector<double> share_;      // of the limits to lift to, for each cell
+  std::vector<NodeState> kept_;   // those of the plan before
+  std::vector<double> node_cap_;  // squared: by feed, velocities and jumps of the bend
+  std::vector<double> cell_cap_;  // for each cell
+  std::vector<double> share_;     // of the limits to lift to, for each cell
   std::vector<double> guess_;
   std::vector<std::size_t> exceeded_;
-  std::vector<Stretch> again_;     // stretches to lift once more
-  bool in_motion_ = false;         // the window begins in motion, in the first of the states
-  std::size_t planned_ = 0;        // cells for which the states are a plan to rest
+  std::vector<Stretch> again_;  // stretches to lift once more
+  bool in_motion_ = false;      // the window begins in motion, in the first of the states
+  std::size_t planned_ = 0;     // cells for which the states are a plan to rest
   bool fell_back_ = false;
   JerkLift lift_;
 };

@@ -59,12 +59,12 @@ class JerkWindow {
   std::size_t cut_ = 0;  // segments of the path whose cells are all in the profile
   bool started_ = false;
   bool cutting_ = false;
-  double estimate_ = 0;         // squared: the highest entry speed of the next cell
-  double length_ = 0;           // of all cells since the start
+  double estimate_ = 0;  // squared: the highest entry speed of the next cell
+  double length_ = 0;    // of all cells since the start
   bool closed_ = false;
   std::optional<PlannedMove> whole_;  // the stretch, if it is one straight segment
-  std::size_t decided_ = 0;  // cells at the front that nothing to come can change
-  std::size_t given_ = 0;    // of the decided cells
+  std::size_t decided_ = 0;           // cells at the front that nothing to come can change
+  std::size_t given_ = 0;             // of the decided cells
   JerkCell cell_;
   std::vector<AxisShape> shapes_;
 };
