@@ -14,7 +14,8 @@ constexpr double usual_rise = 0.02;      // seconds
 constexpr double cells_a_braking = 128;  // cells in the time that braking takes, at least
 constexpr double turn_a_cell = 0.1;      // radians
 constexpr double most_cells = 20'000;    // in one segment
-constexpr double fewest_from_rest = 8;   // cells of a segment that begins or ends at rest
+constexpr double cells_of_cruise = 4;    // about the cells on each side of the middle where the speed is steady
+constexpr double fewest_from_rest = 16;  // cells of a segment that begins or ends at rest
 
 double limit_or_infinity(double limit) {
   return limit > 0 ? limit : infinity;
@@ -85,7 +86,8 @@ void JerkCutter::begin(const Segment& segment, const Cut& cut) {
   longest_ = left;
   const double turn = curve.turning(steepest);
   if (turn > turn_a_cell) longest_ = length_ * turn_a_cell / turn;
-  shortest_ = left / most_cells;
+  reach_ = std::min(left, top_ * (top_ / acceleration_ + rise));
+  shortest_ = reach_ / most_cells;
   if (entry_ == 0 || exit_ == 0) {
     longest_ = std::min(longest_, left / fewest_from_rest);
     // The way that two ticks from rest cover.
@@ -109,6 +111,9 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
   const double left = length_ - at_;
   double size = std::clamp(tick_ * speed_estimate(at_), shortest_, longest_);
   size = std::clamp(tick_ * speed_estimate(at_ + std::min(size, left) / 2), shortest_, longest_);
+  // Far from both ends nothing makes the speed change.
+  const double inside = std::min(at_ - from_, left) - reach_;
+  if (inside > 0) size = std::clamp(inside / cells_of_cruise, size, longest_);
   if (left < 1.5 * size) {
     size = left;
   } else if (left < 2.5 * size) {

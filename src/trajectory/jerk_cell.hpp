@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "rest_to_rest.hpp"
+
 #include "passo/path/segment.hpp"
 #include "passo/trajectory/motion_limits.hpp"
 
@@ -74,6 +76,9 @@ class JerkCutter {
     double feed = 0;  // mm/s
   };
   void begin(const Segment& segment, const Cut& cut);
+  // Whether what the axes allow along the segment is the same everywhere, and what that is.
+  bool is_straight() const { return straight_; }
+  PathLimits path_limits() const { return {.speed = top_, .acceleration = acceleration_, .jerk = jerk_}; }
   // Writes the next cell; `shapes` takes one entry for each axis. Returns false at the end.
   bool next(JerkCell& cell, AxisShape* shapes);
 
@@ -103,7 +108,8 @@ class JerkCutter {
   double exit_ = 0;
   double shortest_ = 0;
   double longest_ = 0;
-  double tick_ = 0;  // about the time for one cell
+  double tick_ = 0;   // about the time for one cell
+  double reach_ = 0;  // the way in which the motion surely reaches the top from rest
   bool straight_ = false;
   Derivatives here_;
 };

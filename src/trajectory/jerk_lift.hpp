@@ -2,7 +2,6 @@
 //
 // Each node has the square x of the speed, and the acceleration a. Over each half of a cell a changes linearly with the
 // way. With m = (x1 - x0) / 2h that means
-// the way, so that with m = (x1 - x0) / 2h
 //
 //     a in the middle = 2 m - (a0 + a1) / 2      x in the middle = (x0 + x1) / 2 + h (a0 - a1) / 4
 //     j / v = (4 m - 3 a0 - a1) / h in the first half, (3 a1 + a0 - 4 m) / h in the second
@@ -41,9 +40,11 @@ class JerkLift {
     const std::vector<AxisShape>& shapes;  // of each cell, one for each axis
     const std::vector<double>& share;      // share of the limits to use, for each cell
     const std::vector<double>& cap;        // the greatest squares of the speeds, for each cell
+    const std::vector<double>& node_cap;   // and for each node
   };
-  // Raises all nodes between `first` and `last`, without these two; each must have speed. Returns false and changes
-  // nothing if no way to keep the limits was found.
+  // Makes the motion between the nodes `first` and `last` fast. These two stay as they are. Each of them may be a rest;
+  // all nodes between must have speed. At a rest the jerk is the same in all of the cell beside it. Returns false and
+  // changes nothing if no way to keep the limits was found.
   [[nodiscard]] bool raise(const Stretch& stretch, std::size_t first, std::size_t last, std::vector<NodeState>& states);
 
  private:
@@ -74,11 +75,22 @@ class JerkLift {
   struct Cell {
     Four middle{};  // the form of x in the middle
     double length = 0;
+    bool has_rest = false;
     std::size_t rows_end = 0;
     std::size_t jolt_rows_end = 0;
   };
+  // Beside a rest the acceleration at the cell's other node follows from the speed there: a = factor x. So a is no
+  // unknown of its own.
+  struct Tie {
+    std::size_t node = 0;
+    double factor = 0;  // 0: there is no rest
+  };
+  void tie(Four& along) const;
+  void tie_step(const Tie& tied);
 
   void set_up(const Stretch& stretch, std::size_t first, std::size_t last, const std::vector<NodeState>& states);
+  void make_rows(const Stretch& stretch, std::size_t first, std::size_t last);
+  void make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last);
   void add_rows(const Stretch& stretch, std::size_t cell, bool is_first);
   struct Place {
     double weight = 0;  // factor from x to the square of the axis's speed
@@ -87,7 +99,11 @@ class JerkLift {
     double cap = 0;  // the greatest x
   };
   void add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place);
-  void add_straight_rows(const JerkCell& cell, double share, bool is_first);
+  void add_straight_rows(const JerkCell& cell, double share, double in_share);
+  void add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins);
+  double highest_beside_rest(const Stretch& stretch, std::size_t cell, bool begins) const;
+  void add_row(Row row);
+  void add_jolt_row(JoltRow row);
   void measure(bool first_time);
   void assemble(double target);
   struct Block;
@@ -106,7 +122,13 @@ class JerkLift {
   std::vector<Cell> cells_;
   std::vector<Row> rows_;
   std::vector<JoltRow> jolt_rows_;
-  std::vector<Four> system_;  // the diagonal, and the three beside it
+  std::vector<Row> old_rows_;
+  std::vector<JoltRow> old_jolt_rows_;
+  Tie tied_first_;
+  Tie tied_last_;
+  std::size_t cell_ = 0;          // the cell whose rows are being made, counted from the first
+  const double* here_ = nullptr;  // x and a at its ends
+  std::vector<Four> system_;      // the diagonal, and the three beside it
   std::vector<double> step_;
 };
 

@@ -11,9 +11,7 @@
 namespace passo {
 namespace {
 
-constexpr double most_growth = 3;  // of x within one cell, where a steeper growth cannot be played
 constexpr double most_above_cap = 4;
-constexpr double least_share = 0.2;
 // Shares of a limit, less the demand that may lie between the places looked at in a bend. Five places of a cell are
 // looked at. If a demand is near the limit, more places are, with a parabola through each three.
 constexpr double looked_at = 0.99;
@@ -21,10 +19,7 @@ constexpr double looked_at_closely = 0.96;
 constexpr int close_parts = 4;
 constexpr double unseen_change = 1e-6;
 constexpr double weak = 100;       // mm/s², where axes have no limit
-constexpr double accepted = 1;     // times a limit
 constexpr double no_speed = 1e-9;  // times the speed beside it: rounding
-constexpr int most_slowings = 40;
-constexpr double beyond = 0.9999;  // slowed a little more, against rounding
 
 // Raises `worst` to value / limit. The quotient is mostly below `worst`, and a product tells that sooner.
 void raise_to(double& worst, double value, double limit) {
@@ -33,26 +28,11 @@ void raise_to(double& worst, double value, double limit) {
 
 }  // namespace
 
-JerkProfile::State JerkProfile::planned_state(std::size_t node) const {
-  const std::size_t n = cells_.size();
-  if (node == 0 && frozen_ > 0) return start_;
-  if (node == 0 || node == n || x_[node] <= 0) return {};
-  const double left = cells_[node - 1].length;
-  const double right = cells_[node].length;
-  const double before = slope(node - 1);
-  const double after = slope(node);
-  if (x_[node - 1] <= 0) return {.speed = std::sqrt(x_[node]), .acceleration = before * 4 / 3};
-  if (x_[node + 1] <= 0) return {.speed = std::sqrt(x_[node]), .acceleration = after * 4 / 3};
-  const double share = left / (left + right);
-  return {.speed = std::sqrt(std::max(x_[node] + (after - before) * share * right / 2, 0.0)),
-          .acceleration = before + (after - before) * share};
-}
-
 // The two phases from one state to the other over the cell's length: h = (v0 + v1) t - (a1 - a0) t²/3 with t half the
 // time.
 JerkProfile::Pair JerkProfile::pair_of(std::size_t i) const {
-  const State from = state(i);
-  const State to = state(i + 1);
+  const NodeState from = states_[i];
+  const NodeState to = states_[i + 1];
   const double h = cells_[i].length;
   const double sum = from.speed + to.speed;
   const double change = to.acceleration - from.acceleration;
@@ -68,14 +48,14 @@ JerkProfile::Pair JerkProfile::pair_of(std::size_t i) const {
   return pair;
 }
 
-double JerkProfile::highest(const State& from, double jerk, double time) {
+double JerkProfile::highest(const NodeState& from, double jerk, double time) {
   const bool turns = from.acceleration > 0 && from.acceleration + jerk * time < 0;
   return turns ? from.speed - from.acceleration * from.acceleration / (2 * jerk) : from.speed;
 }
 
 // Whether the phases exist and never run backwards, at any speed.
-bool JerkProfile::is_possible(const Pair& pair, const State& from) {
-  const auto lowest = [](const State& at, double jerk, double time) {
+bool JerkProfile::is_possible(const Pair& pair, const NodeState& from) {
+  const auto lowest = [](const NodeState& at, double jerk, double time) {
     const bool turns = at.acceleration < 0 && at.acceleration + jerk * time > 0;
     return turns ? at.speed - at.acceleration * at.acceleration / (2 * jerk) : at.speed;
   };
@@ -84,7 +64,7 @@ bool JerkProfile::is_possible(const Pair& pair, const State& from) {
          lowest(pair.middle, pair.second, pair.half) >= least;
 }
 
-JerkProfile::Inside JerkProfile::inside(const State& from, double jerk, double time) {
+JerkProfile::Inside JerkProfile::inside(const NodeState& from, double jerk, double time) {
   return {.state = {.speed = from.speed + time * (from.acceleration + time * jerk / 2),
                     .acceleration = from.acceleration + time * jerk},
           .way = time * (from.speed + time * (from.acceleration / 2 + time * jerk / 6))};
@@ -93,13 +73,13 @@ JerkProfile::Inside JerkProfile::inside(const State& from, double jerk, double t
 // The largest demands in a cell, as multiples of the limits.
 JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const Pair pair = pair_of(i);
-  const State from = state(i);
-  if (!is_possible(pair, from)) return {2, 2};
-  const State to = state(i + 1);
+  const NodeState from = states_[i];
+  if (!is_possible(pair, from)) return {.force = 2, .jolt = 2};
+  const NodeState to = states_[i + 1];
   const JerkCell& cell = cells_[i];
   // Rounding off the corner between straight pieces lifts the speed at a low place. Where a jump must stay unseen, that
   // may be too much.
-  if (from.speed * from.speed > most_above_cap * passing_cap_[i]) return {2, 0};
+  if (from.speed * from.speed > most_above_cap * passing_cap(i)) return {.pace = 2};
   const double top =
       std::max({to.speed, highest(from, pair.first, pair.half), highest(pair.middle, pair.second, pair.half)});
   if (cell.straight) {
@@ -107,22 +87,22 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
     const double acceleration =
         std::max({std::abs(from.acceleration), std::abs(to.acceleration), std::abs(pair.middle.acceleration)}) /
         cell.acceleration;
-    return {std::max(acceleration, top / std::sqrt(cell.top_squared)), jerk};
+    return {.force = acceleration, .jolt = jerk, .pace = top * top / cell.top_squared};
   }
-  Excess worst{.force = top * top / cell.top_squared, .jolt = 0};
+  Excess worst{.pace = top * top / cell.top_squared};
   const auto look = [&](int parts) {
     look_at_half(i, from, pair.first, pair.half, 0, parts, worst);
     const double way = inside(from, pair.first, pair.half).way;
     look_at_half(i, pair.middle, pair.second, pair.half, way, parts, worst);
   };
   look(1);
-  if (worst.jolt > looked_at_closely && worst.jolt <= accepted) look(close_parts);
+  if (worst.jolt > looked_at_closely && worst.jolt <= 1) look(close_parts);
   return worst;
 }
 
 // Looks at half the time of a cell that is not straight, in `parts` parts. `way` is the distance from the cell's start
 // to the start of that half.
-void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, double time, double way, int parts,
+void JerkProfile::look_at_half(std::size_t i, const NodeState& start, double jerk, double time, double way, int parts,
                                Excess& worst) const {
   const double length = cells_[i].length;
   const AxisShape* shape = shapes(i);
@@ -159,91 +139,13 @@ void JerkProfile::look_at_half(std::size_t i, const State& start, double jerk, d
   }
 }
 
-// Around every place beyond a limit, lowers first the planned jerk, then the speed. Later rounds reach wider and lower
-// more.
-bool JerkProfile::lower_where_exceeded(int round) {
-  const std::size_t n = cells_.size();
-  exceeded_.clear();
-  const auto reach = static_cast<std::size_t>(round / 5);
-  const double most = round < 8 ? 0.8 : round < 16 ? 0.6 : 0.3;
-  const double least = round < 4 ? 0.98 : round < 8 ? 0.95 : 0.9;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (round > 0 && checked_.size() == x_.size() && is_as_checked(i)) continue;
-    const Excess worst = excess(i);
-    if (worst.force <= accepted && worst.jolt <= accepted) continue;
-    exceeded_.push_back(i);
-    if (!is_possible(pair_of(i), state(i))) flatten(i);
-    const double slower = std::clamp(1 / std::max(worst.force, std::cbrt(worst.jolt * worst.jolt)), most, least);
-    const double gentler = std::clamp(1 / worst.jolt, most, least);
-    const std::size_t from = i > reach ? i - reach : 0;
-    const std::size_t to = std::min(i + 1 + reach, n);
-    changed_.from = std::min(changed_.from, from);
-    changed_.to = std::max(changed_.to, std::max(to, i + 1));
-    for (std::size_t k = from; k <= to; ++k) {
-      if (worst.jolt > accepted) share_[k] = std::max(share_[k] * gentler, least_share);
-      if (worst.force > accepted || round % 4 == 3) cap_[k] = std::min(cap_[k], x_[k] * slower);
-    }
-  }
-  checked_.assign(x_.begin(), x_.end());
-  for (const std::size_t i : exceeded_) checked_[i] = -1;
-  return !exceeded_.empty();
-}
-
-// The last resort, when repairs do not help: all motion between two rests is slowed. With x times f, every speed is
-// times the root of f, every acceleration times f and every jerk times the root of f³. So limits can always be kept.
-// Only a cell that cannot be played at any speed needs another shape: even speed, with two cells at each end to reach
-// it.
-void JerkProfile::slow_down() {
-  const std::size_t n = cells_.size();
-  for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
-    end = begin + 1;
-    while (end < n && x_[end] > 0) ++end;
-    for (int round = 0; round < most_slowings; ++round) {
-      double most = 0;
-      bool is_played = true;
-      for (std::size_t i = begin; i < end; ++i) {
-        const Excess worst = excess(i);
-        is_played = is_played && is_possible(pair_of(i), state(i));
-        most = std::max({most, worst.force * worst.force, std::cbrt(worst.jolt * worst.jolt)});
-      }
-      if (!is_played) level(begin, end);
-      if (is_played && most <= accepted) break;
-      if (is_played) {
-        for (std::size_t k = begin + 1; k < end; ++k) x_[k] *= beyond / most;
-      }
-    }
-  }
-}
-
-void JerkProfile::level(std::size_t begin, std::size_t end) {
-  const auto at = [this](std::size_t k) { return x_.begin() + static_cast<std::ptrdiff_t>(k); };
-  if (end > begin + 1) std::fill(at(begin + 1), at(end), *std::min_element(at(begin + 1), at(end)));
-}
-
-// Limits the change of speed within one cell that is too steep at any speed.
-void JerkProfile::flatten(std::size_t i) {
-  const double most = most_growth * std::min(x_[i], x_[i + 1]);
-  cap_[i] = std::min(cap_[i], most);
-  cap_[i + 1] = std::min(cap_[i + 1], most);
-}
-
-// The phases of a cell follow from four nodes; compares these with the checked ones.
-bool JerkProfile::is_as_checked(std::size_t i) const {
-  const std::size_t from = i > 0 ? i - 1 : 0;
-  const std::size_t to = std::min(i + 2, cells_.size());
-  for (std::size_t k = from; k <= to; ++k) {
-    if (x_[k] != checked_[k]) return false;
-  }
-  return true;
-}
-
 void JerkProfile::add_phases(std::size_t i, PlannedMove& move) const {
   const Pair pair = pair_of(i);
-  const State from = state(i);
+  const NodeState from = states_[i];
   const JerkCell& cell = cells_[i];
   const double change = std::max(std::abs(pair.first), std::abs(pair.second)) * pair.half;
-  if (change <= unseen_change * std::min(cell.acceleration, weak) && from.speed > 0 && x_[i + 1] > 0) {
-    add_steady(cell, from, state(i + 1).speed, move);
+  if (change <= unseen_change * std::min(cell.acceleration, weak) && from.speed > 0 && states_[i + 1].speed > 0) {
+    add_steady(cell, from, states_[i + 1].speed, move);
     return;
   }
   const double way = pair.half * (from.speed + pair.half * (from.acceleration / 2 + pair.half * pair.first / 6));
@@ -260,7 +162,7 @@ void JerkProfile::add_phases(std::size_t i, PlannedMove& move) const {
 }
 
 // Adds a phase without jerk. If the phase before has the same acceleration, it is made longer instead.
-void JerkProfile::add_steady(const JerkCell& cell, const State& from, double exit, PlannedMove& move) const {
+void JerkProfile::add_steady(const JerkCell& cell, const NodeState& from, double exit, PlannedMove& move) const {
   Phase phase{.duration = Seconds(0),
               .start = Mm(cell.start),
               .velocity = MmPerSecond(from.speed),

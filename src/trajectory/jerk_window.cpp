@@ -1,6 +1,7 @@
 #include "jerk_window.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "rest.hpp"
 
@@ -31,6 +32,7 @@ void JerkWindow::begin_at(const Start& start, const FeedFactors& feeds) {
   started_ = cutting_ = closed_ = false;
   length_ = 0;
   given_ = decided_ = 0;
+  whole_.reset();
 }
 
 bool JerkWindow::can_go_on(double way) {
@@ -41,8 +43,15 @@ bool JerkWindow::can_go_on(double way) {
 }
 
 bool JerkWindow::next(PlannedMove& move) {
-  while (given_ == decided_ && !(profile_.size() == given_ && closed_)) look_ahead();
-  if (given_ == decided_) return false;
+  for (;; begin_at({}, feeds_)) {
+    if (goes_from_rest_to_rest()) {
+      move = *std::exchange(whole_, std::nullopt);
+      return true;
+    }
+    while (given_ == decided_ && !(profile_.size() == given_ && closed_)) look_ahead();
+    if (given_ < decided_) break;
+    if (path_.at(0) == nullptr) return false;
+  }
   move.segment = *path_.at(0);
   move.phase_count = 0;
   bool ended = false;
@@ -62,6 +71,12 @@ bool JerkWindow::add_cell(std::size_t i, PlannedMove& move) const {
 }
 
 bool JerkWindow::look_at(std::size_t& ahead, std::size_t& segment, PlannedMove& move) const {
+  if (whole_ && ahead == 0) {
+    move = *whole_;
+    ++segment;
+    ++ahead;
+    return true;
+  }
   const std::size_t i = given_ + ahead;
   if (i >= profile_.planned()) return false;
   move.segment = *path_.at(segment);
@@ -82,11 +97,27 @@ void JerkWindow::look_ahead() {
   if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
 }
 
+// True: the stretch is one straight segment, from rest to rest. Then `whole_` is its motion.
+bool JerkWindow::goes_from_rest_to_rest() {
+  if (started_ || start_.speed > 0) return false;
+  const Segment* segment = path_.at(start_.segment);
+  if (segment == nullptr || segment->curve.shape() != Curve::Shape::line) return false;
+  const Segment* after = path_.at(start_.segment + 1);
+  if (after != nullptr && !rests_between(*segment, *after)) return false;
+  cutter_.begin(*segment, {.from = start_.s, .feed = feeds_.speed_on(*segment)});
+  if (!cutter_.is_straight()) return false;
+  PlannedMove& move = whole_.emplace();
+  move.segment = *segment;
+  add_rest_to_rest(start_.s, segment->curve.length().value(), cutter_.path_limits(), move);
+  cut_ = start_.segment + 1;
+  started_ = closed_ = true;
+  return true;
+}
+
 // Pulls one more cell. A segment is cut only when the next segment is known.
 void JerkWindow::pull() {
   if (cutting_ && cutter_.next(cell_, shapes_.data())) {
-    profile_.push(cell_, shapes_.data(), begins_at_rest_);
-    begins_at_rest_ = false;
+    profile_.push(cell_, shapes_.data());
     estimate_ =
         std::min(std::min(estimate_, profile_.last_cap()) + 2 * cell_.acceleration * cell_.length, cell_.top_squared);
     length_ += cell_.length;
@@ -95,7 +126,7 @@ void JerkWindow::pull() {
   if (cutting_) ++cut_;
   cutting_ = false;
   const Segment* segment = path_.at(cut_);
-  if (segment == nullptr) {
+  if (segment == nullptr || (started_ && rests_between(*path_.at(cut_ - 1), *segment))) {
     closed_ = true;
     return;
   }
@@ -103,12 +134,10 @@ void JerkWindow::pull() {
   const bool ends_at_rest = after == nullptr || rests_between(*segment, *after);
   const double exit = ends_at_rest ? 0 : cutter_.joint_cap(*segment, *after);
   if (!started_) {
-    begins_at_rest_ = start_.speed == 0;
     estimate_ = start_.speed * start_.speed;
   } else {
     const Segment& before = *path_.at(cut_ - 1);
-    begins_at_rest_ = rests_between(before, *segment);
-    estimate_ = begins_at_rest_ ? 0 : std::min(estimate_, cutter_.joint_cap(before, *segment));
+    estimate_ = std::min(estimate_, cutter_.joint_cap(before, *segment));
   }
   cutter_.begin(*segment, {.from = started_ ? 0 : start_.s,
                            .entry_squared = estimate_,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "feed_factors.hpp"
@@ -44,6 +45,7 @@ class JerkWindow {
 
  private:
   bool add_cell(std::size_t i, PlannedMove& move) const;
+  bool goes_from_rest_to_rest();
   void pull();
   void look_ahead();
 
@@ -57,12 +59,12 @@ class JerkWindow {
   std::size_t cut_ = 0;  // segments of the path whose cells are all in the profile
   bool started_ = false;
   bool cutting_ = false;
-  bool begins_at_rest_ = true;  // concerns the next cell
-  double estimate_ = 0;         // squared: the highest entry speed of the next cell
-  double length_ = 0;           // of all cells since the start
+  double estimate_ = 0;  // squared: the highest entry speed of the next cell
+  double length_ = 0;    // of all cells since the start
   bool closed_ = false;
-  std::size_t decided_ = 0;  // cells at the front that nothing to come can change
-  std::size_t given_ = 0;    // of the decided cells
+  std::optional<PlannedMove> whole_;  // the stretch, if it is one straight segment
+  std::size_t decided_ = 0;           // cells at the front that nothing to come can change
+  std::size_t given_ = 0;             // of the decided cells
   JerkCell cell_;
   std::vector<AxisShape> shapes_;
 };

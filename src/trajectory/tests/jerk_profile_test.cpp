@@ -1,4 +1,4 @@
-// JerkProfile where repairs do not help: the motion given is still within the limits.
+// JerkProfile where nothing is mended: the motion given is still within the limits.
 #include "../jerk_profile.hpp"
 
 #include "jerk_kit.hpp"
@@ -6,9 +6,9 @@
 namespace passo::test {
 namespace {
 
-std::vector<MotionItem> planned_with(int repairs, const std::vector<PathItem>& path, const MotionLimits& limits) {
+std::vector<MotionItem> planned_with(int rounds, const std::vector<PathItem>& path, const MotionLimits& limits) {
   const std::vector<LimitedAxis> axes = axes_with_limits(limits);
-  JerkProfile profile(axes, repairs);
+  JerkProfile profile(axes, rounds);
   JerkCutter cutter(axes);
   std::vector<AxisShape> shapes(axes.size());
   std::vector<Segment> segments;
@@ -18,12 +18,12 @@ std::vector<MotionItem> planned_with(int repairs, const std::vector<PathItem>& p
     cutter.begin(segments[i], {.entry_squared = i == 0 ? 0 : cutter.joint_cap(segments[i - 1], segments[i]),
                                .exit_squared = is_last ? 0 : cutter.joint_cap(segments[i], segments[i + 1]),
                                .feed = segments[i].speed.value()});
-    bool is_first = i == 0;
-    for (JerkCell cell; cutter.next(cell, shapes.data()); is_first = false) {
-      profile.push(cell, shapes.data(), is_first);
+    for (JerkCell cell; cutter.next(cell, shapes.data());) {
+      profile.push(cell, shapes.data());
     }
   }
-  EXPECT_EQ(profile.plan(true), profile.size());
+  const std::size_t planned = profile.plan(true);
+  EXPECT_EQ(planned, profile.size());
   std::vector<MotionItem> motion;
   std::size_t at = 0;
   for (std::size_t i = 0; i < profile.size(); ++i) {
@@ -38,21 +38,19 @@ std::vector<MotionItem> planned_with(int repairs, const std::vector<PathItem>& p
   return motion;
 }
 
-TEST(JerkProfile, keeps_every_limit_with_no_repair_at_all_but_takes_longer) {
+TEST(JerkProfile, keeps_every_limit_with_no_mending_at_all_and_takes_hardly_longer) {
   Random random;
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
-  int slower = 0;
   for (int n = 0; n < 12; ++n) {
     SCOPED_TRACE(n);
     const MotionLimits limits =
         jerk_limits(std::exp(random.between(3, 6)), std::exp(random.between(5, 8)), std::exp(random.between(8, 12)));
     const std::vector<PathItem> path = smooth_chain(random, 20);
-    const std::vector<MotionItem> slow = planned_with(1, path, limits);
+    const std::vector<MotionItem> slow = planned_with(0, path, limits);
     expect_within_limits(slow, limits);
     if (HasFatalFailure()) return;
-    if (total_time(slow) > 1.01 * total_time(plan(path, limits))) ++slower;
+    EXPECT_LT(total_time(slow), 1.2 * total_time(plan(path, limits)));
   }
-  EXPECT_GT(slower, 2);
 }
 
 // Cells of any length side by side on a line, which no cutter makes. Some have no phases at any speed until the stretch
@@ -63,7 +61,7 @@ TEST(JerkProfile, keeps_every_limit_on_cells_that_hardly_fit_together) {
   for (int n = 0; n < 300; ++n) {
     SCOPED_TRACE(n);
     const MotionLimits limits = jerk_limits(100, 500, std::exp(random.between(8, 12)));
-    JerkProfile profile(axes_with_limits(limits), 1);
+    JerkProfile profile(axes_with_limits(limits));
     const std::vector<AxisShape> shapes = {{.slope_in = 1, .slope_out = 1}, {}, {}};
     double s = 0;
     for (int i = 0; i < 8; ++i) {
@@ -75,10 +73,11 @@ TEST(JerkProfile, keeps_every_limit_on_cells_that_hardly_fit_together) {
                     .acceleration = 500,
                     .jerk = limits.jerk[Axis::x].value(),
                     .straight = true},
-                   shapes.data(), i == 0);
+                   shapes.data());
       s += length;
     }
-    ASSERT_EQ(profile.plan(true), profile.size());
+    const std::size_t planned = profile.plan(true);
+    ASSERT_EQ(planned, profile.size());
     std::vector<MotionItem> motion;
     for (std::size_t i = 0; i < profile.size(); ++i) {
       PlannedMove move;

@@ -1,0 +1,25 @@
+// The fastest motion from rest to rest along a straight way, in closed form. Private to trajectory/.
+//
+//   acceleration  __                     Seven phases at most: the acceleration rises, stays, falls; the speed stays;
+//                /  \________            the same for braking. A short way leaves some phases out.
+//                            \__/
+//
+// Source: the closed forms for limited jerk, for instance L. Biagiotti, C. Melchiorri, "Trajectory Planning for
+// Automatic Machines and Robots" (2008), 3.4.
+#pragma once
+
+#include "passo/trajectory/phase.hpp"
+
+namespace passo {
+
+// What the axes allow along the way; all above 0.
+struct PathLimits {
+  double speed = 0;         // mm/s
+  double acceleration = 0;  // mm/s²
+  double jerk = 0;          // mm/s³
+};
+
+// Adds the phases from `from` to `to` (places on the segment's curve, in mm, from < to) to an empty move.
+void add_rest_to_rest(double from, double to, const PathLimits& limits, PlannedMove& move);
+
+}  // namespace passo
