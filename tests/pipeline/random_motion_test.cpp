@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kit/meddled_run.hpp"
@@ -103,12 +104,12 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
   }
 }
 
-// Lines that are nearly one, at feeds of which some are far below and some far above what the machine can do: smoothed
-// into long spans, in which the motion speeds up and slows down.
+// Lines that are one but for rounding, at feeds that change. They are smoothed into long spans, in each of which the
+// motion may speed up and slow down.
 TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {
   MachineDescription machine;
   machine.path_tolerance = Mm(0.001);
-  for (const Axis axis : {Axis::x, Axis::y}) {
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     AxisDescription& own = machine.axes.emplace_back();
     own.axis = axis;
     own.steps_per_unit = 5;
@@ -118,9 +119,14 @@ TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {
     own.acceleration = MmPerSecond2(50);
   }
   machine.board.highest_event_rate = Hertz(1e6);
-  const test::Ending ending =
-      test::run("G21 G90\nG1 X.5 F13000\nG1 X9 Y.0002 F420\nG1 X12\nG1 X12.5 Y.0003 F1950\nG1 X13 F7800\nG1 X15\nM2\n",
-                machine, {.live = {}});
+  std::string program = "G21 G90\n";
+  const std::vector<std::pair<double, double>> lines = {{1, 13'000}, {18, 420},  {24, 420},
+                                                        {25, 1950},  {26, 7800}, {30, 7800}};
+  for (const auto& [parts, feed] : lines) {
+    program +=
+        fmt::format("G1 X{:.6f} Y{:.6f} Z{:.6f} F{}\n", 0.1301019 * parts, -0.0136874 * parts, 0.4869851 * parts, feed);
+  }
+  const test::Ending ending = test::run(program + "M2\n", machine, {.live = {}});
   for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
   EXPECT_LT(ending.proof.times_bound(), 1.005);
 }
