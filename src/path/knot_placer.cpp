@@ -79,11 +79,16 @@ double KnotPlacer::reversal(const Piece& before, const Piece& after) {
   return most;
 }
 
+bool KnotPlacer::follows_spindle(const Piece& before, const Piece& after) {
+  return before.segment.lock != SpindleLock::none || after.segment.lock != SpindleLock::none;
+}
+
 const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const {
   if (bends_slowly_) return slow_bending;
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
-  const bool swings = before.is_line() && after.is_line() && reversal(before, after) < most_reversal;
+  const bool swings =
+      before.is_line() && after.is_line() && !follows_spindle(before, after) && reversal(before, after) < most_reversal;
   return swings ? swinging : inside;
 }
 
@@ -156,12 +161,11 @@ double KnotPlacer::width_of(const Cluster& cluster) const {
 }
 
 // How sharp the corner is. 0 where the feed follows the spindle: there s must stay the parameter, because the spindle
-// sets s.
+// sets s. For the same reason such a corner does not swing.
 double KnotPlacer::turn_of(const Cluster& cluster) const {
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
-  const bool follows = before.segment.lock != SpindleLock::none || after.segment.lock != SpindleLock::none;
-  return follows ? 0 : distance(before.last_tangent, after.first_tangent);
+  return follows_spindle(before, after) ? 0 : distance(before.last_tangent, after.first_tangent);
 }
 
 // Whether tangent and second derivative go on without a change.

@@ -99,6 +99,7 @@ class KnotPlacer {
   bool extend(Cluster& cluster);
   double width_of(const Cluster& cluster) const;
   double turn_of(const Cluster& cluster) const;
+  static bool follows_spindle(const Piece& before, const Piece& after);
   static bool goes_on(const Piece& before, const Piece& after);
   static double room_of(const Node& node, const Node& before, const Node& after);
   void fill_gap();
