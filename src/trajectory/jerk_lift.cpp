@@ -12,7 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int most_steps = 40;
 constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
-constexpr double last_target = 1e-5;
+constexpr double last_target = 1e-4;
 constexpr int steps_with_rows = 6;       // then they are made again
 constexpr double target_falls = 0.2;     // the factor from step to step, at best
 constexpr double short_of_limit = 0.95;  // a step goes at most this part of the way to a slack or price of 0

@@ -21,7 +21,9 @@ constexpr double most_growth = 2.5;  // of the square of a guessed speed, from n
 // Cells are split where the square of the speed would grow more.
 constexpr double steepest = 6;
 constexpr int most_passes = 40;
-constexpr double room_to_lift = 0.5;  // for squares of speeds: with that all limits have room
+constexpr double at_cap = 1 - 1e-9;
+constexpr double rises_to_settle = 1;  // times the rise of the acceleration from 0 to its limit
+constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
 constexpr int most_attempts = 6;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
@@ -120,7 +122,7 @@ void JerkProfile::guess_from(std::size_t node, bool backwards, double growth) {
 void JerkProfile::grade() {
   prepare();
   for (int pass = 0; pass < most_passes; ++pass) {
-    guess(infinity);
+    guess(guessed_speed_squared, infinity);
     if (!split_steep(guess_)) return;
     prepare();
   }
@@ -146,10 +148,11 @@ std::vector<double> JerkProfile::states_squared() const {
   return x;
 }
 
-void JerkProfile::guess(double growth) {
+// Puts `guess_` at this share of the squares of the caps, or lower where it takes longer to get there.
+void JerkProfile::guess(double share, double growth) {
   const std::size_t n = cells_.size();
   guess_.assign(n + 1, 0.0);
-  for (std::size_t k = 0; k < n; ++k) guess_[k] = guessed_speed_squared * std::min(entry_cap_[k], node_cap_[k]);
+  for (std::size_t k = 0; k < n; ++k) guess_[k] = share * std::min(entry_cap_[k], node_cap_[k]);
   guess_[0] = in_motion_ ? states_[0].speed * states_[0].speed : 0;
   guess_[n] = 0;
   guess_from(n, true, growth);
@@ -259,15 +262,57 @@ bool JerkProfile::slow_down() {
   return false;
 }
 
+// Finds the nodes that are surely passed at the cap without acceleration: where the speed is steady, and so far from
+// all other nodes that even a gentle rise of the speed is over.
+void JerkProfile::find_steady() {
+  const std::size_t n = cells_.size();
+  guess(1, infinity);
+  const auto is_flat = [this](std::size_t k) {
+    return guess_[k] >= node_cap_[k] * at_cap && node_cap_[k - 1] == node_cap_[k] && node_cap_[k + 1] == node_cap_[k];
+  };
+  steady_.assign(n + 1, false);
+  for (std::size_t k = 1; k < n; ++k) steady_[k] = is_flat(k);
+  // Widens what is not steady by the time in which the acceleration can change, in both directions.
+  double left = infinity;
+  for (std::size_t k = 1; k <= n; ++k) left = narrow_steady(k, k - 1, left);
+  left = infinity;
+  for (std::size_t k = n; k-- > 0;) left = narrow_steady(k, k, left);
+}
+
+// The node is steady only if that much time has passed since the last node that is not. Returns the time that is left.
+double JerkProfile::narrow_steady(std::size_t node, std::size_t cell, double left) {
+  if (!steady_[node]) return rises_to_settle * cells_[cell].acceleration / cells_[cell].jerk;
+  if (std::isinf(left)) return left;
+  left -= cells_[cell].length / std::sqrt(node_cap_[node]);
+  if (left > 0) steady_[node] = false;
+  return left > 0 ? left : infinity;
+}
+
+// Lifts each part of the window between steady nodes.
+bool JerkProfile::lift_between_steady() {
+  const std::size_t n = cells_.size();
+  for (std::size_t k = 1; k < n; ++k) {
+    if (steady_[k]) states_[k] = {.speed = std::sqrt(node_cap_[k]), .acceleration = 0};
+  }
+  for (std::size_t first = 0; first < n;) {
+    std::size_t last = first + 1;
+    while (last < n && !steady_[last]) ++last;
+    if (last > first + 1 && !lift({.first = first, .last = last})) return false;
+    first = last;
+  }
+  return true;
+}
+
 // Finds a motion over all cells that keeps the limits.
 bool JerkProfile::find_motion() {
+  find_steady();
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    guess(most_growth);
-    const bool is_lifted = lift({.first = 0, .last = cells_.size()});
+    guess(guessed_speed_squared, most_growth);
+    const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;
     // What is left may be so little that all of the motion can be slowed by it.
     if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
-    if (!split_steep(states_squared())) break;
+    if (!split_steep(states_squared()) && attempt > 0) break;
     prepare();
   }
   return !in_motion_ && find_motion_from_slow();
@@ -276,11 +321,11 @@ bool JerkProfile::find_motion() {
 // Begins with a motion that keeps all limits, and lifts it as far as it goes.
 bool JerkProfile::find_motion_from_slow() {
   prepare();
-  guess(most_growth);
+  guess(guessed_speed_squared, most_growth);
   if (!slow_down()) {
     even_out();
     prepare();
-    guess(most_growth);
+    guess(guessed_speed_squared, most_growth);
     if (!slow_down()) return false;
   }
   kept_ = states_;

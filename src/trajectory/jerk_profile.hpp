@@ -92,10 +92,13 @@ class JerkProfile {
   void grade();
   bool split_steep(const std::vector<double>& x);
   std::vector<double> states_squared() const;
-  void guess(double growth);
+  void guess(double share, double growth);
   void guess_from(std::size_t node, bool backwards, double growth);
   double time() const;
   void set_states(const std::vector<double>& x);
+  void find_steady();
+  double narrow_steady(std::size_t node, std::size_t cell, double left);
+  bool lift_between_steady();
   bool find_motion();
   bool find_motion_from_slow();
   bool lift(const Stretch& stretch);
@@ -128,7 +131,8 @@ class JerkProfile {
   std::vector<double> node_cap_;  // squared: by feed, velocities and jumps of the bend
   std::vector<double> cell_cap_;  // for each cell
   std::vector<double> share_;     // of the limits to lift to, for each cell
-  std::vector<double> guess_;
+  std::vector<double> guess_;     // squared
+  std::vector<bool> steady_;      // for each node: passed at the cap without acceleration
   std::vector<std::size_t> exceeded_;
   std::vector<Stretch> again_;  // stretches to lift once more
   bool in_motion_ = false;      // the window begins in motion, in the first of the states
