@@ -281,20 +281,26 @@ double Curve::curvature() const {
   return std::hypot(std::max(arc_.start_radius, arc_.end_radius) * turning * turning, 2 * outward * turning);
 }
 
-// The places between the ends where the slope of an axis is 0.
+std::array<Mm, 2> Curve::turning_points(Axis axis) const {
+  const double a = 3 * cube_[axis];
+  const double b = square_[axis];
+  const double c = slope_[axis];
+  const double root = b * b - a * c;
+  std::array<Mm, 2> places = {Mm(-1), Mm(-1)};
+  if (shape_ != Shape::cubic || root < 0) return places;
+  const double q = -(b + std::copysign(std::sqrt(root), b));  // both roots without cancellation: q / a and c / q
+  if (a != 0 && q / a > 0 && q / a < length_) places[0] = Mm(q / a);
+  if (q != 0 && c / q > 0 && c / q < length_) places[1] = Mm(c / q);
+  return places;
+}
+
 void Curve::widen_by_turning_points(Box& box) const {
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    const double a = 3 * cube_.values[i];
-    const double b = square_.values[i];
-    const double c = slope_.values[i];
-    const double root = b * b - a * c;
-    if (root < 0) continue;
-    const double q = -(b + std::copysign(std::sqrt(root), b));  // both roots without cancellation: q / a and c / q
-    for (const double u : {a != 0 ? q / a : -1, q != 0 ? c / q : -1}) {
-      if (!(u > 0 && u < length_)) continue;
-      const double reached = at(Mm(u)).values[i];
-      box.low.values[i] = std::min(box.low.values[i], reached);
-      box.high.values[i] = std::max(box.high.values[i], reached);
+  for (const Axis axis : all_axes) {
+    for (const Mm place : turning_points(axis)) {
+      if (place < Mm(0)) continue;
+      const double reached = at(place)[axis];
+      box.low[axis] = std::min(box.low[axis], reached);
+      box.high[axis] = std::max(box.high[axis], reached);
     }
   }
 }

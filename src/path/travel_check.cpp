@@ -15,12 +15,18 @@ const char* unit_of(Axis axis) {
   return is_rotary(axis) ? "degrees" : "mm";
 }
 
-// The place of the curve where `axis` reaches `reached`. At an arc's extreme, the arc's other axis is level with the
-// centre.
+// The place of the curve where `axis` reaches `reached`: an end, or where the axis turns back. There, an arc's other
+// axis is level with the centre.
 Point place_of(const Curve& curve, Axis axis, double reached) {
   if (curve.start()[axis] == reached) return curve.start();
   Point place = curve.end();
   if (place[axis] == reached || curve.shape() == Curve::Shape::line) return place;
+  if (curve.shape() == Curve::Shape::cubic) {
+    for (const Mm turn : curve.turning_points(axis)) {
+      if (turn > Mm(0) && curve.at(turn)[axis] == reached) return curve.at(turn);
+    }
+    return place;
+  }
   const Curve::ArcData& arc = curve.arc_data();
   place[arc.first] = arc.first_center;
   place[arc.second] = arc.second_center;

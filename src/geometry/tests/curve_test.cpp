@@ -329,6 +329,22 @@ TEST_F(RandomCubics, and_spirals_have_the_third_derivative_of_their_bend) {
   }
 }
 
+TEST_F(RandomCubics, turning_points_are_where_an_axis_stands) {
+  int found = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Curve curve = draw();
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      for (const Mm s : curve.turning_points(axis)) {
+        if (s < Mm(0)) continue;
+        ASSERT_LT(s, curve.length());
+        ASSERT_NEAR(curve.tangent(s)[axis], 0, 1e-9);
+        ++found;
+      }
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
 TEST_F(RandomCubics, extents_and_steepest_hold_and_are_touched) {
   for (int n = 0; n < 300; ++n) {
     const Curve curve = draw();

@@ -38,7 +38,9 @@ void run(const std::string& program, const InterpreterOptions& options) {
   for (int i = 0; i < most_operations && interpreter.next(operation); ++i) {
     canon.clear();
     printer.print(operation, canon);
-    require(!canon.empty() && canon.back() == '\n', "no canonical call");
+    const bool is_silent =
+        std::holds_alternative<operation::ReadInput>(operation.what);  // rs274 prints nothing for M66
+    require(is_silent || (!canon.empty() && canon.back() == '\n'), "no canonical call");
     const bool text = canon.find('"') != std::string::npos || std::holds_alternative<operation::Print>(operation.what);
     require(text || (canon.find("nan") == std::string::npos && canon.find("inf") == std::string::npos),
             "an operation with a number that is not finite");

@@ -47,6 +47,15 @@ TEST(Planner, small_arcs_are_as_near_to_the_fastest_as_large_ones) {
 
 // Within 0.02 micrometres of X the table turns by four degrees. Smoothed, this is a curve whose slope changes by
 // millions.
+// What a hold leaves of a corner may be so short that it is one cell, from rest to rest.
+TEST(Planner, a_bent_piece_of_dust_from_rest_to_rest_takes_hardly_any_time) {
+  Segment dust = line(xyz(0, 0), xyz(1, 0), 20);
+  dust.curve = Curve::cubic(xyz(0, 0), xyz(1, 0), xyz(8e-4, 3e-4), xyz(0.6, 0.8), Mm(9e-4));
+  const double time = total_time(plan({dust}, equal_limits(100, 500)));
+  EXPECT_GT(time, 2 * std::sqrt(9e-4 / 500 / std::sqrt(2)));  // on a line at 45 degrees
+  EXPECT_LT(time, 2 * 2 * std::sqrt(9e-4 / 500));
+}
+
 TEST(Planner, a_turn_of_a_table_within_dust_takes_no_more_cells_than_other_curves) {
   std::vector<PathItem> path = {line(xyz(0, 0), xyz(0.5, 0), 50)};
   Point turned = xyz(0.500'001, 0);

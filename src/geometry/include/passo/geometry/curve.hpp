@@ -11,6 +11,8 @@
 //   falls below 1 in corners, and rises to 1.1 at most where the cubic smooths noise.
 #pragma once
 
+#include <array>
+
 #include "passo/geometry/axes.hpp"
 #include "passo/units/units.hpp"
 
@@ -79,6 +81,8 @@ class Curve {
   double turning() const { return turning(steepest()); }
   double turning(const Point& steepest) const;
   Box extents() const;
+  // The places between a cubic's ends where the axis turns back: at most two. A negative place stands for none.
+  std::array<Mm, 2> turning_points(Axis axis) const;
 
  private:
   Point steepest_of_cubic() const;
