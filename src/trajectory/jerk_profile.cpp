@@ -39,6 +39,7 @@ constexpr double beyond = 0.9999;   // slowed a little more, against rounding
 constexpr int most_slowings = 40;
 constexpr double least_slowing = 0.98;  // of squares of speeds
 
+constexpr std::size_t fewest_cells = 4;
 constexpr double most_unevenness = 2.5;
 constexpr double strong_braking = 0.05;  // share of the limit
 constexpr double settling = 0.5;         // share of the time of the final braking
@@ -340,7 +341,7 @@ bool JerkProfile::find_motion_from_slow() {
 
 std::size_t JerkProfile::plan(bool closed) {
   kept_.assign(states_.begin(), states_.end());
-  if (cells_.size() < 4) even_out();
+  if (cells_.size() < fewest_cells && planned_ == 0) even_out();
   grade();
   fell_back_ = !find_motion();
   if (fell_back_) return go_on_as_planned();
@@ -409,9 +410,9 @@ void JerkProfile::split(std::size_t i) {
   entry_cap_.insert(at(entry_cap_, i + 1), cap);
 }
 
-// The acceleration cannot change evenly where a long cell meets a short one. Also, a window has three cells at least.
+// The acceleration cannot change evenly where a long cell meets a short one. Also, a window needs some cells.
 void JerkProfile::even_out() {
-  for (std::size_t i = 0; cells_.size() < 4;) split(i++ % cells_.size());
+  for (std::size_t i = 0; cells_.size() < fewest_cells;) split(i++ % cells_.size());
   const auto is_long = [this](std::size_t i) {
     const double length = cells_[i].length / most_unevenness;
     return (i > 0 && length > cells_[i - 1].length) || (i + 1 < cells_.size() && length > cells_[i + 1].length);

@@ -55,41 +55,90 @@ TEST(JerkProfile, keeps_every_limit_with_no_mending_at_all_and_takes_hardly_long
 
 // Cells of any length side by side on a line, which no cutter makes. Some have no phases at any speed until the stretch
 // gets another shape.
+class UnevenLine {
+ public:
+  UnevenLine(Random& random, double shortest, double longest)
+      : random_(random),
+        shortest_(shortest),
+        longest_(longest),
+        limits_(jerk_limits(100, 500, std::exp(random.between(8, 12)))),
+        profile_(axes_with_limits(limits_)) {}
+
+  JerkProfile& profile() { return profile_; }
+
+  void push() {
+    const std::vector<AxisShape> shapes = {{.slope_in = 1, .slope_out = 1}, {}, {}};
+    const double length = std::exp(random_.between(shortest_, longest_));
+    const double top = std::exp(random_.between(0, 4.6));
+    profile_.push({.start = s_,
+                   .length = length,
+                   .top_squared = top * top,
+                   .acceleration = 500,
+                   .jerk = limits_.jerk[Axis::x].value(),
+                   .straight = true},
+                  shapes.data());
+    s_ += length;
+  }
+  void play(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      PlannedMove move;
+      move.segment = segment_of(Curve::line(xyz(0, 0), xyz(1e6, 0)), 100);
+      profile_.add_phases(i, move);
+      const Phase& last = move.phases[move.phase_count - 1];
+      move.to = last.position_at(last.duration);
+      motion_.emplace_back(move);
+    }
+    profile_.drop(count);
+  }
+  void expect_good() const { expect_within_limits(motion_, limits_); }
+
+ private:
+  Random& random_;
+  double shortest_;  // logarithms of millimetres
+  double longest_;
+  MotionLimits limits_;
+  JerkProfile profile_;
+  double s_ = 0;
+  std::vector<MotionItem> motion_;
+};
+
 TEST(JerkProfile, keeps_every_limit_on_cells_that_hardly_fit_together) {
   Random random;
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
   for (int n = 0; n < 300; ++n) {
     SCOPED_TRACE(n);
-    const MotionLimits limits = jerk_limits(100, 500, std::exp(random.between(8, 12)));
-    JerkProfile profile(axes_with_limits(limits));
-    const std::vector<AxisShape> shapes = {{.slope_in = 1, .slope_out = 1}, {}, {}};
-    double s = 0;
-    for (int i = 0; i < 8; ++i) {
-      const double length = std::exp(random.between(-10, 4));
-      const double top = std::exp(random.between(0, 4.6));
-      profile.push({.start = s,
-                    .length = length,
-                    .top_squared = top * top,
-                    .acceleration = 500,
-                    .jerk = limits.jerk[Axis::x].value(),
-                    .straight = true},
-                   shapes.data());
-      s += length;
-    }
-    const std::size_t planned = profile.plan(true);
-    ASSERT_EQ(planned, profile.size());
-    std::vector<MotionItem> motion;
-    for (std::size_t i = 0; i < profile.size(); ++i) {
-      PlannedMove move;
-      move.segment = segment_of(Curve::line(xyz(0, 0), xyz(s, 0)), 100);
-      profile.add_phases(i, move);
-      const Phase& last = move.phases[move.phase_count - 1];
-      move.to = last.position_at(last.duration);
-      motion.emplace_back(move);
-    }
-    expect_within_limits(motion, limits);
+    UnevenLine line(random, -10, 4);
+    for (int i = 0; i < 8; ++i) line.push();
+    const std::size_t planned = line.profile().plan(true);
+    ASSERT_EQ(planned, line.profile().size());
+    line.play(planned);
+    line.expect_good();
     if (HasFatalFailure()) return;
   }
+}
+
+// Where no plan is found in motion, the plan before goes on, to its last cell.
+TEST(JerkProfile, keeps_every_limit_from_window_to_window) {
+  Random random;
+  SCOPED_TRACE("PASSO_SEED=" + std::to_string(random.seed()));
+  int fell_back = 0;
+  for (int n = 0; n < 300; ++n) {
+    SCOPED_TRACE(n);
+    UnevenLine line(random, -8, 1);
+    JerkProfile& profile = line.profile();
+    constexpr std::size_t queued = 12;
+    for (int pushed = 0; pushed < 60 || profile.size() > 0;) {
+      for (; pushed < 60 && profile.size() < queued; ++pushed) line.push();
+      const bool closed = pushed == 60;
+      std::size_t decided = profile.plan(closed);
+      if (!closed) decided = std::max(decided, (profile.planned() + 1) / 2);
+      if (profile.fell_back()) ++fell_back;
+      line.play(decided);
+    }
+    line.expect_good();
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(fell_back, 100);
 }
 
 }  // namespace
