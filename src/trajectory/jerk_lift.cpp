@@ -217,8 +217,11 @@ void JerkLift::make_rows(const Stretch& stretch, std::size_t first, std::size_t 
     }
     const double h = stretch.cells[k].length;
     Four middle = Forms(h).middle_x;
+    Four to_and_fro = {-1 / h, -1, 1 / h, -1};
     tie(middle);
+    tie(to_and_fro);
     cells_.push_back({.middle = middle,
+                      .to_and_fro = to_and_fro,
                       .length = h,
                       .has_rest = has_rest,
                       .rows_end = rows_.size(),
@@ -312,14 +315,9 @@ void JerkLift::add_time(std::size_t c, Block& block) const {
   put(cell.middle, cell.length * 2 / 3);
   put(x_out, cell.length / 6);
   // Without a price, an acceleration that goes to and fro within each cell costs nothing where the speed is steady.
-  Four to_and_fro = {-1 / cell.length, -1, 1 / cell.length, -1};
-  if (c == tied_first_.node && tied_first_.factor != 0)
-    to_and_fro[0] += tied_first_.factor * std::exchange(to_and_fro[1], 0);
-  if (c + 1 == tied_last_.node && tied_last_.factor != 0)
-    to_and_fro[2] += tied_last_.factor * std::exchange(to_and_fro[3], 0);
   const double x = times(cell.middle, at);
   const double weight = calming * cell.length * cell.length * cell.length / (x * x * std::sqrt(x));
-  block.add(to_and_fro, weight, -weight * times(to_and_fro, at));
+  block.add(cell.to_and_fro, weight, -weight * times(cell.to_and_fro, at));
 }
 
 double JerkLift::time() const {

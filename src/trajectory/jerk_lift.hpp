@@ -73,7 +73,8 @@ class JerkLift {
     Side down = {};
   };
   struct Cell {
-    Four middle{};  // the form of x in the middle
+    Four middle{};      // the form of x in the middle
+    Four to_and_fro{};  // the form of the middle's acceleration less the mean of the ends'
     double length = 0;
     bool has_rest = false;
     std::size_t rows_end = 0;

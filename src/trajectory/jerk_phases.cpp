@@ -79,7 +79,7 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
   const JerkCell& cell = cells_[i];
   // Rounding off the corner between straight pieces lifts the speed at a low place. Where a jump must stay unseen, that
   // may be too much.
-  if (from.speed * from.speed > most_above_cap * passing_cap(i)) return {.pace = 2};
+  if (from.speed * from.speed > most_above_cap * passing_cap_[i]) return {.pace = 2};
   const double top =
       std::max({to.speed, highest(from, pair.first, pair.half), highest(pair.middle, pair.second, pair.half)});
   if (cell.straight) {

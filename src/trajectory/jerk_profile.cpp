@@ -47,18 +47,22 @@ constexpr double settling = 0.5;         // share of the time of the final braki
 }  // namespace
 
 void JerkProfile::push(const JerkCell& cell, const AxisShape* shapes) {
-  double cap = cell.top_squared;
-  if (!cells_.empty()) cap = std::min(cap, cells_.back().top_squared);
-  cap *= planned_velocity * planned_velocity;
-  for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const double bend = std::abs(shapes[k].bend_in);
-    const double third = std::abs(shapes[k].third_in);
-    if (bend > 0) cap = std::min(cap, axes_[k].turning_cap(std::abs(shapes[k].slope_in), bend, share_in_bends));
-    if (third > 0) cap = std::min(cap, std::pow(share_in_bends * axes_[k].jerk / third, 2.0 / 3));
-  }
   cells_.push_back(cell);
   shapes_.insert(shapes_.end(), shapes, shapes + axes_.size());
-  entry_cap_.push_back(std::min(cap, passing_cap(cells_.size() - 1)));
+  entry_cap_.push_back(constant_speed_cap(cells_.size() - 1));
+}
+
+// The highest x at the node with which a constant speed keeps every limit.
+double JerkProfile::constant_speed_cap(std::size_t node) const {
+  double cap = passing_cap(node);
+  const AxisShape* shape = shapes(node);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double bend = std::abs(shape->bend_in);
+    const double third = std::abs(shape->third_in);
+    if (bend > 0) cap = std::min(cap, axes_[k].turning_cap(std::abs(shape->slope_in), bend, share_in_bends));
+    if (third > 0) cap = std::min(cap, std::pow(share_in_bends * axes_[k].jerk / third, 2.0 / 3));
+  }
+  return cap;
 }
 
 void JerkProfile::begin_in_motion(double speed) {
@@ -84,8 +88,9 @@ double JerkProfile::passing_cap(std::size_t node) const {
 
 void JerkProfile::prepare() {
   const std::size_t n = cells_.size();
-  node_cap_.resize(n + 1);
-  for (std::size_t k = 0; k <= n; ++k) node_cap_[k] = passing_cap(k);
+  passing_cap_.resize(n + 1);
+  for (std::size_t k = 0; k <= n; ++k) passing_cap_[k] = passing_cap(k);
+  node_cap_ = passing_cap_;
   cell_cap_.clear();
   share_.clear();
   for (const JerkCell& cell : cells_) {
@@ -124,14 +129,15 @@ void JerkProfile::grade() {
   prepare();
   for (int pass = 0; pass < most_passes; ++pass) {
     guess(guessed_speed_squared, infinity);
-    if (!split_steep(guess_)) return;
+    if (!split_steep()) return;
     prepare();
   }
 }
 
-// Splits cells in which the square of the speed changes much. Returns whether there were any. Cells of the plan before
-// stay as they are, because that plan may have to go on.
-bool JerkProfile::split_steep(const std::vector<double>& x) {
+// Splits cells in which the square of the speed changes much, by `guess_`. Returns whether there were any. Cells of the
+// plan before stay as they are, because that plan may have to go on.
+bool JerkProfile::split_steep() {
+  const std::vector<double>& x = guess_;
   bool any = false;
   const std::size_t first = in_motion_ ? std::max<std::size_t>(planned_, 1) : 0;
   for (std::size_t i = cells_.size(); i-- > first;) {
@@ -141,12 +147,6 @@ bool JerkProfile::split_steep(const std::vector<double>& x) {
     any = true;
   }
   return any;
-}
-
-std::vector<double> JerkProfile::states_squared() const {
-  std::vector<double> x;
-  for (const NodeState& state : states_) x.push_back(state.speed * state.speed);
-  return x;
 }
 
 // Puts `guess_` at this share of the squares of the caps, or lower where it takes longer to get there.
@@ -165,11 +165,12 @@ void JerkProfile::guess(double share, double growth) {
     least -= 2 * hardest_guessed_braking * cells_[k - 1].acceleration * cells_[k - 1].length;
     guess_[k] = std::max(guess_[k], least);
   }
-  set_states(guess_);
 }
 
-// States that follow from speeds alone.
-void JerkProfile::set_states(const std::vector<double>& x) {
+// Makes the states a gentle motion that may grow only slowly from node to node.
+void JerkProfile::begin_with_guess() {
+  guess(guessed_speed_squared, most_growth);
+  const std::vector<double>& x = guess_;
   const std::size_t n = cells_.size();
   const NodeState front = in_motion_ ? states_[0] : NodeState{};
   states_.resize(n + 1);
@@ -187,10 +188,13 @@ void JerkProfile::set_states(const std::vector<double>& x) {
   states_[n] = {};
 }
 
+double JerkProfile::duration(std::size_t i) const {
+  return 2 * cells_[i].length / (states_[i].speed + states_[i + 1].speed);
+}
+
 double JerkProfile::time() const {
   double sum = 0;
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    sum += 2 * cells_[i].length / (states_[i].speed + states_[i + 1].speed);
+  for (std::size_t i = 0; i < cells_.size(); ++i) sum += duration(i);
   return sum;
 }
 
@@ -274,7 +278,7 @@ void JerkProfile::find_steady() {
   steady_.assign(n + 1, false);
   for (std::size_t k = 1; k < n; ++k) steady_[k] = is_flat(k);
   // Widens what is not steady by the time in which the acceleration can change, in both directions.
-  double left = infinity;
+  double left = narrow_steady(0, 0, infinity);
   for (std::size_t k = 1; k <= n; ++k) left = narrow_steady(k, k - 1, left);
   left = infinity;
   for (std::size_t k = n; k-- > 0;) left = narrow_steady(k, k, left);
@@ -308,12 +312,13 @@ bool JerkProfile::lift_between_steady() {
 bool JerkProfile::find_motion() {
   find_steady();
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    guess(guessed_speed_squared, most_growth);
+    begin_with_guess();
     const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;
     // What is left may be so little that all of the motion can be slowed by it.
     if (is_lifted && !in_motion_ && slowing() >= least_slowing && slow_down()) return true;
-    if (!split_steep(states_squared()) && attempt > 0) break;
+    for (std::size_t k = 0; k < states_.size(); ++k) guess_[k] = states_[k].speed * states_[k].speed;
+    if (!split_steep() && attempt > 0) break;
     prepare();
   }
   return !in_motion_ && find_motion_from_slow();
@@ -322,11 +327,11 @@ bool JerkProfile::find_motion() {
 // Begins with a motion that keeps all limits, and lifts it as far as it goes.
 bool JerkProfile::find_motion_from_slow() {
   prepare();
-  guess(guessed_speed_squared, most_growth);
+  begin_with_guess();
   if (!slow_down()) {
     even_out();
     prepare();
-    guess(guessed_speed_squared, most_growth);
+    begin_with_guess();
     if (!slow_down()) return false;
   }
   kept_ = states_;
@@ -351,15 +356,12 @@ std::size_t JerkProfile::plan(bool closed) {
 
 // The plan's end is not the path's. What depends on the end is not decided: the braking for it, and some time before.
 std::size_t JerkProfile::decided_of_open() const {
-  const auto time_of = [this](std::size_t i) {
-    return 2 * cells_[i].length / (states_[i].speed + states_[i + 1].speed);
-  };
   std::size_t k = cells_.size();
   double braking = 0;
   while (k > 0 && (k == cells_.size() || states_[k].acceleration < -strong_braking * cells_[k].acceleration)) {
-    braking += time_of(--k);
+    braking += duration(--k);
   }
-  for (double time = 0; k > 0 && time < settling * braking;) time += time_of(--k);
+  for (double time = 0; k > 0 && time < settling * braking;) time += duration(--k);
   return k >= 2 ? k : 0;
 }
 
@@ -396,18 +398,14 @@ void JerkProfile::split(std::size_t i) {
   const std::vector<AxisShape> whole(shapes(i), shapes(i) + axes_.size());
   cells_.insert(at(cells_, i + 1), second);
   shapes_.insert(at(shapes_, (i + 1) * axes_.size()), whole.begin(), whole.end());
-  double cap = second.top_squared * planned_velocity * planned_velocity;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     AxisShape& first = shapes(i)[k];
     AxisShape& last = shapes(i + 1)[k];
     first.third_out = last.third_in = (whole[k].third_in + whole[k].third_out) / 2;
     first.bend_out = last.bend_in = (whole[k].bend_in + whole[k].bend_out) / 2;
     first.slope_out = last.slope_in = (whole[k].slope_in + whole[k].slope_out) / 2 - half * half / 2 * first.third_out;
-    cap = std::min(cap, axes_[k].turning_cap(last.slope_in, std::abs(last.bend_in), share_in_bends));
-    const double third = std::abs(last.third_in);
-    if (third > 0) cap = std::min(cap, std::pow(share_in_bends * axes_[k].jerk / third, 2.0 / 3));
   }
-  entry_cap_.insert(at(entry_cap_, i + 1), cap);
+  entry_cap_.insert(at(entry_cap_, i + 1), constant_speed_cap(i + 1));
 }
 
 // The acceleration cannot change evenly where a long cell meets a short one. Also, a window needs some cells.

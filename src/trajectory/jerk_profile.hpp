@@ -7,8 +7,7 @@
 //   1. A guess: a motion below all caps that brakes and speeds up gently.
 //   2. JerkLift makes the guess nearly the fastest motion.
 //   3. The phases are checked against every axis, just as they will be given. Cells that exceed a limit are lifted
-//   again
-//      with a smaller share of the limits, together with the cells around them.
+//      again with a smaller share of the limits, together with the cells around them.
 //   4. If that does not help, the motion is slowed as a whole. With every speed times f, accelerations get f² and jerks
 //      f³ times as large. So limits can always be kept.
 //
@@ -86,16 +85,17 @@ class JerkProfile {
   const AxisShape* shapes(std::size_t i) const { return &shapes_[i * axes_.size()]; }
 
   double passing_cap(std::size_t node) const;
+  double constant_speed_cap(std::size_t node) const;
   void prepare();
   void split(std::size_t i);
   void even_out();
   void grade();
-  bool split_steep(const std::vector<double>& x);
-  std::vector<double> states_squared() const;
+  bool split_steep();
   void guess(double share, double growth);
   void guess_from(std::size_t node, bool backwards, double growth);
+  void begin_with_guess();
+  double duration(std::size_t i) const;
   double time() const;
-  void set_states(const std::vector<double>& x);
   void find_steady();
   double narrow_steady(std::size_t node, std::size_t cell, double left);
   bool lift_between_steady();
@@ -127,12 +127,13 @@ class JerkProfile {
   std::vector<double> entry_cap_;  // for each cell, squared: for a guess
   // For each node: one more than cells.
   std::vector<NodeState> states_;
-  std::vector<NodeState> kept_;   // those of the plan before
-  std::vector<double> node_cap_;  // squared: by feed, velocities and jumps of the bend
-  std::vector<double> cell_cap_;  // for each cell
-  std::vector<double> share_;     // of the limits to lift to, for each cell
-  std::vector<double> guess_;     // squared
-  std::vector<bool> steady_;      // for each node: passed at the cap without acceleration
+  std::vector<NodeState> kept_;      // those of the plan before
+  std::vector<double> passing_cap_;  // squared: by feed, velocities and jumps of the bend
+  std::vector<double> node_cap_;     // the same, or lower where the motion exceeded it
+  std::vector<double> cell_cap_;     // for each cell
+  std::vector<double> share_;        // of the limits to lift to, for each cell
+  std::vector<double> guess_;        // squared
+  std::vector<bool> steady_;         // for each node: passed at the cap without acceleration
   std::vector<std::size_t> exceeded_;
   std::vector<Stretch> again_;  // stretches to lift once more
   bool in_motion_ = false;      // the window begins in motion, in the first of the states

@@ -1,14 +1,13 @@
 #include "jerk_window.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "rest.hpp"
 
 namespace passo {
 namespace {
 
-// In cells. Each raised part ends as it was planned, so short windows cost time.
+// In cells. Each window is planned to rest at its end, and the braking for that rest is planned again.
 constexpr std::size_t first_window = 2400;
 constexpr std::size_t fewest_queued = 400;
 constexpr std::size_t phases_a_cell = 2;
@@ -32,7 +31,6 @@ void JerkWindow::begin_at(const Start& start, const FeedFactors& feeds) {
   started_ = cutting_ = closed_ = false;
   length_ = 0;
   given_ = decided_ = 0;
-  whole_.reset();
 }
 
 bool JerkWindow::can_go_on(double way) {
@@ -44,10 +42,7 @@ bool JerkWindow::can_go_on(double way) {
 
 bool JerkWindow::next(PlannedMove& move) {
   for (;; begin_at({}, feeds_)) {
-    if (goes_from_rest_to_rest()) {
-      move = *std::exchange(whole_, std::nullopt);
-      return true;
-    }
+    if (goes_from_rest_to_rest(move)) return true;
     while (given_ == decided_ && !(profile_.size() == given_ && closed_)) look_ahead();
     if (given_ < decided_) break;
     if (path_.at(0) == nullptr) return false;
@@ -71,12 +66,6 @@ bool JerkWindow::add_cell(std::size_t i, PlannedMove& move) const {
 }
 
 bool JerkWindow::look_at(std::size_t& ahead, std::size_t& segment, PlannedMove& move) const {
-  if (whole_ && ahead == 0) {
-    move = *whole_;
-    ++segment;
-    ++ahead;
-    return true;
-  }
   const std::size_t i = given_ + ahead;
   if (i >= profile_.planned()) return false;
   move.segment = *path_.at(segment);
@@ -97,8 +86,8 @@ void JerkWindow::look_ahead() {
   if (!closed_ && profile_.size() >= most_queued_) decided_ = std::max(decided_, profile_.planned() / 2);
 }
 
-// True: the stretch is one straight segment, from rest to rest. Then `whole_` is its motion.
-bool JerkWindow::goes_from_rest_to_rest() {
+// Gives the whole stretch if it is one straight segment, from rest to rest.
+bool JerkWindow::goes_from_rest_to_rest(PlannedMove& move) {
   if (started_ || start_.speed > 0) return false;
   const Segment* segment = path_.at(start_.segment);
   if (segment == nullptr || segment->curve.shape() != Curve::Shape::line) return false;
@@ -106,8 +95,8 @@ bool JerkWindow::goes_from_rest_to_rest() {
   if (after != nullptr && !rests_between(*segment, *after)) return false;
   cutter_.begin(*segment, {.from = start_.s, .feed = feeds_.speed_on(*segment)});
   if (!cutter_.is_straight()) return false;
-  PlannedMove& move = whole_.emplace();
   move.segment = *segment;
+  move.phase_count = 0;
   add_rest_to_rest(start_.s, segment->curve.length().value(), cutter_.path_limits(), move);
   cut_ = start_.segment + 1;
   started_ = closed_ = true;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "feed_factors.hpp"
@@ -45,7 +44,7 @@ class JerkWindow {
 
  private:
   bool add_cell(std::size_t i, PlannedMove& move) const;
-  bool goes_from_rest_to_rest();
+  bool goes_from_rest_to_rest(PlannedMove& move);
   void pull();
   void look_ahead();
 
@@ -62,9 +61,8 @@ class JerkWindow {
   double estimate_ = 0;  // squared: the highest entry speed of the next cell
   double length_ = 0;    // of all cells since the start
   bool closed_ = false;
-  std::optional<PlannedMove> whole_;  // the stretch, if it is one straight segment
-  std::size_t decided_ = 0;           // cells at the front that nothing to come can change
-  std::size_t given_ = 0;             // of the decided cells
+  std::size_t decided_ = 0;  // cells at the front that nothing to come can change
+  std::size_t given_ = 0;    // of the decided cells
   JerkCell cell_;
   std::vector<AxisShape> shapes_;
 };
