@@ -276,6 +276,7 @@ void JerkProfile::find_steady() {
     return guess_[k] >= node_cap_[k] * at_cap && node_cap_[k - 1] == node_cap_[k] && node_cap_[k + 1] == node_cap_[k];
   };
   steady_.assign(n + 1, false);
+  steady_[0] = in_motion_ && guess_[0] >= node_cap_[0] * at_cap && states_[0].acceleration == 0;
   for (std::size_t k = 1; k < n; ++k) steady_[k] = is_flat(k);
   // Widens what is not steady by the time in which the acceleration can change, in both directions.
   double left = narrow_steady(0, 0, infinity);
