@@ -94,7 +94,7 @@ void TimeBound::add_curve(const Segment& segment) {
   }
   Cell& entry = cells_[first];
   entry.entry_scale = scale;
-  entry.entry_cap = std::min({entry.entry_cap, kink, first > 0 ? cells_[first - 1].exit_cap * scale : fastest});
+  entry.entry.cap = std::min({entry.entry.cap, kink, first > 0 ? cells_[first - 1].exit.cap * scale : fastest});
   joint_ = joint_at(from);
   if (cells_.size() >= 2 * window) settle(window);
 }
@@ -135,12 +135,12 @@ void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place
   Cell cell;
   cell.length = to.s - from.s;
   cell.cap = std::min(feed, cap_within(from, middle, to));
-  cell.entry_cap = std::min(feed, from.cap);
-  cell.exit_cap = std::min(feed, to.cap);
+  cell.entry.cap = std::min(feed, from.cap);
+  cell.exit.cap = std::min(feed, to.cap);
   cell.standing = square(standing) * std::max(squares_of(from.slope), squares_of(to.slope));
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    cell.entry_slope[i] = square(from.slope[i]);
-    cell.exit_slope[i] = square(to.slope[i]);
+    cell.entry.slope[i] = square(from.slope[i]);
+    cell.exit.slope[i] = square(to.slope[i]);
     // Simpson's rule, exact for cubics. A difference of places would lose the digits of a short way.
     cell.way[i] = std::abs(from.slope[i] + 4 * middle.slope[i] + to.slope[i]) * cell.length / 6;
   }
@@ -220,20 +220,12 @@ double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
   return cap;
 }
 
-double TimeBound::entry_for(const Cell& cell, double exit) const {
-  double most = cell.entry_cap;
+// The largest x at an end of the cell, with x at the other end: no axis speeds up or brakes more than it can.
+double TimeBound::most_at(const End& end, const End& other, double at_other, const Cell& cell) const {
+  double most = end.cap;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!ramps_[i].limits() || !(cell.entry_slope[i] > cell.standing)) continue;
-    most = std::min(most, ramps_[i].square_after(cell.exit_slope[i] * exit, cell.way[i]) / cell.entry_slope[i]);
-  }
-  return most;
-}
-
-double TimeBound::exit_for(const Cell& cell, double entry) const {
-  double most = cell.exit_cap;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!ramps_[i].limits() || !(cell.exit_slope[i] > cell.standing)) continue;
-    most = std::min(most, ramps_[i].square_after(cell.entry_slope[i] * entry, cell.way[i]) / cell.exit_slope[i]);
+    if (!ramps_[i].limits() || !(end.slope[i] > cell.standing)) continue;
+    most = std::min(most, ramps_[i].square_after(other.slope[i] * at_other, cell.way[i]) / end.slope[i]);
   }
   return most;
 }
@@ -241,11 +233,11 @@ double TimeBound::exit_for(const Cell& cell, double entry) const {
 double TimeBound::least_time(const Cell& cell, double entry, double exit) const {
   double time = cell.length / std::sqrt(cell.cap);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const double steepest = std::max(cell.entry_slope[i], cell.exit_slope[i]);
+    const double steepest = std::max(cell.entry.slope[i], cell.exit.slope[i]);
     if (!ramps_[i].limits() || !(steepest > cell.standing)) continue;
     double top = steepest * cell.cap;
     if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, square(axes_[i].velocity.value()));
-    const AxisRamp::Squares squares{.start = cell.entry_slope[i] * entry, .end = cell.exit_slope[i] * exit, .top = top};
+    const AxisRamp::Squares squares{.start = cell.entry.slope[i] * entry, .end = cell.exit.slope[i] * exit, .top = top};
     time = std::max(time, ramps_[i].least_time(squares, cell.way[i]));
   }
   return time;
@@ -255,7 +247,7 @@ double TimeBound::least_time(const Cell& cell, double entry, double exit) const 
 void TimeBound::plan_backwards(double last) {
   for (std::size_t i = cells_.size(); i-- > 0;) {
     Cell& cell = cells_[i];
-    cell.controllable = entry_for(cell, std::min(last, cell.exit_cap));
+    cell.controllable = most_at(cell.entry, cell.exit, std::min(last, cell.exit.cap), cell);
     last = cell.controllable / cell.entry_scale;
   }
 }
@@ -264,12 +256,12 @@ void TimeBound::plan_backwards(double last) {
 void TimeBound::settle(std::size_t cells) {
   const bool all = cells == cells_.size();
   if (cells_.empty()) return;
-  plan_backwards(all ? 0 : cells_.back().exit_cap);
+  plan_backwards(all ? 0 : cells_.back().exit.cap);
   for (std::size_t i = 0; i < cells; ++i) {
     const Cell& cell = cells_[i];
     x_ = std::min(x_ * cell.entry_scale, cell.controllable);
     const double next = i + 1 < cells_.size() ? cells_[i + 1].controllable / cells_[i + 1].entry_scale : 0;
-    const double exit = std::min(next, exit_for(cell, x_));
+    const double exit = std::min(next, most_at(cell.exit, cell.entry, x_, cell));
     time_ += least_time(cell, x_, exit);
     x_ = exit;
   }

@@ -49,17 +49,19 @@ class TimeBound {
     Pairs turning{};  // of each pair of axes: 1/x of the largest x, with the sign of the turn
     double cap = 0;   // the largest x here
   };
+  struct End {       // of a cell
+    double cap = 0;  // the largest x there
+    Row slope{};     // q'²
+  };
   struct Cell {
     double length = 0;
-    double cap = 0;        // the largest x anywhere in it
-    double entry_cap = 0;  // the largest x at its start and at the end of the cell before
-    double exit_cap = 0;
+    double cap = 0;  // the largest x anywhere in it
+    End entry;       // its cap counts at the end of the cell before, too
+    End exit;
     double entry_scale = 1;   // x at its start divided by x at the end of the cell before
     double controllable = 0;  // the largest x at its start from which the path can be played
     double standing = 0;      // an axis with a smaller q'² stands, but for rounding
-    Row entry_slope{};        // q'²
-    Row exit_slope{};
-    Row way{};  // |Δq|
+    Row way{};                // |Δq|
   };
   struct Joint {  // the end of the last curve
     Row direction{};
@@ -79,8 +81,7 @@ class TimeBound {
   double cap_within(const Place& from, const Place& middle, const Place& to) const;
   Joint joint_at(const Place& place) const;
   double kink_cap(const Joint& before, const Joint& after) const;
-  double entry_for(const Cell& cell, double exit) const;
-  double exit_for(const Cell& cell, double entry) const;
+  double most_at(const End& end, const End& other, double at_other, const Cell& cell) const;
   double least_time(const Cell& cell, double entry, double exit) const;
 
   std::vector<ProvenAxis> axes_;
