@@ -20,10 +20,14 @@ bool is_line(const PathItem& item) {
 
 }  // namespace
 
+bool are_played_alike(const Segment& before, const Segment& after) {
+  return before.speed == after.speed && before.rapid == after.rapid && before.heeds == after.heeds &&
+         before.lock == after.lock && before.pitch == after.pitch;
+}
+
 bool are_alike(const Segment& before, const Segment& after) {
-  return before.speed == after.speed && before.rapid == after.rapid && before.tolerance == after.tolerance &&
-         before.merge == after.merge && before.mode != PathMode::exact_stop && before.work_zero == after.work_zero &&
-         before.heeds == after.heeds && before.lock == after.lock && before.pitch == after.pitch;
+  return are_played_alike(before, after) && before.tolerance == after.tolerance && before.merge == after.merge &&
+         before.mode != PathMode::exact_stop && before.work_zero == after.work_zero;
 }
 
 void LineMerger::Cone::begin(const Point& direction, double length, double within) {

@@ -15,6 +15,8 @@
 
 namespace passo {
 
+// Whether two segments have the same speed, heed the same, and follow the spindle alike.
+bool are_played_alike(const Segment& before, const Segment& after);
 // Whether nothing but the curve changes from a segment to the next, and the path goes on between them.
 bool are_alike(const Segment& before, const Segment& after);
 

@@ -18,11 +18,6 @@ constexpr double chord_share = 0.01;
 // Of a span: a shorter part is not worth a segment of its own.
 constexpr double least_part = 1e-3;
 
-bool are_played_alike(const Segment& before, const Segment& after) {
-  return before.speed == after.speed && before.rapid == after.rapid && before.heeds == after.heeds &&
-         before.lock == after.lock && before.pitch == after.pitch;
-}
-
 Segment& segment_in(PathItem& item) {
   auto* const segment = std::get_if<Segment>(&item);
   return segment != nullptr ? *segment : item.emplace<Segment>();
