@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "kit/list_source.hpp"
 #include "tube_optimum.hpp"
 
 #include "passo/path/path_smoother.hpp"
@@ -18,20 +19,6 @@ using namespace passo;
 
 constexpr double tolerance = 0.01;  // mm
 constexpr double feed = 1000;       // mm/s: more than any axis can do
-
-class ListedPath final : public Source<PathItem> {
- public:
-  explicit ListedPath(std::vector<PathItem> items) : items_(std::move(items)) {}
-  [[nodiscard]] bool next(PathItem& item) override {
-    if (at_ == items_.size()) return false;
-    item = items_[at_++];
-    return true;
-  }
-
- private:
-  std::vector<PathItem> items_;
-  std::size_t at_ = 0;
-};
 
 Segment segment_of(const Curve& curve) {
   return {.curve = curve, .speed = MmPerSecond(feed), .tolerance = Mm(tolerance), .merge = Mm(tolerance / 20)};
@@ -49,7 +36,7 @@ MotionLimits bench_limits(double jerk) {
 }
 
 double time_of(const std::vector<PathItem>& path, double jerk) {
-  ListedPath source(path);
+  test::ListSource<PathItem> source(path);
   PathSmoother smoother(source, jerk > 0 ? Smoothness::slow_bending : Smoothness::least_bending);
   Planner planner(smoother, bench_limits(jerk));
   double time = 0;

@@ -9,28 +9,13 @@
 #include <vector>
 
 #include "kit/golden.hpp"
+#include "kit/list_source.hpp"
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/base/source.hpp"
 #include "passo/geometry/axes.hpp"
 
 namespace passo::test {
-
-template <class T>
-class ListSource final : public Source<T> {
- public:
-  explicit ListSource(std::vector<T> items) : items_(std::move(items)) {}
-  [[nodiscard]] bool next(T& item) override {
-    if (at_ == items_.size()) return false;
-    item = items_[at_++];
-    return true;
-  }
-
- private:
-  std::vector<T> items_;
-  std::size_t at_ = 0;
-};
 
 template <class T>
 std::vector<T> drain(Source<T>& source) {

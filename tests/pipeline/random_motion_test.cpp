@@ -80,20 +80,27 @@ TEST(RandomMotion, keeps_limits_and_path_and_is_nearly_the_fastest) {
   with_jerk.print("jerk limited");
 }
 
+// A machine whose axes are all alike.
+MachineDescription even_machine(std::initializer_list<Axis> axes, double steps, MmPerSecond velocity,
+                                MmPerSecond2 acceleration) {
+  MachineDescription machine;
+  for (const Axis axis : axes) {
+    AxisDescription& own = machine.axes.emplace_back();
+    own.axis = axis;
+    own.steps_per_unit = steps;
+    own.travel_low = -1e4;
+    own.travel_high = 1e4;
+    own.velocity = velocity;
+    own.acceleration = acceleration;
+  }
+  machine.board.highest_event_rate = Hertz(1e6);
+  return machine;
+}
+
 // Where a rotary axis turns fast for each millimetre in one move, and is all that moves in the next, its slope changes
 // so much in the corner that the acceleration along the path is ten times its own.
 TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
-  MachineDescription machine;
-  for (const Axis axis : {Axis::y, Axis::a}) {
-    AxisDescription& own = machine.axes.emplace_back();
-    own.axis = axis;
-    own.steps_per_unit = 100;
-    own.travel_low = -1e4;
-    own.travel_high = 1e4;
-    own.velocity = MmPerSecond(266);
-    own.acceleration = MmPerSecond2(313);
-  }
-  machine.board.highest_event_rate = Hertz(1e6);
+  MachineDescription machine = even_machine({Axis::y, Axis::a}, 100, MmPerSecond(266), MmPerSecond2(313));
   std::string program = "G21 G91 F857\n";
   for (int i = 0; i < 30; ++i) program += "G1 Y.0863 A.74\nG1 A1.14\n";
   for (const double tolerance : {0.001, 0.005, 0.02, 0.1}) {
@@ -107,18 +114,8 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
 // Lines that are one but for rounding, at feeds that change. They are smoothed into long spans, in each of which the
 // motion may speed up and slow down.
 TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {
-  MachineDescription machine;
+  MachineDescription machine = even_machine({Axis::x, Axis::y, Axis::z}, 5, MmPerSecond(115), MmPerSecond2(50));
   machine.path_tolerance = Mm(0.001);
-  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-    AxisDescription& own = machine.axes.emplace_back();
-    own.axis = axis;
-    own.steps_per_unit = 5;
-    own.travel_low = -1e4;
-    own.travel_high = 1e4;
-    own.velocity = MmPerSecond(115);
-    own.acceleration = MmPerSecond2(50);
-  }
-  machine.board.highest_event_rate = Hertz(1e6);
   std::string program = "G21 G90\n";
   const std::vector<std::pair<double, double>> lines = {{1, 13'000}, {18, 420},  {24, 420},
                                                         {25, 1950},  {26, 7800}, {30, 7800}};

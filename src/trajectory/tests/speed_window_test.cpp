@@ -44,6 +44,19 @@ TEST(SpeedWindow, a_demand_that_hardly_depends_on_the_exit_leaves_one) {
   EXPECT_LE(largest_share(demands, entry, exit), 1 + 1e-8);
 }
 
+struct ShapeAtEnd {
+  double slope = 0;
+  double bend = 0;
+};
+AxisDemand demand_of(const ShapeAtEnd& in, const ShapeAtEnd& out, double length, double limit) {
+  const double per_way = 1 / (2 * length);
+  return {.entry_x = in.bend - in.slope * per_way,
+          .entry_y = in.slope * per_way,
+          .exit_x = -out.slope * per_way,
+          .exit_y = out.bend + out.slope * per_way,
+          .limit = limit};
+}
+
 // Cells of any curve, including every place on it where bend and slope cancel.
 TEST(SpeedWindow, what_is_let_in_comes_through) {
   test::Random random;
@@ -58,11 +71,7 @@ TEST(SpeedWindow, what_is_let_in_comes_through) {
       const double rounding = random.between(-1, 1) * std::exp(random.between(-35, -5));
       const double bend_in = (slope_out - slope_in) / length;
       const double bend_out = cancels ? -slope_out * per_way * (1 + rounding) : bend_in;
-      demands.push_back({.entry_x = bend_in - slope_in * per_way,
-                         .entry_y = slope_in * per_way,
-                         .exit_x = -slope_out * per_way,
-                         .exit_y = bend_out + slope_out * per_way,
-                         .limit = random.between(100, 1000)});
+      demands.push_back(demand_of({slope_in, bend_in}, {slope_out, bend_out}, length, random.between(100, 1000)));
     }
     const double top = std::exp(random.between(0, 12));
     const double exit_most = random.chance(0.2) ? 0 : random.between(0, top);
@@ -109,17 +118,12 @@ TEST(SpeedWindow, the_largest_entry_is_the_farthest_corner_of_the_region) {
   int by_corner = 0;
   for (int run = 0; run < 5'000; ++run) {
     const double length = std::exp(random.between(-4, 0));
-    const double per_way = 1 / (2 * length);
     std::vector<AxisDemand> demands;
     for (int axis = 0; axis < 3; ++axis) {
       const double slope_in = random.between(-1, 1);
       const double slope_out = slope_in + random.between(-0.1, 0.1);
       const double bend = (slope_out - slope_in) / length;
-      demands.push_back({.entry_x = bend - slope_in * per_way,
-                         .entry_y = slope_in * per_way,
-                         .exit_x = -slope_out * per_way,
-                         .exit_y = bend + slope_out * per_way,
-                         .limit = random.between(100, 1000)});
+      demands.push_back(demand_of({slope_in, bend}, {slope_out, bend}, length, random.between(100, 1000)));
     }
     const double top = std::exp(random.between(0, 12));
     const double exit_most = random.between(0, top);
