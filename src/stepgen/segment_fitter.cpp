@@ -1,6 +1,7 @@
 #include "segment_fitter.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -21,14 +22,27 @@ std::int64_t floor_to_int(double x) {
   const auto truncated = static_cast<std::int64_t>(x);
   return truncated - (x < static_cast<double>(truncated) ? 1 : 0);
 }
+// The same for |x| below 2^30, to within 2^-22: a shift makes all numbers positive, which are rounded down where their
+// fraction is cut. The compiler makes vectors of this, and not of a comparison.
+std::int32_t floor_to_int_32(double x) {
+  constexpr std::int32_t shift = 1 << 30;
+  return static_cast<std::int32_t>(x + shift) - shift;
+}
+// A place within one segment, in 1/65536 step from the start of the step in which the motor is. The steps of a segment
+// fit 32 bits, and the processor computes twice as many of these at once.
+std::int32_t step_of(std::int32_t place) {
+  return place >> 16;
+}
 // Halves away from zero.
 std::int64_t nearest(double x) {
   return static_cast<std::int64_t>(x + (x < 0 ? -0.5 : 0.5));
 }
-std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
+template <typename Int>
+Int ceil_divide(Int a, Int b) {
   return a >= 0 ? (a + b - 1) / b : -(-a / b);
 }
-std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
+template <typename Int>
+Int floor_divide(Int a, Int b) {
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
 
@@ -119,65 +133,80 @@ SegmentFitter::Advance SegmentFitter::settle(std::int64_t position, double place
   return {.sign = sign, .increment = std::min<std::int64_t>(missing, whole_step), .events = 1};
 }
 
+// The first event from `from` to `count` where `margin` is negative. count + 1 if there is none. Mostly there is none:
+// a look without an exit comes first, in which the processor takes several events at once. All signs are gathered in
+// one.
+template <typename Margin>
+std::size_t first_below(std::size_t from, std::size_t count, const Margin& margin) {
+  std::int64_t signs = 0;
+  for (std::size_t k = from; k <= count; ++k) signs |= std::bit_cast<std::int64_t>(margin(k));
+  if (signs >= 0) return count + 1;
+  while (!std::signbit(margin(from))) ++from;
+  return from;
+}
+
 // Finds the longest series of events that one increment can serve. Used if the straight guess fails. The series should
 // end with the motor at its exact place: an increment at a bound would leave the motor ahead or behind, and then the
 // next segment would be short.
 //
 // Products test whether a quotient is beyond a bound, so that few quotients have to be computed.
-SegmentFitter::Advance SegmentFitter::within_bounds(std::int64_t place, unsigned count) const {
-  std::int64_t low = 0;
-  std::int64_t high = whole_step;
-  Advance pushed{.increment = std::clamp<std::int64_t>(ideal_[1] - place, 0, whole_step), .events = 1};
-  unsigned straight = 0;  // number of events
-  for (unsigned k = 1; k <= count; ++k) {
-    const std::int64_t due = (ideal_[k] >> 16 << 16) - place;                         // not late
-    const std::int64_t early = (ideal_[k + 1] >> 16 << 16) + whole_step - 1 - place;  // not more than one event early
+SegmentFitter::Advance SegmentFitter::within_bounds(std::int32_t place, std::int32_t count) const {
+  std::int32_t low = 0;
+  std::int32_t high = whole_step;
+  Advance pushed{.increment = std::clamp<std::int32_t>(ideal_[1] - place, 0, whole_step), .events = 1};
+  std::int32_t straight = 0;  // number of events
+  for (std::int32_t k = 1; k <= count; ++k) {
+    const std::int32_t due = step_of(ideal_[k]) * whole_step - place;  // not late
+    const std::int32_t early =
+        step_of(ideal_[k + 1]) * whole_step + whole_step - 1 - place;  // not more than one event early
     if (due > low * k) low = ceil_divide(due, k);
     if (early < high * k) high = floor_divide(early, k);
     if (low > high) break;
-    const std::int64_t way = ideal_[k] - place;
+    const std::int32_t way = ideal_[k] - place;
     const bool is_low = way <= (low - 1) * k;
     const bool is_high = way > high * k;
-    pushed = {.increment = is_low ? low : high, .events = k};
+    pushed = {.increment = is_low ? low : high, .events = static_cast<unsigned>(k)};
     if (!is_low && !is_high) straight = k;
   }
   // If the motor is far behind or ahead of its place, no increment fits. Then the best possible one is used.
   if (straight == 0) return pushed;
-  return {.increment = ceil_divide(ideal_[straight] - place, straight), .events = straight};
+  return {.increment = ceil_divide(ideal_[straight] - place, straight), .events = static_cast<unsigned>(straight)};
 }
 
 SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,
                                                     unsigned count) {
   const double* places = events.places(motor);
-  unsigned first = 1;
-  while (first <= count && std::fabs(places[first] - places[first - 1]) < still) ++first;
+  std::size_t first = 1;
+  if (std::fabs(places[1] - places[0]) < still) {
+    first = first_below(2, count, [places](std::size_t k) { return still - std::fabs(places[k] - places[k - 1]); });
+  }
   if (first > count) return settle(position, places[count], count);
-  const int sign = places[first] > places[first - 1] ? 1 : -1;
-  const auto turns_back = [&](unsigned k) { return sign * (places[k] - places[k - 1]) <= -still; };
-  for (unsigned k = first + 1; k <= count; ++k) {
-    if (turns_back(k)) count = k - 1;  // the rest is left to the next segment
-  }
+  const int direction = places[first] > places[first - 1] ? 1 : -1;
+  const double sign = direction;
+  // What is behind a turn is left to the next segment.
+  const auto moves_on = [places, sign](std::size_t k) { return sign * (places[k] - places[k - 1]) + still; };
+  count = static_cast<unsigned>(first_below(first + 1, count, moves_on)) - 1;
+  const std::int64_t start = along(direction, position);
+  const std::int64_t this_step = start & ~(whole_step - 1);
+  const std::int32_t place = static_cast<std::int32_t>(start - this_step);
+  const auto ideal = [places, sign, from = static_cast<double>(this_step)](std::size_t k) {
+    return floor_to_int_32(sign * places[k] - from);
+  };
+  // Plain loops over all events: the processor takes several of them at once.
+  std::int32_t* const due = ideal_.data();
+  for (std::size_t k = 1; k <= count; ++k) due[k] = ideal(k);
   const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
-  const std::int64_t end = floor_to_int(sign * places[count]);
-  const std::int64_t behind_end = goes_on ? floor_to_int(sign * places[count + 1]) : end;
-
-  const std::int64_t start = along(sign, position);
+  due[count + 1] = goes_on ? ideal(count + 1) : due[count];
   // Rounded up, so that a step exactly at an event is not missed by a few 65536ths.
-  const std::int64_t straight = std::clamp<std::int64_t>(ceil_divide(end - start, count), 0, whole_step);
-  std::int64_t place = start;
-  std::int64_t whole_before = INT64_MIN;
-  bool holds = true;
-  for (unsigned k = 1; k <= count; ++k) {
-    ideal_[k] = floor_to_int(sign * places[k]);
-    place += straight;
-    const std::int64_t due = ideal_[k] >> 16;
-    holds = holds & (whole_before <= due) & (place >> 16 >= due);
-    whole_before = place >> 16;
+  const auto last = static_cast<std::int32_t>(count);
+  const std::int32_t straight = std::clamp<std::int32_t>(ceil_divide(due[count] - place, last), 0, whole_step);
+  std::int32_t spare = 0;  // negative where a step comes too late, or more than one event too early
+  for (std::int32_t k = 1; k <= last; ++k) {
+    const std::int32_t steps = step_of(place + k * straight);
+    spare |= (steps - step_of(due[k])) | (step_of(due[k + 1]) - steps);
   }
-  ideal_[count + 1] = behind_end;
-  holds = holds && whole_before <= behind_end >> 16;
-  Advance advance = holds ? Advance{.increment = straight, .events = count} : within_bounds(start, count);
-  advance.sign = sign;
+  Advance advance = spare >= 0 ? Advance{.increment = straight, .events = count} : within_bounds(place, last);
+  advance.sign = direction;
   return advance;
 }
 

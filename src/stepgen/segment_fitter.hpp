@@ -59,15 +59,16 @@ class SegmentFitter {
   Advance advance_master(const Stretch& stretch, std::int64_t position, double first_target, unsigned events) const;
   Advance advance_other(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count);
   Advance settle(std::int64_t position, double place, unsigned count) const;
-  Advance within_bounds(std::int64_t place, unsigned count) const;
+  Advance within_bounds(std::int32_t place, std::int32_t count) const;
 
   std::uint8_t motors_;
   std::int64_t shortest_interval_;
   std::int64_t share_ = 0;
   unsigned longest_ = 255;
   unsigned guess_ = 255;  // the number of events in the last segment; the next number will be similar
-  // The present motor's exact places in whole units, in its direction of travel. [0] is unused.
-  std::array<std::int64_t, longest_segment_of_all + 2> ideal_{};
+  // The present motor's exact places in whole units, in its direction of travel, from the start of the step in which
+  // the motor is. [0] is unused.
+  std::array<std::int32_t, longest_segment_of_all + 2> ideal_{};
 };
 
 // The place at which a motor rests if its exact place is `place`. The step count is the exact position, rounded to the
