@@ -23,8 +23,8 @@ sed 's/^max_acceleration_mm_s2 = .*/&\nmax_jerk_mm_s3 = 25_000/' "$machine" >"$n
 
 # $1 a folder, $2 a machine file. A motion beyond its limits (exit code 1) is a row like any other.
 table() {
-  echo "| program | time, s | time / bound | velocity × | acceleration × | jerk × | in the steps × | velocity jump, mm/s | deviation × | line, kB/s | at most | good |"
-  echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
+  echo "| program | time, s | time / bound | in the tube | velocity × | acceleration × | jerk × | in the steps × | velocity jump, mm/s | deviation × | line, kB/s | at most | good |"
+  echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
   local program json line
   sed 's/^max_event_rate_hz = .*/max_event_rate_hz = 100_000/' "$2" >"$new/slow_board.toml"
   for program in "$1"/*.ngc "$1"/*.nc; do
@@ -34,7 +34,7 @@ table() {
     jq -r --argjson line "${line:-null}" --arg name "$(basename "$program")" '
       def shown($digits): . * pow(10; $digits) | round / pow(10; $digits) | tostring;
       def worst(f): [.axes[] | f // 0] | max;
-      [$name, (.time_s | shown(3)), (.time_over_bound | shown(4)),
+      [$name, (.time_s | shown(3)), (.time_over_bound | shown(4)), (.time_over_tube_bound | shown(4)),
        (worst(.velocity.multiple) | shown(4)), (worst(.acceleration.multiple) | shown(4)),
        (if any(.axes[].jerk.limit; . != null and . > 0) then worst(.jerk.multiple) | shown(4) else "none" end),
        (worst(.step_acceleration.multiple) | shown(2)), (worst(.velocity_jump.value) | shown(6)),
