@@ -25,7 +25,7 @@ sed 's/^max_acceleration_mm_s2 = .*/&\nmax_jerk_mm_s3 = 25_000/' "$machine" >"$n
 
 # $1 a folder, $2 a machine file. A motion beyond its limits (exit code 1) is a row like any other.
 table() {
-  echo "| program | time, s | time / bound | in the tube | velocity × | acceleration × | jerk × | in the steps × | velocity jump, mm/s | deviation × | line, kB/s | at most | good |"
+  echo "| program | time, s | time / bound | in the tube | velocity × | acceleration × | jerk × | in steps × | jump, mm/s | deviation × | line, kB/s | at most | good |"
   echo "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|"
   local program json line
   sed 's/^max_event_rate_hz = .*/max_event_rate_hz = 100_000/' "$2" >"$new/slow_board.toml"

@@ -188,9 +188,11 @@ void draw_legend(Canvas& canvas, const Peaks& peaks, Spot place) {
   x += 38 + canvas.text_width("within the tolerance", caption) + 32;
   line(programmed_pen, "programmed; limits");
   line(path_pen, "planned path");
-  canvas.disc({x + 6, place.y}, 3, cell_colour);
-  canvas.text({x + 18, place.y}, "a phase begins", caption);
-  x += 18 + canvas.text_width("a phase begins", caption) + 32;
+  if (peaks.phases <= most_dots) {
+    canvas.disc({x + 6, place.y}, 3, cell_colour);
+    canvas.text({x + 18, place.y}, "a phase begins", caption);
+    x += 18 + canvas.text_width("a phase begins", caption) + 32;
+  }
   for (std::size_t i = 0; i < peaks.axes.size(); ++i)
     line(axis_pens[i], std::string("axis ") + letter_of(peaks.axes[i]));
 }
