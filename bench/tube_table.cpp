@@ -1,5 +1,6 @@
 // What the tube gives, as two tables: circles in rounded chords against the same circle as an arc, with limits of
 // acceleration and with limits of jerk too; and corners against the fastest motion inside the tube (tube_optimum.hpp).
+// Beside that optimum: the bound of `passo check --motion` for any path in the tube.
 //
 // Prints figures and decides nothing.
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "tube_optimum.hpp"
 
 #include "passo/path/path_smoother.hpp"
+#include "passo/proof/motion_proof.hpp"
 #include "passo/trajectory/planner.hpp"
 
 namespace {
@@ -99,10 +101,40 @@ std::vector<PathItem> path_of(const std::vector<bench::Place>& corners) {
   return path;
 }
 
+double bound_of(const std::vector<PathItem>& path) {
+  ProofOptions options;
+  const MotionLimits limits = bench_limits(0);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    options.axes.push_back(
+        {.axis = axis, .velocity = limits.velocity[axis], .acceleration = limits.acceleration[axis]});
+  }
+  MotionProver prover(options);
+  for (const PathItem& item : path) prover.watch(item);
+  return prover.finish().tube_bound.value();
+}
+
+// A row of the table of corners, for the table of bounds.
+struct Corners {
+  const char* name;
+  std::vector<bench::Place> places;
+  double optimum;
+};
+std::vector<Corners> corners_done;
+
+void print_bounds() {
+  std::printf("\n%-26s %12s %12s %12s\n", "", "bound, s", "optimum / it", "ours / it");
+  for (const Corners& one : corners_done) {
+    const double bound = bound_of(path_of(one.places));
+    std::printf("%-26s %12.5f %12.4f %12.4f\n", one.name, bound, one.optimum / bound,
+                time_of(path_of(one.places), 0) / bound);
+  }
+}
+
 void print_corners() {
   std::printf("\n%-26s %12s %12s %12s\n", "", "optimum, s", "ours, s", "ratio");
   const auto print = [](const char* name, const std::vector<bench::Place>& corners, int samples) {
     const double best = bench::find_optimum(corners, {.tolerance = tolerance}, samples);
+    corners_done.push_back({name, corners, best});
     const double ours = time_of(path_of(corners), 0);
     std::printf("%-26s %12.5f %12.5f %12.4f\n", name, best, ours, ours / best);
   };
@@ -129,5 +161,6 @@ void print_corners() {
 int main(int argc, char** argv) {
   if (argc == 1 || argv[1][0] == 'c') print_circles();
   if (argc == 1 || argv[1][0] != 'c') print_corners();
+  print_bounds();
   return 0;
 }

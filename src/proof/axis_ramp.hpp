@@ -22,6 +22,9 @@ class AxisRamp {
   // The greatest square of the speed after this way from that square, or before it.
   double square_after(double square, double way) const;
 
+  // The way from rest to that speed.
+  double way_from_rest(double speed) const { return steps_.empty() ? speed * speed / (2 * strongest_) : way_to(speed); }
+
   // Squares of speeds that the axis does not exceed: at the start of a way, at its end, and anywhere on it.
   struct Squares {
     double start = 0;

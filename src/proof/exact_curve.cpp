@@ -50,6 +50,19 @@ bool ExactCurve::in_plane(Axis axis) const {
   return curve_.shape() == Curve::Shape::arc && (axis == arc.first || axis == arc.second);
 }
 
+bool ExactCurve::moves(Axis axis) const {
+  if (in_plane(axis) || curve_.start()[axis] != curve_.end()[axis]) return true;
+  if (!is_cubic()) return false;
+  const Curve::CubicData data = curve_.cubic_data();
+  return data.first[axis] != 0 || data.second[axis] != 0 || data.third[axis] != 0;
+}
+
+double ExactCurve::feed_factor() const {
+  const Curve::ArcData& arc = curve_.arc_data();
+  const bool is_length = is_line() || (!is_cubic() && arc.start_radius == arc.end_radius);
+  return is_length ? 1 : std::max(1.0, fastest_);
+}
+
 Point ExactCurve::place(double s) const {
   Point point;
   const double share = s / length();

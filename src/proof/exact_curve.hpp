@@ -23,10 +23,15 @@ class ExactCurve {
 
   double length() const { return curve_.length().value(); }
   bool is_line() const { return curve_.shape() == Curve::Shape::line; }
+  bool is_cubic() const { return curve_.shape() == Curve::Shape::cubic; }
+  bool moves(Axis axis) const;
   Point place(double s) const;
   Derivatives at(Axis axis, double s) const;
   // About the angle by which the direction turns over the whole curve, in radians. For an arc never too small.
   double turning() const { return turning_; }
+
+  // An upper bound of |dP/ds|: 1 where s is the length that the feed counts, or very nearly.
+  double feed_factor() const;
 
   struct Nearest {
     double s = 0;

@@ -7,6 +7,7 @@
 #include "phase_peaks.hpp"
 #include "step_peaks.hpp"
 #include "time_bound.hpp"
+#include "tube_bound.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -76,9 +77,17 @@ std::vector<std::string> MotionProof::faults() const {
 class MotionProver::Implementation {
  public:
   explicit Implementation(const ProofOptions& options)
-      : proof_(begun(options)), peaks_(proof_, options), steps_(options, proof_), deviation_(proof_), bound_(options) {}
+      : proof_(begun(options)),
+        peaks_(proof_, options),
+        steps_(options, proof_),
+        deviation_(proof_),
+        bound_(options),
+        tube_(options) {}
 
-  void watch(const PathItem& item) { deviation_.programmed(item); }
+  void watch(const PathItem& item) {
+    deviation_.programmed(item);
+    tube_.watch(item);
+  }
   void watch(const BoardItem& item) {
     if (const auto* segment = std::get_if<BoardSegment>(&item)) steps_.watch(*segment);
   }
@@ -99,6 +108,7 @@ class MotionProver::Implementation {
     steps_.finish();
     proof_.time = peaks_.now();
     proof_.time_bound = bound_.time();
+    proof_.tube_bound = tube_.finish();
     return std::move(proof_);
   }
 
@@ -114,6 +124,7 @@ class MotionProver::Implementation {
   proof::StepPeaks steps_;
   proof::PathDeviation deviation_;
   proof::TimeBound bound_;
+  proof::TubeBound tube_;
 };
 
 MotionProver::MotionProver(const ProofOptions& options) : implementation_(std::make_unique<Implementation>(options)) {}

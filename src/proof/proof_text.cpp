@@ -86,6 +86,8 @@ Json json_of(const AxisProof& axis) {
 std::string to_text(const MotionProof& proof) {
   std::string text = fmt::format("time         {:.6f} s, bound {:.6f} s, time / bound {:.4f}\n", proof.time.value(),
                                  proof.time_bound.value(), proof.times_bound());
+  text += fmt::format("any path     bound {:.6f} s within the tolerance, time / bound {:.4f}\n",
+                      proof.tube_bound.value(), proof.times_tube_bound());
   text += fmt::format("motion       {} moves, {} phases\n", proof.moves, proof.phases);
   for (const AxisProof& axis : proof.axes) text += text_of(axis);
   text += "path\n";
@@ -106,6 +108,8 @@ std::string to_json(const MotionProof& proof) {
                      {"time_s", proof.time.value()},
                      {"time_bound_s", proof.time_bound.value()},
                      {"time_over_bound", proof.times_bound()},
+                     {"tube_bound_s", proof.tube_bound.value()},
+                     {"time_over_tube_bound", proof.times_tube_bound()},
                      {"moves", proof.moves},
                      {"phases", proof.phases},
                      {"axes", axes},

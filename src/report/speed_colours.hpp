@@ -23,7 +23,7 @@ class SpeedColours {
  public:
   static constexpr std::size_t classes = 32;
 
-  explicit SpeedColours(MmPerSecond fastest) : fastest_(fastest.value()) {}
+  explicit SpeedColours(MmPerSecond top) : fastest_(top.value()) {}
 
   std::size_t class_of(double speed) const;
   // `share`, 0…1, is a place in the map.

@@ -53,6 +53,23 @@ TEST_F(CheckMotion, a_wrong_program_shows_its_findings_and_is_not_planned) {
   EXPECT_EQ(passo("check p.ngc -m nowhere.toml --motion").code, 3);
 }
 
+TEST_F(CheckMotion, knows_a_time_that_no_path_in_the_tolerance_can_beat) {
+  const auto json = nlohmann::json::parse(check("G21 G64 P0.01 G0 X5\nY5\nX10\nM2\n", "--json").out);
+  EXPECT_LT(json["tube_bound_s"], json["time_bound_s"]);
+  EXPECT_GT(json["time_over_tube_bound"], 1);
+  EXPECT_LT(json["time_over_tube_bound"], 1.015);
+}
+
+TEST_F(CheckMotion, draws_the_motion) {
+  const std::string picture = path("motion.svg");
+  const Outcome outcome = check("G21 G0 X5\nY5\nM2\n", "--picture " + picture);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(passo::test::read(picture), testing::HasSubstr("<svg"));
+  const Outcome wrong = check("G21 G0 X5\nM2\n", "--picture motion.jpeg");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, testing::HasSubstr("a picture's name ends in .svg or .png"));
+}
+
 TEST_F(CheckMotion, help_has_an_example) {
   EXPECT_THAT(passo("check --help").out, testing::HasSubstr("passo check part.ngc -m router.toml --motion"));
 }

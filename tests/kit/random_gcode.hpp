@@ -71,6 +71,26 @@ inline MachineDescription random_machine(Random& random) {
   return machine;
 }
 
+// Gives a third of the machines limits of jerk on some of their axes, takes them from the others, and gives a third a
+// rotary axis where they have none. `number` is that of the job; what else is drawn for it stays the same.
+inline void mix_limits(std::uint64_t number, MachineDescription& machine) {
+  Random random = Random::of(number ^ 0x6d6978);
+  const double rise = std::exp(random.between(-6, -2));
+  for (AxisDescription& axis : machine.axes) axis.jerk = MmPerSecond3(0);
+  if (number % 3 == 0) {
+    const auto sure = static_cast<std::size_t>(random.between(0, static_cast<double>(machine.axes.size())));
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+      if (i != sure && !random.chance(0.5)) continue;
+      machine.axes[i].jerk = MmPerSecond3(machine.axes[i].acceleration.value() / rise);
+    }
+  }
+  const bool turns = std::ranges::any_of(machine.axes, [](const auto& axis) { return is_rotary(axis.axis); });
+  if (number / 3 % 3 != 0 || turns) return;
+  AxisDescription axis = machine.axes.back();
+  axis.axis = Axis::a;
+  machine.axes.push_back(axis);
+}
+
 class RandomGcode {
  public:
   RandomGcode(Random& random, const MachineDescription& machine) : random_(random), machine_(machine) {}
@@ -216,6 +236,14 @@ class RandomGcode {
 
 struct RandomJob {
   explicit RandomJob(Random& random) : machine(random_machine(random)), program(RandomGcode(random, machine).draw()) {}
+  RandomJob(Random& random, MachineDescription on)
+      : machine(std::move(on)), program(RandomGcode(random, machine).draw()) {}
+  // With limits of jerk on some axes only, and more rotary axes.
+  static RandomJob mixed(std::uint64_t number, Random& random) {
+    MachineDescription machine = random_machine(random);
+    mix_limits(number, machine);
+    return {random, std::move(machine)};
+  }
   MachineDescription machine;
   std::string program;
 };
@@ -228,13 +256,14 @@ inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
 // Calls `try_one` for PASSO_RUNS numbers from PASSO_SEED on, each time with the number's job and generator. Ends at the
 // first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, or fewer as PASSO_ONE_IN says. Each job depends
 // only on its number.
+enum class Machines : std::uint8_t { as_drawn, mixed };
 template <class Try>
-void for_each_job(int runs_otherwise, const Try& try_one) {
+void for_each_job(int runs_otherwise, const Try& try_one, Machines machines = Machines::as_drawn) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);
   const std::uint64_t runs = number_of("PASSO_RUNS", static_cast<std::uint64_t>(fewer(runs_otherwise)));
   for (std::uint64_t number = first; number < first + runs && !testing::Test::HasFailure(); ++number) {
     Random random = Random::of(number);
-    const RandomJob job(random);
+    const RandomJob job = machines == Machines::mixed ? RandomJob::mixed(number, random) : RandomJob(random);
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number) + "\n" + describe(job.machine) + job.program);
     if (runs == 1) std::printf("%s%s", describe(job.machine).c_str(), job.program.c_str());
     try_one(number, job, random);

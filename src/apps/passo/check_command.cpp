@@ -1,12 +1,15 @@
 // passo check: interprets the program, builds its path, and says what is wrong. Nothing runs on a machine. With
 // --motion the path is also planned and stepped, and the motion is measured.
 #include <cstdio>
+#include <filesystem>
+#include <string>
 #include <utility>
 
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
+#include <fmt/format.h>
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
@@ -15,6 +18,8 @@
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/proof/motion_proof.hpp"
 #include "passo/proof/proof_text.hpp"
+#include "passo/report/motion_picture.hpp"
+#include "passo/report/output_file.hpp"
 #include "passo/session/machine_session.hpp"
 
 namespace passo {
@@ -26,7 +31,7 @@ nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
 
 // Plays the whole program on a virtual machine and measures its motion. `nominal` is the time for the progress line.
 MotionProof prove(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                  Seconds nominal, Diagnostics& findings) {
+                  Seconds nominal, Diagnostics& findings, MotionRecorder* recorder) {
   constexpr unsigned turns_between_looks = 1024;
   MotionProver prover(proof_options(machine));
   ProgressDisplay progress(program.name());
@@ -43,8 +48,14 @@ MotionProof prove(ProgramReader program, const MachineDescription& machine, cons
                        .live = false,
                        .answers_probes = false,
                        .findings = &findings};
-  start.watchers.path = [&](const PathItem& item) { prover.watch(item); };
-  start.watchers.motion = [&](const MotionItem& item) { prover.watch(item); };
+  start.watchers.path = [&](const PathItem& item) {
+    prover.watch(item);
+    if (recorder != nullptr) recorder->watch(item);
+  };
+  start.watchers.motion = [&](const MotionItem& item) {
+    prover.watch(item);
+    if (recorder != nullptr) recorder->watch(item);
+  };
   start.watchers.items = [&](const BoardItem& item) { prover.watch(item); };
   static_cast<void>(session.request(std::move(start)).has_value());
   for (unsigned turns = 0; session.busy(); ++turns) {
@@ -54,9 +65,41 @@ MotionProof prove(ProgramReader program, const MachineDescription& machine, cons
   return prover.finish();
 }
 
+int draw(const MotionRecorder& motion, const MotionProof& proof, const CheckArguments& arguments) {
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
+  if (!file) return fail(exit_failed, file.error().message);
+  const std::string name = std::filesystem::path(arguments.program.program).filename().string();
+  const PictureOptions options{
+      .format = *picture_format_of(arguments.picture),
+      .program = name,
+      .machine = fmt::format("{:.4f} s; on this path at least {:.4f} s, on any path within the "
+                             "tolerance at least {:.4f} s",
+                             proof.time.value(), proof.time_bound.value(), proof.tube_bound.value())};
+  Status<OutputError> done = draw_motion_picture(motion, options, *file);
+  if (done) done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+// `machine` and `program` are good.
+int measure(const CheckArguments& arguments, const MachineDescription& machine, ProgramReader program,
+            const InterpreterOptions& options, Seconds nominal, Diagnostics& findings) {
+  MotionRecorder recorder(motion_limits(machine));
+  const bool draws = !arguments.picture.empty();
+  const MotionProof proof = prove(std::move(program), machine, options, nominal, findings, draws ? &recorder : nullptr);
+  std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
+  if (draws) {
+    const int code = draw(recorder, proof, arguments);
+    if (code != exit_done) return code;
+  }
+  return proof.good() ? exit_done : exit_failed;
+}
+
 }  // namespace
 
 int check(const CheckArguments& arguments) {
+  if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
+    return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
+  }
   Diagnostics diagnostics;
   const auto machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
@@ -67,11 +110,9 @@ int check(const CheckArguments& arguments) {
 
   Diagnostics findings;
   const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
-  if (result.good && arguments.motion) {
+  if (result.good && (arguments.motion || !arguments.picture.empty())) {
     show(findings);
-    const MotionProof proof = prove(std::move(*program), *machine, *options, result.nominal_time, findings);
-    std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
-    return proof.good() ? exit_done : exit_failed;
+    return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);
   }
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;

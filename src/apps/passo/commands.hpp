@@ -82,6 +82,7 @@ struct CheckArguments {
   ProgramArguments program;
   std::string machine;
   bool motion = false;  // plans the path too, and measures the motion
+  std::string picture;  // of the motion; empty: none
   bool json = false;
 };
 int check(const CheckArguments& arguments);

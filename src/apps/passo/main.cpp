@@ -170,11 +170,16 @@ int parse_and_run(int argc, char** argv) {
   add_files(check_command, check_arguments.program, false);
   check_command.add_flag("--motion", check_arguments.motion,
                          "plan it too, and prove that the motion keeps every limit; how fast it could be at best");
+  check_command.add_option(
+      "-p,--picture", check_arguments.picture,
+      "draw the motion: path and tolerance, speed over the way, acceleration and jerk (.svg or .png)");
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
   check_command.footer(
       "Examples:\n  passo check part.ngc -m router.toml             what is wrong with it\n"
       "  passo check part.ngc -m router.toml --motion    peaks, deviation, time and the least time there can be;\n"
-      "                                                  exit code 1 if a limit is broken");
+      "                                                  exit code 1 if a limit is broken\n"
+      "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
+      "too");
 
   CanonArguments canon_arguments;
   CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");

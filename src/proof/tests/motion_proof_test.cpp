@@ -472,6 +472,8 @@ TEST(MotionProof, text_and_json_say_the_same) {
   EXPECT_THAT(to_text(proof), testing::HasSubstr("NOT within its limits"));
   const auto json = nlohmann::json::parse(to_json(proof));
   EXPECT_EQ(json["good"], false);
+  EXPECT_NEAR(json["tube_bound_s"], proof.time_bound.value(), 1e-9);  // on a line they are the same
+  EXPECT_NEAR(json["time_over_tube_bound"], proof.times_bound(), 1e-9);
   EXPECT_NEAR(json["axes"]["X"]["acceleration"]["multiple"], 1.002, 1e-9);
   EXPECT_EQ(json["axes"]["X"]["acceleration"]["line"], 7);
   EXPECT_EQ(json["axes"]["X"]["jerk"]["limit"], nullptr);

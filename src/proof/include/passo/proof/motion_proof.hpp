@@ -72,9 +72,12 @@ struct MotionProof {
   Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
   Seconds time_bound{0};  // no motion on the same path within velocity, acceleration and feed takes less
+  // No motion on any path within the tolerance takes less, within the same limits. 0 without a programmed path.
+  Seconds tube_bound{0};
   std::uint64_t moves = 0;
   std::uint64_t phases = 0;
 
+  double times_tube_bound() const { return tube_bound > Seconds(0) ? time / tube_bound : 0; }
   double times_bound() const { return time_bound > Seconds(0) ? time / time_bound : 0; }
   // What exceeds its limit, one line each. Empty: the motion is good.
   std::vector<std::string> faults() const;

@@ -1,0 +1,87 @@
+// TubeSpeeds: how fast each axis can be where a motion in the tube passes the stations.
+//
+// An axis that passes a station with the speed v began at rest at least v²/2A before it: at its start place. If the
+// motion cannot have been beyond some place for as long as v takes to come about, the start place is not beyond that
+// place either. So a corner limits the axis that was idle before it. Backwards in time the same holds of what follows,
+// and limits the axis that will be idle. In each plane of two axes the same is asked of directions at right angles to
+// the legs, so that a corner between slanted legs counts as well.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "axis_ramp.hpp"
+#include "tube_path.hpp"
+
+namespace passo::proof {
+
+// Each axis has two directions: 2 i is upwards on axis i, 2 i + 1 is downwards.
+inline constexpr std::size_t most_directions = 2 * std::size_t{max_motors};
+constexpr double sign_of(std::size_t direction) {
+  return direction % 2 == 0 ? 1.0 : -1.0;
+}
+
+class TubeSpeeds {
+ public:
+  explicit TubeSpeeds(const std::vector<ProvenAxis>& axes);
+
+  struct Rests {  // at the first of two stations, at the last
+    bool first = false;
+    bool last = false;
+  };
+  // `rests`: whether the path rests at its ends.
+  void limit(const std::vector<Station>& path, Rests rests);
+
+  struct Speed {
+    double most = 0;  // mm/s
+    double pace = 0;  // s/mm: each mm by which the motion passes the station later costs, or sooner spares, so much
+  };
+  // The speed with which the axis leaves the station, by what was before; with which it arrives, by what follows.
+  const Speed& leaving(std::size_t station, std::size_t direction) const { return leaving_[station][direction]; }
+  const Speed& arriving(std::size_t station, std::size_t direction) const { return arriving_[station][direction]; }
+
+  double top(std::size_t axis) const { return tops_[axis]; }
+  double strength(std::size_t axis) const { return strengths_[axis]; }
+  const AxisRamp& ramp(std::size_t axis) const { return ramps_[axis]; }
+  // A lower bound of the time from one station to another in which an axis goes in this direction. 0 if it need not go.
+  // `rests`: where this axis is known to rest.
+  double axis_time(const std::vector<Station>& path, std::size_t from, std::size_t to, std::size_t direction,
+                   Rests rests) const;
+
+ private:
+  using Speeds = std::array<Speed, most_directions>;
+  // The path forwards in time, or backwards: then the last station is number 0, and directions turn round.
+  struct Walk {
+    const std::vector<Station>& path;
+    bool backwards;
+    std::size_t number(std::size_t i) const { return backwards ? path.size() - 1 - i : i; }
+    const Station& station(std::size_t i) const { return path[number(i)]; }
+    const Station& leg(std::size_t i) const { return path[backwards ? path.size() - i : i]; }  // before station i
+  };
+  struct Plane {  // of two axes
+    std::size_t first;
+    std::size_t second;
+  };
+  struct Limit {  // of a velocity in the plane: x first + y second <= most
+    double x, y, most;
+  };
+
+  void pass(const Walk& walk, bool rests, std::vector<Speeds>& speeds);
+  Speed speed_at(const Walk& walk, std::size_t i, std::size_t direction, double& start_place) const;
+  double least_time(const Walk& walk, std::size_t from, std::size_t to, double feed, std::uint16_t group) const;
+  void limit_planes(const Walk& walk);
+  void add_limits(const Walk& walk, std::size_t i, std::size_t until, const Plane& plane);
+  void combine(std::size_t station, const Plane& plane);
+
+  const std::vector<ProvenAxis>& axes_;
+  std::vector<AxisRamp> ramps_;
+  std::vector<double> tops_;
+  std::vector<double> strengths_;  // at rest; 0: no limit
+  std::vector<Speeds> leaving_;
+  std::vector<Speeds> arriving_;
+  std::vector<std::array<double, most_directions>> most_;  // by the planes
+  std::vector<Limit> limits_;
+  bool knows_speeds_ = false;  // those of a round before
+};
+
+}  // namespace passo::proof
