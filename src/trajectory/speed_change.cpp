@@ -40,16 +40,6 @@ double time_at(const Phase& phase, double s) {
   return time;
 }
 
-// The part of the phase after that time.
-Phase rest_of(const Phase& phase, double time, double start) {
-  const Seconds t(time);
-  return {.duration = phase.duration - t,
-          .start = Mm(start),
-          .velocity = phase.velocity_at(t),
-          .acceleration = phase.acceleration + phase.jerk * t,
-          .jerk = phase.jerk};
-}
-
 }  // namespace
 
 std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& state, const Request& request) {
@@ -152,7 +142,8 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
       if (time > smallest_time) pieces_.push_back({.segment = segment_, .phase = before});
       if (pieces_.empty() || pieces_.back().segment != segment_) return Laid::blocked;
       pieces_.back().ends_segment = true;
-      phase = rest_of(phase, time, end);
+      phase = phase.after(Seconds(time));
+      phase.start = Mm(end);
       const Segment* after = path.at(++segment_);
       if (after == nullptr || rests_between(*segment, *after)) return Laid::blocked;
       segment = after;
@@ -237,7 +228,7 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
   const Seconds t(time);
   const Mm s = std::clamp(phase.position_at(t), Mm(0), segment.curve.length());
   const double v = phase.velocity_at(t).value();
-  const double a = (phase.acceleration + phase.jerk * t).value();
+  const double a = phase.acceleration_at(t).value();
   const double j = phase.jerk.value();
   const Point first = segment.curve.tangent(s);
   const Point second = segment.curve.second_derivative(s);

@@ -23,16 +23,16 @@ namespace passo {
 
 // The state of the motion at a place on a segment of the path.
 struct PathState {
+  std::uint64_t segment = 0;
   double s = 0;
   double speed = 0;
   double acceleration = 0;
-  std::size_t segment = 0;  // counted from the path's first
 };
 
 class SpeedChange {
  public:
   struct Piece {
-    std::size_t segment = 0;  // counted in the path at the start of the change
+    std::uint64_t segment = 0;
     bool ends_segment = false;
     Phase phase;
   };
@@ -51,7 +51,7 @@ class SpeedChange {
   // About the way to brake from the speed at its end.
   double braking_way() const { return braking_way_; }
   // The place where it ends.
-  std::size_t segment() const { return segment_; }
+  std::uint64_t segment() const { return segment_; }
   double s() const { return s_; }
 
  private:
@@ -94,7 +94,7 @@ class SpeedChange {
   double exit_ = 0;
   double duration_ = 0;
   double braking_way_ = 0;
-  std::size_t segment_ = 0;
+  std::uint64_t segment_ = 0;
   double s_ = 0;
 };
 
