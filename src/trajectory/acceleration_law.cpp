@@ -1,11 +1,13 @@
 // AccelerationLaw: the cells ahead in a queue, and the speeds at their ends by two passes (planner.hpp).
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "cell.hpp"
 #include "cell_queue.hpp"
 #include "rest.hpp"
+#include "shorten.hpp"
 #include "speed_law.hpp"
 #include "speed_profile.hpp"
 #include "speed_window.hpp"
@@ -14,8 +16,6 @@ namespace passo {
 namespace {
 // A relative difference of squares of speeds. Smaller ones are rounding.
 constexpr double rounding = 1e-9;
-// A share of the longest time of a move. Phases are not cut into smaller parts; the move may be shorter by this.
-constexpr double smallest_part = 0.02;
 // A cell in which the square of the speed can change by less than this share of itself is short enough: in two halves
 // it would gain a quarter of the share at most.
 constexpr double least_change = 0.04;
@@ -45,7 +45,12 @@ class AccelerationLaw final : public SpeedLaw {
   }
 
   void feeds_changed() override {
-    for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
+    std::uint64_t segment = path_.first();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      set_caps(i, feed_squared(segment));
+      if (!(cells_[i].cell.end < path_.at(segment)->curve.length().value())) ++segment;
+    }
+    if (cutting_) cut_feed_squared_ = feed_squared(next_segment_ - 1);
     decided_ = 0;
   }
 
@@ -123,7 +128,7 @@ class AccelerationLaw final : public SpeedLaw {
     if (at_rest_) reached_squared_ = 0;
     cutter_.begin(*segment, reached_squared_);
     cutting_ = true;
-    ++next_segment_;
+    cut_feed_squared_ = feed_squared(next_segment_++);
   }
 
   void append() {
@@ -133,14 +138,14 @@ class AccelerationLaw final : public SpeedLaw {
     cells_.back().begins_at_rest = at_rest;
     const Cell& cell = cells_.back().cell;
     reached_squared_ = std::min(cell.top_squared, reached_squared_ + 2 * cell.acceleration * cell.length);
-    set_caps(cells_.size() - 1);
+    set_caps(cells_.size() - 1, cut_feed_squared_);
   }
 
-  void set_caps(std::size_t i) {
+  double feed_squared(std::uint64_t segment) { return squared(wishes_.feeds.speed_on(*path_.at(segment))); }
+
+  void set_caps(std::size_t i, double feed_squared) {
     CellQueue::Entry& entry = cells_[i];
-    entry.top_squared =
-        std::min({entry.cell.top_squared, squared(wishes_.feeds.top),
-                  entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock))});
+    entry.top_squared = std::min(entry.cell.top_squared, feed_squared);
     entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
     if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
@@ -265,7 +270,8 @@ class AccelerationLaw final : public SpeedLaw {
     const double cell_end = cell.end;
     move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell_end);
     speed_squared_ = ride.exit;
-    const bool shortened = shorten(move);
+    const std::optional<PlannedMove> rest = shorten(move, wishes_.longest_move);
+    if (rest) speed_squared_ = squared(rest->begin()->velocity.value());
     if (move.to.value() < cell_end - smallest_rest) {
       // The exit of the rest of the cell is decided as it was for the whole.
       cut_front_again(segment, move.to.value(), cell_end, ride.exit);
@@ -274,7 +280,7 @@ class AccelerationLaw final : public SpeedLaw {
     decided_ -= std::min<std::size_t>(decided_, 1);
     move.to = Mm(cell_end);
     cells_.pop();
-    return shortened || cell_end >= segment.curve.length().value();
+    return rest || cell_end >= segment.curve.length().value();
   }
 
   // Cuts the first cell again from the present place of the path. Its exit stays.
@@ -298,8 +304,7 @@ class AccelerationLaw final : public SpeedLaw {
     cutter_.cut(*path_.front(), start, middle, false, first);
     first.allow(speed_squared_, halfway);
     cells_[1].begins_at_rest = false;
-    set_caps(0);
-    set_caps(1);
+    for (std::size_t i = 0; i < 2; ++i) set_caps(i, feed_squared(path_.first()));
     cells_[1].entry_if_rest = std::max(halfway, entry_to(1, exit));
     if (decided_ == 0) return;
     ++decided_;
@@ -308,31 +313,6 @@ class AccelerationLaw final : public SpeedLaw {
       half.decided_entry = i == 0 ? speed_squared_ : cells_[0].decided_exit;
       half.decided_exit = exit_from(i, half.decided_entry, i == 0 ? cells_[1].entry_if_rest : exit);
     }
-  }
-
-  // Shortens the move to the longest time allowed. Returns whether it did.
-  bool shorten(PlannedMove& move) {
-    Seconds left = wishes_.longest_move * (1 - smallest_part);
-    for (std::size_t i = 0; i < move.phase_count; ++i) {
-      Phase& phase = move.phases[i];
-      if (phase.duration <= left + wishes_.longest_move * smallest_part) {
-        left = std::max(left - phase.duration, Seconds(0));
-        continue;
-      }
-      if (i + 1 == move.phase_count && (move.to - phase.position_at(left)).value() < smallest_rest) return false;
-      if (left < wishes_.longest_move * smallest_part) {  // between two phases
-        move.phase_count = i;
-        move.to = phase.start;
-        speed_squared_ = squared(phase.velocity.value());
-        return true;
-      }
-      phase.duration = left;
-      move.phase_count = i + 1;
-      move.to = phase.position_at(left);
-      speed_squared_ = squared(phase.velocity_at(left).value());
-      return true;
-    }
-    return false;
   }
 
   static constexpr std::size_t first_window = 64;
@@ -344,11 +324,12 @@ class AccelerationLaw final : public SpeedLaw {
   CellQueue cells_;
   std::uint64_t next_segment_ = 0;  // the first segment of which no cell is cut
   bool cutting_ = false;
-  bool at_rest_ = true;         // the next cell begins at rest
-  double reached_squared_ = 0;  // the square of the highest speed at which it may begin
-  std::size_t decided_ = 0;     // cells at the head whose exit speed no later cell can change
-  double speed_squared_ = 0;    // at the start of the head
-  bool closed_ = false;         // an action or the program's end follows the queue, which ends at rest
+  bool at_rest_ = true;          // the next cell begins at rest
+  double cut_feed_squared_ = 0;  // of the segment that is being cut
+  double reached_squared_ = 0;   // the square of the highest speed at which it may begin
+  std::size_t decided_ = 0;      // cells at the head whose exit speed no later cell can change
+  double speed_squared_ = 0;     // at the start of the head
+  bool closed_ = false;          // an action or the program's end follows the queue, which ends at rest
   bool braking_ = false;
 };
 

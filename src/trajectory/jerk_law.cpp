@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "jerk_window.hpp"
+#include "shorten.hpp"
 #include "speed_change.hpp"
 #include "speed_law.hpp"
 
@@ -16,9 +17,6 @@ namespace {
 
 // Seconds between two places from which braking is tried.
 constexpr double between_trials = 0.003;
-
-// A share of the longest time of a move. A smaller part is not cut off.
-constexpr double smallest_part = 0.02;
 
 // A share of the time to rest. Another change must be sooner by this factor to be worth it.
 constexpr double worth = 0.98;
@@ -163,34 +161,6 @@ class JerkLaw final : public SpeedLaw {
     }
   }
 
-  // Shortens the move to the longest time allowed. Returns the rest, if any.
-  static std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest) {
-    if (move.duration() <= longest * (1 + smallest_part)) return {};
-    const Seconds small = longest * smallest_part;
-    Seconds left = longest;
-    for (std::size_t i = 0; i < move.phase_count; ++i) {
-      Phase& phase = move.phases[i];
-      if (phase.duration <= left + small && (i == 0 || left > small)) {
-        left = std::max(left - phase.duration, Seconds(0));
-        continue;
-      }
-      PlannedMove rest = move;
-      rest.phase_count = 0;
-      if (left <= small) {  // between two phases
-        for (std::size_t k = i; k < move.phase_count; ++k) rest.add(move.phases[k]);
-        move.phase_count = i;
-      } else {
-        rest.add(phase.after(left));
-        for (std::size_t k = i + 1; k < move.phase_count; ++k) rest.add(move.phases[k]);
-        phase.duration = left;
-        move.phase_count = i + 1;
-      }
-      move.to = rest.from();
-      return rest;
-    }
-    return {};
-  }
-
   static bool ends_segment(const PlannedMove& move) { return move.to >= move.segment.curve.length(); }
 
   // The state at the end of a move on that segment.
@@ -218,15 +188,11 @@ class JerkLaw final : public SpeedLaw {
   }
 
   void stop_sooner() {
-    const bool stopping = change_ && change_->exit() == 0;
     std::optional<SpeedChange> stop = plan_stop(now_);
     if (!stop) return;
-    if (stopping) {
-      double left = rest_ ? rest_->duration().value() : 0;
-      for (std::size_t i = given_pieces_; i < change_->pieces().size(); ++i) {
-        left += change_->pieces()[i].phase.duration.value();
-      }
-      if (stop->duration() > worth * left) return;
+    if (change_ && change_->exit() == 0) {
+      const Seconds left = (rest_ ? rest_->duration() : Seconds(0)) + change_->duration_from(given_pieces_);
+      if (stop->duration_from(0) > left * worth) return;
     }
     lead_off(std::move(stop));
   }

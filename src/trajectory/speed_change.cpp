@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "parabola.hpp"
+#include "phase_chain.hpp"
 #include "rest.hpp"
 
 namespace passo {
@@ -21,7 +22,6 @@ constexpr int most_looks = 200;
 constexpr double smallest_way = 1e-11;  // mm; a shorter phase is left out
 constexpr double smallest_rest = 0.02;  // mm of a segment after the end of a change, at least
 constexpr double smallest_part = 0.2;   // or this share of the segment; the rest is cut like a segment
-constexpr double smallest_time = 1e-13;
 constexpr double most_unseen_jump = 4;  // times the unseen jump, as the profile accepts it
 
 // The time within the phase at which the motion is at s.
@@ -34,7 +34,7 @@ double time_at(const Phase& phase, double s) {
     (missing > 0 ? low : high) = time;
     const double newton = time + missing / phase.velocity_at(Seconds(time)).value();
     const double next = newton > low && newton < high ? newton : (low + high) / 2;
-    if (std::abs(next - time) <= smallest_time / 1000) break;
+    if (std::abs(next - time) <= shortest_phase / 1000) break;
     time = next;
   }
   return time;
@@ -83,17 +83,13 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
 }
 
 void SpeedChange::add(double duration, double jerk) {
-  if (!(duration > smallest_time)) return;
-  const Phase phase{.duration = Seconds(duration),
-                    .start = Mm(way_),
-                    .velocity = MmPerSecond(speed_),
-                    .acceleration = MmPerSecond2(acceleration_),
-                    .jerk = MmPerSecond3(jerk)};
-  phases_.push_back(phase);
-  way_ = phase.position_at(phase.duration).value();
-  speed_ = phase.velocity_at(phase.duration).value();
-  acceleration_ += jerk * duration;
-  duration_ += duration;
+  if (const auto phase = chain_.next(duration, jerk)) phases_.push_back(*phase);
+}
+
+Seconds SpeedChange::duration_from(std::size_t piece) const {
+  Seconds sum{0};
+  for (; piece < pieces_.size(); ++piece) sum += pieces_[piece].phase.duration;
+  return sum;
 }
 
 // The acceleration goes to -p, stays there and goes back to 0, where p is the strongest braking. Returns false where
@@ -103,9 +99,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double a = state.acceleration;
   const double j = strength.jerk;
   phases_.clear();
-  speed_ = v;
-  acceleration_ = a;
-  way_ = duration_ = 0;
+  chain_ = {.speed = v, .acceleration = a};
   const double eased = v + a * std::abs(a) / (2 * j);
   if (eased <= exit || eased <= 0) {
     exit_ = eased;
@@ -120,7 +114,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double to_peak = std::abs(a + p) / j;
   const double lost = too_strong ? (a * a - p * p) / (2 * j) : (p * p - a * a) / (2 * j);
   add(to_peak, too_strong ? j : -j);
-  acceleration_ = to_peak > smallest_time ? -p : a;
+  if (!phases_.empty()) chain_.acceleration = -p;
   add((v - lost - p * p / (2 * j) - exit) / p, 0);
   add(p / j, j);
   return true;
@@ -139,7 +133,7 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
       Phase before = phase;
       before.duration = Seconds(time);
       before.start = phase.start - Mm(base);
-      if (time > smallest_time) pieces_.push_back({.segment = segment_, .phase = before});
+      if (time > shortest_phase) pieces_.push_back({.segment = segment_, .phase = before});
       if (pieces_.empty() || pieces_.back().segment != segment_) return Laid::blocked;
       pieces_.back().ends_segment = true;
       phase = phase.after(Seconds(time));
@@ -150,13 +144,13 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
       base = end;
       end = base + segment->curve.length().value();
     }
-    if (!(phase.duration.value() > smallest_time)) continue;
+    if (!(phase.duration.value() > shortest_phase)) continue;
     phase.start = phase.start - Mm(base);
     pieces_.push_back({.segment = segment_, .phase = phase});
   }
-  s_ = way_ - base;
+  s_ = chain_.at - base;
   const double least = std::min(smallest_rest, smallest_part * segment->curve.length().value());
-  return end - way_ > least ? Laid::whole : Laid::near_an_end;
+  return end - chain_.at > least ? Laid::whole : Laid::near_an_end;
 }
 
 SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request) const {

@@ -16,6 +16,7 @@
 #include "feed_factors.hpp"
 #include "jerk_cell.hpp"
 #include "path_ahead.hpp"
+#include "phase_chain.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -47,7 +48,8 @@ class SpeedChange {
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   double exit() const { return exit_; }
-  double duration() const { return duration_; }
+  // The time of the pieces from that one on.
+  Seconds duration_from(std::size_t piece) const;
   // About the way to brake from the speed at its end.
   double braking_way() const { return braking_way_; }
   // The place where it ends.
@@ -88,11 +90,8 @@ class SpeedChange {
 
   std::vector<Phase> phases_;  // starts count from the start of the change
   std::vector<Piece> pieces_;  // the same phases, cut where segments end
-  double speed_ = 0;           // while the phases are being shaped
-  double acceleration_ = 0;
-  double way_ = 0;
+  PhaseChain chain_;           // of the phases
   double exit_ = 0;
-  double duration_ = 0;
   double braking_way_ = 0;
   std::uint64_t segment_ = 0;
   double s_ = 0;
