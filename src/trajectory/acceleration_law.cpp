@@ -270,7 +270,7 @@ class AccelerationLaw final : public SpeedLaw {
     const double cell_end = cell.end;
     move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell_end);
     speed_squared_ = ride.exit;
-    const std::optional<PlannedMove> rest = shorten(move, wishes_.longest_move);
+    const std::optional<PlannedMove> rest = shorten(move, wishes_.longest_move, Mm(smallest_rest));
     if (rest) speed_squared_ = squared(rest->begin()->velocity.value());
     if (move.to.value() < cell_end - smallest_rest) {
       // The exit of the rest of the cell is decided as it was for the whole.

@@ -6,12 +6,10 @@ namespace {
 // A share of the longest time. No phase is cut nearer to one of its ends, so that no part of it is dust: a part takes a
 // fiftieth of a move at least, and a move is shorter than allowed by twice that at most.
 constexpr double smallest_part = 0.02;
-// In mm. A shorter rest of the whole move is rounding.
-constexpr double smallest_rest = 1e-9;
 
 }  // namespace
 
-std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest) {
+std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest, Mm least_way) {
   const Seconds small = longest * smallest_part;
   Seconds left = longest * (1 - smallest_part);
   std::size_t whole = 0;  // phases that stay whole
@@ -21,7 +19,7 @@ std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest) {
   if (whole == move.phase_count) return std::nullopt;
   const bool is_between = left < small;
   const Phase after = is_between ? move.phases[whole] : move.phases[whole].after(left);
-  if (whole + 1 == move.phase_count && (move.to - after.start).value() < smallest_rest) return std::nullopt;
+  if (whole + 1 == move.phase_count && move.to - after.start < least_way) return std::nullopt;
 
   std::optional<PlannedMove> rest = move;
   rest->phase_count = 0;
