@@ -45,12 +45,13 @@ class AccelerationLaw final : public SpeedLaw {
   }
 
   void feeds_changed() override {
-    std::uint64_t segment = path_.first();
+    std::uint64_t number = path_.first();
     for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const Segment& segment = *path_.at(number);
       set_caps(i, feed_squared(segment));
-      if (!(cells_[i].cell.end < path_.at(segment)->curve.length().value())) ++segment;
+      if (!(cells_[i].cell.end < segment.curve.length().value())) ++number;
     }
-    if (cutting_) cut_feed_squared_ = feed_squared(next_segment_ - 1);
+    if (cutting_) cut_feed_squared_ = feed_squared(*path_.at(next_segment_ - 1));
     decided_ = 0;
   }
 
@@ -128,7 +129,8 @@ class AccelerationLaw final : public SpeedLaw {
     if (at_rest_) reached_squared_ = 0;
     cutter_.begin(*segment, reached_squared_);
     cutting_ = true;
-    cut_feed_squared_ = feed_squared(next_segment_++);
+    cut_feed_squared_ = feed_squared(*segment);
+    ++next_segment_;
   }
 
   void append() {
@@ -141,7 +143,7 @@ class AccelerationLaw final : public SpeedLaw {
     set_caps(cells_.size() - 1, cut_feed_squared_);
   }
 
-  double feed_squared(std::uint64_t segment) { return squared(wishes_.feeds.speed_on(*path_.at(segment))); }
+  double feed_squared(const Segment& segment) const { return squared(wishes_.feeds.speed_on(segment)); }
 
   void set_caps(std::size_t i, double feed_squared) {
     CellQueue::Entry& entry = cells_[i];
@@ -304,7 +306,7 @@ class AccelerationLaw final : public SpeedLaw {
     cutter_.cut(*path_.front(), start, middle, false, first);
     first.allow(speed_squared_, halfway);
     cells_[1].begins_at_rest = false;
-    for (std::size_t i = 0; i < 2; ++i) set_caps(i, feed_squared(path_.first()));
+    for (std::size_t i = 0; i < 2; ++i) set_caps(i, feed_squared(*path_.front()));
     cells_[1].entry_if_rest = std::max(halfway, entry_to(1, exit));
     if (decided_ == 0) return;
     ++decided_;

@@ -24,7 +24,7 @@ class PathAhead {
   // it.
   const Segment* at(std::uint64_t number) {
     while (segments_.end() <= number && !ended_) pull();
-    return number < segments_.end() ? segments_[number].get() : nullptr;
+    return number < segments_.end() ? std::get_if<Segment>(segments_[number].get()) : nullptr;
   }
   const Segment* front() { return at(first()); }
   // Removes the first segment after it was played.
@@ -49,24 +49,12 @@ class PathAhead {
   }
 
  private:
-  void pull() {
-    if (!path_.next(pulled_)) {
-      ended_ = true;
-    } else if (const auto* action = std::get_if<Action>(&pulled_)) {
-      action_ = *action;
-      ended_ = true;
-    } else if (const auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
-      std::unique_ptr<Segment>& place = segments_.append();
-      if (place == nullptr) place = std::make_unique<Segment>();
-      *place = segment;
-    }
-  }
+  void pull();
 
   Source<PathItem>& path_;
-  Window<std::unique_ptr<Segment>> segments_;
+  Window<std::unique_ptr<PathItem>> segments_;  // items of which each is a segment
   std::optional<Action> action_;
   bool ended_ = false;
-  PathItem pulled_;
 };
 
 }  // namespace passo
