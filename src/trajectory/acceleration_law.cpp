@@ -14,15 +14,20 @@
 
 namespace passo {
 namespace {
-// A relative difference of squares of speeds. Smaller ones are rounding.
+
+// A relative difference of squares of speeds. Smaller ones are rounding: a thousand cells add up to about 1e-13.
 constexpr double rounding = 1e-9;
 // A cell in which the square of the speed can change by less than this share of itself is short enough: in two halves
 // it would gain a quarter of the share at most.
 constexpr double least_change = 0.04;
-// In mm. A shorter rest of a cell is rounding.
+// In mm. A shorter rest of a cell is rounding: places of up to ten metres are 1e-12 apart, and no machine steps so
+// finely.
 constexpr double smallest_rest = 1e-9;
-// In mm. A hold leaves at least this much of a cell, so that the rest can be halved.
+// In mm. A hold leaves at least this much of a cell, so that the rest can be halved down to the smallest rest.
 constexpr double smallest_cell = 1e-6;
+// In cells. Any size from 32 to 256 costs the same instructions within 0.1 % on chords; it doubles where that is too
+// short for braking. A smaller window lets the first move come sooner.
+constexpr std::size_t first_window = 64;
 
 double squared(double value) {
   return value * value;
@@ -316,8 +321,6 @@ class AccelerationLaw final : public SpeedLaw {
       half.decided_exit = exit_from(i, half.decided_entry, i == 0 ? cells_[1].entry_if_rest : exit);
     }
   }
-
-  static constexpr std::size_t first_window = 64;
 
   PathAhead& path_;
   const MidRunWishes& wishes_;

@@ -9,7 +9,7 @@
 
 namespace passo {
 
-// Below this factor there is no feed, and the motion stands still.
+// Below this factor there is no feed, and the motion stands still: knobs turn by whole percents (planner.hpp).
 inline constexpr double least_feed_factor = 0.01;
 
 struct FeedFactors {

@@ -15,16 +15,19 @@
 namespace passo {
 namespace {
 
-// Seconds between two places from which braking is tried.
+// In seconds, between two places from which braking is tried. A braking plan begins so much too late at most.
 constexpr double between_trials = 0.003;
 
-// A share of the time to rest. Another change must be sooner by this factor to be worth it.
+// A share of the time to rest. Another stop must be sooner by this factor, or stops of rounding would replace each
+// other at every move.
 constexpr double worth = 0.98;
 
-// Shares of the wanted speed. From each of them a plan that goes on is tried.
+// Shares of the wanted speed. From each of them a plan that goes on is tried: the first is the best one, and the others
+// help where the path ahead is slower than the feed.
 constexpr std::array<double, 6> tried_speeds = {1, 0.9, 0.75, 0.55, 0.35, 0.15};
 
-// A plan that goes on must see this many times the braking way.
+// A plan that goes on must see this many times the braking way: above 1, or its end would act on its start. Up to 3 the
+// times of 24 random programs with 570 holds and overrides differ by less than 1 %.
 constexpr double sight = 1.5;
 
 class JerkLaw final : public SpeedLaw {

@@ -7,11 +7,15 @@
 namespace passo {
 namespace {
 
-// In cells. Each window is planned to rest at its end, and the braking for that rest is planned again.
+// In cells. Each window is planned to rest at its end, and the braking for that rest is planned again in the next one.
+// With 300 cells a relief takes 41 % more instructions and 0.001 % more time; with 9,600 cells it takes 2 % fewer and
+// the same time, but the first move comes four times as late (smoothed_raster of motion_benchmark).
 constexpr std::size_t first_window = 2400;
+// Braking takes up to about 128 cells (cells_a_braking, jerk_cell.cpp). A shorter queue would hold little else.
 constexpr std::size_t fewest_queued = 400;
 constexpr std::size_t phases_a_cell = 2;
-constexpr std::size_t fewest_in_motion = 32;  // cells needed to plan a start in motion
+// Cells needed to plan a start in motion. The acceleration can rise three times in them (cells_a_ramp, jerk_cell.cpp).
+constexpr std::size_t fewest_in_motion = 32;
 
 }  // namespace
 

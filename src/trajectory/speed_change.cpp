@@ -11,25 +11,47 @@
 namespace passo {
 namespace {
 
+// A trial that asks for too much lowers the strength or the jerk to what would have been right, in these bounds: not by
+// less, or trials would creep up to a limit; not by more, because a weaker change lies elsewhere and may ask for less
+// there.
+constexpr double least_lowering = 0.97;
+constexpr double most_lowering = 0.7;
+// Trials that end near a segment's end count as so much too strong: the least lowering.
+constexpr double laid_badly = 1.03;
+// A change of less than this share of what the limits allow at the start would take fifty times as long as it should.
+// The plan before goes on instead. The hardest lowering gets there in 11 trials, so a change has more than twice that.
+constexpr double weakest = 0.02;
 constexpr int most_trials = 30;
-constexpr double weakest = 0.02;       // share of what the limits allow at the start; a weaker change is not worth it
-constexpr double looked_at = 0.99;     // share of the limits on curves; the rest is for places between those looked at
-constexpr double rounding = 1e-6;      // share of a limit
-constexpr double turn_a_look = 0.02;   // radians
-constexpr int fewest_looks = 12;       // in a piece
-constexpr int fewest_of_falling = 24;  // where limits fall with the speed
+
+constexpr double rounding = 1e-6;  // share of a limit: far above that of doubles, far below what a motor feels
+// On curves a parabola through each three looks tells what lies between them. Over this turn, in radians, its error is
+// about turn³, a thousandth of the share of the limits that is left for it.
+constexpr double turn_a_look = 0.02;
+constexpr double looked_at = 0.99;
+// A piece that turns little still speeds up and slows down: its demands change with the cube of the time at most, which
+// these looks follow. A limit that falls has kinks besides. The last bounds the time: a piece of more turns is rare.
+constexpr int fewest_looks = 12;
+constexpr int fewest_of_falling = 24;
 constexpr int most_looks = 200;
-constexpr double smallest_way = 1e-11;  // mm; a shorter phase is left out
-constexpr double smallest_rest = 0.02;  // mm of a segment after the end of a change, at least
-constexpr double smallest_part = 0.2;   // or this share of the segment; the rest is cut like a segment
-constexpr double most_unseen_jump = 4;  // times the unseen jump, as the profile accepts it
+
+// In mm. What a phase goes beyond a segment's end by rounding: places of up to a metre are 1e-13 apart.
+constexpr double smallest_way = 1e-11;
+// After the end of a change, at least so much of the segment, in mm or as a share, is left: it is cut like a whole
+// segment, and cells need a length of their own.
+constexpr double smallest_rest = 0.02;
+constexpr double smallest_part = 0.2;
+// Times the unseen jump: the profile accepts as much (most_above_cap, jerk_phases.cpp).
+constexpr double most_unseen_jump = 4;
+
+// Even if all steps were halvings, about 53 would exhaust the digits of a double.
+constexpr int most_steps = 100;
 
 // The time within the phase at which the motion is at s.
 double time_at(const Phase& phase, double s) {
   double low = 0;
   double high = phase.duration.value();
   double time = (low + high) / 2;
-  for (int i = 0; i < 100 && low < high; ++i) {
+  for (int i = 0; i < most_steps && low < high; ++i) {
     const double missing = s - phase.position_at(Seconds(time)).value();
     (missing > 0 ? low : high) = time;
     const double newton = time + missing / phase.velocity_at(Seconds(time)).value();
@@ -52,7 +74,7 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
     if (!change.shape(state, request.exit, strength)) return std::nullopt;
     const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
-    Demand worst{.force = 1.03, .jolt = 1.03};  // the change laid with another strength ends at another place
+    Demand worst{.force = laid_badly, .jolt = laid_badly};  // with another strength it ends at another place
     if (laid == Laid::whole) {
       worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
@@ -61,8 +83,8 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
         return change;
       }
     }
-    if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, 0.7, 0.97);
-    if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, 0.7, 0.97);
+    if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, most_lowering, least_lowering);
+    if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, most_lowering, least_lowering);
     if (strength.acceleration < weakest * most.acceleration || strength.jerk < weakest * most.jerk) break;
   }
   return std::nullopt;
