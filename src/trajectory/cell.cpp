@@ -55,13 +55,10 @@ void lower(double& top, double limit, double part) {
 }
 
 // Writes member by member. A cell built elsewhere and copied at once would have to wait until its bytes are written.
-void fill(const Segment& segment, double from, double to, Cell& cell) {
+void fill(double from, double to, Cell& cell) {
   cell.start = from;
   cell.end = to;
   cell.length = to - from;
-  cell.feed_squared = squared(segment.speed.value());
-  cell.heeds = segment.heeds;
-  cell.lock = segment.lock;
   cell.demand_count = cell.falling_count = 0;
   cell.straight = false;
 }
@@ -254,7 +251,7 @@ CellCutter::Bend CellCutter::bend_on(const Curve& curve, const Bend& of_arc, std
 void CellCutter::cut_straight(const Segment& segment, const Axes& axes, double from, double to,
                               const CellPlace& place) {
   Cell& cell = place.cell;
-  fill(segment, from, to, cell);
+  fill(from, to, cell);
   const Point slope = segment.curve.tangent(Mm(from));
   cell.top_squared = squared(std::min(top_speed(axes, slope), flat_top(axes, slope)));
   cell.acceleration = top_acceleration(axes, slope);
@@ -298,7 +295,7 @@ CellCutter::Strength CellCutter::strength_on(const Axes& axes, const Place& in, 
 void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                            const CellPlace& place) {
   Cell& cell = place.cell;
-  fill(segment, in.s, out.s, cell);
+  fill(in.s, out.s, cell);
   const double h = out.s - in.s;
   const double eighth = h * h / 8;
   const Curve& curve = segment.curve;
@@ -316,7 +313,7 @@ void CellCutter::cut_curve(const Segment& segment, const Axes& axes, const Place
   cell.top_squared = top * top;
   // Between the ends, v² lies between its values at the ends.
   double top_squared = std::min(top * top, std::max(in.turning, out.turning));
-  const double fastest_squared = std::min(top_squared, squared(room_for_override) * cell.feed_squared);
+  const double fastest_squared = std::min(top_squared, squared(room_for_override * segment.speed.value()));
   const Strength own_strength = strength_on(
       axes, in, out, {.curve = curve, .of_arc = of_arc, .top_squared = top_squared, .fastest_squared = fastest_squared},
       slope_strength);

@@ -57,13 +57,10 @@ struct Cell {
   double end = 0;           // in the last cell exactly the curve's length
   double length = 0;        // end - start, above 0
   double top_squared = 0;   // the limit by the axes' velocities, anywhere in the cell
-  double feed_squared = 0;  // the programmed feed; infinite for a rapid
   double acceleration = 0;  // the greatest along the path, either way
   bool straight = false;    // uses just this acceleration; may speed up and brake within the cell
   std::uint8_t demand_count = 0;
   std::uint8_t falling_count = 0;
-  SpindleLock lock = SpindleLock::none;
-  Heeds heeds = {};
 };
 
 // A cell and the storage for its demands, with room for one demand of each axis.

@@ -68,6 +68,7 @@ class CellQueue {
     head_ = head_ + 1 == entries_.size() ? 0 : head_ + 1;
     --size_;
   }
+  void clear() { size_ = 0; }
 
  private:
   static constexpr std::size_t first_capacity = 256;

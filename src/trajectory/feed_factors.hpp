@@ -1,4 +1,5 @@
-// FeedFactors: factors on the programmed feeds, changed in mid-run. Private to trajectory/.
+// FeedFactors: factors on the programmed feeds, changed in mid-run. MidRunWishes: all that is changed in mid-run.
+// Private to trajectory/.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 
 namespace passo {
 
-// Below this factor there is no feed, and the motion stands still.
+// Below this factor there is no feed, and the motion stands still: knobs turn by whole percents (planner.hpp).
 inline constexpr double least_feed_factor = 0.01;
 
 struct FeedFactors {
@@ -30,6 +31,13 @@ struct FeedFactors {
     const double factor = segment.rapid ? 1 : planned(segment.heeds, segment.lock);
     return std::min(segment.speed.value() * factor, top);
   }
+  // Each factor of the two that is the faster one.
+  static FeedFactors fastest_of(const FeedFactors& a, const FeedFactors& b) {
+    return {.override = std::max(a.override, b.override),
+            .adaptive = std::max(a.adaptive, b.adaptive),
+            .spindle = std::max(a.spindle, b.spindle),
+            .top = std::max(a.top, b.top)};
+  }
   friend bool operator==(const FeedFactors&, const FeedFactors&) = default;
 };
 
@@ -38,6 +46,7 @@ struct MidRunWishes {
   FeedFactors feeds;
   bool hold = false;  // stops where the program heeds a hold
   bool stop = false;  // stops anywhere
+  Seconds longest_move{std::numeric_limits<double>::infinity()};
 
   bool any() const {
     const double least = std::min({feeds.override, feeds.adaptive, feeds.override * feeds.adaptive});

@@ -17,30 +17,25 @@ namespace passo {
 
 class JerkWindow {
  public:
-  // `axes` and `path` must outlive the window.
-  JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, std::size_t most_queued);
+  // `axes`, `path` and `feeds` must outlive the window. Cells are cut for the feeds of that instant.
+  JerkWindow(const std::vector<LimitedAxis>& axes, PathAhead& path, const FeedFactors& feeds, std::size_t most_queued);
 
   // A place on a segment of the path.
   struct Start {
-    std::size_t segment = 0;
+    std::uint64_t segment = 0;
     double s = 0;
     double speed = 0;
   };
-  void begin_at(const Start& start, const FeedFactors& feeds);
-  // Sets the feeds of cells still to be cut.
-  void set_feeds(const FeedFactors& feeds) { feeds_ = feeds; }
+  void begin_at(const Start& start);
   // Whether a plan from a start in motion is found, with at least `way` of the path in sight (less where it rests
   // before).
   [[nodiscard]] bool can_go_on(double way);
 
   // Gives the next phases, all on the first segment of the path. Returns false at rest at the end of the stretch.
   [[nodiscard]] bool next(PlannedMove& move);
-  // Shows what comes next if nothing changes: cell number `ahead` from here, which lies on segment `segment` of the
-  // path. The plan to rest after the decided cells is included. Both numbers advance: `segment` where a segment ends.
-  // Returns false at rest at the end.
-  [[nodiscard]] bool look_at(std::size_t& ahead, std::size_t& segment, PlannedMove& move) const;
-  // Call when the first segment of the path has been removed.
-  void segment_passed() { --cut_; }
+  // Shows what comes next if nothing changes: cell number `ahead` from here, which lies on that segment. The plan to
+  // rest after the decided cells is included. Returns false at rest at the end.
+  [[nodiscard]] bool look_at(std::size_t ahead, std::uint64_t segment, PlannedMove& move) const;
 
  private:
   bool add_cell(std::size_t i, PlannedMove& move) const;
@@ -49,13 +44,13 @@ class JerkWindow {
   void look_ahead();
 
   PathAhead& path_;
+  const FeedFactors& feeds_;
   JerkCutter cutter_;
   JerkProfile profile_;
   std::size_t most_queued_;
 
   Start start_;
-  FeedFactors feeds_;
-  std::size_t cut_ = 0;  // segments of the path whose cells are all in the profile
+  std::uint64_t cut_ = 0;  // the first segment of which not all cells are in the profile
   bool started_ = false;
   bool cutting_ = false;
   double estimate_ = 0;  // squared: the highest entry speed of the next cell

@@ -2,28 +2,33 @@
 // trajectory/.
 #pragma once
 
-#include <cstddef>
-#include <deque>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "passo/base/source.hpp"
+#include "passo/base/window.hpp"
 #include "passo/path/segment.hpp"
 
 namespace passo {
 
+// Segments have numbers, which count from the beginning of the program.
 class PathAhead {
  public:
   explicit PathAhead(Source<PathItem>& path) : path_(path) {}
 
-  // The segment number i from the first, which is 0; pulls it if needed. nullptr if an action or the end comes before
+  // The number of the first segment.
+  std::uint64_t first() const { return segments_.first(); }
+  // Pulls the segment if needed. It stays where it is until it is popped. nullptr if an action or the end comes before
   // it.
-  const Segment* at(std::size_t i) {
-    while (segments_.size() <= i && !ended_) pull();
-    return i < segments_.size() ? &segments_[i] : nullptr;
+  const Segment* at(std::uint64_t number) {
+    while (segments_.end() <= number && !ended_) pull();
+    return number < segments_.end() ? std::get_if<Segment>(segments_[number].get()) : nullptr;
   }
+  const Segment* front() { return at(first()); }
   // Removes the first segment after it was played.
-  void pop() { segments_.pop_front(); }
+  void pop() { segments_.drop_front(); }
 
   // The action that ends the segments, as far as pulled. nullptr at the end of the path.
   const Action* action() const { return action_ ? &*action_ : nullptr; }
@@ -33,23 +38,23 @@ class PathAhead {
     return std::exchange(action_, std::nullopt);
   }
 
- private:
-  void pull() {
-    if (!path_.next(pulled_)) {
-      ended_ = true;
-    } else if (const auto* action = std::get_if<Action>(&pulled_)) {
-      action_ = *action;
-      ended_ = true;
-    } else if (const auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
-      segments_.push_back(segment);
-    }
+  void drop_to_action() {
+    while (front() != nullptr) pop();
+  }
+  // Forgets all that was pulled.
+  void restart() {
+    segments_.clear();
+    action_.reset();
+    ended_ = false;
   }
 
+ private:
+  void pull();
+
   Source<PathItem>& path_;
-  std::deque<Segment> segments_;
+  Window<std::unique_ptr<PathItem>> segments_;  // items of which each is a segment
   std::optional<Action> action_;
   bool ended_ = false;
-  PathItem pulled_;
 };
 
 }  // namespace passo

@@ -1,442 +1,36 @@
 #include "passo/trajectory/planner.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <utility>
-
-#include "cell.hpp"
-#include "cell_queue.hpp"
-#include "feed_factors.hpp"
-#include "jerk_planner.hpp"
-#include "rest.hpp"
-#include "speed_profile.hpp"
-#include "speed_window.hpp"
-
-#include "passo/base/window.hpp"
+#include "speed_law.hpp"
 
 namespace passo {
-namespace {
-// A relative difference of squares of speeds. Smaller ones are rounding.
-constexpr double rounding = 1e-9;
-// A share of the longest time of a move. Phases are not cut into smaller parts; the move may be shorter by this.
-constexpr double smallest_part = 0.02;
-// A cell in which the square of the speed can change by less than this share of itself is short enough: in two halves
-// it would gain a quarter of the share at most.
-constexpr double least_change = 0.04;
-// In mm. A shorter rest of a cell is rounding.
-constexpr double smallest_rest = 1e-9;
-// In mm. A hold leaves at least this much of a cell, so that the rest can be halved.
-constexpr double smallest_cell = 1e-6;
 
-double squared(double value) {
-  return value * value;
-}
-
-}  // namespace
-
-class Planner::Implementation {
- public:
-  Implementation(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
-      : path_(path),
-        limits_(limits),
-        most_queued_(most_queued),
-        cutter_(limits_),
-        cells_(std::max<std::size_t>(most_queued, 2), cutter_.most_demands(), cutter_.most_falling()) {
-    if (limits.limits_jerk()) jerk_limited_.emplace(path, limits_, most_queued_);
+struct Planner::Implementation {
+  Implementation(Source<PathItem>& source, const MotionLimits& limits_of_axes, std::size_t most_queued)
+      : path(source), limits(limits_of_axes) {
+    const LawInputs inputs{.path = path, .limits = limits, .wishes = wishes, .most_queued = most_queued};
+    law = limits.limits_jerk() ? jerk_law(inputs) : acceleration_law(inputs);
+    law->begin();
   }
 
-  bool next(MotionItem& item) {
-    if (jerk_limited_) return jerk_limited_->next(item);
-    if (wishes_.any() && stands()) {
-      braking_ = true;
-      brake(item);
-      return true;
-    }
-    if (std::exchange(braking_, false)) decided_ = 0;
-    while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
-    if (!cells_.empty()) {
-      give_move(item);
-      return true;
-    }
-    if (!action_) return false;
-    outputs_ = action_->outputs;
-    item = *std::exchange(action_, std::nullopt);
-    closed_ = false;
-    return true;
-  }
-
-  void limit_moves_to(Seconds duration) {
-    longest_move_ = duration;
-    if (jerk_limited_) jerk_limited_->limit_moves_to(duration);
-  }
-
-  const MidRunWishes& wishes() const { return wishes_; }
-  void wish(const MidRunWishes& wishes) {
-    if (jerk_limited_) jerk_limited_->wish(wishes);
-    const bool other_feeds = wishes.feeds != wishes_.feeds;
-    wishes_ = wishes;
-    if (!other_feeds || jerk_limited_) return;
-    for (std::size_t i = 0; i < cells_.size(); ++i) set_caps(i);
-    decided_ = 0;
-  }
-
-  void drop_to_action() {
-    if (jerk_limited_) return jerk_limited_->drop_to_action();
-    const auto drop = [this] {
-      while (!cells_.empty()) cells_.pop();
-      segments_.clear();
-      cutting_ = false;
-    };
-    for (drop(); !closed_; drop()) pull();
-    decided_ = 0;
-  }
-
-  void braking_plan(std::vector<PlannedMove>& plan) {
-    if (jerk_limited_) return jerk_limited_->braking_plan(plan);
-    plan.clear();
-    double speed_squared = speed_squared_;
-    std::uint64_t segment = segments_.first();
-    for (std::size_t i = 0; speed_squared > 0; ++i) {
-      const Cell& cell = cells_[i].cell;
-      const bool begins = plan.empty() || plan.back().to >= plan.back().segment.curve.length();
-      if (begins && !plan.empty()) ++segment;
-      if (begins || plan.back().phase_count == PlannedMove::most_phases) {
-        plan.push_back({.segment = segments_[segment], .phases = {}});
-      }
-      PlannedMove& move = plan.back();
-      const Ride ride = shortest_ride(i, speed_squared);
-      add_phase(cell.start, ride.way, speed_squared, ride.exit, move);
-      move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell.end);
-      speed_squared = ride.exit;
-    }
-  }
-
-  void restart() {
-    segments_.clear();
-    while (!cells_.empty()) cells_.pop();
-    cutting_ = closed_ = false;
-    at_rest_ = true;
-    decided_ = 0;
-    speed_squared_ = 0;
-    action_.reset();
-    if (jerk_limited_) {
-      jerk_limited_.emplace(path_, limits_, most_queued_);
-      jerk_limited_->limit_moves_to(longest_move_);
-      jerk_limited_->wish(wishes_);
-    }
-  }
-
- private:
   // Whether the wishes keep the motion from going on from its present place.
   bool stands() {
-    while (segments_.empty() && !closed_) pull();
-    return segments_.empty() ? wishes_.stands_before(action_ ? &*action_ : nullptr)
-                             : wishes_.stands_on(segments_.front());
+    if (!wishes.any()) return false;
+    const Segment* segment = path.front();
+    return segment == nullptr ? wishes.stands_before(path.action()) : wishes.stands_on(*segment);
   }
 
-  // A bent cell either speeds up or brakes. From one slow place to the next it takes more than one; from rest to rest,
-  // as in what a hold has left of a corner, a single cell would take for ever.
-  bool is_front_too_long() const {
-    const Cell& cell = cells_[0].cell;
-    if (cell.straight || cell.length < smallest_rest) return false;
-    const double exit = exit_of_front();
-    if (2 * cell.acceleration * cell.length < least_change * (speed_squared_ + exit)) return false;
-    return is_too_long(cells_.demands(0), cells_.falling(0),
-                       {.length = cell.length, .entry = speed_squared_, .exit = exit, .top = cells_[0].top_squared});
-  }
-  // A pass over the queue comes only after as many new cells as the queue held. So planning takes amortised linear
-  // time.
-  void look_ahead() {
-    const std::size_t wanted = std::max<std::size_t>(2 * cells_.size(), first_window);
-    while (!closed_ && !cells_.full() && cells_.size() < wanted) pull();
-    plan_backwards();
-    decide_forwards();
+  template <class Change>
+  void wish(const Change& change) {
+    const FeedFactors before = wishes.feeds;
+    change(wishes);
+    if (wishes.feeds != before) law->feeds_changed();
   }
 
-  // Pulls one more cell, or the end of the stretch.
-  void pull() {
-    if (cutting_) {
-      append();
-      return;
-    }
-    if (!path_.next(pulled_)) {
-      closed_ = true;
-    } else if (const auto* action = std::get_if<Action>(&pulled_)) {
-      action_ = *action;
-      closed_ = true;
-    } else if (auto& segment = std::get<Segment>(pulled_); segment.curve.has_length()) {
-      begin(segment);
-    }
-  }
-
-  void begin(const Segment& segment) {
-    at_rest_ = segments_.empty() || rests_between(segments_.back(), segment);
-    segments_.append() = segment;
-    if (at_rest_) reached_squared_ = 0;
-    cutter_.begin(segments_.back(), reached_squared_);
-    cutting_ = true;
-  }
-
-  void append() {
-    const bool at_rest = std::exchange(at_rest_, false) || cells_.empty();
-    cutter_.next(cells_.push());
-    cutting_ = !cutter_.at_end();
-    cells_.back().begins_at_rest = at_rest;
-    const Cell& cell = cells_.back().cell;
-    reached_squared_ = std::min(cell.top_squared, reached_squared_ + 2 * cell.acceleration * cell.length);
-    set_caps(cells_.size() - 1);
-  }
-
-  void set_caps(std::size_t i) {
-    CellQueue::Entry& entry = cells_[i];
-    entry.top_squared =
-        std::min({entry.cell.top_squared, squared(wishes_.feeds.top),
-                  entry.cell.feed_squared * squared(wishes_.feeds.planned(entry.cell.heeds, entry.cell.lock))});
-    entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
-    if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
-  }
-
-  double entry_to(std::size_t i, double exit_most) {
-    const CellQueue::Entry& entry = cells_[i];
-    const Cell& cell = entry.cell;
-    if (cell.straight) return std::min(entry.entry_cap, exit_most + 2 * cell.acceleration * cell.length);
-    const double most = std::min(exit_most, entry.top_squared);
-    if (entry.cell.falling_count == 0) return largest_entry(cells_.demands(i), entry.entry_cap, most);
-    return largest_entry(cells_.demands(i), cells_.falling(i), entry.entry_cap, most);
-  }
-  // The fastest exit. If the entry is too fast for it (the override was lowered), the slowest possible exit.
-  double exit_from(std::size_t i, double entry, double exit_most) const {
-    if (exit_most == 0) return 0;  // whatever came before left room for it
-    const CellQueue::Entry& queued = cells_[i];
-    const double most = std::min(exit_most, queued.top_squared);
-    if (queued.cell.falling_count > 0) {
-      return largest_exit(cells_.demands(i), cells_.falling(i), entry, most, queued.top_squared);
-    }
-    if (!queued.cell.straight) return largest_exit(cells_.demands(i), entry, most);
-    const double change = 2 * queued.cell.acceleration * queued.cell.length;
-    const bool too_fast = entry - change > most + rounding * entry;
-    return too_fast ? entry - change : std::min(most, entry + change);
-  }
-
-  // The path after the queue lies between two cases: a stop at once, and nothing that slows. Both are carried back.
-  // Where a cap makes them equal they stay equal, and later cells change nothing before that place.
-  void plan_backwards() {
-    double if_rest = 0;
-    double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
-    for (std::size_t i = cells_.size(); i-- > 0;) {
-      const bool equal = if_rest == if_open;
-      if (!equal) if_open = entry_to(i, if_open);
-      if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after if_open: its choice of lines is the one kept
-      if (equal) if_open = if_rest;
-      cells_[i].entry_if_open = if_open;
-    }
-  }
-
-  // A cell's exit is decided where both cases agree, or where accelerating does not even reach the lower one.
-  void decide_forwards() {
-    // A full queue may hold hardly more than the braking distance. Its first half is then played as if the path came to
-    // rest at its end: slower, but safe and still linear.
-    const std::size_t at_least = cells_.full() ? cells_.size() / 2 : 0;
-    double entry = speed_squared_;
-    for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
-      const bool last = decided_ + 1 == cells_.size();
-      const double if_rest = last ? 0 : cells_[decided_ + 1].entry_if_rest;
-      const double if_open = last ? (closed_ ? 0 : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
-      const double exit = exit_from(decided_, entry, if_rest);
-      if (decided_ >= at_least && if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
-      cells_[decided_].decided_entry = std::exchange(entry, exit);
-      cells_[decided_].decided_exit = exit;
-    }
-  }
-
-  PlannedMove& begin_move(MotionItem& item) const {
-    auto* move = std::get_if<PlannedMove>(&item);
-    if (move == nullptr) move = &item.emplace<PlannedMove>();
-    move->segment = segments_.front();
-    move->phase_count = 0;
-    return *move;
-  }
-
-  // The way into the first cell that the path goes now, and the square of the speed after it.
-  struct Ride {
-    double way = 0;
-    double exit = 0;
-  };
-
-  void give_move(MotionItem& item) {
-    PlannedMove& move = begin_move(item);
-    bool complete = false;
-    while (decided_ > 0 && !complete && move.phase_count + most_phases_a_cell <= PlannedMove::most_phases) {
-      while (is_front_too_long()) halve_front();
-      const Cell& cell = cells_[0].cell;
-      const double exit = exit_of_front();
-      // The feed was lowered: slow down at once, not only at the cell's end.
-      const double too_fast = speed_squared_ - cells_[0].top_squared;
-      const double slowing = cell.straight ? too_fast / (2 * cell.acceleration) : 0;
-      if (too_fast > rounding * speed_squared_ && slowing > smallest_cell && slowing + smallest_cell < cell.length) {
-        add_phase(cell.start, slowing, speed_squared_, cells_[0].top_squared, move);
-        complete = go({slowing, cells_[0].top_squared}, move);
-        continue;
-      }
-      if (cell.straight) {
-        add_phases({.start = cell.start,
-                    .length = cell.length,
-                    .acceleration = cell.acceleration,
-                    .top_squared = std::max({cells_[0].top_squared, speed_squared_, exit}),
-                    .entry_squared = speed_squared_,
-                    .exit_squared = exit},
-                   move);
-      } else {
-        add_phase(cell.start, cell.length, speed_squared_, exit, move);
-      }
-      complete = go({cell.length, exit}, move);
-    }
-  }
-
-  // Brakes in a hold as hard as possible. From rest on it gives nothing but the hold itself; so where no path is left.
-  void brake(MotionItem& item) {
-    if (speed_squared_ == 0 || segments_.empty()) {
-      item = Action{.kind = Action::Kind::feed_hold, .outputs = outputs_};
-      return;
-    }
-    PlannedMove& move = begin_move(item);
-    bool complete = false;
-    while (speed_squared_ > 0 && !complete && move.phase_count < PlannedMove::most_phases) {
-      const Ride ride = shortest_ride(0, speed_squared_);
-      add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
-      complete = go(ride, move);
-    }
-  }
-
-  double exit_of_front() const {
-    const bool as_decided = decided_ > 0 && cells_[0].decided_entry == speed_squared_;
-    return as_decided ? cells_[0].decided_exit : planned_exit(0, speed_squared_);
-  }
-  // The exit of cell i, entered with this speed.
-  double planned_exit(std::size_t i, double entry) const {
-    return exit_from(i, entry, i + 1 < cells_.size() ? cells_[i + 1].entry_if_rest : 0);
-  }
-
-  // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
-  // the path rests anyway, rounding leaves no speed.
-  Ride shortest_ride(std::size_t i, double entry) const {
-    const Cell& cell = cells_[i].cell;
-    const double deceleration =
-        cell.straight ? cell.acceleration : sure_deceleration(cells_.demands(i), cells_.falling(i), cell.length, entry);
-    if (deceleration > 0 && entry < 2 * deceleration * cell.length) {
-      const double way = entry / (2 * deceleration);
-      return {way + smallest_cell < cell.length ? way : cell.length, 0};
-    }
-    const double least = cell.straight ? std::max(0.0, entry - 2 * cell.acceleration * cell.length)
-                                       : least_exit(cells_.demands(i), cells_.falling(i), entry);
-    return {cell.length, std::min(least, planned_exit(i, entry))};
-  }
-
-  // Removes the move's way from the queue. Returns whether the move is complete: at the end of its segment or time.
-  bool go(const Ride& ride, PlannedMove& move) {
-    const Segment& segment = segments_.front();
-    const double segment_end = segment.curve.length().value();
-    const Cell& cell = cells_[0].cell;
-    const double cell_end = cell.end;
-    move.to = Mm(ride.way < cell.length ? cell.start + ride.way : cell_end);
-    speed_squared_ = ride.exit;
-    const bool shortened = shorten(move);
-    if (move.to.value() < cell_end - smallest_rest) {
-      // The exit of the rest of the cell is decided as it was for the whole.
-      cut_front_again(segment, move.to.value(), cell_end, ride.exit);
-      return true;
-    }
-    decided_ -= std::min<std::size_t>(decided_, 1);
-    move.to = Mm(cell_end);
-    cells_.pop();
-    const bool ended = cell_end >= segment_end;
-    if (ended) segments_.drop_front();
-    return shortened || ended;
-  }
-
-  // Cuts the first cell again from the present place of the path. Its exit stays.
-  void cut_front_again(const Segment& segment, double from, double to, double exit) {
-    const CellPlace front = cells_.front_again();
-    cutter_.cut(segment, from, to, front.cell.straight, front);
-    front.allow(speed_squared_, exit);
-  }
-
-  // The exit stays, and with it all that was decided.
-  void halve_front() {
-    const double start = cells_[0].cell.start;
-    const double end = cells_[0].cell.end;
-    const double middle = start + cells_[0].cell.length / 2;
-    const double exit = exit_of_front();
-    const double halfway = (speed_squared_ + exit) / 2;
-    const CellPlace second = cells_.front_again();
-    cutter_.cut(segments_.front(), middle, end, false, second);
-    second.allow(halfway, exit);
-    const CellPlace first = cells_.push_front();
-    cutter_.cut(segments_.front(), start, middle, false, first);
-    first.allow(speed_squared_, halfway);
-    cells_[1].begins_at_rest = false;
-    set_caps(0);
-    set_caps(1);
-    cells_[1].entry_if_rest = std::max(halfway, entry_to(1, exit));
-    if (decided_ == 0) return;
-    ++decided_;
-    for (std::size_t i = 0; i < 2; ++i) {
-      CellQueue::Entry& half = cells_[i];
-      half.decided_entry = i == 0 ? speed_squared_ : cells_[0].decided_exit;
-      half.decided_exit = exit_from(i, half.decided_entry, i == 0 ? cells_[1].entry_if_rest : exit);
-    }
-  }
-
-  // Shortens the move to the longest time allowed. Returns whether it did.
-  bool shorten(PlannedMove& move) {
-    Seconds left = longest_move_ * (1 - smallest_part);
-    for (std::size_t i = 0; i < move.phase_count; ++i) {
-      Phase& phase = move.phases[i];
-      if (phase.duration <= left + longest_move_ * smallest_part) {
-        left = std::max(left - phase.duration, Seconds(0));
-        continue;
-      }
-      if (i + 1 == move.phase_count && (move.to - phase.position_at(left)).value() < smallest_rest) return false;
-      if (left < longest_move_ * smallest_part) {  // between two phases
-        move.phase_count = i;
-        move.to = phase.start;
-        speed_squared_ = squared(phase.velocity.value());
-        return true;
-      }
-      phase.duration = left;
-      move.phase_count = i + 1;
-      move.to = phase.position_at(left);
-      speed_squared_ = squared(phase.velocity_at(left).value());
-      return true;
-    }
-    return false;
-  }
-
-  static constexpr std::size_t first_window = 64;
-
-  Source<PathItem>& path_;
-  const MotionLimits limits_;
-  const std::size_t most_queued_;
-  CellCutter cutter_;
-
-  Window<Segment> segments_;  // those whose cells are in the queue or being cut
-  CellQueue cells_;
-  bool cutting_ = false;
-  bool at_rest_ = true;         // the next cell begins at rest
-  double reached_squared_ = 0;  // the square of the highest speed at which it may begin
-  std::size_t decided_ = 0;     // cells at the head whose exit speed no later cell can change
-  double speed_squared_ = 0;    // at the start of the head
-  bool closed_ = false;         // an action or the program's end follows the queue, which ends at rest
-  std::optional<Action> action_;
-  PathItem pulled_;
-  MidRunWishes wishes_;
-  bool braking_ = false;
-  Seconds longest_move_{std::numeric_limits<double>::infinity()};
-  OutputState outputs_;  // after the last action
-
-  std::optional<JerkPlanner> jerk_limited_;  // takes over where an axis has a limit of jerk
+  PathAhead path;
+  const MotionLimits limits;
+  MidRunWishes wishes;
+  OutputState outputs;  // after the last action
+  std::unique_ptr<SpeedLaw> law;
 };
 
 Planner::Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t most_queued)
@@ -444,56 +38,62 @@ Planner::Planner(Source<PathItem>& path, const MotionLimits& limits, std::size_t
 Planner::~Planner() = default;
 
 bool Planner::next(MotionItem& item) {
-  return implementation_->next(item);
+  Implementation& own = *implementation_;
+  const bool stands = own.stands();
+  auto* move = std::get_if<PlannedMove>(&item);
+  if (move == nullptr) move = &item.emplace<PlannedMove>();
+  if (stands ? own.law->brake(*move) : own.law->go_on(*move)) {
+    if (move->to >= move->segment.curve.length()) own.path.pop();
+    return true;
+  }
+  if (stands) {
+    item = Action{.kind = Action::Kind::feed_hold, .outputs = own.outputs};
+    return true;
+  }
+  const std::optional<Action> action = own.path.take_action();
+  if (!action) return false;
+  own.outputs = action->outputs;
+  item = *action;
+  own.law->begin();
+  return true;
 }
 
 void Planner::limit_moves_to(Seconds duration) {
-  implementation_->limit_moves_to(duration);
+  implementation_->wishes.longest_move = duration;
 }
 void Planner::set_feed_override(double factor) {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.feeds.override = factor;
-  implementation_->wish(wishes);
+  implementation_->wish([factor](MidRunWishes& wishes) { wishes.feeds.override = factor; });
 }
 void Planner::set_adaptive_feed(double factor) {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.feeds.adaptive = factor;
-  implementation_->wish(wishes);
+  implementation_->wish([factor](MidRunWishes& wishes) { wishes.feeds.adaptive = factor; });
 }
 void Planner::set_spindle_ratio(double ratio) {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.feeds.spindle = ratio;
-  implementation_->wish(wishes);
+  implementation_->wish([ratio](MidRunWishes& wishes) { wishes.feeds.spindle = ratio; });
 }
 void Planner::limit_speed_to(MmPerSecond speed) {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.feeds.top = speed.value();
-  implementation_->wish(wishes);
+  implementation_->wish([speed](MidRunWishes& wishes) { wishes.feeds.top = speed.value(); });
 }
 void Planner::hold() {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.hold = true;
-  implementation_->wish(wishes);
-}
-void Planner::resume() {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.hold = wishes.stop = false;
-  implementation_->wish(wishes);
+  implementation_->wishes.hold = true;
 }
 void Planner::stop() {
-  MidRunWishes wishes = implementation_->wishes();
-  wishes.stop = true;
-  implementation_->wish(wishes);
+  implementation_->wishes.stop = true;
 }
-void Planner::braking_plan(std::vector<PlannedMove>& plan) const {
-  implementation_->braking_plan(plan);
-}
-void Planner::restart() {
-  implementation_->restart();
+void Planner::resume() {
+  implementation_->wishes.hold = implementation_->wishes.stop = false;
 }
 
+void Planner::braking_plan(std::vector<PlannedMove>& plan) const {
+  plan.clear();
+  implementation_->law->braking_plan(plan);
+}
 void Planner::drop_to_action() {
-  implementation_->drop_to_action();
+  implementation_->path.drop_to_action();
+  implementation_->law->begin();
+}
+void Planner::restart() {
+  implementation_->path.restart();
+  implementation_->law->begin();
 }
 
 }  // namespace passo

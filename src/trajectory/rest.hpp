@@ -8,7 +8,8 @@
 
 namespace passo {
 
-// If the directions of two segments differ by more, the path has a corner, and the motion must rest there.
+// If the directions of two segments differ by more, the path has a corner, and the motion must rest there. At 100 mm/s
+// the speed of an axis jumps by 1e-4 mm/s where they differ by just that.
 inline constexpr double tangent_tolerance = 1e-6;
 
 inline bool rests_between(const Segment& before, const Segment& after) {

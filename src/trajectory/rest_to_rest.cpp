@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "phase_chain.hpp"
+
 namespace passo {
 namespace {
 
 // In seconds. A rise of the acceleration that takes less is a jump.
 constexpr double shortest_rise = 1e-9;
-// In seconds. A shorter phase is rounding.
-constexpr double shortest_phase = 1e-12;
 
 // The highest speed of a motion from rest to rest over this way.
 double peak_speed(double way, const PathLimits& limits, double jerk) {
@@ -34,34 +34,20 @@ void add_rest_to_rest(double from, double to, const PathLimits& limits, PlannedM
   const double ramp_time = 2 * rise + steady;
   const double cruise = std::max(way / peak - ramp_time, 0.0);
 
-  double at = from;
-  double speed = 0;
-  double acceleration = 0;
+  PhaseChain chain{.at = from};
   const auto add = [&](double duration, double own_jerk) {
-    if (!(duration > shortest_phase)) return;
-    const Phase phase{.duration = Seconds(duration),
-                      .start = Mm(at),
-                      .velocity = MmPerSecond(speed),
-                      .acceleration = MmPerSecond2(acceleration),
-                      .jerk = MmPerSecond3(own_jerk)};
-    move.add(phase);
-    at = phase.position_at(phase.duration).value();
-    speed = phase.velocity_at(phase.duration).value();
-    acceleration += own_jerk * duration;
+    if (const auto phase = chain.next(duration, own_jerk)) move.add(*phase);
   };
   add(rise, jerk);
-  acceleration = strongest_used;
+  chain.acceleration = strongest_used;
   add(steady, 0);
   add(rise, -jerk);
   // The way back is the mirror image. It begins just where it has to, so that no rounding is left at its end.
-  at = to - peak * ramp_time / 2 - peak * cruise;
-  speed = peak;
-  acceleration = 0;
+  chain = {.at = to - peak * ramp_time / 2 - peak * cruise, .speed = peak};
   add(cruise, 0);
-  at = to - peak * ramp_time / 2;
-  speed = peak;
+  chain = {.at = to - peak * ramp_time / 2, .speed = peak};
   add(rise, -jerk);
-  acceleration = -strongest_used;
+  chain.acceleration = -strongest_used;
   add(steady, 0);
   add(rise, jerk);
   move.to = Mm(to);

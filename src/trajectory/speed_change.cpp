@@ -5,49 +5,61 @@
 #include <cmath>
 
 #include "parabola.hpp"
+#include "phase_chain.hpp"
 #include "rest.hpp"
 
 namespace passo {
 namespace {
 
+// A trial that asks for too much lowers the strength or the jerk to what would have been right, in these bounds: not by
+// less, or trials would creep up to a limit; not by more, because a weaker change lies elsewhere and may ask for less
+// there.
+constexpr double least_lowering = 0.97;
+constexpr double most_lowering = 0.7;
+// Trials that end near a segment's end count as so much too strong: the least lowering.
+constexpr double laid_badly = 1.03;
+// A change of less than this share of what the limits allow at the start would take fifty times as long as it should.
+// The plan before goes on instead. The hardest lowering gets there in 11 trials, so a change has more than twice that.
+constexpr double weakest = 0.02;
 constexpr int most_trials = 30;
-constexpr double weakest = 0.02;       // share of what the limits allow at the start; a weaker change is not worth it
-constexpr double looked_at = 0.99;     // share of the limits on curves; the rest is for places between those looked at
-constexpr double rounding = 1e-6;      // share of a limit
-constexpr double turn_a_look = 0.02;   // radians
-constexpr int fewest_looks = 12;       // in a piece
-constexpr int fewest_of_falling = 24;  // where limits fall with the speed
+
+constexpr double rounding = 1e-6;  // share of a limit: far above that of doubles, far below what a motor feels
+// On curves a parabola through each three looks tells what lies between them. Over this turn, in radians, its error is
+// about turn³, a thousandth of the share of the limits that is left for it.
+constexpr double turn_a_look = 0.02;
+constexpr double looked_at = 0.99;
+// A piece that turns little still speeds up and slows down: its demands change with the cube of the time at most, which
+// these looks follow. A limit that falls has kinks besides. The last bounds the time: a piece of more turns is rare.
+constexpr int fewest_looks = 12;
+constexpr int fewest_of_falling = 24;
 constexpr int most_looks = 200;
-constexpr double smallest_way = 1e-11;  // mm; a shorter phase is left out
-constexpr double smallest_rest = 0.02;  // mm of a segment after the end of a change, at least
-constexpr double smallest_part = 0.2;   // or this share of the segment; the rest is cut like a segment
-constexpr double smallest_time = 1e-13;
-constexpr double most_unseen_jump = 4;  // times the unseen jump, as the profile accepts it
+
+// In mm. What a phase goes beyond a segment's end by rounding: places of up to a metre are 1e-13 apart.
+constexpr double smallest_way = 1e-11;
+// After the end of a change, at least so much of the segment, in mm or as a share, is left: it is cut like a whole
+// segment, and cells need a length of their own.
+constexpr double smallest_rest = 0.02;
+constexpr double smallest_part = 0.2;
+// Times the unseen jump: the profile accepts as much (most_above_cap, jerk_phases.cpp).
+constexpr double most_unseen_jump = 4;
+
+// Even if all steps were halvings, about 53 would exhaust the digits of a double.
+constexpr int most_steps = 100;
 
 // The time within the phase at which the motion is at s.
 double time_at(const Phase& phase, double s) {
   double low = 0;
   double high = phase.duration.value();
   double time = (low + high) / 2;
-  for (int i = 0; i < 100 && low < high; ++i) {
+  for (int i = 0; i < most_steps && low < high; ++i) {
     const double missing = s - phase.position_at(Seconds(time)).value();
     (missing > 0 ? low : high) = time;
     const double newton = time + missing / phase.velocity_at(Seconds(time)).value();
     const double next = newton > low && newton < high ? newton : (low + high) / 2;
-    if (std::abs(next - time) <= smallest_time / 1000) break;
+    if (std::abs(next - time) <= shortest_phase / 1000) break;
     time = next;
   }
   return time;
-}
-
-// The part of the phase after that time.
-Phase rest_of(const Phase& phase, double time, double start) {
-  const Seconds t(time);
-  return {.duration = phase.duration - t,
-          .start = Mm(start),
-          .velocity = phase.velocity_at(t),
-          .acceleration = phase.acceleration + phase.jerk * t,
-          .jerk = phase.jerk};
 }
 
 }  // namespace
@@ -62,7 +74,7 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
     if (!change.shape(state, request.exit, strength)) return std::nullopt;
     const Laid laid = change.lay(path, state);
     if (laid == Laid::blocked) return std::nullopt;
-    Demand worst{.force = 1.03, .jolt = 1.03};  // the change laid with another strength ends at another place
+    Demand worst{.force = laid_badly, .jolt = laid_badly};  // with another strength it ends at another place
     if (laid == Laid::whole) {
       worst = change.excess(path, request);
       if (worst.speed > 1) return std::nullopt;
@@ -71,8 +83,8 @@ std::optional<SpeedChange> SpeedChange::plan(PathAhead& path, const PathState& s
         return change;
       }
     }
-    if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, 0.7, 0.97);
-    if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, 0.7, 0.97);
+    if (worst.force > 1) strength.acceleration *= std::clamp(1 / worst.force, most_lowering, least_lowering);
+    if (worst.jolt > 1) strength.jerk *= std::clamp(1 / worst.jolt, most_lowering, least_lowering);
     if (strength.acceleration < weakest * most.acceleration || strength.jerk < weakest * most.jerk) break;
   }
   return std::nullopt;
@@ -93,17 +105,13 @@ SpeedChange::Strength SpeedChange::strength_at(const Segment& segment, const Pat
 }
 
 void SpeedChange::add(double duration, double jerk) {
-  if (!(duration > smallest_time)) return;
-  const Phase phase{.duration = Seconds(duration),
-                    .start = Mm(way_),
-                    .velocity = MmPerSecond(speed_),
-                    .acceleration = MmPerSecond2(acceleration_),
-                    .jerk = MmPerSecond3(jerk)};
-  phases_.push_back(phase);
-  way_ = phase.position_at(phase.duration).value();
-  speed_ = phase.velocity_at(phase.duration).value();
-  acceleration_ += jerk * duration;
-  duration_ += duration;
+  if (const auto phase = chain_.next(duration, jerk)) phases_.push_back(*phase);
+}
+
+Seconds SpeedChange::duration_from(std::size_t piece) const {
+  Seconds sum{0};
+  for (; piece < pieces_.size(); ++piece) sum += pieces_[piece].phase.duration;
+  return sum;
 }
 
 // The acceleration goes to -p, stays there and goes back to 0, where p is the strongest braking. Returns false where
@@ -113,9 +121,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double a = state.acceleration;
   const double j = strength.jerk;
   phases_.clear();
-  speed_ = v;
-  acceleration_ = a;
-  way_ = duration_ = 0;
+  chain_ = {.speed = v, .acceleration = a};
   const double eased = v + a * std::abs(a) / (2 * j);
   if (eased <= exit || eased <= 0) {
     exit_ = eased;
@@ -130,7 +136,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double to_peak = std::abs(a + p) / j;
   const double lost = too_strong ? (a * a - p * p) / (2 * j) : (p * p - a * a) / (2 * j);
   add(to_peak, too_strong ? j : -j);
-  acceleration_ = to_peak > smallest_time ? -p : a;
+  if (!phases_.empty()) chain_.acceleration = -p;
   add((v - lost - p * p / (2 * j) - exit) / p, 0);
   add(p / j, j);
   return true;
@@ -149,23 +155,24 @@ SpeedChange::Laid SpeedChange::lay(PathAhead& path, const PathState& state) {
       Phase before = phase;
       before.duration = Seconds(time);
       before.start = phase.start - Mm(base);
-      if (time > smallest_time) pieces_.push_back({.segment = segment_, .phase = before});
+      if (time > shortest_phase) pieces_.push_back({.segment = segment_, .phase = before});
       if (pieces_.empty() || pieces_.back().segment != segment_) return Laid::blocked;
       pieces_.back().ends_segment = true;
-      phase = rest_of(phase, time, end);
+      phase = phase.after(Seconds(time));
+      phase.start = Mm(end);
       const Segment* after = path.at(++segment_);
       if (after == nullptr || rests_between(*segment, *after)) return Laid::blocked;
       segment = after;
       base = end;
       end = base + segment->curve.length().value();
     }
-    if (!(phase.duration.value() > smallest_time)) continue;
+    if (!(phase.duration.value() > shortest_phase)) continue;
     phase.start = phase.start - Mm(base);
     pieces_.push_back({.segment = segment_, .phase = phase});
   }
-  s_ = way_ - base;
+  s_ = chain_.at - base;
   const double least = std::min(smallest_rest, smallest_part * segment->curve.length().value());
-  return end - way_ > least ? Laid::whole : Laid::near_an_end;
+  return end - chain_.at > least ? Laid::whole : Laid::near_an_end;
 }
 
 SpeedChange::Demand SpeedChange::excess(PathAhead& path, const Request& request) const {
@@ -237,7 +244,7 @@ SpeedChange::Look SpeedChange::look_at(const Piece& piece, const Segment& segmen
   const Seconds t(time);
   const Mm s = std::clamp(phase.position_at(t), Mm(0), segment.curve.length());
   const double v = phase.velocity_at(t).value();
-  const double a = (phase.acceleration + phase.jerk * t).value();
+  const double a = phase.acceleration_at(t).value();
   const double j = phase.jerk.value();
   const Point first = segment.curve.tangent(s);
   const Point second = segment.curve.second_derivative(s);

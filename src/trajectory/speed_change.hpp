@@ -16,6 +16,7 @@
 #include "feed_factors.hpp"
 #include "jerk_cell.hpp"
 #include "path_ahead.hpp"
+#include "phase_chain.hpp"
 
 #include "passo/trajectory/phase.hpp"
 
@@ -23,16 +24,16 @@ namespace passo {
 
 // The state of the motion at a place on a segment of the path.
 struct PathState {
+  std::uint64_t segment = 0;
   double s = 0;
   double speed = 0;
   double acceleration = 0;
-  std::size_t segment = 0;  // counted from the path's first
 };
 
 class SpeedChange {
  public:
   struct Piece {
-    std::size_t segment = 0;  // counted in the path at the start of the change
+    std::uint64_t segment = 0;
     bool ends_segment = false;
     Phase phase;
   };
@@ -47,11 +48,12 @@ class SpeedChange {
 
   const std::vector<Piece>& pieces() const { return pieces_; }
   double exit() const { return exit_; }
-  double duration() const { return duration_; }
+  // The time of the pieces from that one on.
+  Seconds duration_from(std::size_t piece) const;
   // About the way to brake from the speed at its end.
   double braking_way() const { return braking_way_; }
   // The place where it ends.
-  std::size_t segment() const { return segment_; }
+  std::uint64_t segment() const { return segment_; }
   double s() const { return s_; }
 
  private:
@@ -88,13 +90,10 @@ class SpeedChange {
 
   std::vector<Phase> phases_;  // starts count from the start of the change
   std::vector<Piece> pieces_;  // the same phases, cut where segments end
-  double speed_ = 0;           // while the phases are being shaped
-  double acceleration_ = 0;
-  double way_ = 0;
+  PhaseChain chain_;           // of the phases
   double exit_ = 0;
-  double duration_ = 0;
   double braking_way_ = 0;
-  std::size_t segment_ = 0;
+  std::uint64_t segment_ = 0;
   double s_ = 0;
 };
 

@@ -199,7 +199,7 @@ inline std::vector<double> exits_offline(const std::vector<PathItem>& path, cons
     Whole cell;
     while (segment != nullptr && !cutter.at_end()) {
       cutter.next(cell.piece.place());
-      cell.top = std::min(cell.piece.cell.top_squared, cell.piece.cell.feed_squared);
+      cell.top = std::min(cell.piece.cell.top_squared, segment->speed.value() * segment->speed.value());
       cell.entry = rest || cells.empty() ? 0 : std::min(cell.top, cells.back().top);
       rest = false;
       cells.push_back(cell);

@@ -32,6 +32,15 @@ struct Phase {
     const double u = t.value();
     return MmPerSecond(velocity.value() + u * (acceleration.value() + u * jerk.value() / 2));
   }
+  constexpr MmPerSecond2 acceleration_at(Seconds t) const { return acceleration + jerk * t; }
+  // The rest of the phase from there on.
+  constexpr Phase after(Seconds t) const {
+    return {.duration = duration - t,
+            .start = position_at(t),
+            .velocity = velocity_at(t),
+            .acceleration = acceleration_at(t),
+            .jerk = jerk};
+  }
 };
 
 struct PlannedMove {
@@ -41,6 +50,11 @@ struct PlannedMove {
   std::array<Phase, most_phases> phases;
   std::size_t phase_count = 0;
 
+  // Makes it a move on that segment, without phases.
+  void begin_on(const Segment& whole) {
+    segment = whole;
+    phase_count = 0;
+  }
   void add(const Phase& phase) {
     assert(phase_count < most_phases);
     phases[phase_count++] = phase;

@@ -1,0 +1,34 @@
+#include "shorten.hpp"
+
+namespace passo {
+namespace {
+
+// A share of the longest time. No phase is cut nearer to one of its ends, so that no part of it is dust: a part takes a
+// fiftieth of a move at least, and a move is shorter than allowed by twice that at most.
+constexpr double smallest_part = 0.02;
+
+}  // namespace
+
+std::optional<PlannedMove> shorten(PlannedMove& move, Seconds longest, Mm least_way) {
+  const Seconds small = longest * smallest_part;
+  Seconds left = longest * (1 - smallest_part);
+  std::size_t whole = 0;  // phases that stay whole
+  for (; whole < move.phase_count && move.phases[whole].duration <= left + small; ++whole) {
+    left -= move.phases[whole].duration;
+  }
+  if (whole == move.phase_count) return std::nullopt;
+  const bool is_between = left < small;
+  const Phase after = is_between ? move.phases[whole] : move.phases[whole].after(left);
+  if (whole + 1 == move.phase_count && move.to - after.start < least_way) return std::nullopt;
+
+  std::optional<PlannedMove> rest = move;
+  rest->phase_count = 0;
+  rest->add(after);
+  for (std::size_t i = whole + 1; i < move.phase_count; ++i) rest->add(move.phases[i]);
+  move.phase_count = whole;
+  if (!is_between) move.phases[move.phase_count++].duration = left;
+  move.to = after.start;
+  return rest;
+}
+
+}  // namespace passo
