@@ -16,6 +16,7 @@ constexpr double most_above_cap = 4;
 // looked at. If a demand is near the limit, more places are, with a parabola through each three.
 constexpr double looked_at = 0.99;
 constexpr double looked_at_closely = 0.96;
+constexpr double looked_at_velocity = 0.99995;
 constexpr int close_parts = 4;
 constexpr double far_below = 0.95;  // a share of a limit, less than `looked_at` times `looked_at_closely`
 constexpr double unseen_change = 1e-6;
@@ -121,8 +122,8 @@ std::uint32_t JerkProfile::axes_near_limits(std::size_t i, const NodeState& most
     const double slope = std::max(std::abs(shape->slope_in), std::abs(shape->slope_out)) + length * length / 8 * third;
     const double force = slope * most.acceleration + bend * x;
     const double jolt = slope * jerk + most.speed * (3 * bend * most.acceleration + third * x);
-    const bool is_far =
-        axes_[k].falling == nullptr && force < far_below * axes_[k].acceleration && jolt < far_below * axes_[k].jerk;
+    const bool is_far = axes_[k].falling == nullptr && slope * most.speed < far_below * axes_[k].velocity &&
+                        force < far_below * axes_[k].acceleration && jolt < far_below * axes_[k].jerk;
     if (!is_far) near |= std::uint32_t{1} << k;
   }
   return near;
@@ -162,6 +163,9 @@ void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeStat
           force[at] *= axes_[k].acceleration / axes_[k].acceleration_at(pace[at] * pace[at]);
         }
       }
+      const double fastest_here = highest_through(pace);
+      const double velocity = axes_[k].velocity * looked_at_velocity;
+      raise_to(worst.pace, fastest_here * fastest_here, velocity * velocity);
       raise_to(worst.force, highest_through(force), axes_[k].acceleration * looked_at);
       raise_to(worst.jolt, highest_through(jolt), axes_[k].jerk * looked_at);
     }

@@ -97,8 +97,7 @@ double JerkLift::highest_beside_rest(const Stretch& stretch, std::size_t cell, b
 // In the first cell after a rest, or the last cell before one, only x at the other node is unknown.
 void JerkLift::add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins) {
   const std::size_t node = begins ? cell + 1 : cell;
-  const double cap =
-      std::min({stretch.cap[cell], stretch.node_cap[node], highest_beside_rest(stretch, cell, begins)}) / 2;
+  const double cap = std::min(stretch.node_cap[node], highest_beside_rest(stretch, cell, begins)) / 2;
   rows_.push_back({.along = begins ? x_out : x_in, .offset = cap, .limit = cap});
 }
 
@@ -131,7 +130,7 @@ void JerkLift::add_force_rows(const Row& row, const LimitedAxis& axis, const Fou
 // (A + |q''| x) / |q'|, and the jerk to (J + 3 |q''| v a + |q'''| v³) / |q'|.
 JerkLift::Binding JerkLift::binding_in(const Stretch& stretch, std::size_t cell) const {
   const double share = stretch.share[cell];
-  const double x = stretch.cap[cell];
+  const double x = std::max({stretch.node_cap[cell], stretch.cap[cell], stretch.node_cap[cell + 1]});
   const double v = std::sqrt(x);
   struct Steepness {
     double least = 0;
@@ -185,7 +184,7 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
   const double in_share = cell > 0 ? std::min(share, stretch.share[cell - 1]) : share;
   const Forms forms(own.length);
   const double half_cap = stretch.cap[cell] / 2;
-  const double in_cap = std::min(half_cap, stretch.node_cap[cell] / 2);
+  const double in_cap = stretch.node_cap[cell] / 2;
   if (!is_first) add_row({.along = x_in, .offset = in_cap, .limit = in_cap});
   add_row({.along = forms.middle_x, .offset = half_cap, .limit = half_cap});
   if (own.straight) {
@@ -207,16 +206,16 @@ void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first)
     const bool has_force = (binding.force >> k & 1) != 0;
     const bool has_jolt = (binding.jolt >> k & 1) != 0;
     if (!has_force && !has_jolt) continue;
-    const double third = (shape->third_in + shape->third_out) / 2;
-    const double slope = (shape->slope_in + shape->slope_out) / 2 - own.length * own.length / 8 * third;
-    const double bend = (shape->bend_in + shape->bend_out) / 2;
+    const double third = shape->third_middle();
+    const double slope = shape->slope_middle(own.length);
+    const double bend = shape->bend_middle();
     if (has_force) {
-      const auto add_place = [&](const Four& a, const Four& x, double q1, double q2, double own_share) {
+      const auto add_place = [&](const Four& a, const Four& x, double q1, double q2, double own_share, double cap) {
         add_force_rows({.along = sum(a, q1, x, q2), .limit = axes_[k].acceleration * own_share}, axes_[k], x,
-                       {.weight = q1 * q1, .share = own_share, .x = times(x, at), .cap = stretch.cap[cell]});
+                       {.weight = q1 * q1, .share = own_share, .x = times(x, at), .cap = cap});
       };
-      if (!is_first) add_place(a_in, x_in, shape->slope_in, shape->bend_in, in_share);
-      add_place(forms.middle_a, forms.middle_x, slope, bend, share);
+      if (!is_first) add_place(a_in, x_in, shape->slope_in, shape->bend_in, in_share, stretch.node_cap[cell]);
+      add_place(forms.middle_a, forms.middle_x, slope, bend, share, stretch.cap[cell]);
     }
     if (!has_jolt) continue;
     const double limit = axes_[k].jerk * share;
