@@ -15,6 +15,7 @@ constexpr double short_of_limit = 0.95;  // a step goes at most this part of the
 constexpr double least_share = 1e-3;     // of a step; if no more is possible, there is no solution
 constexpr double passable = 0.05;        // a limit may be exceeded by this share; the check decides
 constexpr double calming = 0.3;          // price of an acceleration that goes to and fro, in times of the cell
+constexpr double most_taken = 0.45;      // share of a cell's mean x that an acceleration may take away at the start
 constexpr double least_slack = 0.3;      // slack at the start, as a share of the limit
 
 FourLanes lanes(const std::array<double, 4>& four) {
@@ -47,7 +48,30 @@ void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t las
   for (const Tie& tied : {tied_first_, tied_last_}) {
     if (tied.factor != 0) at_[2 * tied.node + 1] = tied.factor * at_[2 * tied.node];
   }
+  make_passable(stretch, first);
   make_rows(stretch, first, last);
+}
+
+// A guess may have accelerations that leave no speed in the middle of a long cell beside a short one. Then all of them
+// are lowered to what leaves some speed: each takes less than half of the mean x of a cell away.
+void JerkLift::make_passable(const Stretch& stretch, std::size_t first) {
+  const std::size_t nodes = at_.size() / 2;
+  const auto most = [&](std::size_t cell) {
+    return most_taken * 2 * (at_[2 * cell] + at_[2 * cell + 2]) / stretch.cells[first + cell].length;
+  };
+  const auto is_passable = [&](std::size_t cell) {
+    const double* const at = &at_[2 * cell];
+    return at[0] == 0 || at[2] == 0 ||
+           (at[0] + at[2]) / 2 + stretch.cells[first + cell].length * (at[1] - at[3]) / 4 > 0;
+  };
+  std::size_t cell = 0;
+  while (cell + 1 < nodes && is_passable(cell)) ++cell;
+  if (cell + 1 == nodes) return;
+  for (std::size_t node = 1; node + 1 < nodes; ++node) {
+    const bool is_tied =
+        (tied_first_.factor != 0 && node == tied_first_.node) || (tied_last_.factor != 0 && node == tied_last_.node);
+    if (!is_tied) at_[2 * node + 1] = std::clamp(at_[2 * node + 1], -most(node), most(node - 1));
+  }
 }
 
 // Computes what x and a leave of each limit, and shows it to `visit`.
@@ -286,6 +310,7 @@ bool JerkLift::is_allowed() const {
 bool JerkLift::raise(const Stretch& stretch, std::size_t first, std::size_t last, std::vector<NodeState>& states) {
   set_up(stretch, first, last, states);
   const double unit = begin_prices();
+  if (!(unit > 0)) return false;
   double target = first_target * unit;
   for (int step = 0; step < most_steps; ++step) {
     assemble(target);

@@ -109,6 +109,7 @@ class JerkLift {
   void tie_step(const Tie& tied);
 
   void set_up(const Stretch& stretch, std::size_t first, std::size_t last, const std::vector<NodeState>& states);
+  void make_passable(const Stretch& stretch, std::size_t first);
   void make_rows(const Stretch& stretch, std::size_t first, std::size_t last);
   void make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last);
   void add_cell(const Stretch& stretch, std::size_t cell);
