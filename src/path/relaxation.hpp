@@ -9,8 +9,7 @@
 #include <array>
 #include <cstdint>
 
-#include "four_lanes.hpp"
-
+#include "passo/base/lanes.hpp"
 #include "passo/geometry/axes.hpp"
 
 namespace passo {

@@ -123,12 +123,11 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
   const Derivatives there = derivatives(segment_->curve, to);
   cell = {.start = at_,
           .length = to - at_,
-          .top_squared = 0,
+          .top_squared = straight_ ? top_ * top_ : speed_ * speed_,
           .acceleration = acceleration_,
           .jerk = jerk_,
           .straight = straight_,
           .ends_segment = to == length_};
-  double top = speed_;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const std::size_t i = axes_[k].index;
     shapes[k] = {.slope_in = here_.first.values[i],
@@ -137,12 +136,7 @@ bool JerkCutter::next(JerkCell& cell, AxisShape* shapes) {
                  .bend_out = there.second.values[i],
                  .third_in = here_.third.values[i],
                  .third_out = there.third.values[i]};
-    const double third = std::max(std::abs(shapes[k].third_in), std::abs(shapes[k].third_out));
-    const double steepest =
-        std::max(std::abs(shapes[k].slope_in), std::abs(shapes[k].slope_out)) + cell.length * cell.length / 8 * third;
-    if (steepest > 0) top = std::min(top, axes_[k].velocity / steepest);
   }
-  cell.top_squared = top * top;
   here_ = there;
   at_ = to;
   return true;

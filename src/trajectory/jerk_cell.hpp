@@ -40,7 +40,7 @@ struct LimitedAxis {
 // The result refers to `limits`, which must outlive it.
 std::vector<LimitedAxis> axes_with_limits(const MotionLimits& limits);
 
-// The derivatives of an axis's place by s, at the start and at the end of a cell.
+// The derivatives of an axis's place by s, at the start and at the end of a cell. The third is straight in between.
 struct AxisShape {
   double slope_in = 0;
   double slope_out = 0;
@@ -48,6 +48,11 @@ struct AxisShape {
   double bend_out = 0;
   double third_in = 0;
   double third_out = 0;
+
+  // In the middle of a cell of this length.
+  double third_middle() const { return (third_in + third_out) / 2; }
+  double bend_middle() const { return (bend_in + bend_out) / 2; }
+  double slope_middle(double length) const { return (slope_in + slope_out) / 2 - length * length / 8 * third_middle(); }
 };
 
 // The path's second derivative may change where segments join. Such a joint is passed so slowly that no axis's
@@ -57,7 +62,7 @@ inline constexpr double unseen_jump = 2e-4;
 struct JerkCell {
   double start = 0;         // s on the segment's curve
   double length = 0;        // mm, above 0
-  double top_squared = 0;   // the limit by the feed and the axes' velocities
+  double top_squared = 0;   // the limit by the feed; straight cells: by the axes' velocities too
   double acceleration = 0;  // straight cells: what the axes allow along the path
   double jerk = 0;
   bool straight = false;  // on a line, and the acceleration of no axis falls

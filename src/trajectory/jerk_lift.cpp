@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace passo {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int most_steps = 40;
 constexpr double first_target = 0.02;  // price times slack, as a share of the mean time of a cell
@@ -18,170 +14,24 @@ constexpr double target_falls = 0.2;     // the factor from step to step, at bes
 constexpr double short_of_limit = 0.95;  // a step goes at most this part of the way to a slack or price of 0
 constexpr double least_share = 1e-3;     // of a step; if no more is possible, there is no solution
 constexpr double passable = 0.05;        // a limit may be exceeded by this share; the check decides
-constexpr double outer_part = 0.65;  // weight of x at the node in the mean speed of half a cell; the rest: the middle
-constexpr double calming = 0.3;      // price of an acceleration that goes to and fro, in times of the cell
-constexpr double least_slack = 0.3;  // slack at the start, as a share of the limit
+constexpr double calming = 0.3;          // price of an acceleration that goes to and fro, in times of the cell
+constexpr double most_taken = 0.45;      // share of a cell's mean x that an acceleration may take away at the start
+constexpr double least_slack = 0.3;      // slack at the start, as a share of the limit
 
-double times(const std::array<double, 4>& factors, const double* values) {
-  return factors[0] * values[0] + factors[1] * values[1] + factors[2] * values[2] + factors[3] * values[3];
+FourLanes lanes(const std::array<double, 4>& four) {
+  return FourLanes::load(four.data());
 }
 
-std::array<double, 4> sum(const std::array<double, 4>& a, double factor_a, const std::array<double, 4>& b,
-                          double factor_b) {
-  return {a[0] * factor_a + b[0] * factor_b, a[1] * factor_a + b[1] * factor_b, a[2] * factor_a + b[2] * factor_b,
-          a[3] * factor_a + b[3] * factor_b};
+double times(const std::array<double, 4>& factors, FourLanes values) {
+  return (lanes(factors) * values).sum();
 }
 
-struct Forms {  // linear forms of a cell, in x0, a0, x1, a1
-  explicit Forms(double h)
-      : middle_x{0.5, h / 4, 0.5, -h / 4},
-        middle_a{-1 / h, -0.5, 1 / h, -0.5},
-        first{-2 / (h * h), -3 / h, 2 / (h * h), -1 / h},
-        second{2 / (h * h), 1 / h, -2 / (h * h), 3 / h} {}
-  std::array<double, 4> middle_x;
-  std::array<double, 4> middle_a;
-  std::array<double, 4> first;  // j / v
-  std::array<double, 4> second;
-};
-
-constexpr std::array<double, 4> x_in = {1, 0, 0, 0};
-constexpr std::array<double, 4> a_in = {0, 1, 0, 0};
-constexpr std::array<double, 4> x_out = {0, 0, 1, 0};
-constexpr std::array<double, 4> a_out = {0, 0, 0, 1};
+// The share of a step that may be made, where the whole step would go `back` times too far.
+double short_of(double back) {
+  return back > short_of_limit ? short_of_limit / back : 1;
+}
 
 }  // namespace
-
-// From rest with jerk j the motion is at h = j t³/6 with v = j t²/2 and a = j t. So a = 2 x / 3 h.
-void JerkLift::tie(Four& along) const {
-  if (cell_ == tied_first_.node && tied_first_.factor != 0) {
-    along[0] += tied_first_.factor * std::exchange(along[1], 0);
-  }
-  if (cell_ + 1 == tied_last_.node && tied_last_.factor != 0) {
-    along[2] += tied_last_.factor * std::exchange(along[3], 0);
-  }
-}
-
-void JerkLift::add_row(Row row) {
-  tie(row.along);
-  rows_.push_back(row);
-}
-
-void JerkLift::add_jolt_row(JoltRow row) {
-  tie(row.along);
-  tie(row.square);
-  jolt_rows_.push_back(row);
-}
-
-// The greatest x at the node of the cell that is no rest. With the jerk the same in all of the cell, a³ = 6 h j², and
-// each demand of an axis is a power of a.
-double JerkLift::highest_beside_rest(const Stretch& stretch, std::size_t cell, bool begins) const {
-  const JerkCell& own = stretch.cells[cell];
-  const double h = own.length;
-  const double by_jerk = 1 / std::sqrt(6 * h);
-  const double by_speed = std::sqrt(1.5 * h);
-  double most = infinity;    // of |a|
-  double most_x = infinity;  // of x
-  const auto meet = [&](double factor, double limit) {
-    if (factor > 0 && limit < infinity) most = std::min(most, std::cbrt(limit * limit / (factor * factor)));
-  };
-  if (own.straight) {
-    meet(by_jerk, own.jerk * stretch.share[cell]);
-    most = std::min(most, own.acceleration * stretch.share[cell]);
-  } else {
-    const AxisShape* shape = &stretch.shapes[cell * axes_.size()];
-    for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
-      const double limit = axes_[k].jerk * stretch.share[cell];
-      // Backwards in time the slope and the third derivative change their signs, and so does a.
-      const double first = begins ? shape->slope_out : -shape->slope_in;
-      const double second = begins ? shape->bend_out : shape->bend_in;
-      const double third = begins ? shape->third_out : -shape->third_in;
-      meet(std::abs(begins ? shape->slope_in : shape->slope_out) * by_jerk, limit);
-      meet(std::abs(first * by_jerk + 3 * second * by_speed + third * by_speed * by_speed * by_speed), limit);
-      const double force = std::abs(first * 2 / (3 * h) + second);
-      if (force > 0) most_x = std::min(most_x, axes_[k].acceleration * stretch.share[cell] / force);
-    }
-  }
-  return std::min(1.5 * h * most, most_x);
-}
-
-// In the first cell after a rest, or the last cell before one, only x at the other node is unknown.
-void JerkLift::add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins) {
-  const std::size_t node = begins ? cell + 1 : cell;
-  const double cap =
-      std::min({stretch.cap[cell], stretch.node_cap[node], highest_beside_rest(stretch, cell, begins)}) / 2;
-  rows_.push_back({.along = begins ? x_out : x_in, .offset = cap, .limit = cap});
-}
-
-void JerkLift::add_straight_rows(const JerkCell& cell, double share, double in_share) {
-  const Forms forms(cell.length);
-  if (cell.acceleration < infinity) {
-    const double limit = cell.acceleration * share;
-    if (in_share > 0) add_row({.along = a_in, .limit = cell.acceleration * in_share});
-    add_row({.along = forms.middle_a, .limit = limit});
-  }
-  if (cell.jerk < infinity) {
-    const double limit = cell.jerk * share;
-    add_jolt_row(
-        {.along = forms.first, .square = sum(x_in, outer_part, forms.middle_x, 1 - outer_part), .limit = limit});
-    add_jolt_row(
-        {.along = forms.second, .square = sum(x_out, outer_part, forms.middle_x, 1 - outer_part), .limit = limit});
-  }
-}
-
-// Where the limit falls, the row uses the line that is the highest at the present speed: |force| + fall w <= at rest.
-void JerkLift::add_force_rows(const Row& row, const LimitedAxis& axis, const Four& x, const Place& place) {
-  add_row(row);
-  if (!axis.falls_at(place.weight * place.cap)) return;
-  const AccelerationCurve::Line& line = axis.line_at(place.weight * place.x);
-  const double fall = place.share * place.weight * line.fall;
-  add_row({.along = sum(row.along, 1, x, fall), .limit = place.share * line.at_rest});
-  add_row({.along = sum(row.along, 1, x, -fall), .limit = place.share * line.at_rest});
-}
-
-void JerkLift::add_rows(const Stretch& stretch, std::size_t cell, bool is_first) {
-  const JerkCell& own = stretch.cells[cell];
-  const double share = stretch.share[cell];
-  const double in_share = cell > 0 ? std::min(share, stretch.share[cell - 1]) : share;
-  const Forms forms(own.length);
-  const double half_cap = stretch.cap[cell] / 2;
-  const double in_cap = std::min(half_cap, stretch.node_cap[cell] / 2);
-  if (!is_first) add_row({.along = x_in, .offset = in_cap, .limit = in_cap});
-  add_row({.along = forms.middle_x, .offset = half_cap, .limit = half_cap});
-  if (own.straight) {
-    add_straight_rows(own, share, is_first ? 0 : in_share);
-    return;
-  }
-  // The jerk is the same in all of half a cell.
-  const double* const at = here_;
-  const double middle = std::max(times(forms.middle_x, at), std::min(at[0], at[2]) / 4);
-  const double first = outer_part * at[0] + (1 - outer_part) * middle;
-  const double second = outer_part * at[2] + (1 - outer_part) * middle;
-  const AxisShape* shape = &stretch.shapes[cell * axes_.size()];
-  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
-    const double third = (shape->third_in + shape->third_out) / 2;
-    const double slope = (shape->slope_in + shape->slope_out) / 2 - own.length * own.length / 8 * third;
-    const double bend = (shape->bend_in + shape->bend_out) / 2;
-    if (slope == 0 && bend == 0 && third == 0) continue;
-    if (axes_[k].acceleration < infinity) {
-      const auto add_place = [&](const Four& a, const Four& x, double q1, double q2, double own_share) {
-        add_force_rows({.along = sum(a, q1, x, q2), .limit = axes_[k].acceleration * own_share}, axes_[k], x,
-                       {.weight = q1 * q1, .share = own_share, .x = times(x, at), .cap = stretch.cap[cell]});
-      };
-      if (!is_first) add_place(a_in, x_in, shape->slope_in, shape->bend_in, in_share);
-      add_place(forms.middle_a, forms.middle_x, slope, bend, share);
-    }
-    if (axes_[k].jerk == infinity) continue;
-    const double limit = axes_[k].jerk * share;
-    const auto add_place = [&](const Four& j, const Four& a, const Four& x, double q1, double q2, double q3) {
-      add_jolt_row({.along = sum(sum(j, q1, a, 3 * q2), 1, x, q3), .square = x, .limit = limit});
-    };
-    add_place(forms.first, a_in, x_in, shape->slope_in * std::sqrt(first / at[0]), shape->bend_in, shape->third_in);
-    add_place(forms.first, forms.middle_a, forms.middle_x, slope * std::sqrt(first / middle), bend, third);
-    add_place(forms.second, forms.middle_a, forms.middle_x, slope * std::sqrt(second / middle), bend, third);
-    add_place(forms.second, a_out, x_out, shape->slope_out * std::sqrt(second / at[2]), shape->bend_out,
-              shape->third_out);
-  }
-}
 
 void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t last,
                       const std::vector<NodeState>& states) {
@@ -198,138 +48,125 @@ void JerkLift::set_up(const Stretch& stretch, std::size_t first, std::size_t las
   for (const Tie& tied : {tied_first_, tied_last_}) {
     if (tied.factor != 0) at_[2 * tied.node + 1] = tied.factor * at_[2 * tied.node];
   }
+  make_passable(stretch, first);
   make_rows(stretch, first, last);
 }
 
-void JerkLift::make_rows(const Stretch& stretch, std::size_t first, std::size_t last) {
-  cells_.clear();
-  rows_.clear();
-  jolt_rows_.clear();
-  for (std::size_t k = first; k < last; ++k) {
-    cell_ = k - first;
-    here_ = &at_[2 * cell_];
-    const bool begins = here_[0] == 0;
-    const bool has_rest = begins || here_[2] == 0;
-    if (has_rest) {
-      add_cell_at_rest(stretch, k, begins);
-    } else {
-      add_rows(stretch, k, k == first);
-    }
-    const double h = stretch.cells[k].length;
-    Four middle = Forms(h).middle_x;
-    Four to_and_fro = {-1 / h, -1, 1 / h, -1};
-    tie(middle);
-    tie(to_and_fro);
-    cells_.push_back({.middle = middle,
-                      .to_and_fro = to_and_fro,
-                      .length = h,
-                      .has_rest = has_rest,
-                      .rows_end = rows_.size(),
-                      .jolt_rows_end = jolt_rows_.size()});
+// A guess may have accelerations that leave no speed in the middle of a long cell beside a short one. Then all of them
+// are lowered to what leaves some speed: each takes less than half of the mean x of a cell away.
+void JerkLift::make_passable(const Stretch& stretch, std::size_t first) {
+  const std::size_t nodes = at_.size() / 2;
+  const auto most = [&](std::size_t cell) {
+    return most_taken * 2 * (at_[2 * cell] + at_[2 * cell + 2]) / stretch.cells[first + cell].length;
+  };
+  const auto is_passable = [&](std::size_t cell) {
+    const double* const at = &at_[2 * cell];
+    return at[0] == 0 || at[2] == 0 ||
+           (at[0] + at[2]) / 2 + stretch.cells[first + cell].length * (at[1] - at[3]) / 4 > 0;
+  };
+  std::size_t cell = 0;
+  while (cell + 1 < nodes && is_passable(cell)) ++cell;
+  if (cell + 1 == nodes) return;
+  for (std::size_t node = 1; node + 1 < nodes; ++node) {
+    const bool is_tied =
+        (tied_first_.factor != 0 && node == tied_first_.node) || (tied_last_.factor != 0 && node == tied_last_.node);
+    if (!is_tied) at_[2 * node + 1] = std::clamp(at_[2 * node + 1], -most(node), most(node - 1));
   }
 }
 
-// Where a cell bends, its rows have factors that hold for speeds near the present ones. Slacks and prices stay.
-void JerkLift::make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last) {
-  old_rows_.swap(rows_);
-  old_jolt_rows_.swap(jolt_rows_);
-  make_rows(stretch, first, last);
-  const auto take_over = [](const auto& from, auto& to) {
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      to[i].up = from[i].up;
-      to[i].down = from[i].down;
-    }
-  };
-  take_over(old_rows_, rows_);
-  take_over(old_jolt_rows_, jolt_rows_);
-}
-
-// Computes what is left of each limit.
-void JerkLift::measure(bool first_time) {
-  const auto put = [first_time](Side& side, double left, double limit) {
-    if (first_time) side.slack = std::max(left, least_slack * limit);
-    side.missing = side.slack - left;
-    side.by_slack = 1 / side.slack;
-  };
+// Computes what x and a leave of each limit, and shows it to `visit`.
+template <class Visit>
+void JerkLift::measure(const Visit& visit) {
   std::size_t r = 0;
   std::size_t t = 0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const double* const at = &at_[2 * c];
-    for (; r < cells_[c].rows_end; ++r) {
+    Cell& cell = cells_[c];
+    const auto at = FourLanes::load(&at_[2 * c]);
+    for (std::size_t p = 0; p < cell.pace_count; ++p) {
+      Pace& pace = cell.paces[p];
+      pace.by_square = 1 / times(pace.square, at);
+      pace.by_speed = std::sqrt(pace.by_square);
+    }
+    for (; r < cell.rows_end; ++r) {
       Row& row = rows_[r];
       const double value = times(row.along, at) - row.offset;
-      put(row.up, row.limit - value, row.limit);
-      put(row.down, row.limit + value, row.limit);
+      visit(row.sides, TwoLanes(row.limit - value, row.limit + value), row.limit);
     }
-    for (; t < cells_[c].jolt_rows_end; ++t) {
+    for (; t < cell.jolt_rows_end; ++t) {
       JoltRow& row = jolt_rows_[t];
       const double value = times(row.along, at);
-      const double by_square = 1 / times(row.square, at);
-      const double limit = row.limit * std::sqrt(by_square);
-      row.fall = 0.5 * limit * by_square;
-      put(row.up, limit - value, limit);
-      put(row.down, limit + value, limit);
+      const double limit = row.limit * cell.pace(row.place).by_speed;
+      visit(row.sides, TwoLanes(limit - value, limit + value), limit);
     }
   }
 }
 
-// What one cell adds to the system.
+// What one cell adds to the system: its symmetric matrix, from the diagonal on.
 struct JerkLift::Block {
-  Four first{};  // products with x0, with a0, and so on
-  Four second{};
-  Four third{};
-  Four fourth{};
-  Four pull{};
+  FourLanes first;  // products with x0, with a0, and so on
+  FourLanes second;
+  TwoLanes third;  // with x1 and a1 only
+  TwoLanes fourth;
+  FourLanes pull;
 
-  void add(const Four& g, double weight, double pulled) {
-    const Four by = {weight * g[0], weight * g[1], weight * g[2], weight * g[3]};
-    for (std::size_t k = 0; k < 4; ++k) {
-      first[k] += by[0] * g[k];
-      second[k] += by[1] * g[k];
-      third[k] += by[2] * g[k];
-      fourth[k] += by[3] * g[k];
-      pull[k] += pulled * g[k];
-    }
+  void add(FourLanes g, double weight, double pulled) {
+    const FourLanes by = g * weight;
+    first += g * by.low().first();
+    second += g * by.low().second();
+    third += g.high() * by.high().first();
+    fourth += g.high() * by.high().second();
+    pull += g * pulled;
   }
 };
 
 void JerkLift::add_to_system(std::size_t at, const Block& block) {
-  const std::array<const Four*, 4> rows = {&block.first, &block.second, &block.third, &block.fourth};
+  std::array<Four, 4> rows{};
+  block.first.store(rows[0].data());
+  block.second.store(rows[1].data());
+  block.third.store(&rows[2][2]);
+  block.fourth.store(&rows[3][2]);
   for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t k = i; k < 4; ++k) system_[at + i][k - i] += (*rows[i])[k];
-    step_[at + i] += block.pull[i];
+    for (std::size_t k = i; k < 4; ++k) system_[at + i][k - i] += rows[i][k];
   }
+  (FourLanes::load(&step_[at]) + block.pull).store(&step_[at]);
 }
 
 // Adds the time of a cell: the integral of 1/v by Simpson's rule; beside a rest, 3 h / v.
-void JerkLift::add_time(std::size_t c, Block& block) const {
+void JerkLift::add_time(std::size_t c, Block& block) {
   const double* const at = &at_[2 * c];
   const Cell& cell = cells_[c];
-  const auto put = [&](const Four& square, double weight) {
-    const double x = times(square, at);
-    const double by = weight / (x * std::sqrt(x));
-    block.add(square, 0.75 * by / x, 0.5 * by);
+  const auto put_node = [&](std::size_t place, double weight, double by_square, double by_speed) {
+    const double by = weight * by_square * by_speed;
+    system_[2 * c + place][0] += 0.75 * by * by_square;
+    step_[2 * c + place] += 0.5 * by;
   };
-  if (cell.has_rest) return put(at[0] > 0 ? x_in : x_out, 3 * cell.length);
-  put(x_in, cell.length / 6);
-  put(cell.middle, cell.length * 2 / 3);
-  put(x_out, cell.length / 6);
+  if (cell.has_rest()) {
+    const double by_square = 1 / std::max(at[0], at[2]);
+    return put_node(at[0] > 0 ? 0 : 2, 3 * cell.length, by_square, std::sqrt(by_square));
+  }
+  const Pace& in = cell.pace(At::in);
+  const Pace& middle = cell.pace(At::middle);
+  const Pace& out = cell.pace(At::out);
+  put_node(0, cell.length / 6, in.by_square, in.by_speed);
+  put_node(2, cell.length / 6, out.by_square, out.by_speed);
+  const double by = cell.length * 2 / 3 * middle.by_square * middle.by_speed;
+  block.add(lanes(middle.square), 0.75 * by * middle.by_square, 0.5 * by);
   // Without a price, an acceleration that goes to and fro within each cell costs nothing where the speed is steady.
-  const double x = times(cell.middle, at);
-  const double weight = calming * cell.length * cell.length * cell.length / (x * x * std::sqrt(x));
-  block.add(cell.to_and_fro, weight, -weight * times(cell.to_and_fro, at));
+  const double weight =
+      calming * cell.length * cell.length * cell.length * middle.by_square * middle.by_square * middle.by_speed;
+  block.add(lanes(cell.to_and_fro), weight, -weight * times(cell.to_and_fro, FourLanes::load(at)));
 }
 
 double JerkLift::time() const {
   double sum = 0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const double* const at = &at_[2 * c];
-    if (cells_[c].has_rest) {
-      sum += 3 * cells_[c].length / std::sqrt(std::max(at[0], at[2]));
+    const Cell& cell = cells_[c];
+    if (cell.has_rest()) {
+      sum += 3 * cell.length / std::sqrt(std::max(at_[2 * c], at_[2 * c + 2]));
       continue;
     }
-    sum += cells_[c].length / 6 *
-           (1 / std::sqrt(at[0]) + 4 / std::sqrt(times(cells_[c].middle, at)) + 1 / std::sqrt(at[2]));
+    sum += cell.length / 6 *
+           (cell.pace(At::in).by_speed + 4 * cell.pace(At::middle).by_speed + cell.pace(At::out).by_speed);
   }
   return sum;
 }
@@ -339,25 +176,28 @@ double JerkLift::time() const {
 void JerkLift::assemble(double target) {
   system_.assign(at_.size() + 4, Four{});
   step_.assign(at_.size() + 4, 0.0);
+  const TwoLanes wanted(target);
   std::size_t r = 0;
   std::size_t t = 0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const Cell& cell = cells_[c];
     Block block;
     add_time(c, block);
-    for (; r < cells_[c].rows_end; ++r) {
-      const Row& row = rows_[r];
-      const double up = row.up.by_slack;
-      const double down = row.down.by_slack;
-      block.add(row.along, row.up.price * up + row.down.price * down,
-                (target + row.down.price * row.down.missing) * down - (target + row.up.price * row.up.missing) * up);
+    for (; r < cell.rows_end; ++r) {
+      const Sides& sides = rows_[r].sides;
+      const TwoLanes pull = (wanted + sides.price * sides.missing) * sides.by_slack;
+      block.add(lanes(rows_[r].along), (sides.price * sides.by_slack).sum(), pull.second() - pull.first());
     }
-    for (; t < cells_[c].jolt_rows_end; ++t) {
+    for (; t < cell.jolt_rows_end; ++t) {
       const JoltRow& row = jolt_rows_[t];
-      const auto put = [&](const Four& gradient, const Side& side) {
-        block.add(gradient, side.price * side.by_slack, (target + side.price * side.missing) * side.by_slack);
-      };
-      put(sum(row.along, -1, row.square, -row.fall), row.up);
-      put(sum(row.along, 1, row.square, -row.fall), row.down);
+      const Sides& sides = row.sides;
+      const Pace& pace = cell.pace(row.place);
+      const TwoLanes weight = sides.price * sides.by_slack;
+      const TwoLanes pull = (wanted + sides.price * sides.missing) * sides.by_slack;
+      const FourLanes along = lanes(row.along);
+      const FourLanes fall = lanes(pace.square) * (row.limit * pace.fall());
+      block.add(along + fall, weight.first(), -pull.first());
+      block.add(along - fall, weight.second(), pull.second());
     }
     add_to_system(2 * c, block);
   }
@@ -396,96 +236,92 @@ void JerkLift::tie_step(const Tie& tied) {
   if (tied.factor != 0) step_[2 * tied.node + 1] = tied.factor * step_[2 * tied.node];
 }
 
-// The share of the step that may be made.
-double JerkLift::look_along() {
-  double back = 0;  // 1 / the distance at which the first slack becomes 0
-  const auto put = [&back](Side& side, double change) {
-    side.change = change - side.missing;
-    back = std::max(back, -side.change * side.by_slack);
+// Finds how slacks and prices change with the step, and the shares of these changes that may be made.
+JerkLift::Reach JerkLift::look_along(double target) {
+  double back = 0;  // 1 / the distance at which the first x becomes 0
+  TwoLanes slack_back;
+  TwoLanes price_back;
+  const TwoLanes wanted(target);
+  const TwoLanes none;
+  const auto put = [&](Sides& sides, TwoLanes change) {
+    sides.change = change - sides.missing;
+    sides.price_change = (wanted - sides.price * sides.change) * sides.by_slack - sides.price;
+    slack_back = larger(slack_back, none - sides.change * sides.by_slack);
+    price_back = larger(price_back, none - sides.price_change / sides.price);
   };
   std::size_t r = 0;
   std::size_t t = 0;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const double* const at = &at_[2 * c];
-    const double* const step = &step_[2 * c];
-    if (!cells_[c].has_rest) {
-      back = std::max(back, -1.2 * times(cells_[c].middle, step) / times(cells_[c].middle, at));
+    const Cell& cell = cells_[c];
+    const auto step = FourLanes::load(&step_[2 * c]);
+    std::array<double, 5> rise{};  // of x at each place
+    for (std::size_t p = 0; p < cell.pace_count; ++p) {
+      rise[p] = times(cell.paces[p].square, step);
+      back = std::max(back, -1.2 * rise[p] * cell.paces[p].by_square);
     }
-    if (at[0] > 0) back = std::max(back, -1.2 * step[0] / at[0]);
-    for (; r < cells_[c].rows_end; ++r) {
+    for (; r < cell.rows_end; ++r) {
       const double change = times(rows_[r].along, step);
-      put(rows_[r].up, -change);
-      put(rows_[r].down, change);
+      put(rows_[r].sides, {-change, change});
     }
-    for (; t < cells_[c].jolt_rows_end; ++t) {
+    for (; t < cell.jolt_rows_end; ++t) {
       JoltRow& row = jolt_rows_[t];
-      const double fall = row.fall * times(row.square, step);
+      const double fall = row.limit * cell.pace(row.place).fall() * rise[static_cast<std::size_t>(row.place)];
       const double change = times(row.along, step);
-      put(row.up, -change - fall);
-      put(row.down, change - fall);
+      put(row.sides, {-change - fall, change - fall});
     }
   }
-  return back > short_of_limit ? short_of_limit / back : 1;
+  return {.share = short_of(std::max(back, slack_back.largest())), .price_share = short_of(price_back.largest())};
 }
 
-template <class Visit>
-void JerkLift::for_each_side(const Visit& visit) {
-  for (Row& row : rows_) {
-    visit(row.up);
-    visit(row.down);
-  }
-  for (JoltRow& row : jolt_rows_) {
-    visit(row.up);
-    visit(row.down);
-  }
+// Begins with slacks and prices whose products are even. Returns the mean time of a cell.
+double JerkLift::begin_prices() {
+  measure([](Sides& sides, TwoLanes left, double limit) {
+    sides.slack = larger(left, TwoLanes(least_slack * limit));
+    sides.missing = sides.slack - left;
+    sides.by_slack = TwoLanes(1.0) / sides.slack;
+  });
+  const double unit = time() / static_cast<double>(cells_.size());
+  for (Row& row : rows_) row.sides.price = row.sides.by_slack * (first_target * unit);
+  for (JoltRow& row : jolt_rows_) row.sides.price = row.sides.by_slack * (first_target * unit);
+  return unit;
 }
 
-void JerkLift::go(double share, double target) {
-  double back = 0;
-  for_each_side([&](Side& side) {
-    // From here on `missing` is not needed; it holds the change of the price.
-    side.missing = (target - side.price * side.change) * side.by_slack - side.price;
-    if (-side.missing > back * side.price) back = -side.missing / side.price;
+// Changes slacks and prices by their shares of the step, after x and a have changed. Returns the mean product of a
+// slack and its price.
+double JerkLift::go(const Reach& reach) {
+  TwoLanes product;
+  measure([&](Sides& sides, TwoLanes left, double) {
+    sides.slack += sides.change * reach.share;
+    sides.price += sides.price_change * reach.price_share;
+    sides.missing = sides.slack - left;
+    sides.by_slack = TwoLanes(1.0) / sides.slack;
+    product += sides.slack * sides.price;
   });
-  const double price_share = back > short_of_limit ? short_of_limit / back : 1;
-  for_each_side([&](Side& side) {
-    side.slack += share * side.change;
-    side.price += price_share * side.missing;
-  });
-  for (std::size_t i = 2; i + 2 < at_.size(); ++i) at_[i] += share * step_[i];
+  return product.sum() / static_cast<double>(2 * (rows_.size() + jolt_rows_.size()));
 }
 
 bool JerkLift::is_allowed() const {
   const auto is_kept = [](const auto& row) {
-    const double far = passable * (row.up.slack + row.down.slack);
-    return row.up.missing - row.up.slack < far && row.down.missing - row.down.slack < far;
+    return (row.sides.missing - row.sides.slack).largest() < passable * row.sides.slack.sum();
   };
   return std::all_of(rows_.begin(), rows_.end(), is_kept) && std::all_of(jolt_rows_.begin(), jolt_rows_.end(), is_kept);
 }
 
 bool JerkLift::raise(const Stretch& stretch, std::size_t first, std::size_t last, std::vector<NodeState>& states) {
   set_up(stretch, first, last, states);
-  measure(true);
-  const double unit = time() / static_cast<double>(cells_.size());
+  const double unit = begin_prices();
+  if (!(unit > 0)) return false;
   double target = first_target * unit;
-  for_each_side([target](Side& side) { side.price = target / side.slack; });
   for (int step = 0; step < most_steps; ++step) {
     assemble(target);
     solve();
-    const double share = look_along();
-    if (!(share > least_share)) break;
-    go(share, target);
+    const Reach reach = look_along(target);
+    if (!(reach.share > least_share)) break;
+    for (std::size_t i = 2; i + 2 < at_.size(); ++i) at_[i] += reach.share * step_[i];
     if (step % steps_with_rows == steps_with_rows - 1) make_rows_again(stretch, first, last);
-    measure(false);
-    if (target <= last_target * unit && share > 0.5) break;
-    double product = 0;
-    std::size_t sides = 0;
-    for_each_side([&](const Side& side) {
-      product += side.slack * side.price;
-      ++sides;
-    });
-    product /= static_cast<double>(sides);
-    target = std::max(product * (1 - share * (1 - target_falls)), last_target * unit);
+    const double product = go(reach);
+    if (target <= last_target * unit && reach.share > 0.5) break;
+    target = std::max(product * (1 - reach.share * (1 - target_falls)), last_target * unit);
   }
   if (!is_allowed()) return false;
   for (std::size_t k = first + 1; k < last; ++k) {

@@ -19,9 +19,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "jerk_cell.hpp"
+
+#include "passo/base/lanes.hpp"
 
 namespace passo {
 
@@ -49,36 +52,52 @@ class JerkLift {
 
  private:
   using Four = std::array<double, 4>;  // factors of x0, a0, x1, a1
-  // One side of a limit: the room left to it, and its price (the multiplier).
-  struct Side {
-    double slack = 0;
-    double by_slack = 0;
-    double price = 0;
-    double missing = 0;  // the slack, less what x and a leave
-    double change = 0;   // of the slack in this step
+  // Both sides of a limit, the upper one first: the room left to it, and its price (the multiplier).
+  struct Sides {
+    TwoLanes slack;
+    TwoLanes by_slack;
+    TwoLanes price;
+    TwoLanes missing;       // the slack, less what x and a leave
+    TwoLanes change;        // of the slack in this step
+    TwoLanes price_change;  // in this step
   };
   struct Row {  // |along * (x, a) - offset| <= limit
     Four along{};
     double offset = 0;
     double limit = 0;
-    Side up = {};
-    Side down = {};
+    Sides sides = {};
   };
-  struct JoltRow {  // |along * (x, a)| <= limit / sqrt(square * (x, a))
+  // Places of a cell where its jerk is limited.
+  enum class At : std::uint8_t {
+    in,
+    middle,
+    out,
+    early,  // where the speed is the mean speed of the first half
+    late,
+  };
+  struct JoltRow {  // |along * (x, a)| <= limit / sqrt(x at the place)
     Four along{};
-    Four square{};
     double limit = 0;
-    double fall = 0;  // of the right side, with the square
-    Side up = {};
-    Side down = {};
+    At place = At::in;
+    Sides sides = {};
+  };
+  struct Pace {
+    Four square{};  // the form of x
+    double by_square = 0;
+    double by_speed = 0;
+    // Of a limit of jerk, with x.
+    double fall() const { return 0.5 * by_square * by_speed; }
   };
   struct Cell {
-    Four middle{};      // the form of x in the middle
-    Four to_and_fro{};  // the form of the middle's acceleration less the mean of the ends'
+    std::array<Pace, 5> paces{};  // by At; `early` and `late` only in straight cells
+    std::size_t pace_count = 0;   // 0: the cell has a rest
+    Four to_and_fro{};            // the form of the middle's acceleration less the mean of the ends'
     double length = 0;
-    bool has_rest = false;
     std::size_t rows_end = 0;
     std::size_t jolt_rows_end = 0;
+
+    bool has_rest() const { return pace_count == 0; }
+    const Pace& pace(At place) const { return paces[static_cast<std::size_t>(place)]; }
   };
   // Beside a rest the acceleration at the cell's other node follows from the speed there: a = factor x. So a is no
   // unknown of its own.
@@ -90,8 +109,10 @@ class JerkLift {
   void tie_step(const Tie& tied);
 
   void set_up(const Stretch& stretch, std::size_t first, std::size_t last, const std::vector<NodeState>& states);
+  void make_passable(const Stretch& stretch, std::size_t first);
   void make_rows(const Stretch& stretch, std::size_t first, std::size_t last);
   void make_rows_again(const Stretch& stretch, std::size_t first, std::size_t last);
+  void add_cell(const Stretch& stretch, std::size_t cell);
   void add_rows(const Stretch& stretch, std::size_t cell, bool is_first);
   struct Place {
     double weight = 0;  // factor from x to the square of the axis's speed
@@ -103,18 +124,28 @@ class JerkLift {
   void add_straight_rows(const JerkCell& cell, double share, double in_share);
   void add_cell_at_rest(const Stretch& stretch, std::size_t cell, bool begins);
   double highest_beside_rest(const Stretch& stretch, std::size_t cell, bool begins) const;
+  // The axes whose limits the motion can reach in a cell, one bit each.
+  struct Binding {
+    std::uint32_t force = 0;
+    std::uint32_t jolt = 0;
+  };
+  Binding binding_in(const Stretch& stretch, std::size_t cell) const;
   void add_row(Row row);
   void add_jolt_row(JoltRow row);
-  void measure(bool first_time);
+  double begin_prices();
+  template <class Visit>
+  void measure(const Visit& visit);
   void assemble(double target);
   struct Block;
-  void add_time(std::size_t c, Block& block) const;
+  void add_time(std::size_t c, Block& block);
   void add_to_system(std::size_t at, const Block& block);
   void solve();
-  double look_along();
-  void go(double share, double target);
-  template <class Visit>
-  void for_each_side(const Visit& visit);
+  struct Reach {  // shares of the step that may be made
+    double share = 0;
+    double price_share = 0;
+  };
+  Reach look_along(double target);
+  double go(const Reach& reach);
   double time() const;
   bool is_allowed() const;
 

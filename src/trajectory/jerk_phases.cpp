@@ -16,7 +16,9 @@ constexpr double most_above_cap = 4;
 // looked at. If a demand is near the limit, more places are, with a parabola through each three.
 constexpr double looked_at = 0.99;
 constexpr double looked_at_closely = 0.96;
+constexpr double looked_at_velocity = 0.99995;
 constexpr int close_parts = 4;
+constexpr double far_below = 0.95;  // a share of a limit, less than `looked_at` times `looked_at_closely`
 constexpr double unseen_change = 1e-6;
 constexpr double weak = 100;       // mm/s², where axes have no limit
 constexpr double no_speed = 1e-9;  // times the speed beside it: rounding
@@ -90,20 +92,47 @@ JerkProfile::Excess JerkProfile::excess(std::size_t i) const {
     return {.force = acceleration, .jolt = jerk, .pace = top * top / cell.top_squared};
   }
   Excess worst{.pace = top * top / cell.top_squared};
+  const std::uint32_t near = axes_near_limits(
+      i,
+      {.speed = top,
+       .acceleration =
+           std::max({std::abs(from.acceleration), std::abs(to.acceleration), std::abs(pair.middle.acceleration)})},
+      std::max(std::abs(pair.first), std::abs(pair.second)));
+  if (near == 0) return worst;
   const auto look = [&](int parts) {
-    look_at_half(i, from, pair.first, pair.half, 0, parts, worst);
+    look_at_half(i, near, from, pair.first, pair.half, 0, parts, worst);
     const double way = inside(from, pair.first, pair.half).way;
-    look_at_half(i, pair.middle, pair.second, pair.half, way, parts, worst);
+    look_at_half(i, near, pair.middle, pair.second, pair.half, way, parts, worst);
   };
   look(1);
   if (worst.jolt > looked_at_closely && worst.jolt <= 1) look(close_parts);
   return worst;
 }
 
+// The axes that may be near a limit in a cell, one bit each: those whose largest derivatives, with the largest speed,
+// acceleration and jerk anywhere in the cell, demand that much.
+std::uint32_t JerkProfile::axes_near_limits(std::size_t i, const NodeState& most, double jerk) const {
+  const double x = most.speed * most.speed;
+  const double length = cells_[i].length;
+  const AxisShape* shape = shapes(i);
+  std::uint32_t near = 0;
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    const double third = std::max(std::abs(shape->third_in), std::abs(shape->third_out));
+    const double bend = std::max(std::abs(shape->bend_in), std::abs(shape->bend_out));
+    const double slope = std::max(std::abs(shape->slope_in), std::abs(shape->slope_out)) + length * length / 8 * third;
+    const double force = slope * most.acceleration + bend * x;
+    const double jolt = slope * jerk + most.speed * (3 * bend * most.acceleration + third * x);
+    const bool is_far = axes_[k].falling == nullptr && slope * most.speed < far_below * axes_[k].velocity &&
+                        force < far_below * axes_[k].acceleration && jolt < far_below * axes_[k].jerk;
+    if (!is_far) near |= std::uint32_t{1} << k;
+  }
+  return near;
+}
+
 // Looks at half the time of a cell that is not straight, in `parts` parts. `way` is the distance from the cell's start
-// to the start of that half.
-void JerkProfile::look_at_half(std::size_t i, const NodeState& start, double jerk, double time, double way, int parts,
-                               Excess& worst) const {
+// to the start of that half. `axes`: those to look at, one bit each.
+void JerkProfile::look_at_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time,
+                               double way, int parts, Excess& worst) const {
   const double length = cells_[i].length;
   const AxisShape* shape = shapes(i);
   for (int part = 0; part < parts; ++part) {
@@ -112,6 +141,7 @@ void JerkProfile::look_at_half(std::size_t i, const NodeState& start, double jer
       places[at] = inside(start, jerk, time * (part + 0.5 * static_cast<double>(at)) / parts);
     }
     for (std::size_t k = 0; k < axes_.size(); ++k) {
+      if ((axes >> k & 1) == 0) continue;
       const AxisShape& own = shape[k];
       std::array<double, 3> force{};
       std::array<double, 3> jolt{};
@@ -133,6 +163,9 @@ void JerkProfile::look_at_half(std::size_t i, const NodeState& start, double jer
           force[at] *= axes_[k].acceleration / axes_[k].acceleration_at(pace[at] * pace[at]);
         }
       }
+      const double fastest_here = highest_through(pace);
+      const double velocity = axes_[k].velocity * looked_at_velocity;
+      raise_to(worst.pace, fastest_here * fastest_here, velocity * velocity);
       raise_to(worst.force, highest_through(force), axes_[k].acceleration * looked_at);
       raise_to(worst.jolt, highest_through(jolt), axes_[k].jerk * looked_at);
     }

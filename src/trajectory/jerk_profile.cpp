@@ -71,12 +71,25 @@ void JerkProfile::begin_in_motion(double speed) {
   planned_ = 0;
 }
 
+// The greatest x with which each axis keeps to its velocity, by the axes' slopes at a place of the cell.
+double JerkProfile::velocity_cap(std::size_t cell, double (*slope)(const AxisShape&, double length)) const {
+  if (cells_[cell].straight) return cells_[cell].top_squared;
+  double steepest = 0;  // as a multiple of the velocity
+  const AxisShape* shape = shapes(cell);
+  for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
+    steepest = std::max(steepest, std::abs(slope(*shape, cells_[cell].length)) / axes_[k].velocity);
+  }
+  return std::min(cells_[cell].top_squared, 1 / (steepest * steepest));
+}
+
 // The cap by feed, velocities and jumps of the bend, which no acceleration changes.
 double JerkProfile::passing_cap(std::size_t node) const {
   const std::size_t n = cells_.size();
   if (node == n) return 0;
-  double cap = cells_[node].top_squared;
-  if (node > 0) cap = std::min(cap, cells_[node - 1].top_squared);
+  double cap = velocity_cap(node, [](const AxisShape& shape, double) { return shape.slope_in; });
+  if (node > 0) {
+    cap = std::min(cap, velocity_cap(node - 1, [](const AxisShape& shape, double) { return shape.slope_out; }));
+  }
   cap *= planned_velocity * planned_velocity;
   if (node == 0 || (cells_[node - 1].straight && cells_[node].straight)) return cap;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
@@ -93,9 +106,11 @@ void JerkProfile::prepare() {
   node_cap_ = passing_cap_;
   cell_cap_.clear();
   share_.clear();
-  for (const JerkCell& cell : cells_) {
-    share_.push_back(cell.straight ? share_of_straights : share_in_bends);
-    cell_cap_.push_back(cell.top_squared * planned_velocity * planned_velocity);
+  for (std::size_t i = 0; i < n; ++i) {
+    share_.push_back(cells_[i].straight ? share_of_straights : share_in_bends);
+    const double cap =
+        velocity_cap(i, [](const AxisShape& shape, double length) { return shape.slope_middle(length); });
+    cell_cap_.push_back(cap * planned_velocity * planned_velocity);
   }
 }
 
@@ -210,7 +225,10 @@ void JerkProfile::find_exceeded(const Stretch& lifted) {
     if (most <= 1) continue;
     exceeded_.push_back(i);
     if (std::max(worst.force, worst.jolt) > 1) share_[i] *= std::clamp(safely / most, most_lowering, least_lowering);
-    if (worst.force > 1) cell_cap_[i] *= lower_cap;  // the speed may be the reason
+    if (worst.force > 1) {  // the speed may be the reason
+      cell_cap_[i] *= lower_cap;
+      node_cap_[i] *= lower_cap;
+    }
     if (worst.pace <= 1) continue;
     for (double* const cap : {&cell_cap_[i], &node_cap_[i], &node_cap_[i + 1]}) *cap *= lower_cap / worst.pace;
   }

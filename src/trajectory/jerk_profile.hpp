@@ -19,6 +19,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "jerk_cell.hpp"
@@ -84,6 +85,7 @@ class JerkProfile {
   AxisShape* shapes(std::size_t i) { return &shapes_[i * axes_.size()]; }
   const AxisShape* shapes(std::size_t i) const { return &shapes_[i * axes_.size()]; }
 
+  double velocity_cap(std::size_t cell, double (*slope)(const AxisShape&, double length)) const;
   double passing_cap(std::size_t node) const;
   double constant_speed_cap(std::size_t node) const;
   void prepare();
@@ -113,8 +115,9 @@ class JerkProfile {
   Pair pair_of(std::size_t i) const;
   void add_steady(const JerkCell& cell, const NodeState& from, double exit, PlannedMove& move) const;
   Excess excess(std::size_t i) const;
-  void look_at_half(std::size_t i, const NodeState& start, double jerk, double time, double way, int parts,
-                    Excess& worst) const;
+  std::uint32_t axes_near_limits(std::size_t i, const NodeState& most, double jerk) const;
+  void look_at_half(std::size_t i, std::uint32_t axes, const NodeState& start, double jerk, double time, double way,
+                    int parts, Excess& worst) const;
   static Inside inside(const NodeState& from, double jerk, double time);
   static bool is_possible(const Pair& pair, const NodeState& from);
   static double highest(const NodeState& from, double jerk, double time);  // speed within a phase, without its end

@@ -53,6 +53,35 @@ TEST(JerkProfile, keeps_every_limit_with_no_mending_at_all_and_takes_hardly_long
   }
 }
 
+// The accelerations of this guess would make the path run back in the second cell.
+TEST(JerkLift, raises_a_guess_that_cannot_be_driven) {
+  const MotionLimits limits = jerk_limits(100, 500, 25'000);
+  const std::vector<LimitedAxis> axes = axes_with_limits(limits);
+  constexpr std::size_t count = 4;
+  std::vector<JerkCell> cells;
+  std::vector<AxisShape> shapes;
+  for (std::size_t i = 0; i < count; ++i) {
+    cells.push_back({.start = static_cast<double>(i),
+                     .length = 1,
+                     .top_squared = 100,
+                     .acceleration = 500,
+                     .jerk = 25'000,
+                     .straight = true});
+    shapes.push_back({.slope_in = 1, .slope_out = 1});
+    shapes.insert(shapes.end(), axes.size() - 1, {});
+  }
+  const std::vector<double> share(count, 1);
+  const std::vector<double> cap(count, 100);
+  const std::vector<double> node_cap(count + 1, 100);
+  std::vector<NodeState> states(count + 1, {.speed = 1});
+  states[1].acceleration = -20;
+  states[2].acceleration = 20;
+  JerkLift lift(axes);
+  ASSERT_TRUE(lift.raise({.cells = cells, .shapes = shapes, .share = share, .cap = cap, .node_cap = node_cap}, 0, count,
+                         states));
+  EXPECT_GT(states[2].speed, 2.2);
+}
+
 // Cells of any length side by side on a line, which no cutter makes. Some have no phases at any speed until the stretch
 // gets another shape.
 class UnevenLine {

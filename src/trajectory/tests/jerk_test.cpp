@@ -114,6 +114,25 @@ TEST(JerkLimitedPlanner, the_acceleration_goes_on_across_joints) {
   EXPECT_GT(std::get<PlannedMove>(motion.at(60)).begin()->acceleration.value(), 300);
 }
 
+// The share of each axis in the velocity changes along the arc, and the velocity of one axis or the other is the limit.
+TEST(JerkLimitedPlanner, an_arc_takes_no_longer_than_its_pieces) {
+  const MotionLimits limits = jerk_limits(100, 500, 25'000);
+  constexpr double radius = 25;
+  const auto circle = [](int pieces) {
+    const auto at = [](double angle) { return xyz(radius * std::cos(angle), radius * std::sin(angle)); };
+    std::vector<PathItem> path;
+    const double turn = 2 * std::numbers::pi / pieces;
+    for (int i = 0; i < pieces; ++i) {
+      const Curve arc = Curve::arc(at(i * turn), at((i + 1) * turn), Axis::x, Axis::y, 0, 0, turn);
+      path.emplace_back(segment_of(arc, 1000));
+    }
+    return path;
+  };
+  const std::vector<MotionItem> whole = plan(circle(1), limits);
+  expect_within_limits(whole, limits);
+  EXPECT_LT(total_time(whole), 1.002 * total_time(plan(circle(252), limits)));
+}
+
 TEST(JerkLimitedPlanner, a_very_high_jerk_costs_next_to_nothing) {
   MotionLimits limits = jerk_limits(100, 500, 1e9);
   const std::vector<PathItem> path{line(xyz(0, 0), xyz(30, 10), 60), line(xyz(30, 10), xyz(0, 10), 60)};
