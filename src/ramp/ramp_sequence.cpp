@@ -189,7 +189,15 @@ Started start_walk(const RampRequest& request) {
   }
   if (request.whole_ticks) return start_whole_ticks(request);
   const double first = first_interval(request.setup);
-  if (request.method == RampMethod::midpoint) return walk(RealMidpointRamp(first), request);
+  if (request.method == RampMethod::midpoint) {
+    constexpr std::int64_t most = 200'000;  // from index 100 000 down to rest the recursion loses all but six digits
+    if (request.whole_move && request.steps > most) {
+      return Failure{because(fmt::format(
+          "the midpoint recursion loses digits on the way down: {} steps are the most for a --move; use --method exact",
+          most))};
+    }
+    return walk(RealMidpointRamp(first), request);
+  }
   return request.method == RampMethod::exact ? walk(RealExactRamp(first), request)
                                              : walk(RealRecursiveRamp(first), request);
 }

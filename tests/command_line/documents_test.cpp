@@ -92,4 +92,32 @@ TEST_F(Documents, each_command_that_stands_with_its_output_prints_that) {
   EXPECT_GE(run, 12U);
 }
 
+// The examples of a command's help: "  passo ramp ...", perhaps over several lines, and after two spaces what they do.
+std::vector<std::string> examples_of(const std::string& help, const std::string& command) {
+  std::vector<std::string> examples;
+  std::istringstream text(help);
+  for (std::string line; std::getline(text, line);) {
+    line.erase(0, line.find_first_not_of(' '));
+    if (!line.starts_with("passo " + command + " ")) continue;
+    for (std::string rest; line.ends_with('\\') && std::getline(text, rest);) {
+      line.back() = ' ';
+      line.erase(line.find_last_not_of(' ') + 2);
+      line += rest.substr(rest.find_first_not_of(' '));
+    }
+    examples.push_back(line.substr(6, line.find("  ") == std::string::npos ? line.find("  ") : line.find("  ") - 6));
+  }
+  return examples;
+}
+
+TEST_F(Documents, each_example_of_the_help_of_a_study_runs) {
+  for (const char* command : {"interpolate", "chords", "ramp", "motor", "windings"}) {
+    const std::vector<std::string> examples = examples_of(passo(std::string(command) + " --help").out, command);
+    EXPECT_GE(examples.size(), 3U) << command;
+    for (const std::string& example : examples) {
+      const Outcome outcome = passo(example, "cd " + path(".") + " &&");
+      EXPECT_EQ(outcome.code, 0) << example << "\n" << outcome.err;
+    }
+  }
+}
+
 }  // namespace

@@ -117,7 +117,7 @@ Examples:
   passo chords --curve ellipse --center 0,0 --radii 40,15 --rotate 30 --angles 0,-180      half of it, clockwise
   passo chords --curve parabola --vertex 0,0 --focus 0,10 --from -20,10 --to 30,22.5       a dish of 10 mm focal length
   passo chords --curve bezier --from 0,0 --control 0,20 --control 30,20 --to 30,0 --steps-per-mm 100
-  passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1 a quarter of a circle
+  passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1   a quarter of a circle
   passo chords --curve arc --from 10,0 --to 0,10 --center 0,0 --feed 600 --period 0.1      equal chords of 1 mm
   passo chords --curve ellipse --center 0,0 --radii 8,4 --tolerance 0.1 --steps-per-mm 5 --fine lean --picture e.svg)");
   return command;
@@ -236,7 +236,7 @@ CLI::App& add_windings_command(CLI::App& app, WindingsArguments& arguments) {
       ->check(CLI::Range(4, 100'000))
       ->capture_default_str();
   InterpolateArguments& line = arguments.line;
-  line.method = "lean";
+  line.method = "bresenham";
   command.add_option("--to", line.to, "end of a line or an arc in the driver's steps, X,Y[,Z...]")->group("Line, arc");
   command.add_option("--from", line.from, "its start; zero without it")->group("Line, arc");
   command.add_option("--center", line.center, "an arc about X,Y")->group("Line, arc");

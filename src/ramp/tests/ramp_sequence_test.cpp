@@ -135,6 +135,10 @@ TEST(RampSequence, says_why_a_method_does_not_apply) {
   RampRequest midpoint = request_of(RampMethod::midpoint, 10);
   midpoint.whole_ticks = true;
   EXPECT_NE(refusal(midpoint).find("--method exact"), std::string::npos);
+  RampRequest far = request_of(RampMethod::midpoint, 200'001);
+  EXPECT_EQ(refusal(far), "");
+  far.whole_move = true;
+  EXPECT_NE(refusal(far).find("loses digits"), std::string::npos);
   RampRequest fast = request_of(RampMethod::exact, 10);
   fast.start = Hertz(10);
   EXPECT_NE(refusal(fast).find("start rate"), std::string::npos);
