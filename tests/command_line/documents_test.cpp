@@ -104,7 +104,7 @@ std::vector<std::string> examples_of(const std::string& help, const std::string&
       line.erase(line.find_last_not_of(' ') + 2);
       line += rest.substr(rest.find_first_not_of(' '));
     }
-    examples.push_back(line.substr(6, line.find("  ") == std::string::npos ? line.find("  ") : line.find("  ") - 6));
+    examples.push_back(line.substr(6, std::min(line.find("  "), line.size()) - 6));
   }
   return examples;
 }
