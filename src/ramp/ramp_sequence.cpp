@@ -26,6 +26,8 @@ class RampSequence::Walk {
   Walk& operator=(const Walk&) = delete;
   virtual double next() = 0;
   virtual void stop() = 0;
+  virtual void go_back() = 0;
+  virtual std::int64_t place() const = 0;
   virtual bool done() const = 0;
 };
 
@@ -65,6 +67,8 @@ class RampWalk final : public RampSequence::Walk {
   RampMove<Ramp>& move() { return move_; }
   double next() override { return move_.next(); }
   void stop() override { move_.stop(); }
+  void go_back() override { move_.move_to(0); }
+  std::int64_t place() const override { return move_.position(); }
   bool done() const override { return move_.done(); }
 
  private:
@@ -82,6 +86,8 @@ class SCurveWalk final : public RampSequence::Walk {
     return whole_ticks_ ? static_cast<double>(interval.count) : move_.real_interval();
   }
   void stop() override { move_.stop(); }
+  void go_back() override { move_.move_to({0}); }
+  std::int64_t place() const override { return move_.position().count; }
   bool done() const override { return move_.done(); }
 
  private:
@@ -176,8 +182,22 @@ Started start_walk(const RampRequest& request) {
     return Started(std::make_unique<SCurveWalk>(limits, request.steps, request.whole_ticks));
   }
   if (request.method == RampMethod::table) return start_table(request);
+  if (request.whole_ticks && request.method == RampMethod::midpoint) {
+    return Failure{
+        because("the midpoint recursion takes a root a step: it is for real ticks. In whole ticks its intervals "
+                "are those of --method exact")};
+  }
   if (request.whole_ticks) return start_whole_ticks(request);
   const double first = first_interval(request.setup);
+  if (request.method == RampMethod::midpoint) {
+    constexpr std::int64_t most = 200'000;  // from index 100 000 down to rest the recursion loses all but six digits
+    if (request.whole_move && request.steps > most) {
+      return Failure{because(fmt::format(
+          "the midpoint recursion loses digits on the way down: {} steps are the most for a --move; use --method exact",
+          most))};
+    }
+    return walk(RealMidpointRamp(first), request);
+  }
   return request.method == RampMethod::exact ? walk(RealExactRamp(first), request)
                                              : walk(RealRecursiveRamp(first), request);
 }
@@ -188,6 +208,8 @@ RampSequence::RampSequence(std::unique_ptr<Walk> walk, const RampRequest& reques
     : walk_(std::move(walk)),
       left_(request.steps),
       to_stop_(request.whole_move ? request.stop_after : 0),
+      to_reverse_(request.whole_move ? request.reverse_after : 0),
+      whole_move_(request.whole_move),
       whole_ticks_(request.whole_ticks || request.method == RampMethod::table) {}
 RampSequence::RampSequence(RampSequence&&) noexcept = default;
 RampSequence& RampSequence::operator=(RampSequence&&) noexcept = default;
@@ -200,14 +222,19 @@ Result<RampSequence, RampError> RampSequence::start(const RampRequest& request) 
 }
 
 bool RampSequence::done() const {
-  return left_ == 0 || walk_->done();
+  return (!whole_move_ && left_ == 0) || walk_->done();
 }
 
 double RampSequence::next() {
   --left_;
   const double interval = walk_->next();
   if (to_stop_ > 0 && --to_stop_ == 0) walk_->stop();
+  if (to_reverse_ > 0 && --to_reverse_ == 0) walk_->go_back();
   return interval;
+}
+
+std::int64_t RampSequence::place() const {
+  return walk_->place();
 }
 
 }  // namespace passo

@@ -207,16 +207,17 @@ std::string factor_text(double factor) {
   return factor == 1 ? "to scale" : fmt::format("drawn {:g} \u00D7 as wide", factor);
 }
 
-void draw_legend(Canvas& canvas, double factor, double right, double y) {
+void draw_legend(Canvas& canvas, const ChordDrawing& drawing, double factor, double right, double y) {
   struct Entry {
     const Pen* pen;
     std::string text;
   };
   const std::string times = factor == 1 ? "" : fmt::format(", distance from the curve drawn {:g} \u00D7", factor);
+  const std::string limit = drawing.chord_length ? "Greatest distance" : "Tolerance";
   const std::array<Entry, 4> entries = {{{&curve_pen, "Curve"},
                                          {&chord_pen, "Chords" + times},
-                                         {&tube_pen, "Tolerance, " + factor_text(factor)},
-                                         {&limit_pen, "Tolerance"}}};
+                                         {&tube_pen, limit + ", " + factor_text(factor)},
+                                         {&limit_pen, limit}}};
   constexpr double sample = 40;
   constexpr double gap = 34;
   double width = -gap;
@@ -233,13 +234,13 @@ std::string mm_text(double mm) {
   return fmt::format("{:.4g} mm", mm);
 }
 
-}  // namespace
-
-Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place) {
-  const Vector3 way = b - a;
-  const double square = dot(way, way);
-  return square > 0 ? a + way * std::clamp(dot(place - a, way) / square, 0.0, 1.0) : a;
+// What decided the length of the chords.
+std::string choice_text(const ChordDrawing& drawing) {
+  if (drawing.chord_length) return mm_text(drawing.chord_length->value()) + " each";
+  return "tolerance " + mm_text(drawing.tolerance.value());
 }
+
+}  // namespace
 
 Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOptions& options, OutputFile& file) {
   Canvas canvas(options, file);
@@ -249,9 +250,9 @@ Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOption
   canvas.text({margin, 42}, options.program, title);
   const std::size_t count = drawing.ends.size() - 1;
   canvas.text({margin, 74},
-              fmt::format("{} {}   \u00B7   tolerance {}   \u00B7   at most {} from the curve   \u00B7   {} long",
-                          count, count == 1 ? "chord" : "chords", mm_text(drawing.tolerance.value()),
-                          mm_text(farthest(drawing)), mm_text(path_length(drawing))),
+              fmt::format("{} {}   \u00B7   {}   \u00B7   at most {} from the curve   \u00B7   {} long", count,
+                          count == 1 ? "chord" : "chords", choice_text(drawing), mm_text(farthest(drawing)),
+                          mm_text(path_length(drawing))),
               subtitle);
 
   constexpr double left = margin + 40;
@@ -269,7 +270,7 @@ Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOption
   draw_view(canvas, drawing, top_view, first, factor);
   if (!flat) draw_view(canvas, drawing, front_view, second, factor);
   const double strip = upper + views_height + 106;
-  draw_legend(canvas, factor, width - margin, strip - 20);
+  draw_legend(canvas, drawing, factor, width - margin, strip - 20);
   draw_deviation(canvas, drawing, {left, strip, whole_width, height - strip - 62});
   return canvas.finish();
 }

@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 
-#include "axis_ticks.hpp"
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "step_view.hpp"
 #include <fmt/format.h>
 
 #include "passo/study/ideal_path.hpp"
@@ -14,24 +14,7 @@
 namespace passo {
 namespace {
 
-const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font caption_font{.size = 13, .colour = {0.40, 0.42, 0.46}};
-const Font tick_font{.size = 11, .colour = {0.40, 0.42, 0.46}};
-const Colour paper{1, 1, 1};
-const Colour grid_colour{0.90, 0.91, 0.93};
-const Colour edge_colour{0.62, 0.64, 0.67};
-const Colour ideal_colour{0.80, 0.22, 0.20};
-const Colour one_axis{0.16, 0.38, 0.70};
-const Colour together{0.93, 0.55, 0.10};
-const Colour waiting{0.80, 0.82, 0.86};
 constexpr double margin = 40;
-
-struct Shown {  // one pulse, or the start
-  Place place;
-  int axes = 0;  // number of axes that stepped
-  bool waited = false;
-};
 
 std::vector<Shown> followed(const Method& method, const StepMove& move) {
   std::vector<Shown> all = {{.place = move.from}};
@@ -47,112 +30,7 @@ std::vector<Shown> followed(const Method& method, const StepMove& move) {
   return all;
 }
 
-// A view of two axes of the move, on an area of the paper.
-class View {
- public:
-  View(const std::vector<Shown>& shown, const StepMove& move, std::size_t across, std::size_t up, const Area& area)
-      : across_(across), up_(up) {
-    for (const Shown& one : shown) include(value(one.place, across), value(one.place, up));
-    const IdealPath path(move);
-    for (int i = 0; i <= 256; ++i) {
-      const auto point = path.at(i / 256.0);
-      include(point[across], point[up]);
-    }
-    constexpr double border = 0.6;
-    const double width = high_.x - low_.x + 2 * border;
-    const double height = high_.y - low_.y + 2 * border;
-    scale_ = std::min({area.width / width, area.height / height, 60.0});
-    low_.x -= border;
-    low_.y -= border;
-    high_.x += border;
-    high_.y += border;
-    frame_ = {area.x + (area.width - width * scale_) / 2, area.y + (area.height - height * scale_) / 2, width * scale_,
-              height * scale_};
-  }
-
-  static double value(const Place& place, std::size_t axis) {
-    return axis < place.size() ? static_cast<double>(place[axis]) : 0;
-  }
-  Spot spot(double x, double y) const {
-    return {frame_.x + (x - low_.x) * scale_, frame_.bottom() - (y - low_.y) * scale_};
-  }
-  Spot spot(const Place& place) const { return spot(value(place, across_), value(place, up_)); }
-  const Area& frame() const { return frame_; }
-  const Spot& low() const { return low_; }
-  const Spot& high() const { return high_; }
-  double scale() const { return scale_; }  // pixels a step
-  std::size_t across() const { return across_; }
-  std::size_t up() const { return up_; }
-
- private:
-  void include(double x, double y) {
-    low_ = {std::min(low_.x, x), std::min(low_.y, y)};
-    high_ = {std::max(high_.x, x), std::max(high_.y, y)};
-  }
-
-  std::size_t across_;
-  std::size_t up_;
-  Spot low_{INFINITY, INFINITY};
-  Spot high_{-INFINITY, -INFINITY};
-  double scale_ = 1;
-  Area frame_;
-};
-
-// Draws a line at every step if there is room for it, else only at round numbers of steps.
-void draw_grid(Canvas& canvas, const View& view) {
-  const Pen pen{.colour = grid_colour, .width = 1};
-  const Area& frame = view.frame();
-  const double step = view.scale() >= 6 ? 1 : round_step(12 / view.scale());
-  for (double x = std::ceil(view.low().x / step) * step; x <= view.high().x; x += step) {
-    const Spot at = view.spot(x, 0);
-    canvas.line({at.x, frame.y}, {at.x, frame.bottom()}, pen);
-  }
-  for (double y = std::ceil(view.low().y / step) * step; y <= view.high().y; y += step) {
-    const Spot at = view.spot(0, y);
-    canvas.line({frame.x, at.y}, {frame.right(), at.y}, pen);
-  }
-  canvas.frame(frame, {.colour = edge_colour, .width = 1});
-}
-
-// Ticks at whole steps, where each label needs `room` pixels.
-std::vector<Tick> step_ticks(double low, double high, double scale, double room) {
-  const double step = std::max(1.0, round_step(room / scale));
-  std::vector<Tick> all;
-  for (double value = std::ceil(low / step) * step; value <= high; value += step) {
-    all.push_back({value, tick_label(value, step)});
-  }
-  return all;
-}
-
-void draw_ticks(Canvas& canvas, const View& view) {
-  const Area& frame = view.frame();
-  const double widest = std::max(canvas.text_width(tick_label(view.low().x, 1), tick_font),
-                                 canvas.text_width(tick_label(view.high().x, 1), tick_font));
-  for (const Tick& tick : step_ticks(view.low().x, view.high().x, view.scale(), widest + 12)) {
-    canvas.text({view.spot(tick.value, 0).x, frame.bottom() + 12}, tick.label, tick_font, Align::centre);
-  }
-  for (const Tick& tick : step_ticks(view.low().y, view.high().y, view.scale(), 18)) {
-    canvas.text({frame.x - 7, view.spot(0, tick.value).y}, tick.label, tick_font, Align::right);
-  }
-  canvas.text({frame.right() + 14, frame.bottom() + 12}, axis_name(view.across()), tick_font);
-  canvas.text({frame.x - 7, frame.y - 14}, axis_name(view.up()), tick_font, Align::right);
-}
-
-void draw_pulses(Canvas& canvas, const View& view, const std::vector<Shown>& shown) {
-  const double radius = std::min(5.0, view.scale() * 0.2);
-  const bool dots = radius >= 1.2;
-  for (const Shown& one : shown) {
-    if (dots && one.waited) canvas.disc(view.spot(one.place), radius * 1.9, waiting);
-  }
-  canvas.move_to(view.spot(shown.front().place));
-  for (const Shown& one : shown) canvas.line_to(view.spot(one.place));
-  canvas.stroke({.colour = one_axis, .width = dots ? 1.6 : 1.2, .opacity = dots ? 0.55 : 1});
-  for (const Shown& one : shown) {
-    if (dots) canvas.disc(view.spot(one.place), radius, one.axes > 1 ? together : one_axis);
-  }
-}
-
-void draw_ideal(Canvas& canvas, const View& view, const StepMove& move) {
+void draw_ideal(Canvas& canvas, const StepView& view, const StepMove& move) {
   const IdealPath path(move);
   const int pieces = move.arc ? 720 : 1;
   for (int i = 0; i <= pieces; ++i) {
@@ -161,12 +39,11 @@ void draw_ideal(Canvas& canvas, const View& view, const StepMove& move) {
     if (i == 0) canvas.move_to(spot);
     canvas.line_to(spot);
   }
-  canvas.stroke({.colour = ideal_colour, .width = 1.6});
+  canvas.stroke({.colour = step_look::ideal_colour, .width = 1.6});
 }
 
-void draw_view(Canvas& canvas, const View& view, const std::vector<Shown>& shown, const StepMove& move) {
-  draw_grid(canvas, view);
-  draw_ticks(canvas, view);
+void draw_view(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown, const StepMove& move) {
+  draw_step_grid(canvas, view);
   draw_pulses(canvas, view, shown);
   draw_ideal(canvas, view, move);
 }
@@ -191,25 +68,42 @@ std::string move_text(const StepMove& move) {
                      coordinates(move.arc->centre), ends);
 }
 
-struct Key {
-  const char* text;
-  Colour colour;
-  bool line;
-};
+// A view of two axes of the move, on an area of the paper, wide enough for the pulses and the ideal path.
+StepView view_of(const std::vector<Shown>& shown, const StepMove& move, std::size_t across, std::size_t up,
+                 const Area& area) {
+  std::vector<Spot> path;
+  const IdealPath ideal(move);
+  for (int i = 0; i <= 256; ++i) {
+    const auto point = ideal.at(i / 256.0);
+    path.push_back({point[across], point[up]});
+  }
+  return {shown, path, across, up, area};
+}
 
-void draw_legend(Canvas& canvas, double x, double y) {
-  const Key keys[] = {{"ideal path", ideal_colour, true},
-                      {"one axis steps", one_axis, false},
-                      {"several step at once", together, false},
-                      {"waits for a pulse or more", waiting, false}};
-  for (const Key& key : keys) {
-    if (key.line) {
-      canvas.line({x, y}, {x + 22, y}, {.colour = key.colour, .width = 1.6});
-    } else {
-      canvas.disc({x + 14, y}, 5, key.colour);
-    }
-    canvas.text({x + 28, y}, key.text, caption_font);
-    x += 28 + canvas.text_width(key.text, caption_font) + 26;
+// Master and slaves decide at the middle of the cell's side: a slave steps where the ideal line reaches or passes it.
+bool has_midlines(const Method& method, const StepMove& move) {
+  return !move.arc && (method.name == MethodName::master_slave || method.name == MethodName::lean);
+}
+
+// Draws the middle of each side through which the line leaves a cell, if the view shows the master and a slave.
+void draw_midlines(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown, const StepMove& move) {
+  const auto length = [&](std::size_t axis) {
+    return std::abs(StepView::value(move.to, axis) - StepView::value(move.from, axis));
+  };
+  double longest = 0;
+  for (std::size_t axis = 0; axis < move.axes(); ++axis) longest = std::max(longest, length(axis));
+  const bool master_across = length(view.across()) == longest;
+  const std::size_t master = master_across ? view.across() : view.up();
+  const std::size_t slave = master_across ? view.up() : view.across();
+  if (length(master) != longest || length(slave) == longest || length(slave) == 0 || view.scale() < 12) return;
+  const double sense = StepView::value(move.to, slave) < StepView::value(move.from, slave) ? -1 : 1;
+  for (std::size_t k = 1; k < shown.size(); ++k) {
+    const double side = StepView::value(shown[k].place, master);
+    const double middle = StepView::value(shown[k - 1].place, slave) + 0.5 * sense;
+    const double half = 0.3;
+    const Spot from = master_across ? view.spot(side - half, middle) : view.spot(middle, side - half);
+    const Spot to = master_across ? view.spot(side + half, middle) : view.spot(middle, side + half);
+    canvas.line(from, to, {.colour = step_look::midline_colour, .width = 2.2});
   }
 }
 
@@ -250,7 +144,7 @@ void draw_deviation(Canvas& canvas, const StudiedMethod& studied, const StepMove
   Chart chart(canvas, area, {.title = "share of the way"},
               {.title = "distance from the ideal path, steps", .end = most});
   chart.draw_grid();
-  chart.polyline(curve, {.colour = one_axis, .width = 1.5});
+  chart.polyline(curve, {.colour = step_look::one_axis, .width = 1.5});
   chart.draw_frame();
 }
 
@@ -270,7 +164,7 @@ void draw_evenness(Canvas& canvas, const StudiedMethod& studied, const StepMove&
     canvas.text({area.x + 28, y},
                 fmt::format("{}: fastest step {:.2f} \u00D7 the slowest", rule_looks[rule].name,
                             studied.measures.evenness[rule].ratio),
-                caption_font);
+                step_look::caption_font);
     chart.polyline(all[rule], {.colour = rule_looks[rule].colour, .width = 1.5});
   }
   chart.draw_frame();
@@ -311,7 +205,7 @@ std::size_t best_columns(std::size_t count, double aspect, const Area& area) {
 
 double aspect_of(const StepMove& move) {
   const std::vector<Shown> ends = {{.place = move.from}, {.place = move.to}};
-  const View view(ends, move, 0, 1, {0, 0, 1000, 1000});
+  const StepView view = view_of(ends, move, 0, 1, {0, 0, 1000, 1000});
   return view.frame().width / view.frame().height;
 }
 
@@ -325,12 +219,13 @@ void draw_panels(Canvas& canvas, const StepMove& move, const std::vector<Studied
     const Area cell{area.x + static_cast<double>(i % columns) * width,
                     area.y + static_cast<double>(i / columns) * height, width, height};
     const StudiedMethod& studied = methods[all[i].method];
-    canvas.text({cell.x, cell.y + 14}, title(studied.method), heading_font);
-    canvas.text({cell.x, cell.y + 36}, figures(studied.measures), caption_font);
-    canvas.text({cell.x, cell.y + 54}, deviations(studied.measures), caption_font);
+    canvas.text({cell.x, cell.y + 14}, title(studied.method), step_look::heading_font);
+    canvas.text({cell.x, cell.y + 36}, figures(studied.measures), step_look::caption_font);
+    canvas.text({cell.x, cell.y + 54}, deviations(studied.measures), step_look::caption_font);
     const std::vector<Shown> shown = followed(studied.method, move);
-    const View view(shown, move, 0, all[i].up, {cell.x + 30, cell.y + 80, width - 60, height - 110});
+    const StepView view = view_of(shown, move, 0, all[i].up, {cell.x + 30, cell.y + 80, width - 60, height - 110});
     draw_view(canvas, view, shown, move);
+    if (methods.size() == 1 && has_midlines(studied.method, move)) draw_midlines(canvas, view, shown, move);
   }
 }
 
@@ -344,9 +239,14 @@ Status<OutputError> draw_interpolation(const StepMove& move, const std::vector<S
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, paper);
-  canvas.text({margin, 36}, move_text(move), title_font);
-  draw_legend(canvas, margin, 66);
+  canvas.fill({0, 0, width, height}, step_look::paper);
+  canvas.text({margin, 36}, move_text(move), step_look::title_font);
+  std::vector<StepKey> keys = step_keys();
+  if (methods.size() == 1 && has_midlines(methods[0].method, move)) {
+    keys.push_back({"middle of the cell's side: a slave steps where the ideal path is at it or past it",
+                    step_look::midline_colour, true});
+  }
+  draw_step_keys(canvas, keys, margin, 66);
   const double charts = methods.size() == 1 && methods[0].measures.pulses > 0 ? 290 : 0;
   draw_panels(canvas, move, methods, {margin, 92, width - 2 * margin, height - 92 - 16 - charts});
   if (charts > 0) {

@@ -35,6 +35,7 @@ struct Extent {
   double ticks = 0;
   double least_ticks = HUGE_VAL;
   double error = 1;
+  bool back = false;  // some steps go back
 };
 
 Extent extent_of(const RampScene& scene) {
@@ -47,9 +48,10 @@ Extent extent_of(const RampScene& scene) {
       extent.ticks = std::max(extent.ticks, sample.ticks);
       extent.least_ticks = std::min(extent.least_ticks, sample.ticks);
       extent.error = std::max(extent.error, std::abs(sample.error));
+      extent.back = extent.back || sample.back;
     }
   }
-  for (const RampPoint& point : scene.ideal) extent.rate = std::max(extent.rate, point.value);
+  for (const RampPoint& point : scene.ideal) extent.rate = std::max(extent.rate, std::abs(point.value));
   return extent;
 }
 
@@ -64,15 +66,16 @@ bool single(const RampScene& scene) {
 
 void draw_rates(Canvas& canvas, const Area& area, const RampScene& scene, const Extent& extent) {
   const double scale = per_second(extent.time);
+  const double most = axis_end(extent.rate * 1.02);
   Chart chart(canvas, area, {.title = scale > 1 ? "Time, ms" : "Time, s", .end = axis_end(extent.time * scale)},
-              {.title = "Rate, steps/s", .end = axis_end(extent.rate * 1.02)});
+              {.title = "Rate, steps/s", .end = most, .begin = extent.back ? -most : 0});
   chart.draw_grid();
   std::vector<Spot> ideal;
   for (const RampPoint& point : scene.ideal) ideal.push_back({point.time * scale, point.value});
   for (std::size_t i = 0; i < scene.traces.size(); ++i) {
     std::vector<Spot> line;
     for (const RampSample& sample : scene.traces[i].samples) {
-      const double rate = 1 / (sample.ticks * scene.tick);
+      const double rate = (sample.back ? -1 : 1) / (sample.ticks * scene.tick);
       if (single(scene)) {  // a stair: the mean rate of each step
         line.push_back({sample.begin * scale, rate});
         line.push_back({sample.end * scale, rate});

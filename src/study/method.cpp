@@ -74,6 +74,14 @@ void values_of(const Interpolator& interpolator, std::size_t, Values& values) {
   values.push_back(interpolator.deviation());
 }
 
+Names names_of(const DdaArc<>&, std::size_t) {
+  return {"deviation", "accumulator_x", "accumulator_y"};
+}
+void values_of(const DdaArc<>& arc, std::size_t, Values& values) {
+  values.push_back(arc.deviation());
+  for (std::uint8_t axis = 0; axis < 2; ++axis) values.push_back(arc.accumulator(axis));
+}
+
 template <class Interpolator>
 class Source : public PulseSource {
  public:
@@ -142,7 +150,8 @@ const std::vector<std::string>& method_names() {
   return names;
 }
 
-std::optional<MethodName> method_named(std::string_view name) {
+std::optional<MethodName> method_named(std::string_view name, bool arc) {
+  if (name == "bresenham") return arc ? MethodName::midpoint : MethodName::lean;
   const auto found = std::ranges::find(method_names(), name);
   if (found == method_names().end()) return std::nullopt;
   return static_cast<MethodName>(found - method_names().begin());

@@ -86,6 +86,49 @@ TEST_F(ChordsCommand, tells_the_steps_where_chords_end) {
   EXPECT_LT(rows(chords(fine + " --steps-per-mm 1").out).size(), rows(chords(fine).out).size() / 4);
 }
 
+TEST_F(ChordsCommand, a_period_and_a_feed_make_equal_chords) {
+  // 600 mm/min for 0.1 s: 1 mm a chord.
+  const auto all = rows(chords("arc --from 10,0 --to 0,10 --center 0,0 --feed 600 --period 0.1").out);
+  ASSERT_EQ(all.size(), 17U);
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+    EXPECT_NEAR(std::hypot(all[i][1] - all[i - 1][1], all[i][2] - all[i - 1][2]), 1, 1e-9);
+    EXPECT_NEAR(all[i][4], 10 - std::sqrt(99.75), 1e-6);
+  }
+  EXPECT_EQ(all.back()[2], 10);
+  EXPECT_EQ(chords("ellipse --center 0,0 --radii 40,15 --feed 600 --period 0.5 --picture " + path("p.svg")).code, 0);
+  EXPECT_THAT(read(path("p.svg")), HasSubstr("</svg>"));
+}
+
+TEST_F(ChordsCommand, a_fine_method_steps_along_the_chords_of_any_curve) {
+  for (const char* curve :
+       {"arc --from 10,0 --to 0,10 --center 0,0", "parabola --vertex 0,0 --focus 0,10 --from -20,10 --to 10,2.5",
+        "ellipse --center 0,0 --radii 8,4 --angles 0,200", "bezier --from 0,0 --control 0,20 --control 30,20 --to 30,0",
+        "nurbs --control 0,0 5,10 10,-10 15,10 20,0"}) {
+    const std::string ends = chords(std::string(curve) + " --tolerance 0.05 --steps-per-mm 20").out;
+    for (const char* method : {"bresenham", "master-slave", "dda", "slope-recalculated", "point-comparison"}) {
+      const Outcome fine = chords(std::string(curve) + " --tolerance 0.05 --steps-per-mm 20 --fine " + method);
+      EXPECT_EQ(fine.code, 0) << fine.err;
+      EXPECT_THAT(fine.out, StartsWith("pulse,chord,steps_x,steps_y,steps_z,deviation\n1,1,"));
+      const auto pulses = rows(fine.out);
+      const auto chord_ends = rows(ends);
+      for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(pulses.back()[2 + axis], chord_ends.back()[5 + axis]);
+      for (const auto& pulse : pulses) EXPECT_LE(pulse[5], 0.05 + (std::sqrt(0.5) + 1) / 20);
+    }
+  }
+}
+
+TEST_F(ChordsCommand, draws_both_levels_together) {
+  const std::string ellipse = "ellipse --center 0,0 --radii 8,4 --tolerance 0.1 --steps-per-mm 5 --fine lean ";
+  EXPECT_EQ(chords(ellipse + "--picture " + path("b.svg") + " -o " + path("b.csv")).code, 0);
+  EXPECT_THAT(read(path("b.svg")), HasSubstr("</svg>"));
+  EXPECT_THAT(read(path("b.csv")), StartsWith("pulse,chord,"));
+  EXPECT_EQ(chords("helix --from 8,0,0 --to 8,0,12 --center 0,0 --turns 2 --feed 600 --period 0.1 --steps-per-mm 5 "
+                   "--fine dda --picture " +
+                   path("h.png"))
+                .code,
+            0);
+}
+
 TEST_F(ChordsCommand, draws_a_picture_and_writes_files_whole) {
   const std::string ellipse = "ellipse --center 0,0 --radii 40,15 --tolerance 0.2 ";
   const Outcome drawn = chords(ellipse + "--picture " + path("e.svg"));
@@ -128,6 +171,16 @@ TEST_F(ChordsCommand, what_is_wrong_is_said_and_exits_with_2) {
   EXPECT_THAT(wrong("line --from 0,0 --to 1,1 --picture " + path("p.pdf")), HasSubstr(".svg or .png"));
   EXPECT_THAT(wrong("helix --from 100,0 --to 100,0,9 --center 0,0 --turns 1000 --picture " + path("p.svg")),
               HasSubstr("too many"));
+  const std::string arc = "arc --from 10,0 --to 10,0 --center 0,0 ";
+  EXPECT_THAT(wrong(arc + "--period 0.1"), HasSubstr("--feed"));
+  EXPECT_THAT(wrong(arc + "--feed 600"), HasSubstr("--period"));
+  EXPECT_THAT(wrong(arc + "--feed 600 --period 0.1 --tolerance 0.1"), HasSubstr("excludes"));
+  EXPECT_THAT(wrong(arc + "--feed 600 --period 0"), HasSubstr("above 0"));
+  EXPECT_THAT(wrong(arc + "--feed 600 --period 5"), HasSubstr("shorter --period"));
+  EXPECT_THAT(wrong(arc + "--fine lean"), HasSubstr("--steps-per-mm"));
+  EXPECT_THAT(wrong(arc + "--steps-per-mm 10 --fine wu"), HasSubstr("none of master-slave"));
+  EXPECT_THAT(wrong(arc + "--steps-per-mm 10 --fine midpoint"), HasSubstr("for arcs"));
+  EXPECT_THAT(wrong("line --from 0,0 --to 5,5,5 --steps-per-mm 10 --fine slope-blocks"), HasSubstr("two axes"));
   EXPECT_TRUE(files().empty());
 }
 

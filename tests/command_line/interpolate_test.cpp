@@ -76,6 +76,38 @@ TEST_F(Interpolate, writes_a_file_whole_or_not_at_all) {
   EXPECT_EQ(interpolate("--method lean --to 2,1 -o " + path("nowhere/pulses.csv")).code, 1);
 }
 
+TEST_F(Interpolate, prints_the_four_beats_of_point_comparison) {
+  const Outcome beats = interpolate("--method point-comparison --beats --to 3,2");
+  EXPECT_EQ(beats.code, 0);
+  EXPECT_EQ(beats.out,
+            "pulse,judge,feed,x,y,deviation,left\n"
+            "1,F>=0,+x,1,0,-2,4\n"
+            "2,F<0,+y,1,1,1,3\n"
+            "3,F>=0,+x,2,1,-1,2\n"
+            "4,F<0,+y,2,2,2,1\n"
+            "5,F>=0,+x,3,2,0,0\n");
+  EXPECT_THAT(interpolate("--method master-slave --beats --to 7,3").out, HasSubstr("\n3,3,1 2/7,2 1/2,1 1/2,+x,3,1,"));
+}
+
+TEST_F(Interpolate, divides_the_time_of_the_move_by_plain_and_diagonal_pulses) {
+  // Six plain pulses and four diagonal ones: t = 1 s / (6 + 4 √2).
+  const std::string by_time = interpolate("--method bresenham --to 10,4 --time 1").out;
+  EXPECT_THAT(by_time, HasSubstr("decision_y,duration,t_end\n1,1,0,-10,-2,0.0857864376,0.0857864376\n"));
+  EXPECT_THAT(by_time, HasSubstr("\n2,2,1,-10,-14,0.121320344,0.207106781\n"));
+  EXPECT_THAT(by_time, HasSubstr(",1\n"));
+  // 30 by 40 steps are 5 mm at 10 steps/mm; 600 mm/min takes half a second.
+  EXPECT_THAT(interpolate("--method lean --to 30,40 --feed 600 --steps-per-mm 10").out, HasSubstr(",0.5\n"));
+  EXPECT_THAT(interpolate("--method lean --to 4,1 --time 2 --rule beats").out, HasSubstr("1,1,0,-4,-2,0.5,0.5\n"));
+}
+
+TEST_F(Interpolate, with_a_picture_the_pulses_go_into_the_file_that_is_named) {
+  const Outcome both = interpolate("--method lean --to 2,1 --picture " + path("p.svg") + " -o " + path("p.csv"));
+  EXPECT_EQ(both.code, 0);
+  EXPECT_EQ(both.out, "");
+  EXPECT_EQ(read(path("p.csv")), "pulse,x,y,decision_x,decision_y\n1,1,1,-2,-4\n2,2,1,-2,-2\n");
+  EXPECT_THAT(read(path("p.svg")), HasSubstr("</svg>"));
+}
+
 TEST_F(Interpolate, what_is_wrong_is_said_and_exits_with_2) {
   const auto wrong = [&](const std::string& arguments) {
     const Outcome outcome = interpolate(arguments + " --picture " + path("never.svg"));
@@ -84,7 +116,7 @@ TEST_F(Interpolate, what_is_wrong_is_said_and_exits_with_2) {
     return outcome.err;
   };
   EXPECT_THAT(wrong("--method lean --to 10,x"), HasSubstr("found 'x'"));
-  EXPECT_THAT(wrong("--method bresenham --to 10,4"), HasSubstr("none of master-slave, lean, dda"));
+  EXPECT_THAT(wrong("--method wu --to 10,4"), HasSubstr("none of master-slave, lean, dda"));
   EXPECT_THAT(wrong("--to 10,4"), HasSubstr("--method NAME, or --compare"));
   EXPECT_THAT(wrong("--method slope-blocks --to 1,2,3"), HasSubstr("two axes"));
   EXPECT_THAT(wrong("--method lean --from 10,0 --to 0,10 --center 0,0"), HasSubstr("for lines"));
@@ -95,6 +127,10 @@ TEST_F(Interpolate, what_is_wrong_is_said_and_exits_with_2) {
   EXPECT_THAT(wrong("--compare --method lean --to 3,3"), HasSubstr("leave --method out"));
   EXPECT_THAT(interpolate("--compare --to 3,3 --picture " + path("p.pdf")).err, HasSubstr(".svg or .png"));
   EXPECT_THAT(interpolate("--method lean --to 200000,3 --picture " + path("p.png")).err, HasSubstr("too many"));
+  EXPECT_THAT(wrong("--method lean --to 3,3 --time 1 --feed 2"), HasSubstr("give one of them"));
+  EXPECT_THAT(wrong("--method lean --to 3,3 --time 0"), HasSubstr("--time: expected a number above 0"));
+  EXPECT_THAT(wrong("--method lean --to 3,3 --rule exact"), HasSubstr("--time or --feed"));
+  EXPECT_THAT(wrong("--compare --to 3,3 --beats"), HasSubstr("one method"));
   EXPECT_TRUE(files().empty());
 }
 

@@ -1,4 +1,6 @@
 // passo ramp, as a user starts it.
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <sstream>
 
@@ -108,7 +110,71 @@ TEST_F(RampCommand, limit_answers_both_ways) {
   const auto answer = nlohmann::json::parse(json.out);
   EXPECT_NEAR(answer["least_acceleration_rad_s2"].get<double>() / 4.90873852123405, 1, 1e-12);
   EXPECT_NEAR(answer["reached_rate_hz"].get<double>(), 570.9197, 0.0001);
-  EXPECT_EQ(ramp("--limit --steps-per-rev 100 --max-rate 280").code, 2);
+  // Without a size, both usual tables.
+  EXPECT_NE(ramp("--limit --steps-per-rev 100 --max-rate 280").out.find("table of 512 entries"), std::string::npos);
+  EXPECT_EQ(ramp("--limit --max-rate 280").code, 2);
+}
+
+TEST_F(RampCommand, limit_is_drawn_and_written_for_all_usual_motors) {
+  const Outcome both = ramp("--limit --max-rate 280 --accel 20 --picture " + path("l.svg") + " -o " + path("l.csv"));
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_EQ(both.out, "");
+  EXPECT_NE(read("l.svg").find("</svg>"), std::string::npos);
+  const std::string table = read("l.csv");
+  EXPECT_EQ(table.find(
+                "steps_per_rev,table_size,max_rate_hz,least_acceleration_rad_s2,acceleration_rad_s2,reached_rate_hz\n"),
+            0U);
+  EXPECT_NE(table.find("\n100,256,280,9.621127501"), std::string::npos) << table;
+  EXPECT_NE(table.find("\n400,512,280,"), std::string::npos);
+  EXPECT_EQ(ramp("--limit --max-rate 280 --picture " + path("l.jpg")).code, 2);
+}
+
+TEST_F(RampCommand, prints_its_table_for_a_chip_in_three_forms) {
+  const std::string csv = ramp("--print-table 512 --format csv " + motor).out;
+  EXPECT_EQ(csv.find("n,factor,k,c\n0,65535,1,6266\n1,27145,0.4141998291,2595\n2,20829,"), 0U) << csv.substr(0, 90);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 513);
+  const std::string c = ramp("--print-table 256 --max-rate 1500 " + motor).out;
+  EXPECT_NE(c.find("#define RAMP_SIZE 256u\n#define RAMP_FIRST_INTERVAL 6266u\n"), std::string::npos) << c;
+  EXPECT_NE(c.find("const uint16_t ramp_factors[RAMP_SIZE] = {\n    65535, 27145, 20829,"), std::string::npos);
+  EXPECT_NE(c.find("at least 69.02"), std::string::npos) << c.substr(0, 800);
+  const std::string assembly = ramp("--print-table 256 --format asm").out;
+  EXPECT_NE(assembly.find("ramp_factors:\n    .2byte 65535, 27145,"), std::string::npos);
+  EXPECT_EQ(assembly.find("RAMP_FIRST_INTERVAL"), std::string::npos);
+  // Each form has the same numbers.
+  const auto factors = [](const std::string& text, const std::string& begin) {
+    std::vector<int> found;
+    std::istringstream rest(text.substr(text.find(begin) + begin.size()));
+    for (char sign = 0; rest.get(sign);) {
+      if (std::isdigit(static_cast<unsigned char>(sign)) == 0 || found.size() == 256) continue;
+      rest.unget();
+      found.push_back(0);
+      rest >> found.back();
+    }
+    return found;
+  };
+  std::string plain = assembly;
+  for (std::size_t at = 0; (at = plain.find(".2byte", at)) != std::string::npos;) plain.replace(at, 6, "");
+  EXPECT_EQ(factors(c, "= {"), factors(plain, "ramp_factors:"));
+  EXPECT_EQ(factors(c, "= {").size(), 256U);
+}
+
+TEST_F(RampCommand, a_reversal_is_in_the_csv_with_its_places) {
+  const Outcome outcome = ramp("--method table " + motor + "--move 1000 --reverse-after 4");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("n,c,t_end,place\n0,6266,6266,1\n"), 0U);
+  EXPECT_NE(outcome.out.find("\n8,6266,26539,9\n9,6266,32805,8\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\n17,6266,53078,0\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(
+      ramp("--method exact " + motor + "--move 1000 --jerk 900 --reverse-after 300 --picture " + path("r.svg")).code,
+      0);
+}
+
+TEST_F(RampCommand, the_midpoint_recursion_prints_the_exact_sequence) {
+  const std::vector<Row> rows = rows_of(ramp("--method midpoint " + motor + "--steps 3").out);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_NEAR(rows[1].c, 2595.70, 0.005);
+  EXPECT_NEAR(rows[2].c, 1991.75, 0.005);
+  EXPECT_EQ(ramp("--method midpoint " + motor + "--steps 30 --picture " + path("m.svg")).code, 0);
 }
 
 TEST_F(RampCommand, writes_pictures_and_files_and_nothing_where_it_fails) {
@@ -141,6 +207,11 @@ TEST_F(RampCommand, bad_options_are_told_with_what_was_expected) {
   refused("--method table " + motor + "--move 5 --jerk 7", "--method exact");
   refused("--method exact " + motor + "--steps 5 --start-rate 3", "start rate");
   refused("--method exact " + motor + "--steps 5 --stop-after 3", "--stop-after is for a --move");
+  refused("--method exact " + motor + "--steps 5 --reverse-after 3", "--reverse-after is for a --move");
+  refused("--method exact " + motor + "--move 9 --stop-after 3 --reverse-after 3", "expected one of them");
+  refused("--print-table 0", "--print-table 0: expected 1 to 65535");
+  refused("--print-table 256 --clock 1e9 --steps-per-rev 400 --accel 50", "16 bits");
+  refused("--method exact " + motor + "--steps 5 --format c", "--format is for --print-table");
   refused("--method magic " + motor, "magic");
 }
 

@@ -1,4 +1,5 @@
-// passo chords: a curve cut into chords within a tolerance, as numbers or as a picture.
+// passo chords: a curve cut into chords, within a tolerance or of one length, as numbers or as a picture. With --fine a
+// line method steps along the chords: both levels of interpolation.
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -8,12 +9,55 @@
 #include "curve_arguments.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "passo/geometry/step_chords.hpp"
 #include "passo/report/chord_picture.hpp"
+#include "passo/report/curve_pulses_picture.hpp"
 
 namespace passo {
 namespace {
+
+// What decides the length of the chords.
+struct ChordChoice {
+  ChordTolerance tolerance;
+  std::optional<ChordLength> length;  // given: chords of this length, whatever the tolerance
+};
+
+// Calls use(chords) with the curve cut as chosen.
+template <ParametricCurve C, class Use>
+auto with_chords(const C& curve, const ChordChoice& choice, const Use& use) {
+  if (choice.length) {
+    EqualChords<C> chords(curve, *choice.length);
+    return use(static_cast<Source<Chord>&>(chords));
+  }
+  Chords<C> chords(curve, choice.tolerance);
+  return use(static_cast<Source<Chord>&>(chords));
+}
+
+Result<ChordChoice, std::string> choice_of(const ChordsArguments& arguments) {
+  const auto tolerance = ChordTolerance::of(Mm(arguments.tolerance));
+  if (!tolerance) return Failure{"--tolerance: " + tolerance.error().message};
+  ChordChoice choice{.tolerance = *tolerance, .length = {}};
+  if (!arguments.period) return choice;
+  if (!(*arguments.period > 0) || !(arguments.feed.value_or(0) > 0)) {
+    return Failure{std::string("--period and --feed: expected numbers above 0")};
+  }
+  const auto length = ChordLength::of(Mm(*arguments.feed / seconds_per_minute * *arguments.period));
+  if (!length) return Failure{"--period and --feed: " + length.error().message};
+  choice.length = *length;
+  return choice;
+}
+
+std::string choice_text(const ChordsArguments& arguments, const ChordChoice& choice) {
+  if (!choice.length) return fmt::format("Tolerance {:g} mm", arguments.tolerance);
+  return fmt::format("Chords of {:.4g} mm: {:g} mm/min in periods of {:g} s", choice.length->value().value(),
+                     *arguments.feed, *arguments.period);
+}
+
+CurveError too_coarse(std::int64_t number) {
+  return {fmt::format("chord {} turns too far to follow its curve; a shorter --period makes shorter chords", number)};
+}
 
 Result<StepScale, std::string> scale_of(const std::string& text) {
   const char* const what = "steps a millimetre above 0, one number or X,Y,Z";
@@ -37,27 +81,23 @@ void add_steps(std::string& text, const StepPlace& place) {
   for (const Steps& steps : place) fmt::format_to(std::back_inserter(text), ",{}", steps.count);
 }
 
-template <ParametricCurve C>
-std::optional<CurveError> write_chords(const C& curve, ChordTolerance tolerance, OutputFile& file) {
-  Chords chords(curve, tolerance);
+std::optional<CurveError> write_chords(const Vector3& start, Source<Chord>& chords, OutputFile& file) {
   std::string text = "chord,x,y,z,deviation\n";
-  add_row(text, 0, curve.at(curve.range().low), Mm(0));
+  add_row(text, 0, start, Mm(0));
   std::int64_t number = 0;
   for (Chord chord; !file.failed() && chords.next(chord);) {
     file.write(text + "\n");
     text.clear();
     add_row(text, ++number, chord.end, chord.deviation);
+    if (!std::isfinite(chord.deviation.value())) return too_coarse(number);
   }
   file.write(text + "\n");
   return std::nullopt;
 }
 
 // A chord that is shorter than a step has no row of its own: the next row includes it.
-template <ParametricCurve C>
-std::optional<CurveError> write_step_chords(const C& curve, ChordTolerance tolerance, const StepScale& scale,
+std::optional<CurveError> write_step_chords(const Vector3& start, Source<Chord>& chords, const StepScale& scale,
                                             OutputFile& file) {
-  const Vector3 start = curve.at(curve.range().low);
-  Chords chords(curve, tolerance);
   StepChords steps(chords, start, scale);
   std::string text = "chord,x,y,z,deviation,steps_x,steps_y,steps_z\n";
   add_row(text, 0, start, Mm(0));
@@ -68,23 +108,22 @@ std::optional<CurveError> write_step_chords(const C& curve, ChordTolerance toler
     text.clear();
     add_row(text, ++number, chord.chord.end, chord.chord.deviation);
     add_steps(text, chord.end);
+    if (!std::isfinite(chord.chord.deviation.value())) return too_coarse(number);
   }
   file.write(text + "\n");
   return steps.error();
 }
 
-int print_chords(const AnyCurve& curve, ChordTolerance tolerance, const ChordsArguments& arguments) {
-  std::optional<StepScale> scale;
-  if (!arguments.steps_per_mm.empty()) {
-    const auto parsed = scale_of(arguments.steps_per_mm);
-    if (!parsed) return fail(exit_bad_program, parsed.error());
-    scale = *parsed;
-  }
-  auto file = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
+int print_chords(const AnyCurve& curve, const ChordChoice& choice, const std::optional<StepScale>& scale,
+                 const std::string& path) {
+  auto file = OutputFile::open(path.empty() ? "-" : path);
   if (!file) return fail(exit_failed, file.error().message);
   const auto error = std::visit(
       [&](const auto& one) {
-        return scale ? write_step_chords(one, tolerance, *scale, *file) : write_chords(one, tolerance, *file);
+        const Vector3 start = one.at(one.range().low);
+        return with_chords(one, choice, [&](Source<Chord>& chords) {
+          return scale ? write_step_chords(start, chords, *scale, *file) : write_chords(start, chords, *file);
+        });
       },
       curve);
   if (error) return fail(exit_bad_program, error->message);
@@ -101,23 +140,118 @@ std::string title_of(const ChordsArguments& arguments) {
   return fmt::format("Chords of {} {}", vowel ? "an" : "a", arguments.curve);
 }
 
-int draw(const AnyCurve& curve, ChordTolerance tolerance, const ChordsArguments& arguments) {
-  const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
-  if (!format)
-    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
-  const ChordDrawing drawing = std::visit([&](const auto& one) { return record_chords(one, tolerance); }, curve);
+int draw(const AnyCurve& curve, const ChordChoice& choice, const ChordsArguments& arguments, PictureFormat format) {
+  const ChordDrawing drawing = std::visit(
+      [&](const auto& one) {
+        return choice.length ? record_chords(one, *choice.length) : record_chords(one, choice.tolerance);
+      },
+      curve);
   const std::size_t count = drawing.ends.size() - 1;
   if (count >= ChordDrawing::most_chords) {
     return fail(exit_bad_program,
-                fmt::format("--picture: {} chords or more are too many to be seen; choose a larger --tolerance",
-                            ChordDrawing::most_chords));
+                fmt::format("--picture: {} chords or more are too many to be seen; choose a larger {}",
+                            ChordDrawing::most_chords, choice.length ? "--period" : "--tolerance"));
+  }
+  if (!std::isfinite(drawing.tolerance.value())) {
+    return fail(exit_bad_program, "a chord turns too far to follow its curve; a shorter --period makes shorter chords");
   }
   auto file = OutputFile::open(arguments.picture);
   if (!file) return fail(exit_failed, file.error().message);
-  PictureOptions options{.format = *format, .program = title_of(arguments), .machine = {}};
+  PictureOptions options{.format = format, .program = title_of(arguments), .machine = {}};
   Status<OutputError> done = draw_chords(drawing, options, *file);
   if (done) done = file->commit();
   return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+// --- the fine level -------------------------------------------------------------------------------------------------
+
+// Plays all pulses along the curve. `use` is called after each of them; it returns false when it has seen enough.
+template <class Use>
+Result<CurveMeasures, std::string> play(const AnyCurve& curve, const ChordChoice& choice, const StepScale& scale,
+                                        const Method& method, const Use& use) {
+  return std::visit(
+      [&](const auto& one) {
+        const auto run = [&](Source<Chord>& chords) -> Result<CurveMeasures, std::string> {
+          CurvePulses pulses([&](double u) { return one.at(u); }, one.range(), chords, scale, method);
+          for (CurvePulse pulse; pulses.next(pulse);) {
+            if (!use(pulse)) break;
+          }
+          if (pulses.error()) return Failure{*pulses.error()};
+          return pulses.measures();
+        };
+        return with_chords(one, choice, run);
+      },
+      curve);
+}
+
+int print_pulses(const AnyCurve& curve, const ChordChoice& choice, const StepScale& scale, const Method& method,
+                 const std::string& path) {
+  auto file = OutputFile::open(path.empty() ? "-" : path);
+  if (!file) return fail(exit_failed, file.error().message);
+  file->write("pulse,chord,steps_x,steps_y,steps_z,deviation\n");
+  std::int64_t number = 0;
+  const auto done = play(curve, choice, scale, method, [&](const CurvePulse& pulse) {
+    file->write(fmt::format("{},{},{},{},{},{:.6g}\n", ++number, pulse.chord, pulse.place[0].count,
+                            pulse.place[1].count, pulse.place[2].count, pulse.deviation.value()));
+    return !file->failed();
+  });
+  if (!done) return fail(exit_bad_program, done.error());
+  const Status<OutputError> written = file->commit();
+  return written ? exit_done : fail(exit_failed, written.error().message);
+}
+
+// Places of the curve for a picture, close enough for the eye.
+std::vector<Vector3> places_of(const AnyCurve& curve) {
+  std::vector<Vector3> places;
+  const auto add = [&](const auto& one) {
+    constexpr int pieces = 2000;
+    const ParameterRange range = one.range();
+    for (int i = 0; i <= pieces; ++i) places.push_back(one.at(range.low + (range.high - range.low) * i / pieces));
+  };
+  std::visit(add, curve);
+  return places;
+}
+
+int draw_pulses_of(const AnyCurve& curve, const ChordChoice& choice, const StepScale& scale, const Method& method,
+                   const ChordsArguments& arguments, PictureFormat format) {
+  CurvePulsesScene scene{.method = title(method), .scale = scale, .curve = places_of(curve)};
+  const auto start = to_steps(scene.curve.front(), scale);
+  if (!start) return fail(exit_bad_program, start.error().message);
+  scene.chords = {*start};
+  const auto measures = play(curve, choice, scale, method, [&](const CurvePulse& pulse) {
+    if (!scene.pulses.empty() && scene.pulses.back().chord != pulse.chord) {
+      scene.chords.push_back(scene.pulses.back().place);
+    }
+    scene.pulses.push_back(pulse);
+    return static_cast<std::int64_t>(scene.pulses.size()) <= CurvePulsesScene::most_pulses;
+  });
+  if (!measures) return fail(exit_bad_program, measures.error());
+  if (scene.pulses.empty()) return fail(exit_bad_program, "--picture: the whole curve is shorter than a step");
+  if (measures->pulses > CurvePulsesScene::most_pulses) {
+    return fail(exit_bad_program,
+                fmt::format("--picture: more than {} pulses are too many to be seen", CurvePulsesScene::most_pulses));
+  }
+  scene.chords.push_back(scene.pulses.back().place);
+  scene.measures = *measures;
+  auto file = OutputFile::open(arguments.picture);
+  if (!file) return fail(exit_failed, file.error().message);
+  const PictureOptions options{.format = format,
+                               .program = title_of(arguments) + ", and pulses along them",
+                               .machine = choice_text(arguments, choice)};
+  Status<OutputError> done = draw_curve_pulses(scene, options, *file);
+  if (done) done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+Result<Method, std::string> fine_method(const ChordsArguments& arguments) {
+  const std::optional<MethodName> name = method_named(arguments.fine);
+  if (!name) {
+    return Failure{
+        fmt::format("--fine: '{}' is none of {}, bresenham", arguments.fine, fmt::join(method_names(), ", "))};
+  }
+  if (arguments.steps_per_mm.empty())
+    return Failure{std::string("--fine steps along the chords: it wants --steps-per-mm")};
+  return Method{.name = *name};
 }
 
 }  // namespace
@@ -125,13 +259,32 @@ int draw(const AnyCurve& curve, ChordTolerance tolerance, const ChordsArguments&
 int chords(const ChordsArguments& arguments) {
   const auto curve = curve_of(arguments);
   if (!curve) return fail(exit_bad_program, curve.error());
-  const auto tolerance = ChordTolerance::of(Mm(arguments.tolerance));
-  if (!tolerance) return fail(exit_bad_program, "--tolerance: " + tolerance.error().message);
-  if (arguments.picture.empty()) return print_chords(*curve, *tolerance, arguments);
-  const int code = draw(*curve, *tolerance, arguments);
-  // A picture is an answer by itself. The numbers are written too only if a file for them is named.
-  if (code != exit_done || arguments.output.empty()) return code;
-  return print_chords(*curve, *tolerance, arguments);
+  const auto choice = choice_of(arguments);
+  if (!choice) return fail(exit_bad_program, choice.error());
+  std::optional<StepScale> scale;
+  if (!arguments.steps_per_mm.empty()) {
+    const auto parsed = scale_of(arguments.steps_per_mm);
+    if (!parsed) return fail(exit_bad_program, parsed.error());
+    scale = *parsed;
+  }
+  std::optional<Method> fine;
+  if (!arguments.fine.empty()) {
+    const auto method = fine_method(arguments);
+    if (!method) return fail(exit_bad_program, method.error());
+    fine = *method;
+  }
+  if (!arguments.picture.empty()) {
+    const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
+    if (!format) {
+      return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+    }
+    const int code = fine ? draw_pulses_of(*curve, *choice, *scale, *fine, arguments, *format)
+                          : draw(*curve, *choice, arguments, *format);
+    // A picture is an answer by itself. The numbers are written too only if a file for them is named.
+    if (code != exit_done || arguments.output.empty()) return code;
+  }
+  if (fine) return print_pulses(*curve, *choice, *scale, *fine, arguments.output);
+  return print_chords(*curve, *choice, scale, arguments.output);
 }
 
 }  // namespace passo

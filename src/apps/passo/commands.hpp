@@ -157,8 +157,12 @@ struct InterpolateArguments {
   int register_bits = 0;     // for DDA; 0: as few bits as can hold the move
   std::string end;           // for point comparison: coordinates, projection or total
   bool compare = false;
-  std::string picture;  // .svg or .png
-  std::string output;   // empty: standard output
+  bool beats = false;          // the four beats of each pulse as columns
+  std::optional<double> time;  // seconds for the whole move: each pulse with its duration
+  std::optional<double> feed;  // mm a minute, instead of the time
+  std::string rule;            // of durations: roots, exact or beats; empty: roots
+  std::string picture;         // .svg or .png
+  std::string output;          // empty: standard output
   bool json = false;
   double steps_per_mm = 100;
 };
@@ -189,7 +193,7 @@ struct MotorArguments {
 };
 int motor(const MotorArguments& arguments);
 struct RampArguments {
-  std::string method;                  // exact, recursive, table
+  std::string method;                  // exact, recursive, table, midpoint
   std::optional<double> clock;         // Hz
   std::optional<double> acceleration;  // rad/s²
   std::optional<double> max_rate;      // steps/s
@@ -200,6 +204,9 @@ struct RampArguments {
   std::optional<std::int64_t> steps;
   std::optional<std::int64_t> move;
   std::optional<std::int64_t> stop_after;
+  std::optional<std::int64_t> reverse_after;
+  std::optional<std::int32_t> print_table;  // entries
+  std::string format;                       // of the table: c, asm or csv; empty: c
   bool whole_ticks = false;
   bool limit = false;
   bool json = false;
@@ -207,6 +214,16 @@ struct RampArguments {
   std::string output;  // empty: standard output
 };
 int ramp(const RampArguments& arguments);
+
+struct WindingsArguments {
+  std::string drive;                // a name of Excitation::named()
+  int full_steps = 200;             // of the motors, a revolution
+  InterpolateArguments line;        // a line or an arc at an even speed; `to` is empty: a ramp
+  RampArguments ramp;               // a move of one motor
+  std::vector<std::string> traces;  // .vcd or .csv
+  std::string picture;              // .svg or .png
+};
+int windings(const WindingsArguments& arguments);
 
 struct ChordsArguments {
   std::string curve;   // line, arc, helix, ellipse, parabola, bezier or nurbs
@@ -224,10 +241,13 @@ struct ChordsArguments {
   int degree = 3;                    // nurbs
   std::vector<double> weights;
   std::vector<double> knots;
-  double tolerance = 0.01;   // mm
-  std::string steps_per_mm;  // "N" or "X,Y,Z"; empty: no steps
-  std::string picture;       // .svg or .png
-  std::string output;        // empty: standard output
+  double tolerance = 0.01;       // mm
+  std::optional<double> period;  // s: chords of the length feed · period instead of a tolerance
+  std::optional<double> feed;    // mm a minute, with the period
+  std::string steps_per_mm;      // "N" or "X,Y,Z"; empty: no steps
+  std::string fine;              // the line method that steps along the chords; empty: none
+  std::string picture;           // .svg or .png
+  std::string output;            // empty: standard output
 };
 int chords(const ChordsArguments& arguments);
 

@@ -1,12 +1,14 @@
 // passo interpolate: one move in steps, pulse by pulse, by any of the classic methods. The result is shown as numbers
 // or as a picture, for one method or for all methods side by side.
 #include <charconv>
+#include <cmath>
 #include <cstdio>
-#include <iterator>
 
 #include "commands.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
+#include "pulse_table.hpp"
+#include "study_moves.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -37,82 +39,27 @@ Parsed<Place> parse_place(const char* option, std::string_view text) {
   }
 }
 
-Parsed<StepMove> parse_move(const InterpolateArguments& arguments) {
-  const Parsed<Place> to = parse_place("--to", arguments.to);
-  if (!to) return Failure{to.error()};
-  StepMove move{.from = Place(to->size(), 0), .to = *to, .arc = {}};
-  if (!arguments.from.empty()) {
-    const Parsed<Place> from = parse_place("--from", arguments.from);
-    if (!from) return Failure{from.error()};
-    move.from = *from;
-  }
-  if (!arguments.center.empty()) {
-    const Parsed<Place> centre = parse_place("--center", arguments.center);
-    if (!centre) return Failure{centre.error()};
-    move.arc = StepMove::Arc{.centre = *centre, .clockwise = arguments.clockwise};
-  } else if (arguments.clockwise) {
-    return Failure{std::string("--cw is for an arc: it wants --center")};
-  }
-  const Status<std::string> status = check(move);
-  if (!status) return Failure{"the move " + status.error()};
-  return move;
-}
+constexpr const char* rule_names[speed_rules] = {"beats", "roots", "exact"};
 
-Parsed<Method> parse_method(const InterpolateArguments& arguments) {
-  const std::optional<MethodName> name = method_named(arguments.method);
-  if (!name) {
-    return Failure{fmt::format("--method: '{}' is none of {}", arguments.method, fmt::join(method_names(), ", "))};
+SpeedRule rule_of(const InterpolateArguments& arguments) {
+  for (std::size_t rule = 0; rule < speed_rules; ++rule) {
+    if (arguments.rule == rule_names[rule]) return static_cast<SpeedRule>(rule);
   }
-  Method method{.name = *name, .half_loaded = arguments.half_loaded};
-  if (*name != MethodName::dda && (arguments.half_loaded || arguments.register_bits != 0)) {
-    return Failure{std::string("--half-loaded and --register-bits are for --method dda")};
-  }
-  if (arguments.register_bits != 0) {
-    if (!arguments.center.empty()) return Failure{std::string("--register-bits is for lines")};
-    method.register_bits = static_cast<std::uint8_t>(std::clamp(arguments.register_bits, 0, 255));
-  }
-  if (arguments.end == "coordinates") method.end_judging = EndJudging::coordinates;
-  if (arguments.end == "projection") method.end_judging = EndJudging::projection;
-  if (!arguments.end.empty() && *name != MethodName::point_comparison) {
-    return Failure{std::string("--end is for --method point-comparison")};
-  }
-  return method;
+  return SpeedRule::roots;
 }
 
 // --- numbers --------------------------------------------------------------------------------------------------------
 
-int write_pulses(const Method& method, const StepMove& move, const std::string& path) {
-  auto source = start(method, move);
-  if (!source) return fail(exit_bad_program, title(method) + " " + source.error());
+int write_pulses(const Method& method, const StepMove& move, const PulseTable& table, const std::string& path) {
   auto file = OutputFile::open(path.empty() ? "-" : path);
-  if (!file) {
-    fmt::print(stderr, "passo: error: {}\n", file.error().message);
-    return exit_failed;
-  }
-  std::string line = "pulse";
-  for (std::size_t axis = 0; axis < move.axes(); ++axis) line += "," + axis_name(axis);
-  for (const std::string& name : (*source)->decision_names()) line += "," + name;
-  line += "\n";
-  file->write(line);
-
-  Place place = move.from;
-  std::vector<std::int64_t> values;
-  for (std::int64_t pulse = 1; !(*source)->done() && !file->failed(); ++pulse) {
-    apply((*source)->next(), place);
-    (*source)->decisions(values);
-    line.clear();
-    fmt::format_to(std::back_inserter(line), "{},{},{}\n", pulse, fmt::join(place, ","), fmt::join(values, ","));
-    file->write(line);
-  }
+  if (!file) return fail(exit_failed, file.error().message);
+  const Status<std::string> done = write_pulse_table(method, move, table, *file);
+  if (!done) return fail(exit_bad_program, title(method) + " " + done.error());
   const Status<OutputError> written = file->commit();
-  if (written) return exit_done;
-  fmt::print(stderr, "passo: error: {}\n", written.error().message);
-  return exit_failed;
+  return written ? exit_done : fail(exit_failed, written.error().message);
 }
 
 // --- figures --------------------------------------------------------------------------------------------------------
-
-constexpr const char* rule_names[speed_rules] = {"beats", "roots", "exact"};
 
 Parsed<std::vector<StudiedMethod>> study(const std::vector<Method>& methods, const StepMove& move) {
   std::vector<StudiedMethod> studied;
@@ -198,8 +145,67 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
 
 }  // namespace
 
+Result<StepMove, std::string> step_move_of(const InterpolateArguments& arguments) {
+  const Parsed<Place> to = parse_place("--to", arguments.to);
+  if (!to) return Failure{to.error()};
+  StepMove move{.from = Place(to->size(), 0), .to = *to, .arc = {}};
+  if (!arguments.from.empty()) {
+    const Parsed<Place> from = parse_place("--from", arguments.from);
+    if (!from) return Failure{from.error()};
+    move.from = *from;
+  }
+  if (!arguments.center.empty()) {
+    const Parsed<Place> centre = parse_place("--center", arguments.center);
+    if (!centre) return Failure{centre.error()};
+    move.arc = StepMove::Arc{.centre = *centre, .clockwise = arguments.clockwise};
+  } else if (arguments.clockwise) {
+    return Failure{std::string("--cw is for an arc: it wants --center")};
+  }
+  const Status<std::string> status = check(move);
+  if (!status) return Failure{"the move " + status.error()};
+  return move;
+}
+
+Result<Method, std::string> method_of(const InterpolateArguments& arguments) {
+  const std::optional<MethodName> name = method_named(arguments.method, !arguments.center.empty());
+  if (!name) {
+    return Failure{
+        fmt::format("--method: '{}' is none of {}, bresenham", arguments.method, fmt::join(method_names(), ", "))};
+  }
+  Method method{.name = *name, .half_loaded = arguments.half_loaded};
+  if (*name != MethodName::dda && (arguments.half_loaded || arguments.register_bits != 0)) {
+    return Failure{std::string("--half-loaded and --register-bits are for --method dda")};
+  }
+  if (arguments.register_bits != 0) {
+    if (!arguments.center.empty()) return Failure{std::string("--register-bits is for lines")};
+    method.register_bits = static_cast<std::uint8_t>(std::clamp(arguments.register_bits, 0, 255));
+  }
+  if (arguments.end == "coordinates") method.end_judging = EndJudging::coordinates;
+  if (arguments.end == "projection") method.end_judging = EndJudging::projection;
+  if (!arguments.end.empty() && *name != MethodName::point_comparison) {
+    return Failure{std::string("--end is for --method point-comparison")};
+  }
+  return method;
+}
+
+Result<std::optional<Seconds>, std::string> time_of(const InterpolateArguments& arguments, const StepMove& move) {
+  if (arguments.time && arguments.feed) return Failure{std::string("--time and --feed say the same: give one of them")};
+  for (const auto& [option, value] : {std::pair("--time", arguments.time), std::pair("--feed", arguments.feed)}) {
+    if (value && !(std::isfinite(*value) && *value > 0)) {
+      return Failure{fmt::format("{}: expected a number above 0, found {:g}", option, *value)};
+    }
+  }
+  if (!arguments.time && !arguments.feed) {
+    if (!arguments.rule.empty()) return Failure{std::string("--rule is for durations: it wants --time or --feed")};
+    return std::optional<Seconds>();
+  }
+  if (arguments.time) return std::optional(Seconds(*arguments.time));
+  const double length_mm = IdealPath(move).length() / arguments.steps_per_mm;
+  return std::optional(Seconds(length_mm / *arguments.feed * seconds_per_minute));
+}
+
 int interpolate(const InterpolateArguments& arguments) {
-  const Parsed<StepMove> move = parse_move(arguments);
+  const Parsed<StepMove> move = step_move_of(arguments);
   if (!move) return fail(exit_bad_program, move.error());
   if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");
   std::vector<Method> methods;
@@ -208,18 +214,27 @@ int interpolate(const InterpolateArguments& arguments) {
     methods = methods_for(*move);
   } else {
     if (arguments.method.empty()) return fail(exit_bad_program, "expected --method NAME, or --compare");
-    const Parsed<Method> method = parse_method(arguments);
+    const Parsed<Method> method = method_of(arguments);
     if (!method) return fail(exit_bad_program, method.error());
     methods = {*method};
   }
+  const Parsed<std::optional<Seconds>> time = time_of(arguments, *move);
+  if (!time) return fail(exit_bad_program, time.error());
+  const PulseTable table{.beats = arguments.beats, .time = *time, .rule = rule_of(arguments)};
   const bool figures = arguments.compare || arguments.json;
-  if (figures && !arguments.output.empty()) return fail(exit_bad_program, "--output is for the pulses of one method");
-  if (!figures && arguments.picture.empty()) return write_pulses(methods[0], *move, arguments.output);
+  if (figures && (!arguments.output.empty() || table.beats || table.time)) {
+    return fail(exit_bad_program, "--output, --beats, --time and --feed are for the pulses of one method");
+  }
+  if (!figures && arguments.picture.empty()) return write_pulses(methods[0], *move, table, arguments.output);
 
   const Parsed<std::vector<StudiedMethod>> studied = study(methods, *move);
   if (!studied) return fail(exit_bad_program, studied.error());
   if (!arguments.picture.empty()) {
     const int code = draw(*studied, *move, arguments.picture);
+    // A picture is an answer by itself. The pulses are written too only if a file for them is named.
+    if (code == exit_done && !arguments.output.empty()) {
+      return write_pulses(methods[0], *move, table, arguments.output);
+    }
     if (code != exit_done) return code;
   }
   const double um = 1000 / arguments.steps_per_mm;

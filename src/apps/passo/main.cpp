@@ -210,6 +210,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& ramp_command = add_ramp_command(app, ramp_arguments);
   MotorArguments motor_arguments;
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
+  WindingsArguments windings_arguments;
+  CLI::App& windings_command = add_windings_command(app, windings_arguments);
   ChordsArguments chords_arguments;
   CLI::App& chords_command = add_chords_command(app, chords_arguments);
 
@@ -228,6 +230,7 @@ int parse_and_run(int argc, char** argv) {
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
+  if (windings_command.parsed()) return windings(windings_arguments);
   if (chords_command.parsed()) return chords(chords_arguments);
   return machine(machine_arguments);
 }

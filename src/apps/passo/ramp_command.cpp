@@ -1,5 +1,5 @@
-// passo ramp: the intervals of a ramp or of a whole move, by any method, as numbers or as a picture. With --limit it
-// says what a table can do.
+// passo ramp: the intervals of a ramp or of a whole move, by any method, as numbers or as a picture. ramp_limit.cpp
+// says what a table can do, and prints tables.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,9 +7,10 @@
 
 #include "commands.hpp"
 #include "program_input.hpp"
+#include "ramp_limit.hpp"
 #include "ramp_scene.hpp"
+#include "study_moves.hpp"
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "passo/ramp/ramp_sequence.hpp"
 #include "passo/report/output_file.hpp"
@@ -20,49 +21,20 @@ namespace {
 
 // --- what was asked for ---------------------------------------------------------------------------------------------
 
-// What is wrong with the numbers; empty: nothing.
-std::string wrong_number(const RampArguments& arguments) {
-  struct Number {
-    const char* option;
-    std::optional<double> value;
-    const char* unit;
-  };
-  const Number numbers[] = {{"--clock", arguments.clock, "Hz, as 1000000"},
-                            {"--accel", arguments.acceleration, "rad/s\u00B2, as 50"},
-                            {"--max-rate", arguments.max_rate, "steps a second, as 2000"},
-                            {"--start-rate", arguments.start_rate, "steps a second, as 300"},
-                            {"--jerk", arguments.jerk, "rad/s\u00B3, as 1000"}};
-  for (const Number& number : numbers) {
-    if (!number.value || (std::isfinite(*number.value) && *number.value > 0)) continue;
-    return fmt::format("{} {:g}: expected more than 0 {}", number.option, *number.value, number.unit);
-  }
-  const auto counts = {std::pair("--steps", arguments.steps), std::pair("--move", arguments.move),
-                       std::pair("--stop-after", arguments.stop_after)};
-  for (const auto& [option, value] : counts) {
-    if (!value || (*value >= 1 && *value <= RampRequest::most_steps)) continue;
-    return fmt::format("{} {}: expected 1 to {} steps", option, *value, RampRequest::most_steps);
-  }
-  if (arguments.steps_per_turn && (*arguments.steps_per_turn < 1 || *arguments.steps_per_turn > 1'000'000'000)) {
-    return fmt::format("--steps-per-rev {}: expected a whole number above 0, as 200", *arguments.steps_per_turn);
-  }
-  if (arguments.table_size && (*arguments.table_size < 1 || *arguments.table_size > RampSequence::largest_table)) {
-    return fmt::format("--table-size {}: expected 1 to {} entries", *arguments.table_size, RampSequence::largest_table);
-  }
-  return {};
-}
-
 std::string missing_options(const RampArguments& arguments) {
   std::string missing;
   const auto need = [&](const char* option, bool given) {
     if (!given) missing += missing.empty() ? option : fmt::format(", {}", option);
   };
+  if (arguments.print_table) return {};
   if (!arguments.limit) {
     if (arguments.picture.empty() || !arguments.output.empty()) need("--method", !arguments.method.empty());
     need("--clock HZ", arguments.clock.has_value());
     need("--accel RAD_S2", arguments.acceleration.has_value());
   } else {
-    need("--table-size N", arguments.table_size.has_value());
     need("--max-rate HZ or --accel RAD_S2", arguments.max_rate || arguments.acceleration);
+    // Pictures and tables show all usual motors.
+    if (!arguments.picture.empty() || !arguments.output.empty()) return missing;
   }
   need("--steps-per-rev N", arguments.steps_per_turn.has_value());
   return missing;
@@ -79,60 +51,6 @@ std::int64_t natural_steps(const RampArguments& arguments, const RampSetup& setu
   return arguments.table_size.value_or(256);
 }
 
-RampRequest request_of(const RampArguments& arguments) {
-  RampRequest request;
-  request.setup = {.clock = Hertz(*arguments.clock),
-                   .steps_per_turn = *arguments.steps_per_turn,
-                   .acceleration = {*arguments.acceleration}};
-  if (arguments.method == "recursive") request.method = RampMethod::recursive;
-  if (arguments.method == "table") request.method = RampMethod::table;
-  request.whole_move = arguments.move.has_value();
-  request.steps = arguments.move    ? *arguments.move
-                  : arguments.steps ? *arguments.steps
-                                    : natural_steps(arguments, request.setup);
-  request.whole_ticks = arguments.whole_ticks;
-  request.rate = Hertz(arguments.max_rate.value_or(0));
-  request.start = Hertz(arguments.start_rate.value_or(0));
-  request.jerk = {arguments.jerk.value_or(0)};
-  request.stop_after = arguments.stop_after.value_or(0);
-  request.table_size = arguments.table_size.value_or(0);
-  return request;
-}
-
-// --- what a table can do --------------------------------------------------------------------------------------------
-
-void print_limit_json(const RampArguments& arguments) {
-  nlohmann::ordered_json json;
-  json["table_size"] = *arguments.table_size;
-  json["steps_per_rev"] = *arguments.steps_per_turn;
-  if (arguments.max_rate) {
-    json["max_rate_hz"] = *arguments.max_rate;
-    json["least_acceleration_rad_s2"] =
-        least_acceleration(Hertz(*arguments.max_rate), *arguments.table_size, *arguments.steps_per_turn).value;
-  }
-  if (arguments.acceleration) {
-    json["acceleration_rad_s2"] = *arguments.acceleration;
-    json["reached_rate_hz"] =
-        reached_rate({*arguments.acceleration}, *arguments.table_size, *arguments.steps_per_turn).value();
-  }
-  fmt::print("{}\n", json.dump(2));
-}
-
-void print_limit(const RampArguments& arguments) {
-  const std::int32_t size = *arguments.table_size;
-  const std::int32_t steps = *arguments.steps_per_turn;
-  fmt::print("A table of {} entries, a motor of {} steps a revolution:\n", size, steps);
-  if (arguments.max_rate) {
-    const double least = least_acceleration(Hertz(*arguments.max_rate), size, steps).value;
-    fmt::print("  for {:g} Hz it needs an acceleration of at least {:.15g} rad/s\u00B2\n", *arguments.max_rate, least);
-  }
-  if (arguments.acceleration) {
-    const double reached = reached_rate({*arguments.acceleration}, size, steps).value();
-    fmt::print("  with {:g} rad/s\u00B2 it reaches {:.15g} Hz, and goes on at that\n", *arguments.acceleration,
-               reached);
-  }
-}
-
 // --- numbers and pictures -------------------------------------------------------------------------------------------
 
 int write_intervals(const RampRequest& request, const std::string& path) {
@@ -141,7 +59,9 @@ int write_intervals(const RampRequest& request, const std::string& path) {
   Result<OutputFile, OutputError> file = OutputFile::open(path.empty() ? "-" : path);
   if (!file) return fail(exit_failed, file.error().message);
 
-  file->write("n,c,t_end\n");
+  // Only a move that turns back has places that do not follow from n.
+  const bool turns = request.reverse_after > 0;
+  file->write(turns ? "n,c,t_end,place\n" : "n,c,t_end\n");
   std::string line;
   long double total = 0;  // keeps more digits than are printed, however many steps are added
   for (std::int64_t n = 0; !sequence->done() && !file->failed(); ++n) {
@@ -149,10 +69,12 @@ int write_intervals(const RampRequest& request, const std::string& path) {
     total += interval;
     line.clear();
     if (sequence->whole_ticks()) {
-      fmt::format_to(std::back_inserter(line), "{},{:.0f},{:.0f}\n", n, interval, total);
+      fmt::format_to(std::back_inserter(line), "{},{:.0f},{:.0f}", n, interval, total);
     } else {
-      fmt::format_to(std::back_inserter(line), "{},{:#.15g},{:#.15g}\n", n, interval, static_cast<double>(total));
+      fmt::format_to(std::back_inserter(line), "{},{:#.15g},{:#.15g}", n, interval, static_cast<double>(total));
     }
+    if (turns) fmt::format_to(std::back_inserter(line), ",{}", sequence->place());
+    line += "\n";
     file->write(line);
   }
   const Status<OutputError> written = file->commit();
@@ -173,21 +95,84 @@ int draw(const RampRequest& request, const std::string& path) {
 
 }  // namespace
 
+std::string wrong_number(const RampArguments& arguments) {
+  struct Number {
+    const char* option;
+    std::optional<double> value;
+    const char* unit;
+  };
+  const Number numbers[] = {{"--clock", arguments.clock, "Hz, as 1000000"},
+                            {"--accel", arguments.acceleration, "rad/s\u00B2, as 50"},
+                            {"--max-rate", arguments.max_rate, "steps a second, as 2000"},
+                            {"--start-rate", arguments.start_rate, "steps a second, as 300"},
+                            {"--jerk", arguments.jerk, "rad/s\u00B3, as 1000"}};
+  for (const Number& number : numbers) {
+    if (!number.value || (std::isfinite(*number.value) && *number.value > 0)) continue;
+    return fmt::format("{} {:g}: expected more than 0 {}", number.option, *number.value, number.unit);
+  }
+  const auto counts = {std::pair("--steps", arguments.steps), std::pair("--move", arguments.move),
+                       std::pair("--stop-after", arguments.stop_after),
+                       std::pair("--reverse-after", arguments.reverse_after)};
+  for (const auto& [option, value] : counts) {
+    if (!value || (*value >= 1 && *value <= RampRequest::most_steps)) continue;
+    return fmt::format("{} {}: expected 1 to {} steps", option, *value, RampRequest::most_steps);
+  }
+  if (arguments.steps_per_turn && (*arguments.steps_per_turn < 1 || *arguments.steps_per_turn > 1'000'000'000)) {
+    return fmt::format("--steps-per-rev {}: expected a whole number above 0, as 200", *arguments.steps_per_turn);
+  }
+  for (const auto& [option, size] :
+       {std::pair("--table-size", arguments.table_size), std::pair("--print-table", arguments.print_table)}) {
+    if (!size || (*size >= 1 && *size <= RampSequence::largest_table)) continue;
+    return fmt::format("{} {}: expected 1 to {} entries", option, *size, RampSequence::largest_table);
+  }
+  return {};
+}
+
+RampRequest ramp_request_of(const RampArguments& arguments) {
+  RampRequest request;
+  request.setup = {.clock = Hertz(*arguments.clock),
+                   .steps_per_turn = *arguments.steps_per_turn,
+                   .acceleration = {*arguments.acceleration}};
+  if (arguments.method == "recursive") request.method = RampMethod::recursive;
+  if (arguments.method == "table") request.method = RampMethod::table;
+  if (arguments.method == "midpoint") request.method = RampMethod::midpoint;
+  request.whole_move = arguments.move.has_value();
+  request.steps = arguments.move    ? *arguments.move
+                  : arguments.steps ? *arguments.steps
+                                    : natural_steps(arguments, request.setup);
+  request.whole_ticks = arguments.whole_ticks;
+  request.rate = Hertz(arguments.max_rate.value_or(0));
+  request.start = Hertz(arguments.start_rate.value_or(0));
+  request.jerk = {arguments.jerk.value_or(0)};
+  request.stop_after = arguments.stop_after.value_or(0);
+  request.reverse_after = arguments.reverse_after.value_or(0);
+  request.table_size = arguments.table_size.value_or(0);
+  return request;
+}
+
 int ramp(const RampArguments& arguments) {
   const std::string missing = missing_options(arguments);
   if (!missing.empty()) return fail(exit_bad_program, "expected also " + missing + "; see passo ramp --help");
   const std::string wrong = wrong_number(arguments);
   if (!wrong.empty()) return fail(exit_bad_program, wrong);
-  if (arguments.limit) {
-    arguments.json ? print_limit_json(arguments) : print_limit(arguments);
-    return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+  if (arguments.print_table) {
+    if (arguments.picture.empty() && !arguments.json && !arguments.limit) return print_ramp_table(arguments);
+    return fail(exit_bad_program, "--print-table prints a table: leave --picture, --limit and --json out");
   }
+  if (!arguments.format.empty()) return fail(exit_bad_program, "--format is for --print-table");
+  if (arguments.limit) return ramp_limit(arguments);
   if (arguments.json) return fail(exit_bad_program, "--json is for --limit; the intervals are CSV");
   if (arguments.steps && arguments.move) {
     return fail(exit_bad_program, "--steps is a ramp up, --move is a whole move: expected one of them");
   }
-  if (arguments.stop_after && !arguments.move) return fail(exit_bad_program, "--stop-after is for a --move");
-  const RampRequest request = request_of(arguments);
+  for (const auto& [option, given] : {std::pair("--stop-after", arguments.stop_after.has_value()),
+                                      std::pair("--reverse-after", arguments.reverse_after.has_value())}) {
+    if (given && !arguments.move) return fail(exit_bad_program, fmt::format("{} is for a --move", option));
+  }
+  if (arguments.stop_after && arguments.reverse_after) {
+    return fail(exit_bad_program, "--stop-after ends the move, --reverse-after sends it back: expected one of them");
+  }
+  const RampRequest request = ramp_request_of(arguments);
   if (!arguments.picture.empty()) {
     if (!picture_format_of(arguments.picture)) {
       return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");

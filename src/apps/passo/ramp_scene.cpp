@@ -35,9 +35,12 @@ Result<RampTrace, RampError> trace_of(const std::string& name, const RampRequest
   const double tick = 1 / request.setup.clock.value();
   RampTrace trace{.name = name, .samples = {}};
   long double total = 0;
+  std::int64_t place = 0;
   for (std::int64_t n = 0; !sequence->done(); ++n) {
     const double interval = sequence->next();
     const double real = exact->done() ? interval : exact->next();
+    const bool back = sequence->place() < place;
+    place = sequence->place();
     const double begin = static_cast<double>(total) * tick;
     total += interval;
     if (!shown(request, n) && !sequence->done()) continue;
@@ -45,7 +48,8 @@ Result<RampTrace, RampError> trace_of(const std::string& name, const RampRequest
                              .begin = begin,
                              .end = static_cast<double>(total) * tick,
                              .ticks = interval,
-                             .error = interval - real});
+                             .error = interval - real,
+                             .back = back});
   }
   return trace;
 }
@@ -87,10 +91,12 @@ void add_s_curve(const RampRequest& request, RampScene& scene) {
     move.next();
     time += move.real_interval() / request.setup.clock.value();
     if (n + 1 == request.stop_after) move.stop();
+    if (n + 1 == request.reverse_after) move.move_to({0});
     if (!shown(request, n) && !move.done()) continue;
     const double now = move.done() ? std::min(request.start.value(), rate) : move.rate().value();
-    scene.ideal.push_back({time, now});
-    scene.acceleration.push_back({time, move.acceleration().value});
+    const double sense = move.up() ? 1 : -1;
+    scene.ideal.push_back({time, sense * now});
+    scene.acceleration.push_back({time, sense * move.acceleration().value});
   }
 }
 
@@ -118,12 +124,18 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
   }
   const Status<RampError> exact = add("exact, whole ticks", by(RampMethod::exact, request, true));
   if (!exact) return Failure{exact.error()};
+  if (request.method == RampMethod::midpoint) {
+    const Status<RampError> midpoint = add("midpoint", by(RampMethod::midpoint, request, false));
+    if (!midpoint) return Failure{midpoint.error()};
+  }
   const Status<RampError> recursive = add("recursive", by(RampMethod::recursive, request, false));
   if (!recursive) return Failure{recursive.error()};
   // If K_b is too long for a table, the picture shows the other methods only. But a request for the table then fails.
-  const Status<RampError> table = add("table", by(RampMethod::table, request, true));
+  const Status<RampError> table =
+      request.method == RampMethod::midpoint ? Unit{} : add("table", by(RampMethod::table, request, true));
   if (!table && request.method == RampMethod::table) return Failure{table.error()};
-  if (request.stop_after > 0) return scene;  // the move was stopped early, so the intended rate does not apply
+  if (request.stop_after > 0 || request.reverse_after > 0)
+    return scene;  // the move changes on the way, so the intended rate does not apply
   scene.ideal_name = "ideal";
   scene.ideal = ideal_rates(request, scene.traces.front().samples.back().end);
   return scene;
@@ -132,7 +144,8 @@ Result<RampScene, RampError> ramp_scene(const RampRequest& request) {
 std::string ramp_title(const RampRequest& request) {
   if (!request.whole_move) return fmt::format("A ramp up: the first {} steps", request.steps);
   return fmt::format("A move of {} steps{}", request.steps, request.jerk.value > 0 ? " with bounded jerk" : "") +
-         (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "");
+         (request.stop_after > 0 ? fmt::format(", told to stop after {}", request.stop_after) : "") +
+         (request.reverse_after > 0 ? fmt::format(", told to go back after {}", request.reverse_after) : "");
 }
 
 std::string ramp_words(const RampRequest& request) {

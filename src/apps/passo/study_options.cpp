@@ -28,8 +28,10 @@ The model and its limits: docs/ramps/torque.md.)";
 
 CLI::App& add_interpolate_command(CLI::App& app, InterpolateArguments& arguments) {
   CLI::App& command = *app.add_subcommand("interpolate", "which axes step, pulse by pulse, by any method");
-  command.add_option("--method", arguments.method,
-                     "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint");
+  command.add_option(
+      "--method", arguments.method,
+      "master-slave, lean, dda, slope-recalculated, slope-blocks, point-comparison or midpoint; bresenham is "
+      "lean, or for an arc midpoint");
   command.add_option("--to", arguments.to, "end of the move in steps, X,Y[,Z...]")->required();
   command.add_option("--from", arguments.from, "its start; zero without it");
   command.add_option("--center", arguments.center, "an arc about X,Y; where start and end are the same, a full circle");
@@ -39,11 +41,20 @@ CLI::App& add_interpolate_command(CLI::App& app, InterpolateArguments& arguments
       ->check(CLI::Range(1, 31));
   command.add_option("--end", arguments.end, "point-comparison: how the end is judged")
       ->check(CLI::IsMember({"coordinates", "projection", "total"}));
+  command.add_flag("--beats", arguments.beats,
+                   "each pulse with its four beats: what is judged, what is fed, the new deviation, what is left");
+  command.add_option("--time", arguments.time, "seconds for the whole move: each pulse with its duration");
+  command.add_option("--feed", arguments.feed, "mm a minute, instead of --time");
+  command
+      .add_option("--rule", arguments.rule,
+                  "of durations: roots (\u221An for a pulse of n axes; the usual one), exact, or beats (all the same)")
+      ->check(CLI::IsMember({"roots", "exact", "beats"}));
   command.add_flag("--compare", arguments.compare, "every method that takes the move, side by side");
   command.add_option("-p,--picture", arguments.picture, "draw the pulses on the grid (FILE.svg or FILE.png)");
   command.add_option("-o,--output", arguments.output, "write the pulses to a file");
   command.add_flag("--json", arguments.json, "the figures of the comparison, or of one method, as JSON");
-  command.add_option("--steps-per-mm", arguments.steps_per_mm, "for deviations in \u00B5m")->capture_default_str();
+  command.add_option("--steps-per-mm", arguments.steps_per_mm, "for deviations in \u00B5m, and for --feed")
+      ->capture_default_str();
   command.footer(
       R"(Prints a line a pulse: its number, where each axis stands after it, and the method's decision variables.
 
@@ -51,6 +62,9 @@ Examples:
   passo interpolate --method lean --to 10,4                             master and slaves, as an interrupt does it
   passo interpolate --method dda --half-loaded --to 10,4,7              three axes, integrators half full
   passo interpolate --method midpoint --from 10,0 --to 0,10 --center 0,0
+  passo interpolate --method master-slave --beats --to 7,3              the fractions and midlines of the cells
+  passo interpolate --method point-comparison --beats --to 10,4         judge, feed, deviation, end counter
+  passo interpolate --method bresenham --to 10,4 --time 1               how long each pulse lasts for an even speed
   passo interpolate --compare --to 27,10 --picture lines.svg            all methods for lines, as figures and drawn
   passo interpolate --compare --from 20,0 --to 20,0 --center 0,0 --cw   a full circle, by all methods for arcs)");
   return command;
@@ -76,10 +90,22 @@ CLI::App& add_chords_command(CLI::App& app, ChordsArguments& arguments) {
   command.add_option("--degree", arguments.degree, "nurbs: 1 to 9")->capture_default_str();
   command.add_option("--weights", arguments.weights, "nurbs: one a control point; 1 without");
   command.add_option("--knots", arguments.knots, "nurbs: points + degree + 1 of them; clamped and even without");
-  command.add_option("-t,--tolerance", arguments.tolerance, "how far chord and curve may be apart, in mm")
-      ->capture_default_str();
+  CLI::Option* const tolerance =
+      command.add_option("-t,--tolerance", arguments.tolerance, "how far chord and curve may be apart, in mm")
+          ->capture_default_str();
+  CLI::Option* const feed = command.add_option("--feed", arguments.feed, "mm a minute, for --period");
+  CLI::Option* const period =
+      command
+          .add_option("--period", arguments.period,
+                      "seconds: one chord in each period, equal chords of the length feed \u00B7 period")
+          ->needs(feed)
+          ->excludes(tolerance);
+  feed->needs(period);
   command.add_option("--steps-per-mm", arguments.steps_per_mm, "N or X,Y,Z: where the chords end in steps as well");
-  command.add_option("-p,--picture", arguments.picture, "draw curve, chords and tolerance (FILE.svg or FILE.png)");
+  command.add_option("--fine", arguments.fine,
+                     "step along the chords by this method for lines (lean, dda, ...): a line a pulse, not a chord");
+  command.add_option("-p,--picture", arguments.picture,
+                     "draw curve, chords and tolerance, with --fine the pulses (FILE.svg or FILE.png)");
   command.add_option("-o,--output", arguments.output, "write the chords to a file");
   command.footer(
       R"(Prints a line a chord: its number, where it ends, and how far from the curve it is at most. Line 0 is the start.
@@ -91,14 +117,17 @@ Examples:
   passo chords --curve ellipse --center 0,0 --radii 40,15 --rotate 30 --angles 0,-180      half of it, clockwise
   passo chords --curve parabola --vertex 0,0 --focus 0,10 --from -20,10 --to 30,22.5       a dish of 10 mm focal length
   passo chords --curve bezier --from 0,0 --control 0,20 --control 30,20 --to 30,0 --steps-per-mm 100
-  passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1 a quarter of a circle)");
+  passo chords --curve nurbs --degree 2 --control 10,0 10,10 0,10 --weights 1 0.70710678 1   a quarter of a circle
+  passo chords --curve arc --from 10,0 --to 0,10 --center 0,0 --feed 600 --period 0.1      equal chords of 1 mm
+  passo chords --curve ellipse --center 0,0 --radii 8,4 --tolerance 0.1 --steps-per-mm 5 --fine lean --picture e.svg)");
   return command;
 }
 
 CLI::App& add_ramp_command(CLI::App& app, RampArguments& arguments) {
   CLI::App& command = *app.add_subcommand("ramp", "when a motor steps: ramps and whole moves, by any method");
-  command.add_option("--method", arguments.method, "exact, recursive or table")
-      ->check(CLI::IsMember({"exact", "recursive", "table"}));
+  command
+      .add_option("--method", arguments.method, "exact, table, recursive, or midpoint (the recursion that is exact)")
+      ->check(CLI::IsMember({"exact", "recursive", "table", "midpoint"}));
   command.add_option("--clock", arguments.clock, "the timer's clock, Hz");
   command.add_option("--steps-per-rev", arguments.steps_per_turn, "of the motor");
   command.add_option("--accel", arguments.acceleration, "rad/s\u00B2");
@@ -107,12 +136,19 @@ CLI::App& add_ramp_command(CLI::App& app, RampArguments& arguments) {
   command.add_option("--steps", arguments.steps, "the first N intervals of the ramp up");
   command.add_option("--move", arguments.move, "a whole move of N steps, from rest to rest");
   command.add_option("--stop-after", arguments.stop_after, "the --move is told to stop after N steps");
+  command.add_option("--reverse-after", arguments.reverse_after,
+                     "the --move is told after N steps to go back to its start; the CSV has its place too");
   command.add_option("--jerk", arguments.jerk, "bounds the jerk of a --move, rad/s\u00B3");
   command.add_option("--table-size", arguments.table_size, "entries of the table; without it: as many as needed");
   command.add_flag("--whole-ticks", arguments.whole_ticks, "exact, recursive: as the chip plays it");
   command.add_flag("--limit", arguments.limit,
                    "what a table can do: the acceleration --max-rate needs, the rate --accel"
-                   " reaches");
+                   " reaches. With --picture as charts over all motors, with -o as their table");
+  command.add_option(
+      "--print-table", arguments.print_table,
+      "print the table of N entries (256, 512, ...) for a chip, with K_b and limits if the motor is named");
+  command.add_option("--format", arguments.format, "of --print-table: c (without it), asm (GNU as) or csv")
+      ->check(CLI::IsMember({"c", "asm", "csv"}));
   command.add_option("-p,--picture", arguments.picture, "draw all methods (FILE.svg or FILE.png)");
   command.add_option("-o,--output", arguments.output, "write the intervals to a file");
   command.add_flag("--json", arguments.json, "the answer of --limit as JSON");
@@ -124,9 +160,12 @@ Examples:
   passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --max-rate 1500 --move 1000
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 50 --max-rate 1500 --move 1000 --jerk 500
   passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --move 1000 --stop-after 40
+  passo ramp --method table --clock 250000 --steps-per-rev 400 --accel 50 --move 1000 --reverse-after 40
   passo ramp --clock 250000 --steps-per-rev 400 --accel 50 --steps 24 --picture ramp.svg
+  passo ramp --print-table 256 --format c --clock 250000 --steps-per-rev 400 --accel 50 -o ramp_table.h
   passo ramp --limit --table-size 256 --steps-per-rev 100 --max-rate 280      the acceleration that it takes
-  passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that is reached)");
+  passo ramp --limit --table-size 256 --steps-per-rev 100 --accel 20          the rate that is reached
+  passo ramp --limit --max-rate 280 --picture limits.svg                      both, for all motors and two tables)");
   return command;
 }
 
@@ -186,6 +225,45 @@ CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
   option("-p,--picture", arguments.pictures, "FILE", "draw the curves (FILE.svg or FILE.png), print no table")
       ->group("Output");
   command.add_flag("--json", arguments.json, "print a summary as JSON, no table")->group("Output");
+  return command;
+}
+
+CLI::App& add_windings_command(CLI::App& app, WindingsArguments& arguments) {
+  CLI::App& command =
+      *app.add_subcommand("windings", "which windings carry current in a move, and where the rotors are");
+  command.add_option("--drive", arguments.drive, "two-on, wave, half-step or microsteps:N (2 to 256)")->required();
+  command.add_option("--full-steps", arguments.full_steps, "of the motors, a revolution")
+      ->check(CLI::Range(4, 100'000))
+      ->capture_default_str();
+  InterpolateArguments& line = arguments.line;
+  line.method = "bresenham";
+  command.add_option("--to", line.to, "end of a line or an arc in the driver's steps, X,Y[,Z...]")->group("Line, arc");
+  command.add_option("--from", line.from, "its start; zero without it")->group("Line, arc");
+  command.add_option("--center", line.center, "an arc about X,Y")->group("Line, arc");
+  command.add_flag("--cw", line.clockwise, "clockwise; else counterclockwise")->group("Line, arc");
+  command.add_option("--method", line.method, "as of passo interpolate")->capture_default_str()->group("Line, arc");
+  command.add_option("--time", line.time, "seconds for the whole move, at an even speed")->group("Line, arc");
+  command.add_option("--feed", line.feed, "mm a minute, instead of --time")->group("Line, arc");
+  command.add_option("--steps-per-mm", line.steps_per_mm, "for --feed")->capture_default_str()->group("Line, arc");
+  RampArguments& ramp = arguments.ramp;
+  ramp.method = "exact";
+  command.add_option("--move", ramp.move, "a move of one motor, N of the driver's steps")->group("One motor");
+  command.add_option("--clock", ramp.clock, "the timer's clock, Hz")->group("One motor");
+  command.add_option("--accel", ramp.acceleration, "rad/s\u00B2")->group("One motor");
+  command.add_option("--max-rate", ramp.max_rate, "the wanted rate, steps/s")->group("One motor");
+  command.add_option("--start-rate", ramp.start_rate, "what it starts and stops with at once")->group("One motor");
+  command.add_option("--reverse-after", ramp.reverse_after, "after N steps it is told to go back")->group("One motor");
+  command.add_option("-t,--trace", arguments.traces, "write windings, currents and rotors (FILE.vcd or FILE.csv)");
+  command.add_option("-p,--picture", arguments.picture, "draw them (FILE.svg or FILE.png)");
+  command.footer(
+      R"(Prints a line a pulse as CSV: the time, then for each motor its place, F1 to F4, the currents of phases A and B
+as shares of the rated current, and the degrees that an unloaded rotor has turned. Line 1 is the start.
+
+Examples:
+  passo windings --drive two-on --to 10,4 --time 0.1
+  passo windings --drive half-step --to 10,4,7 --time 0.1 --trace windings.vcd     for GTKWave
+  passo windings --drive microsteps:16 --from 40,0 --to 0,40 --center 0,0 --time 0.5 --picture windings.svg
+  passo windings --drive wave --move 40 --clock 250000 --accel 50 --reverse-after 12 --picture turn.svg)");
   return command;
 }
 

@@ -1,6 +1,7 @@
 // What `passo ramp` shows: every method is started as asked for, or refused in words.
 #include "passo/ramp/ramp_sequence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -79,6 +80,42 @@ TEST(RampSequence, a_stop_ends_the_move_on_the_same_ramp) {
   EXPECT_LT(count, 900U);
 }
 
+TEST(RampSequence, a_reversal_brakes_turns_and_comes_back_to_the_start) {
+  RampRequest request = request_of(RampMethod::table, 1000);
+  request.whole_move = true;
+  request.reverse_after = 4;
+  // Nine steps to rest, as after a stop; then nine steps back, a triangle.
+  EXPECT_EQ(play(request), std::vector<double>({6266, 2595, 1991, 1678, 1479, 1678, 1991, 2595, 6266,  //
+                                                6266, 2595, 1991, 1678, 1479, 1678, 1991, 2595, 6266}));
+  for (const bool jerky : {false, true}) {
+    request.method = RampMethod::exact;
+    request.jerk = {jerky ? 500.0 : 0.0};
+    auto sequence = RampSequence::start(request);
+    std::vector<std::int64_t> places;
+    while (!sequence->done()) {
+      sequence->next();
+      places.push_back(sequence->place());
+    }
+    const auto turn = std::ranges::max_element(places);
+    EXPECT_GE(*turn, 5);
+    EXPECT_EQ(places.back(), 0);
+    EXPECT_EQ(static_cast<std::int64_t>(places.size()), 2 * *turn);
+    for (std::size_t i = 1; i < places.size(); ++i) ASSERT_EQ(std::abs(places[i] - places[i - 1]), 1);
+  }
+}
+
+TEST(RampSequence, the_midpoint_recursion_makes_the_exact_moves) {
+  for (const bool whole : {false, true}) {
+    RampRequest request = request_of(RampMethod::midpoint, 1999);
+    request.whole_move = whole;
+    const std::vector<double> midpoint = play(request);
+    request.method = RampMethod::exact;
+    const std::vector<double> exact = play(request);
+    ASSERT_EQ(midpoint.size(), exact.size());
+    for (std::size_t n = 0; n < exact.size(); ++n) ASSERT_NEAR(midpoint[n] / exact[n], 1, 1e-10) << n;
+  }
+}
+
 TEST(RampSequence, says_why_a_method_does_not_apply) {
   const auto refusal = [](const RampRequest& request) {
     const auto sequence = RampSequence::start(request);
@@ -95,6 +132,13 @@ TEST(RampSequence, says_why_a_method_does_not_apply) {
   jerky.jerk = {100};
   jerky.whole_move = true;
   EXPECT_NE(refusal(jerky).find("--method exact"), std::string::npos);
+  RampRequest midpoint = request_of(RampMethod::midpoint, 10);
+  midpoint.whole_ticks = true;
+  EXPECT_NE(refusal(midpoint).find("--method exact"), std::string::npos);
+  RampRequest far = request_of(RampMethod::midpoint, 200'001);
+  EXPECT_EQ(refusal(far), "");
+  far.whole_move = true;
+  EXPECT_NE(refusal(far).find("loses digits"), std::string::npos);
   RampRequest fast = request_of(RampMethod::exact, 10);
   fast.start = Hertz(10);
   EXPECT_NE(refusal(fast).find("start rate"), std::string::npos);

@@ -53,6 +53,40 @@ TEST(RealRamp, the_recursion_finds_its_way_back) {
   }
 }
 
+TEST(RealRamp, the_midpoint_recursion_is_exact_up_and_down) {
+  RealMidpointRamp midpoint(6266.5706865775);
+  RealExactRamp exact(6266.5706865775);
+  EXPECT_NEAR((midpoint.rise(), midpoint.interval()), 2595.70, 0.005);
+  EXPECT_NEAR((midpoint.rise(), midpoint.interval()), 1991.75, 0.005);
+  exact.rise();
+  exact.rise();
+  for (int n = 2; n < 200'000; ++n) {
+    ASSERT_NEAR(midpoint.interval() / exact.interval(), 1, 1e-9) << n;
+    midpoint.rise();
+    exact.rise();
+  }
+  // The header's bound of the way down: n²·10⁻¹⁶.
+  RealMidpointRamp down(6266.5706865775);
+  RealExactRamp exactly_down(6266.5706865775);
+  for (int n = 0; n < 10'000; ++n, down.rise()) exactly_down.rise();
+  for (int n = 10'000; n > 0; --n) {
+    down.fall();
+    exactly_down.fall();
+    ASSERT_NEAR(down.interval() / exactly_down.interval(), 1, 1e-8) << n;
+  }
+}
+
+// The source's eight steps: 16,321 ticks by the recursion, 17,725 exact.
+TEST(RealRamp, the_recursion_is_early_after_eight_steps) {
+  RealRecursiveRamp recursive(6266.5706865775);
+  RealExactRamp exact(6266.5706865775);
+  double early = 0;
+  for (int n = 0; n < 8; ++n, recursive.rise()) early += recursive.interval();
+  for (int n = 0; n < 7; ++n) exact.rise();
+  EXPECT_NEAR(early, 16'321, 0.5);
+  EXPECT_NEAR(exact.end(), 17'725, 1);
+}
+
 // The header's bound is (ln n + 2.4) / 8n; the error comes near to it.
 TEST(RealRamp, the_recursion_is_short_by_what_its_header_says) {
   RealExactRamp exact(1);

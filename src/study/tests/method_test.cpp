@@ -57,9 +57,14 @@ TEST(Methods, show_their_decision_variables) {
   EXPECT_THAT((*start({.name = MethodName::point_comparison}, arc))->decision_names(), ElementsAre("deviation"));
 }
 
+TEST(Methods, bresenham_is_lean_and_of_an_arc_midpoint) {
+  EXPECT_EQ(method_named("bresenham"), MethodName::lean);
+  EXPECT_EQ(method_named("bresenham", true), MethodName::midpoint);
+}
+
 TEST(Methods, have_names) {
   for (const std::string& name : method_names()) EXPECT_EQ(title({.name = *method_named(name)}), name);
-  EXPECT_FALSE(method_named("bresenham"));
+  EXPECT_FALSE(method_named("wu"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // A Point has all nine axes and is what a machine is told. Most of geometry needs only three.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "passo/geometry/axes.hpp"
@@ -31,6 +32,12 @@ constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
 }
 inline double length(const Vector3& a) {
   return std::hypot(a.x, a.y, a.z);
+}
+// The place nearest to `place` on the straight piece from `a` to `b`.
+constexpr Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place) {
+  const Vector3 way = b - a;
+  const double square = dot(way, way);
+  return square > 0 ? a + way * std::clamp(dot(place - a, way) / square, 0.0, 1.0) : a;
 }
 inline bool is_finite(const Vector3& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);

@@ -88,6 +88,13 @@ class DdaArc {
     return pulse;
   }
   constexpr int64_t deviation() const { return travel_.deviation(); }
+  // What the accumulator of an axis (0 or 1) holds, in steps. It overflows at 2ᴺ, N = register_bits().
+  constexpr uint32_t accumulator(uint8_t axis) const {
+    if (unit_ == 0) return 0;
+    const Length sum = axis == (travel_.quadrant() & 1) ? falling_sum_ : rising_sum_;
+    return static_cast<uint32_t>(sum >> (fewest_bits(unit_) - 1));
+  }
+  constexpr uint8_t register_bits() const { return fewest_bits(travel_.reach()); }
 
  private:
   constexpr void change_parts() {

@@ -5,7 +5,8 @@
 // Cross products avoid the quotient: slope to go ≥ slope  ⟺  E = height_left·length − height·length_left ≥ 0.
 // A plain step adds `height` to E, a diagonal one `height − length`: E stays in height − length … height − 1.
 //
-// Error: below one step, always on the same side of the line (the tool runs ahead). Lengths up to 2³¹−1.
+// Error: along the shorter axis the tool is −E/length beside the line: up to 1 − slope ahead and up to slope behind. It
+// is ahead by ½ − slope on average, so the error is biased unless the slope is ½. Lengths up to 2³¹−1.
 // Portable.
 #pragma once
 

@@ -13,7 +13,7 @@
 
 namespace passo {
 
-enum class RampMethod : std::uint8_t { exact, recursive, table };
+enum class RampMethod : std::uint8_t { exact, recursive, table, midpoint };
 
 struct RampRequest {
   static constexpr std::int64_t most_steps = std::int64_t{1} << 29;
@@ -28,6 +28,8 @@ struct RampRequest {
   RadiansPerSecond3 jerk;       // the greatest jerk of a whole move; 0: no limit
   std::int32_t table_size = 0;  // 0: as many entries as the steps need
   std::int64_t stop_after = 0;  // stop a whole move after so many steps; 0: do not
+  // After so many steps a whole move is told to go back to where it began: it brakes, turns, and returns. 0: it is not.
+  std::int64_t reverse_after = 0;
 };
 
 struct RampError {
@@ -47,6 +49,8 @@ class RampSequence {
   bool done() const;
   // The next interval, in ticks. Only when not done().
   double next();
+  // Where the motor stands after the step that the last next() announced. The move began at 0.
+  std::int64_t place() const;
   bool whole_ticks() const { return whole_ticks_; }
 
   class Walk;
@@ -55,8 +59,10 @@ class RampSequence {
   RampSequence(std::unique_ptr<Walk> walk, const RampRequest& request);
 
   std::unique_ptr<Walk> walk_;
-  std::int64_t left_ = 0;
-  std::int64_t to_stop_ = 0;  // steps until the order to stop; 0: none will come
+  std::int64_t left_ = 0;        // of a ramp up
+  std::int64_t to_stop_ = 0;     // steps until the order to stop; 0: none will come
+  std::int64_t to_reverse_ = 0;  // steps until the order to go back
+  bool whole_move_ = false;
   bool whole_ticks_ = false;
 };
 

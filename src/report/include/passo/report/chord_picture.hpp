@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "passo/geometry/chords.hpp"
+#include "passo/geometry/equal_chords.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/report/picture.hpp"
 
@@ -22,22 +24,20 @@ struct ChordDrawing {
     Vector3 curve;
     Vector3 chord;  // the nearest place of the chord
   };
-  Mm tolerance;
-  std::vector<Vector3> ends = {};  // the points where chords meet, the start included
+  Mm tolerance;                         // of equal chords: the greatest bound of them all
+  std::optional<Mm> chord_length = {};  // of equal chords; empty: the tolerance decided
+  std::vector<Vector3> ends = {};       // the points where chords meet, the start included
   std::vector<Sample> samples = {};
 };
 
-// The place nearest to `place` on the straight piece from `a` to `b`.
-Vector3 nearest_of(const Vector3& a, const Vector3& b, const Vector3& place);
-
-// Cuts the curve into chords and records them. Of a longer curve only the first `most_chords` are recorded.
+// Records chords of the curve. Of a longer curve only the first `most_chords` are recorded.
 template <ParametricCurve C>
-ChordDrawing record_chords(const C& curve, ChordTolerance tolerance) {
-  ChordDrawing drawing{.tolerance = tolerance.value()};
+ChordDrawing record_chords(const C& curve, Source<Chord>& chords) {
+  ChordDrawing drawing{.tolerance = ChordTolerance::least};
   drawing.ends.push_back(curve.at(curve.range().low));
   std::vector<Chord> all;
-  Chords chords(curve, tolerance);
   for (Chord chord; all.size() < ChordDrawing::most_chords && chords.next(chord);) all.push_back(chord);
+  for (const Chord& chord : all) drawing.tolerance = std::max(drawing.tolerance, chord.deviation);
   const std::size_t parts = std::clamp<std::size_t>(40'000 / std::max<std::size_t>(all.size(), 1), 4, 48);
   for (const Chord& chord : all) {
     const Vector3 start = drawing.ends.back();
@@ -48,6 +48,21 @@ ChordDrawing record_chords(const C& curve, ChordTolerance tolerance) {
     }
     drawing.ends.push_back(chord.end);
   }
+  return drawing;
+}
+
+template <ParametricCurve C>
+ChordDrawing record_chords(const C& curve, ChordTolerance tolerance) {
+  Chords chords(curve, tolerance);
+  ChordDrawing drawing = record_chords(curve, chords);
+  drawing.tolerance = tolerance.value();
+  return drawing;
+}
+template <ParametricCurve C>
+ChordDrawing record_chords(const C& curve, ChordLength length) {
+  EqualChords chords(curve, length);
+  ChordDrawing drawing = record_chords(curve, chords);
+  drawing.chord_length = length.value();
   return drawing;
 }
 

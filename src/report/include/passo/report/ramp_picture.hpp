@@ -17,7 +17,8 @@ struct RampSample {
   double begin = 0;
   double end = 0;
   double ticks = 0;
-  double error = 0;  // ticks, compared with the exact interval
+  double error = 0;   // ticks, compared with the exact interval
+  bool back = false;  // a step towards the start; its rate is drawn below zero
 };
 
 // The ramp as a method makes it. For a long ramp only some of the intervals are here, but always the first and the
@@ -29,7 +30,7 @@ struct RampTrace {
 
 struct RampPoint {
   double time = 0;   // s
-  double value = 0;  // steps/s, or rad/s²
+  double value = 0;  // steps/s (below zero: back), or rad/s²
 };
 
 struct RampScene {

@@ -37,7 +37,8 @@ struct Method {
 
 // All names, in a fixed order: "master-slave", "lean", ….
 const std::vector<std::string>& method_names();
-std::optional<MethodName> method_named(std::string_view name);
+// Also knows "bresenham", the name by which most people look for `lean`, and for arcs for `midpoint`.
+std::optional<MethodName> method_named(std::string_view name, bool arc = false);
 // For example "dda, half loaded".
 std::string title(const Method& method);
 

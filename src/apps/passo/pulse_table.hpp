@@ -1,0 +1,25 @@
+// PulseTable: the pulses of one method as CSV, a line each. What stands in a line is chosen: the decision variables
+// alone, the four beats of the pulse, how long the pulse lasts.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "passo/base/result.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/study/measure.hpp"
+#include "passo/units/units.hpp"
+
+namespace passo {
+
+struct PulseTable {
+  bool beats = false;           // judge, feed, compute, judge the end
+  std::optional<Seconds> time;  // of the whole move; empty: no durations
+  SpeedRule rule = SpeedRule::roots;
+};
+
+// Writes the header and all pulses. Fails with the reason if the method does not take the move.
+Status<std::string> write_pulse_table(const Method& method, const StepMove& move, const PulseTable& table,
+                                      OutputFile& file);
+
+}  // namespace passo

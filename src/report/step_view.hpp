@@ -1,0 +1,80 @@
+// StepView: pulses on the grid of steps, seen along one axis. Private to report/.
+//
+// The view fits the pulses and the ideal path into an area of the paper, with the same scale right and up. Places are
+// in steps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cairo_canvas.hpp"
+
+#include "passo/study/step_move.hpp"
+
+namespace passo {
+
+// The fonts and colours of all pictures of pulses.
+namespace step_look {
+inline const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = true};
+inline const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
+inline const Font caption_font{.size = 13, .colour = {0.40, 0.42, 0.46}};
+inline const Colour paper{1, 1, 1};
+inline const Colour ideal_colour{0.80, 0.22, 0.20};
+inline const Colour one_axis{0.16, 0.38, 0.70};
+inline const Colour together{0.93, 0.55, 0.10};
+inline const Colour waiting{0.80, 0.82, 0.86};
+inline const Colour midline_colour{0.20, 0.60, 0.45};
+}  // namespace step_look
+
+struct Shown {  // one pulse, or the start
+  Place place;
+  int axes = 0;  // number of axes that stepped
+  bool waited = false;
+};
+
+class StepView {
+ public:
+  // `path` has places of the ideal path; the view is wide enough for them too.
+  StepView(const std::vector<Shown>& shown, const std::vector<Spot>& path, std::size_t across, std::size_t up,
+           const Area& area);
+
+  static double value(const Place& place, std::size_t axis) {
+    return axis < place.size() ? static_cast<double>(place[axis]) : 0;
+  }
+  Spot spot(double x, double y) const {
+    return {frame_.x + (x - low_.x) * scale_, frame_.bottom() - (y - low_.y) * scale_};
+  }
+  Spot spot(const Place& place) const { return spot(value(place, across_), value(place, up_)); }
+  const Area& frame() const { return frame_; }
+  const Spot& low() const { return low_; }
+  const Spot& high() const { return high_; }
+  double scale() const { return scale_; }  // pixels a step
+  std::size_t across() const { return across_; }
+  std::size_t up() const { return up_; }
+
+ private:
+  void include(double x, double y);
+
+  std::size_t across_;
+  std::size_t up_;
+  Spot low_;
+  Spot high_;
+  double scale_ = 1;
+  Area frame_;
+};
+
+// Grid and ticks. There is a line at every step if there is room for it, else only at round numbers of steps.
+void draw_step_grid(Canvas& canvas, const StepView& view);
+// The pulses, joined by a line. Blue: one axis stepped; orange: several; grey ring: it waited there.
+void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown);
+
+struct StepKey {
+  std::string text;
+  Colour colour;
+  bool line = false;  // else a dot
+};
+// What every picture of pulses explains.
+std::vector<StepKey> step_keys();
+void draw_step_keys(Canvas& canvas, const std::vector<StepKey>& keys, double x, double y);
+
+}  // namespace passo
