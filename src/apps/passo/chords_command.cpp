@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "curve_arguments.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 
@@ -123,6 +124,7 @@ int draw(const AnyCurve& curve, ChordTolerance tolerance, const ChordsArguments&
 }  // namespace
 
 int chords(const ChordsArguments& arguments) {
+  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const auto curve = curve_of(arguments);
   if (!curve) return fail(exit_bad_program, curve.error());
   const auto tolerance = ChordTolerance::of(Mm(arguments.tolerance));

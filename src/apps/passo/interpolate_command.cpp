@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include <fmt/format.h>
@@ -199,6 +200,7 @@ int draw(const std::vector<StudiedMethod>& studied, const StepMove& move, const 
 }  // namespace
 
 int interpolate(const InterpolateArguments& arguments) {
+  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const Parsed<StepMove> move = parse_move(arguments);
   if (!move) return fail(exit_bad_program, move.error());
   if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");
