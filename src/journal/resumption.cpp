@@ -39,13 +39,18 @@ std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const Board
   return reset ? ResumeRefusal::board_reset : ResumeRefusal::other_session;
 }
 
+std::optional<ResumeRefusal> refuse_rest(const Journal& journal, const BoardStatus& status) {
+  if (const auto stranger = refuse_stranger(journal, status)) return stranger;
+  if ((status.state & board_trusted) == 0) return ResumeRefusal::not_trusted;
+  if (!journal.place_of(status)) return ResumeRefusal::rest_unknown;
+  return {};
+}
+
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,
                                                    const ProgramReader& program, const MachineDescription& machine,
                                                    const InterpreterOptions& options) {
-  if (const auto stranger = refuse_stranger(journal, status)) return Failure{*stranger};
-  if ((status.state & board_trusted) == 0) return Failure{ResumeRefusal::not_trusted};
+  if (const auto refused = refuse_rest(journal, status)) return Failure{*refused};
   const auto place = journal.place_of(status);
-  if (!place) return Failure{ResumeRefusal::rest_unknown};
   const auto point = find_resume_point(program.again(), machine, options, *place);
   if (!point) return Failure{ResumeRefusal::path_changed};
   if (point->in_thread) return Failure{ResumeRefusal::in_thread};
@@ -66,14 +71,14 @@ JournalHead head_of_beginning(JournalHead job, const BoardStatus& status,
   for (std::size_t m = 0; m < motors; ++m) {
     job.job_counts.push_back(static_cast<int>(status.positions[m] - steps[m]));
   }
-  job.session_before = status.session;
-  job.executed_before = status.executed;
+  job.numbers.session_before = status.session;
+  job.numbers.executed_before = status.executed;
   return job;
 }
 
 JournalHead head_of_resumption(JournalHead before, const BoardStatus& status, const ResumePoint& point) {
-  before.session_before = status.session;
-  before.executed_before = status.executed;
+  before.numbers.session_before = status.session;
+  before.numbers.executed_before = status.executed;
   before.place = point.place;
   return before;
 }

@@ -1,38 +1,19 @@
 #include "passo/report/output_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cerrno>
-#include <cstddef>
 #include <cstdlib>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "passo/report/nameless_file.hpp"
+
 namespace passo {
 namespace {
-
-// The temporary names now in use. A signal handler reads them, so there is no lock and no heap. A file that finds no
-// free place here is written as usual. But it is not removed when the program is interrupted.
-constexpr std::size_t most_unfinished = 32;
-std::array<std::atomic<const char*>, most_unfinished> unfinished{};
-
-void remember(const char* path) {
-  for (auto& place : unfinished) {
-    const char* none = nullptr;
-    if (place.compare_exchange_strong(none, path)) return;
-  }
-}
-
-void forget(const char* path) {
-  for (auto& place : unfinished) {
-    const char* expected = path;
-    if (place.compare_exchange_strong(expected, nullptr)) return;
-  }
-}
 
 std::string reason(int error) {
   switch (error) {
@@ -49,14 +30,6 @@ std::string reason(int error) {
   }
 }
 
-// A name in the same directory, so that rename() stays inside one file system. The name is short, so that it is not too
-// long for the file system.
-std::string temporary_name(const std::string& path, unsigned attempt) {
-  const std::size_t slash = path.rfind('/');
-  const std::string directory = slash == std::string::npos ? "" : path.substr(0, slash + 1);
-  return directory + ".passo-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
-}
-
 // The target of a symbolic link, so that the link itself survives.
 std::string resolved(const std::string& path) {
   const std::unique_ptr<char, decltype(&::free)> real(::realpath(path.c_str(), nullptr), &::free);
@@ -66,9 +39,9 @@ std::string resolved(const std::string& path) {
 }  // namespace
 
 struct OutputFile::State {
-  std::string shown;      // as the user named it
-  std::string path;       // the path without symbolic links
-  std::string temporary;  // empty: the file is written directly
+  std::string shown;                       // as the user named it
+  std::string path;                        // the path without symbolic links
+  std::unique_ptr<NamelessFile> nameless;  // null: the file is written directly
   int descriptor = -1;
   int error = 0;  // errno of the first failure
   std::uint64_t size = 0;
@@ -78,8 +51,7 @@ struct OutputFile::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
-    if (descriptor > STDERR_FILENO) ::close(descriptor);
-    discard();
+    if (!nameless && descriptor > STDERR_FILENO) ::close(descriptor);
   }
 
   OutputError failure(int number) const { return {"cannot write " + shown + ": " + reason(number)}; }
@@ -90,22 +62,15 @@ struct OutputFile::State {
     return descriptor < 0 ? errno : 0;
   }
 
-  int open_temporary(const struct stat* existing) {
-    constexpr unsigned most_attempts = 1000;
-    for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
-      temporary = temporary_name(path, attempt);
-      constexpr mode_t mode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH;
-      descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-      if (descriptor >= 0) {
-        remember(temporary.c_str());
-        // A replaced file keeps its permissions. If that is refused, the usual ones apply.
-        if (existing != nullptr) static_cast<void>(::fchmod(descriptor, existing->st_mode & 07777U));
-        return 0;
-      }
-      if (errno != EEXIST) break;
-    }
-    temporary.clear();
-    return errno;
+  int open_nameless(const struct stat* existing) {
+    constexpr mode_t mode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH;
+    auto opened = NamelessFile::open(path, mode);
+    if (!opened) return opened.error();
+    nameless = std::move(*opened);
+    descriptor = nameless->descriptor();
+    // A replaced file keeps its permissions. If that is refused, the usual ones apply.
+    if (existing != nullptr) static_cast<void>(::fchmod(descriptor, existing->st_mode & 07777U));
+    return 0;
   }
 
   void flush() {
@@ -123,26 +88,15 @@ struct OutputFile::State {
     buffer.clear();
   }
 
-  void discard() {
-    if (temporary.empty()) return;
-    ::unlink(temporary.c_str());
-    forget(temporary.c_str());
-    temporary.clear();
-  }
-
-  // Makes the complete temporary file the file itself.
+  // Gives the complete file its name.
   void publish() {
-    if (descriptor > STDERR_FILENO && ::close(descriptor) != 0 && error == 0) error = errno;
-    descriptor = -1;
-    if (error == 0 && !temporary.empty()) {
-      if (::rename(temporary.c_str(), path.c_str()) == 0) {
-        forget(temporary.c_str());
-        temporary.clear();
-      } else {
-        error = errno;
-      }
+    if (nameless) {
+      if (error == 0) error = nameless->publish(path);
+      nameless.reset();
+    } else if (descriptor > STDERR_FILENO && ::close(descriptor) != 0 && error == 0) {
+      error = errno;
     }
-    if (error != 0) discard();
+    descriptor = -1;
   }
 };
 
@@ -164,10 +118,10 @@ Result<OutputFile, OutputError> OutputFile::open(const std::string& path) {
   } else if (exists && !S_ISREG(existing.st_mode)) {
     error = state->open_directly();
   } else if (exists && ::access(path.c_str(), W_OK) != 0) {
-    error = errno;  // without this check, rename() would replace a write-protected file
+    error = errno;  // without this check, publish() would replace a write-protected file
   } else {
     if (exists) state->path = resolved(path);
-    error = state->open_temporary(exists ? &existing : nullptr);
+    error = state->open_nameless(exists ? &existing : nullptr);
   }
   if (error != 0) return Failure{state->failure(error)};
   return OutputFile(std::move(state));
@@ -202,12 +156,6 @@ Status<OutputError> OutputFile::commit() {
   state_->publish();
   if (state_->error != 0) return Failure{state_->failure(state_->error)};
   return Unit{};
-}
-
-void OutputFile::remove_unfinished() noexcept {
-  for (auto& place : unfinished) {
-    if (const char* path = place.exchange(nullptr)) ::unlink(path);
-  }
 }
 
 }  // namespace passo

@@ -31,6 +31,11 @@ constexpr bool is_of_work(LinkError error) {
   }
 }
 
+// False: some axes have no switches, and stand where they stood.
+bool homes_all_axes(const MachineDescription& machine) {
+  return machine.homing.size() == machine.axes.size();
+}
+
 }  // namespace
 
 MachineSession::MachineSession(const MachineDescription& machine, BoardPort& port, const SessionOptions& options)
@@ -223,10 +228,11 @@ void MachineSession::note_tails() {
   }
 }
 
-// The drive has ended. Over a line, the board is asked where it stands.
+// The drive has ended. Over a line, the board is asked where it stands. A limit switch that was closed may be open now.
 void MachineSession::finish_work() {
   note_tails();
-  if (!options_.over_a_line || board_.error()) return end_work();
+  const bool asks = options_.over_a_line || closed_limit();
+  if (!asks || board_.error()) return end_work();
   work_->finishing = true;
   board_.inquire(Question::status);
 }
@@ -278,7 +284,7 @@ void MachineSession::note_place() {
   // The path is done when the last pull-off has been planned: it may have been stopped since.
   if (work_->homing == nullptr || !work_->homing->done() || work_->drive->stopped()) return;
   position_.place = home_place();
-  position_.trust = Trust::homed;
+  if (position_.trust != Trust::unknown || homes_all_axes(machine_)) position_.trust = Trust::homed;
   mismatch_.reset();
   count_from_here();
 }

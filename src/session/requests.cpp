@@ -1,6 +1,7 @@
 // MachineSession: how the session answers each request.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "panel.hpp"
@@ -30,6 +31,20 @@ bool leaves_travel(const MachineDescription& machine, const Point& place) {
   });
 }
 
+unsigned bit_of(const HomeDescription& home) {
+  return unsigned{input_limit} << static_cast<unsigned>(home.input);
+}
+
+// The axes whose switch may be the closed one; a number where no axis has a switch on that input.
+std::string switch_words(const MachineDescription& machine, unsigned input) {
+  std::string axes;
+  for (const AxisDescription& axis : machine.axes) {
+    if (!axis.home || bit_of(*axis.home) != (unsigned{input_limit} << input)) continue;
+    axes += (axes.empty() ? "" : " or ") + std::string{letter_of(axis.axis)};
+  }
+  return axes.empty() ? "number " + std::to_string(input + 1) : "of " + axes;
+}
+
 Failure<Refusal> refusal(RefusalCode code, const char* message) {
   return Failure{Refusal{.code = code, .message = message}};
 }
@@ -47,6 +62,7 @@ std::string_view code_of(RefusalCode code) {
     case RefusalCode::door_open: return "machine.door-open";
     case RefusalCode::no_switches: return "machine.no-switches";
     case RefusalCode::bad_value: return "machine.bad-value";
+    case RefusalCode::limit_closed: return "machine.limit-closed";
   }
   return "machine";
 }
@@ -72,6 +88,30 @@ Refusal MachineSession::why_not() const {
   }
   if (busy()) return {RefusalCode::busy, "the machine is busy"};
   return {RefusalCode::nothing_runs, "nothing is going on"};
+}
+
+std::optional<Refusal> MachineSession::closed_limit() const {
+  for (unsigned input = 0; input < max_motors; ++input) {
+    if ((board_.inputs() & (unsigned{input_limit} << input)) == 0) continue;
+    return Refusal{.code = RefusalCode::limit_closed,
+                   .message = "the limit switch " + switch_words(machine_, input) +
+                              " is closed: jog away from it, or home the machine, first"};
+  }
+  return {};
+}
+
+// A way off a closed switch is free, and so is a way of axes that have other switches. Of a switch that no axis is
+// homed by, nobody knows at which end it is.
+std::optional<Refusal> MachineSession::refuse_way(const Point& way) const {
+  for (const AxisDescription& axis : machine_.axes) {
+    const double part = way[axis.axis];
+    if (!axis.home || part == 0 || (board_.inputs() & bit_of(*axis.home)) == 0) continue;
+    if ((part > 0) != axis.home->toward_high) continue;
+    return Refusal{.code = RefusalCode::limit_closed,
+                   .message = std::string("the limit switch of ") + letter_of(axis.axis) +
+                              " is closed at that end: move the other way"};
+  }
+  return {};
 }
 
 MachineSession::Answer MachineSession::at_once() {
@@ -102,6 +142,7 @@ DriveOptions MachineSession::drive_options() const {
 
 MachineSession::Answer MachineSession::take(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
+  if (auto refused = closed_limit()) return Failure{*refused};
   auto work = std::make_unique<Work>();
   if (start.from) stand_at({.place = start.from->point, .trust = position_.trust});
   if (start.findings != nullptr) work->findings = start.findings;
@@ -170,6 +211,7 @@ MachineSession::Answer MachineSession::take(request::Jog& jog) {
   if (!(jog.lease >= request::Jog::shortest_lease && jog.lease <= request::Jog::longest_lease)) {
     return refusal(RefusalCode::bad_value, "the lease of a jog is 0.1 to 10 s");
   }
+  if (auto refused = refuse_way(jog.way.direction)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->activity = std::make_unique<JogLine>(machine_, position_.place, jog.way, position_.trust != Trust::unknown);
   work->lease = jog.lease;
@@ -208,6 +250,7 @@ MachineSession::Answer MachineSession::take(request::Probe& probe) {
   if (position_.trust != Trust::unknown && leaves_travel(machine_, probe.target)) {
     return refusal(RefusalCode::bad_value, "the probe move would leave the machine's travel");
   }
+  if (auto refused = refuse_way(probe.target - position_.place)) return Failure{*refused};
   auto work = std::make_unique<Work>();
   work->activity = std::make_unique<ProbeLine>(position_.place, probe.target, probe.speed, probe.toward, work->answers);
   put_on_drive(*work, drive_options(), true);

@@ -38,6 +38,12 @@ std::string reason() {
   return std::strerror(errno);
 }
 
+// As write(), but a connection that the other side has closed is an error and no signal: the program goes on.
+ssize_t put(int descriptor, std::span<const std::uint8_t> bytes) {
+  const ssize_t sent = send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+  return sent < 0 && errno == ENOTSOCK ? write(descriptor, bytes.data(), bytes.size()) : sent;
+}
+
 // Eight raw bits, without flow control. No hang-up at the end: closing the line does not reset an Arduino.
 bool set_raw(int descriptor, speed_t speed) {
   termios settings{};
@@ -126,7 +132,7 @@ bool StreamPort::wait_for(short events, Seconds most) const {
 
 void StreamPort::receive(std::span<const std::uint8_t> bytes) {
   while (!bytes.empty() && !broken_) {
-    const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
+    const ssize_t written = put(descriptor_, bytes);
     if (written > 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     } else if (errno == EAGAIN || errno == EINTR) {
@@ -145,7 +151,8 @@ bool StreamPort::run(Seconds most) {
   const ssize_t got = read(descriptor_, arrived_.data() + before, most_at_once);
   arrived_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   // The line is readable but has no data: the other side has closed.
-  if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) broken_ = true;
+  if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) broken_ = hung_up_ = true;
+  if (got > 0) hung_up_ = false;
   return got > 0;
 }
 

@@ -139,7 +139,7 @@ TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {
   const std::string command = "run " + program + " --json -m " + router;
   const auto alone = nlohmann::json::parse(passo(command).out);
   const std::string board = serve("18000000");
-  const Outcome outcome = passo(command + " --board " + board);
+  const Outcome outcome = passo(command + from_here + " --board " + board);
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["steps"], alone["steps"]);
   const auto counted = nlohmann::json::parse(passo("board info --json " + board).out)["status"]["positions"];
@@ -151,7 +151,8 @@ TEST_F(Boards, that_do_not_suit_a_machine_are_refused_with_words) {
   const std::filesystem::path machines = std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines";
   const std::string program = write("p.ngc", "G21 G1 X1 F600\nM2\n");
   const std::string board = serve("18000000");
-  const Outcome clock = passo("run " + program + " -m " + (machines / "bench.toml").string() + " --board " + board);
+  const Outcome clock =
+      passo("run " + program + " -m " + (machines / "bench.toml").string() + from_here + " --board " + board);
   EXPECT_EQ(clock.code, 1);
   EXPECT_NE(clock.err.find("18000000 ticks a second"), std::string::npos) << clock.err;
   const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");

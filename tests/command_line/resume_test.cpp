@@ -2,6 +2,7 @@
 // have ended; and what is not certain is refused, with a code.
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -29,21 +30,25 @@ class Resumed : public passo::test::ServedBoard {
   }
 
   std::string command(const std::string& more = "") const {
-    return "run " + program_ + " --json -m " + machine_ + " --board " + board_ + " --journal " + journal() + " " + more;
+    const bool resumes = more.find("--resume") != std::string::npos;
+    return "run " + program_ + " --json -m " + machine_ + " --board " + board_ + " --journal " + journal() + " " +
+           (resumes ? "" : from_here) + more;
   }
   std::string journal() const { return path("j"); }
   bool journal_is_there() const { return std::filesystem::exists(journal()); }
 
   // Starts it, waits until it has noted so many refills, and sends the signal. Its exit code, or the signal below 0.
-  int run_until(int notes, int signal) {
+  int run_until(int notes, int signal, const std::function<void()>& meanwhile = {}) {
     const pid_t run = fork();
     if (run == 0) {
-      const std::string line = std::string("exec ") + PASSO_PROGRAM + " " + command() + " >/dev/null 2>" + path("err");
+      const std::string line =
+          std::string("exec ") + PASSO_PROGRAM + " " + command() + " >/dev/null 2>" + path("run.err");
       execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
       _exit(1);
     }
     wait_for_notes(notes);
-    kill(run, signal);
+    if (meanwhile) meanwhile();
+    if (signal != 0) kill(run, signal);
     int status = 0;
     waitpid(run, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
@@ -112,10 +117,19 @@ TEST_F(Resumed, after_it_was_killed_twice_it_ends_where_it_would_have_ended) {
 
 TEST_F(Resumed, after_ctrl_c_which_brakes_on_the_path_and_says_where) {
   EXPECT_EQ(run_until(8, SIGINT), 130);
-  const std::string said = read(path("err"));
+  const std::string said = read(path("run.err"));
   EXPECT_NE(said.find("brakes on the path"), std::string::npos) << said;
   EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
   EXPECT_NE(said.find("--resume goes on"), std::string::npos) << said;
+  const Outcome resumed = passo(command("--resume"));
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  expect_counts_of_the_whole_program();
+}
+
+TEST_F(Resumed, after_the_terminal_was_closed_which_is_as_ctrl_c) {
+  EXPECT_EQ(run_until(8, SIGHUP), 129);
+  const std::string said = read(path("run.err"));
+  EXPECT_NE(said.find("interrupted; the machine rests at X"), std::string::npos) << said;
   const Outcome resumed = passo(command("--resume"));
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   expect_counts_of_the_whole_program();
@@ -144,7 +158,7 @@ TEST_F(Resumed, not_when_the_board_was_used_or_started_anew) {
   leave_unfinished();
   const std::string other = write("q.ngc", "G21 G1 X1 F600\nM2\n");
   const Outcome between =
-      passo("run " + other + " -q -m " + machine_ + " --board " + board_ + " --journal " + path("j2"));
+      passo("run " + other + " -q -m " + machine_ + " --board " + board_ + from_here + " --journal " + path("j2"));
   ASSERT_EQ(between.code, 0) << between.err;
   expect_refused("resume.other-session", "another program");
   board_ = serve("18000000");
@@ -193,10 +207,47 @@ TEST_F(Resumed, is_not_what_a_run_does_unasked_but_it_mentions_it) {
       << anew.err;
 }
 
+// While a run goes on, another one must not even ask its board, nor touch its journal.
+TEST_F(Resumed, not_while_the_job_still_runs) {
+  write("p.ngc", "G21 G1 X1 F600\nG4 P600\nM2\n");
+  Outcome again;
+  Outcome asked;
+  const int code = run_until(1, SIGINT, [&] {
+    again = passo(command("--resume"));
+    asked = passo("board info --wait 1 " + board_);
+  });
+  EXPECT_EQ(code, 130) << read(path("run.err"));
+  EXPECT_EQ(again.code, 1);
+  EXPECT_NE(again.err.find("keeps this journal [journal.in-use]"), std::string::npos) << again.err;
+  EXPECT_EQ(again.err.find("was not finished"), std::string::npos) << again.err;
+  EXPECT_EQ(asked.code, 1);
+  EXPECT_NE(asked.err.find("another program uses it"), std::string::npos) << asked.err;
+}
+
+// Another journal makes no difference: the board is taken.
+TEST_F(Resumed, not_on_a_board_that_another_program_drives) {
+  write("p.ngc", "G21 G1 X1 F600\nG4 P600\nM2\n");
+  Outcome other;
+  const std::string jog = "jog X+1 -m " + machine_ + " --board " + board_;
+  EXPECT_EQ(run_until(1, SIGINT, [&] { other = passo(jog); }), 130);
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.err.find("in use by another passo, process"), std::string::npos) << other.err;
+  EXPECT_EQ(passo(jog).code, 0);
+}
+
+TEST_F(Resumed, not_with_a_file_that_is_no_journal) {
+  for (const std::string& list : {std::string("bread, milk"), std::string(2 << 20, 'x')}) {
+    const Outcome outcome = passo("run " + program_ + " -m " + machine_ + " --board " + board_ + from_here +
+                                  " --journal " + write("list.txt", list));
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(read(path("list.txt")), list);
+  }
+}
+
 TEST_F(Resumed, from_the_usual_place_of_journals_a_board) {
   const std::string usual = "run " + program_ + " -q -m " + machine_ + " --board " + board_;
   const std::string home = "XDG_STATE_HOME=" + path("state");
-  ASSERT_EQ(passo(usual + " --hold-at 0.4", home).code, 0);
+  ASSERT_EQ(passo(usual + from_here + " --hold-at 0.4", home).code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("state/passo")));
   EXPECT_EQ(passo(usual + " --resume", home).code, 0);
   expect_counts_of_the_whole_program();
@@ -211,7 +262,7 @@ TEST_F(Resumed, only_over_a_line) {
   const std::string probing = write("q.ngc", "G21 G38.2 Z-1 F60\nM2\n");
   EXPECT_EQ(passo("run " + probing + " -m " + machine_ + " --board " + board_ + " --resume").code, 2);
   const Outcome unwritable =
-      passo("run " + program_ + " -m " + machine_ + " --board " + board_ + " --journal /dev/null/j");
+      passo("run " + program_ + " -m " + machine_ + " --board " + board_ + from_here + " --journal /dev/null/j");
   EXPECT_EQ(unwritable.code, 1);
   EXPECT_NE(unwritable.err.find("cannot be written"), std::string::npos) << unwritable.err;
 }

@@ -50,7 +50,7 @@ TEST_F(Waiting, without_a_terminal_the_virtual_machine_goes_on_and_says_what_it_
 TEST_F(Waiting, without_a_terminal_a_program_on_a_board_ends_at_its_stop_and_can_go_on_from_there) {
   const std::string command =
       "run --json " + write("p.ngc", stops) + router + "--board " + serve("18000000") + " --journal " + path("j");
-  const Outcome waits = passo(command);
+  const Outcome waits = passo(command + from_here);
   EXPECT_EQ(waits.code, 1) << waits.err;
   EXPECT_THAT(waits.err, HasSubstr("waits at line 2: the operator (M0), and there is no terminal to ask on"));
   EXPECT_THAT(waits.err, HasSubstr("[run.waits]"));
@@ -62,6 +62,31 @@ TEST_F(Waiting, without_a_terminal_a_program_on_a_board_ends_at_its_stop_and_can
   const Outcome resumed = passo(command + " --resume --yes");
   ASSERT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_EQ(nlohmann::json::parse(resumed.out)["position_mm"]["X"], 5);
+}
+
+TEST_F(Waiting, a_check_says_where_a_program_waits) {
+  const Outcome told = passo("check " + write("p.ngc", stops) + router);
+  EXPECT_EQ(told.code, 0);
+  EXPECT_THAT(told.out,
+              HasSubstr("p.ngc: waits for somebody at line 2: the operator (M0); line 4: tool 2 (M6); line 6: "
+                        "the operator (M1)\n"));
+  const auto json = nlohmann::json::parse(passo("check --json " + path("p.ngc") + router).out);
+  EXPECT_EQ(json["waits"], 3);
+  EXPECT_EQ(json["waits_first_at"][1]["line"], 4);
+  EXPECT_EQ(json["waits_first_at"][1]["for"], "M6");
+  EXPECT_EQ(json["waits_first_at"][1]["tool"], 2);
+}
+
+// The first loop is never through the check; the second one is, and runs for days.
+TEST_F(Waiting, a_program_without_end_is_ended_by_ctrl_c_at_rest_and_writes_nothing) {
+  for (const std::string endless : {"o1 while [1]\nG1 X1 F600\nX0\no1 endwhile\nM2\n", "G1 X1 F6\nX0\nM99\n"}) {
+    const std::string run = "run -q --passes 5000000 " + write("p.ngc", endless) + router + "-r " + path("r.txt");
+    const std::string line = "(sleep 2; kill -INT $$) & exec " PASSO_PROGRAM " " + run + " 2>" + path("err");
+    const int status = std::system(("sh -c '" + line + "'").c_str());
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
+    EXPECT_THAT(passo::test::read(path("err")), HasSubstr("nothing was written"));
+    EXPECT_EQ(files(), std::vector<std::string>{});
+  }
 }
 
 TEST_F(Waiting, a_jog_moves_a_board_over_a_line) {

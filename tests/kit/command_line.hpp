@@ -31,10 +31,13 @@ inline std::string read(const fs::path& path) {
   return text.str();
 }
 
-// Each test has a directory of its own, which is removed after the test.
+// Each test has a directory of its own, which is removed after the test. What a command remembers is there too.
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() { fs::create_directories(dir_); }
+  CommandLine() {
+    fs::create_directories(dir_);
+    setenv("XDG_STATE_HOME", path("state").c_str(), 1);
+  }
   ~CommandLine() override { fs::remove_all(dir_); }
 
   std::string path(const std::string& name) const { return (dir_ / name).string(); }
@@ -52,7 +55,8 @@ class CommandLine : public testing::Test {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(dir_)) {
       const std::string name = entry.path().filename().string();
-      if (name != "out" && name != "err" && name != "p.ngc" && name != "m.toml") names.push_back(name);
+      if (name != "out" && name != "err" && name != "p.ngc" && name != "m.toml" && name != "state")
+        names.push_back(name);
     }
     return names;
   }

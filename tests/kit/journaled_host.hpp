@@ -89,13 +89,14 @@ class JournaledHost {
       point = *found;
       head = head_of_resumption(journal->head(), *status, *point);
     }
-    head.session = ++sessions_;
-    head.greeting = static_cast<std::uint8_t>(1 + sessions_ % 255);
+    head.numbers.session = ++sessions_;
+    head.numbers.greeting = static_cast<std::uint8_t>(1 + sessions_ % 255);
     JournalWriter writer(store);
     writer.begin(head);
     Diagnostics diagnostics;
-    DrivenProgram job(reader.again(), machine_, InterpreterOptions(), diagnostics,
-                      {.board = &port, .session = head.session, .greeting = head.greeting, .resume_at = point});
+    DrivenProgram job(
+        reader.again(), machine_, InterpreterOptions(), diagnostics,
+        {.board = &port, .session = head.numbers.session, .greeting = head.numbers.greeting, .resume_at = point});
     if (fails(job)) return;
     ASSERT_TRUE(!point || stands_at(head, *point, *job.link().status()));
     job.drive().refiller()->watch_rests([&](const BoardRest& rest) { writer.note(rest); });

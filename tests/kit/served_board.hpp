@@ -13,6 +13,9 @@ class ServedBoard : public CommandLine {
  protected:
   ~ServedBoard() override { end_server(); }
 
+  // Where the machine stands on a board that was just started: a run wants to be told.
+  static constexpr const char* from_here = " --from-here ";
+
   // Starts a board in place of the last one and returns its address.
   std::string serve(const std::string& clock = "16000000", const std::string& machine = "") {
     end_server();

@@ -259,6 +259,29 @@ TEST_P(Session, tells_how_far_its_place_can_be_trusted) {
   EXPECT_EQ(run.count(MachineChange::Kind::position_lost), 0U);
 }
 
+// A switch stops the motors when it closes. What stands on it already would go on.
+TEST_P(Session, a_closed_limit_switch_bars_programs_and_the_way_on_but_not_the_way_off) {
+  SessionRun run(test::short_router(), on());
+  run.make_ready();
+  const AxisDescription& x = run.description().axes[0];
+  const double toward = x.home->toward_high ? 1 : -1;
+  run.board().set_switch(static_cast<std::uint16_t>(input_limit << static_cast<unsigned>(x.home->input)), true);
+  run.session().board().inquire(Question::status);
+  ASSERT_TRUE(run.turn_until([&] { return run.session().closed_limit().has_value(); }));
+  EXPECT_EQ(run.refusal_of(start_of("G21 G1 X1 F600\nM2\n")), "machine.limit-closed");
+  const auto jog = [](double along_x, double along_y) {
+    return request::Jog{.way = {.direction = xyz(along_x, along_y), .speed = MmPerSecond(20), .distance = Mm(2)},
+                        .lease = Seconds(5)};
+  };
+  EXPECT_EQ(run.refusal_of(jog(toward, 0)), "machine.limit-closed");
+  EXPECT_EQ(run.refusal_of(jog(toward, 1)), "machine.limit-closed");
+  run.taken(jog(-toward, 0));
+  run.to_end();
+  run.taken(jog(0, 1));
+  run.to_end();
+  EXPECT_NEAR(run.session().status().position.place[Axis::x], -toward * 2, 0.01);
+}
+
 // Whatever comes after whatever, held and stopped at any moment: the motors are where the session says, and no fraction
 // of a step is lost.
 TEST_P(Session, does_not_drift_in_a_long_chain_of_activities) {

@@ -55,6 +55,19 @@ class StreamPorts : public testing::Test {
   VirtualMachine machine_{3, Hertz(16e6)};
 };
 
+// Each of the two writes would end the program by SIGPIPE.
+TEST_F(StreamPorts, a_side_that_has_closed_ends_nobody) {
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  StreamPort port(ends[0]);
+  close(ends[1]);
+  const std::uint8_t bytes[] = {1, 2, 3};
+  port.receive(bytes);
+  port.receive(bytes);
+  EXPECT_TRUE(port.broken());
+  EXPECT_FALSE(port.run(Seconds(0.01)));
+}
+
 TEST_F(StreamPorts, a_board_on_a_serial_line_says_what_it_is_and_how_it_is) {
   int board = -1;
   int line = -1;

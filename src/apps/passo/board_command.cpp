@@ -59,6 +59,7 @@ std::unique_ptr<BoardPort> open_named(const std::string& board, int& code) {
 }
 
 std::string silence(const BoardSession& board) {
+  if (board.hung_up()) return "closes the line: another program uses it";
   if (board.gibberish().empty()) return "does not answer";
   return fmt::format("answers, but not as a board of Passo's: \"{}\"", board.gibberish().substr(0, 60));
 }

@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "program_input.hpp"
+#include "run_signals.hpp"
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -70,10 +71,16 @@ class RealTime {
   bool plays_ = false;
 };
 
-void serve(StreamPort& host, VirtualMachine& machine, RealTime& time) {
+// A board hears one host. Another that calls meanwhile is sent away at once.
+void serve(StreamPort& host, int listening, VirtualMachine& machine, RealTime& time) {
   while (!host.broken()) {
     if (host.run(time.patience())) machine.receive(host.replies());
     time.catch_up(&host);
+    pollfd another{.fd = listening, .events = POLLIN, .revents = 0};
+    if (poll(&another, 1, 0) <= 0) continue;
+    // Has the host gone? Then the other one is its successor.
+    if (host.run(Seconds(0))) machine.receive(host.replies());
+    if (!host.broken()) close(accept4(listening, nullptr, nullptr, SOCK_CLOEXEC));
   }
 }
 
@@ -107,11 +114,12 @@ int board_serve(const BoardServeArguments& arguments) {
   VirtualMachine machine(static_cast<std::uint8_t>(arguments.motors), Hertz(arguments.clock));
   machine.connect(plant);
   RealTime time(machine);
+  outlive_readers();
   do {
     const int descriptor = wait_for_host(listening, time);
     if (descriptor < 0) break;
     StreamPort host(descriptor);
-    serve(host, machine, time);
+    serve(host, listening, machine, time);
   } while (!arguments.once);
   close(listening);
   return exit_done;

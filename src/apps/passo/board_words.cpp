@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cctype>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include "passo/link/await.hpp"
 
 namespace passo {
 
@@ -37,6 +39,14 @@ std::vector<std::string> switches_of(const BoardStatus& status) {
     if ((status.inputs & one.bit) != 0) names.emplace_back(one.name);
   }
   return names;
+}
+
+std::string closed_switches(BoardSession& board) {
+  constexpr Seconds answer{2};
+  board.hang_up();
+  const auto status = ask_status(board, answer);
+  const std::vector<std::string> closed = status ? switches_of(*status) : std::vector<std::string>();
+  return closed.empty() ? "" : fmt::format("; closed now: {}", fmt::join(closed, ", "));
 }
 
 std::string state_of(const BoardStatus& status) {

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 
 #include "passo/interpreter/canon.hpp"
@@ -13,6 +14,9 @@ int canon(const CanonArguments& arguments) {
   std::optional<ProgramReader> program = open_program(arguments.program);
   std::optional<InterpreterOptions> options = interpreter_options(arguments.program);
   if (!program || !options) return exit_bad_program;
+  NamedFiles files = files_of(arguments.program, *options);
+  files.writes("--output", arguments.output);
+  if (!files.are_apart()) return exit_bad_program;
   if (options->tools.name.empty()) options->tools = example_tools();
   Result<OutputFile, OutputError> output = OutputFile::open(arguments.output.empty() ? "-" : arguments.output);
   if (!output) {

@@ -7,6 +7,8 @@
 
 #include "commands.hpp"
 #include "findings_json.hpp"
+#include "named_files.hpp"
+#include "operator_prompt.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include <fmt/format.h>
@@ -25,8 +27,22 @@
 namespace passo {
 namespace {
 
-nlohmann::ordered_json findings_as_json(const Diagnostics& findings) {
-  return {{"good", !findings.any_error()}, {"errors", findings.errors()}, {"findings", as_json(findings.all())}};
+const char* name_of(Action::Kind kind) {
+  if (kind == Action::Kind::tool_change) return "M6";
+  return kind == Action::Kind::optional_stop ? "M1" : "M0";
+}
+
+nlohmann::ordered_json as_json(const Diagnostics& findings, const ProgramStops& stops) {
+  nlohmann::ordered_json waits = nlohmann::ordered_json::array();
+  for (const OperatorWait& stop : stops.first()) {
+    waits.push_back({{"line", stop.line}, {"for", name_of(stop.kind)}});
+    if (stop.kind == Action::Kind::tool_change) waits.back()["tool"] = stop.tool;
+  }
+  return {{"good", !findings.any_error()},
+          {"errors", findings.errors()},
+          {"findings", as_json(findings.all())},
+          {"waits", stops.count()},
+          {"waits_first_at", waits}};
 }
 
 // Plays the whole program on a virtual machine and measures its motion. `nominal` is the time for the progress line.
@@ -107,19 +123,27 @@ int check(const CheckArguments& arguments) {
   std::optional<ProgramReader> program = open_program(arguments.program);
   const std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
+  NamedFiles files = files_of(arguments.program, *options);
+  files.reads("--machine", arguments.machine);
+  files.writes("--picture", arguments.picture);
+  if (!files.are_apart()) return exit_bad_program;
 
   Diagnostics findings;
-  const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
+  ProgramStops stops;
+  const ProgramCheck result =
+      check_program(program->again(), *machine, *options, findings, [&](const PathItem& item) { stops.watch(item); });
   if (result.good && (arguments.motion || !arguments.picture.empty())) {
     show(findings);
     return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);
   }
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    std::puts(findings_as_json(findings).dump(2, ' ', false, replace).c_str());
+    std::puts(as_json(findings, stops).dump(2, ' ', false, replace).c_str());
   } else {
     show(findings);
-    if (result.good) std::printf("%s: no errors\n", arguments.program.program.c_str());
+    const char* const name = arguments.program.program.c_str();
+    if (result.good) std::printf("%s: no errors\n", name);
+    if (stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, stops.words().c_str());
   }
   return result.good ? exit_done : exit_bad_program;
 }

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "curve_arguments.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -257,6 +258,7 @@ Result<Method, std::string> fine_method(const ChordsArguments& arguments) {
 }  // namespace
 
 int chords(const ChordsArguments& arguments) {
+  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const auto curve = curve_of(arguments);
   if (!curve) return fail(exit_bad_program, curve.error());
   const auto choice = choice_of(arguments);

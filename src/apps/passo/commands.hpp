@@ -53,6 +53,7 @@ struct RunArguments {
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was interrupted
   bool home = false;                   // homes the machine first; the program then begins where homing ends
+  bool from_here = false;              // the machine stands at machine zero, whatever was known
   bool yes = false;                    // goes on at M0, M1 and M6 without asking
   bool json = false;                   // prints the summary as JSON
   bool quiet = false;

@@ -57,15 +57,15 @@ int home(const HomeArguments& arguments) {
   const auto opened = OpenedMachine::open(*machine, {.board = arguments.board}, code);
   if (!opened) return code;
   brake_on_signals();
-  if (!opened->greet(opened->usual_greeting(), code)) return code;
+  if (!opened->greet(opened->any_greeting(), code)) return code;
   const HomingReport report = home_machine(*opened, !arguments.quiet);
   if (arguments.json) {
     fmt::print("{}\n", to_json(report).dump(2));
   } else if (!arguments.quiet) {
     print(report);
   }
-  if (std::fflush(stdout) != 0) return fail(exit_failed, "cannot write to standard output");
-  if (report.code.empty()) return exit_done;
+  const int written = flush_output();
+  if (report.code.empty()) return written;
   const int failed = fail(exit_failed, words_of(report));
   return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }

@@ -5,15 +5,11 @@
 #include "board_words.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 #include <unistd.h>
-
-#include "passo/link/await.hpp"
 
 namespace passo {
 namespace {
-
-constexpr Seconds answer{2};
 
 const char* name_of(HomingStage stage) {
   switch (stage) {
@@ -50,15 +46,6 @@ class StageLine {
   std::string shown_;
 };
 
-// Adds the closed switches to the message. The switch that stopped the motors may still be closed.
-void note_closed_switches(BoardSession& board, HomingReport& report) {
-  board.hang_up();
-  const auto status = ask_status(board, answer);
-  if (!status) return;
-  const std::vector<std::string> closed = switches_of(*status);
-  if (!closed.empty()) report.message += fmt::format("; closed now: {}", fmt::join(closed, ", "));
-}
-
 void note_end(MachineSession& session, const Answered& answered, HomingReport& report) {
   const HomingPath* const path = session.homing();
   report.axes = path->homed();
@@ -73,7 +60,7 @@ void note_end(MachineSession& session, const Answered& answered, HomingReport& r
   report.message = answered.fault->message;
   if (const auto trouble = session.status().trouble) {
     report.code = *trouble == LinkError::stopped ? "home.stopped" : "home.board";
-    if (*trouble == LinkError::stopped) note_closed_switches(session.board(), report);
+    if (*trouble == LinkError::stopped) report.message += closed_switches(session.board());
   }
 }
 

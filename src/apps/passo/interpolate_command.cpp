@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 #include "progress_display.hpp"
 #include "pulse_table.hpp"
@@ -205,6 +206,7 @@ Result<std::optional<Seconds>, std::string> time_of(const InterpolateArguments& 
 }
 
 int interpolate(const InterpolateArguments& arguments) {
+  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const Parsed<StepMove> move = step_move_of(arguments);
   if (!move) return fail(exit_bad_program, move.error());
   if (!(arguments.steps_per_mm > 0)) return fail(exit_bad_program, "--steps-per-mm: expected a number above 0");

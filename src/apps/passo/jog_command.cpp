@@ -59,6 +59,7 @@ struct Ending {
   Point place;
   Seconds time{0};
   const char* why = "";  // distance, travel or lease
+  bool is_known = true;  // the place counts from machine zero, and not from where the machine stood before
   std::optional<ActivityFault> fault = {};
 };
 
@@ -96,6 +97,7 @@ Ending jog_to_rest(OpenedMachine& opened, const JogWords& words, const JogArgume
           .why = is_all                              ? "distance"
                  : answered.outcome == Outcome::done ? "travel"
                                                      : "lease",
+          .is_known = status.position.trust != Trust::unknown,
           .fault = answered.fault};
 }
 
@@ -108,15 +110,18 @@ void print(const Ending& ending, const MachineDescription& machine, bool json) {
   if (json) {
     nlohmann::ordered_json place = nlohmann::ordered_json::object();
     for (const AxisDescription& axis : machine.axes) place[std::string{letter_of(axis.axis)}] = ending.place[axis.axis];
-    const nlohmann::ordered_json all = {
-        {"time_s", ending.time.value()}, {"ended_by", ending.why}, {"position_mm", place}};
+    const nlohmann::ordered_json all = {{"time_s", ending.time.value()},
+                                        {"ended_by", ending.why},
+                                        {"position_mm", place},
+                                        {"place_known", ending.is_known}};
     fmt::print("{}\n", all.dump(2));
     return;
   }
   fmt::print("at rest after {:.3f} s in", ending.time.value());
   for (const AxisDescription& axis : machine.axes)
     fmt::print(" {}{:.3f}", letter_of(axis.axis), ending.place[axis.axis]);
-  fmt::print(" (machine): {}\n", in_words(ending.why));
+  fmt::print(" ({}): {}\n", ending.is_known ? "machine" : "from where it stood: its place is not known",
+             in_words(ending.why));
 }
 
 // What is wrong with the arguments, beside the moves.
@@ -151,17 +156,18 @@ int jog(const JogArguments& arguments) {
   }
   if (const auto wrong = wrong_numbers(arguments)) return fail(exit_bad_program, *wrong);
   int code = exit_done;
+  outlive_readers();
   const auto opened = OpenedMachine::open(*machine, {.board = arguments.board}, code);
   if (!opened) return code;
   brake_on_signals();
-  if (!opened->greet(opened->usual_greeting(), code)) return code;
+  if (!opened->greet(opened->any_greeting(), code)) return code;
   if (by_keys) return jog_by_keys(*opened, *machine, MmPerSecond(arguments.feed / seconds_per_minute));
   const Ending ending = jog_to_rest(*opened, *words, arguments);
   if (ending.fault) return fail(exit_failed, fmt::format("{} [{}]", ending.fault->message, ending.fault->code));
   if (const auto differs = opened->compare()) return fail(exit_failed, "the board: " + *differs);
   print(ending, *machine, arguments.json);
-  if (std::fflush(stdout) != 0) return fail(exit_failed, "cannot write to standard output");
-  return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;
+  const int written = flush_output();
+  return interrupted_by() != 0 ? 128 + interrupted_by() : written;
 }
 
 }  // namespace passo

@@ -153,7 +153,8 @@ class KeyJog {
     if (!session_.busy()) {
       direction_ = key.direction;
       const JogWay way{.direction = direction_, .speed = speed_};
-      try_request(session_, request::Jog{.way = way, .lease = lease});
+      const auto taken = session_.request(request::Jog{.way = way, .lease = lease});
+      refusal_ = taken ? "" : "  " + taken.error().message;
     } else if (key.direction == direction_) {
       try_request(session_, request::RenewLease{});
     } else {
@@ -172,8 +173,8 @@ class KeyJog {
     for (const AxisDescription& axis : description_.axes) {
       line += fmt::format(" {}{:.3f}", letter_of(axis.axis), status.ahead[axis.axis]);
     }
-    line =
-        fmt::format("\r{:<6}{}  {:.0f} mm/min\033[K", name_of(status.state), line, speed_.value() * seconds_per_minute);
+    line = fmt::format("\r{:<6}{}  {:.0f} mm/min{}\033[K", name_of(status.state), line,
+                       speed_.value() * seconds_per_minute, refusal_);
     if (line == shown_) return;
     shown_ = line;
     std::fwrite(line.data(), 1, line.size(), stdout);
@@ -185,6 +186,7 @@ class KeyJog {
   const MachineDescription& description_;
   MmPerSecond speed_;
   Point direction_;
+  std::string refusal_;  // why the last key moved nothing
   std::string shown_;
 };
 

@@ -8,9 +8,11 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "passo/base/fingerprint.hpp"
+#include "passo/report/nameless_file.hpp"
 
 namespace passo {
 
@@ -55,15 +57,15 @@ bool read_pieces(const std::string& path, const Take& take) {
 
 }  // namespace
 
-std::string usual_journal(const std::string& board) {
+std::string state_file(const std::string& board, std::string_view ending) {
   const fs::path folder = state_folder();
   if (folder.empty()) return {};
   std::string name;
   for (const char c : board) name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
-  return (folder / (name + ".journal")).string();
+  return (folder / name.append(ending)).string();
 }
 
-std::optional<std::string> read_journal(const std::string& path) {
+std::optional<std::string> read_state_file(const std::string& path) {
   std::string text;
   if (!read_pieces(path, [&text](std::string_view piece) {
         text += piece;
@@ -73,6 +75,21 @@ std::optional<std::string> read_journal(const std::string& path) {
   }
   if (text.size() > largest_journal) text.clear();  // this file is no journal
   return text;
+}
+
+// The text must be on the disk before the file gets its name. The board is greeted next, and the hello makes the old
+// file useless.
+int replace_state_file(const std::string& path, std::string_view text) {
+  std::error_code none;
+  if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder, none);
+  constexpr mode_t mode = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
+  auto file = NamelessFile::open(path, mode);
+  if (!file) return -1;
+  const int descriptor = fcntl((*file)->descriptor(), F_DUPFD_CLOEXEC, 0);
+  const bool written = write_all(descriptor, text, 0) && fsync(descriptor) == 0;
+  if (written && (*file)->publish(path) == 0) return descriptor;
+  if (descriptor >= 0) close(descriptor);
+  return -1;
 }
 
 FileStamp stamp_of(const std::string& path) {
@@ -94,21 +111,24 @@ JournalFile::~JournalFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-// The text must be on the disk before the file gets its name. The board is greeted next, and the hello makes the old
-// journal useless.
-bool JournalFile::replace(std::string_view text) {
-  if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
-  std::error_code none;
-  if (const fs::path folder = fs::path(path_).parent_path(); !folder.empty()) fs::create_directories(folder, none);
-  const std::string temporary = path_ + ".new";
-  constexpr mode_t mode = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
-  descriptor_ = open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
-  if (descriptor_ < 0) return false;
-  if (write_all(descriptor_, text, 0) && fsync(descriptor_) == 0 && rename(temporary.c_str(), path_.c_str()) == 0) {
-    return true;
+// A journal that is written is locked, and so is each journal that takes its place.
+bool JournalFile::claim() {
+  if (descriptor_ >= 0) return true;
+  const int descriptor = open(path_.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor < 0) return true;  // there is none yet
+  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    close(descriptor);
+    return false;
   }
-  unlink(temporary.c_str());
-  return false;
+  descriptor_ = descriptor;
+  return true;
+}
+
+bool JournalFile::replace(std::string_view text) {
+  const int descriptor = replace_state_file(path_, text);
+  if (descriptor_ >= 0) close(descriptor_);
+  descriptor_ = descriptor;
+  return descriptor_ >= 0;
 }
 
 bool JournalFile::overwrite(std::size_t offset, std::string_view bytes) {

@@ -4,16 +4,21 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "passo/journal/journal.hpp"
 
 namespace passo {
 
-// The path of the journal for a board, in XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known.
-std::string usual_journal(const std::string& board);
-// Reads a journal's file. A file that is too long for a journal gives an empty text. Nothing: there is no readable
-// file.
-std::optional<std::string> read_journal(const std::string& path);
+// The path of a file about a board, in XDG_STATE_HOME/passo or ~/.local/state/passo. Empty: neither is known. `ending`:
+// ".journal" or ".place".
+std::string state_file(const std::string& board, std::string_view ending);
+// Reads such a file. A file that is too long for a journal gives an empty text. Nothing: there is no readable file.
+std::optional<std::string> read_state_file(const std::string& path);
+// Writes such a file anew: all of it or nothing is on the disk, whatever happens meanwhile. Returns its descriptor,
+// open for writing; less than 0: it cannot be written.
+int replace_state_file(const std::string& path, std::string_view text);
 // The stamp of a file as it is now. Standard input and pipes, which can be read only once, have a stamp without a name.
 FileStamp stamp_of(const std::string& path);
 
@@ -25,14 +30,16 @@ class JournalFile final : public JournalStore {
   JournalFile& operator=(const JournalFile&) = delete;
 
   const std::string& path() const { return path_; }
+  // Claims the journal for this program, as long as this object lives. False: another program writes it.
+  [[nodiscard]] bool claim();
   [[nodiscard]] bool replace(std::string_view text) override;
   [[nodiscard]] bool overwrite(std::size_t offset, std::string_view bytes) override;
-  // Removes the journal when the job is done.
+  // Removes the journal when the job is done, or cannot go on.
   void remove();
 
  private:
   std::string path_;
-  int descriptor_ = -1;
+  int descriptor_ = -1;  // the file at the path, locked
 };
 
 }  // namespace passo

@@ -142,6 +142,8 @@ int parse_and_run(int argc, char** argv) {
   add_board(run_command, run_arguments.board);
   run_command.add_flag("--home", run_arguments.home,
                        "the machine is homed first, and the program begins where it then stands");
+  run_command.add_flag("--from-here", run_arguments.from_here,
+                       "over a line: the machine stands at machine zero, as you see to; else its place must be known");
   run_command.add_flag("--resume", run_arguments.resume,
                        "over a line: goes on where this program was broken off on that board");
   run_command.add_option("--journal", run_arguments.journal,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
 #include <fmt/format.h>
@@ -198,6 +199,7 @@ Status<OutputError> write_pictures(const MotorScene& scene, const MotorArguments
 }  // namespace
 
 int motor(const MotorArguments& arguments) {
+  if (!outputs_are_apart(arguments.pictures, "")) return exit_bad_program;
   for (const std::string& path : arguments.pictures) {
     if (!is_picture_name(path)) return fail(exit_bad_program, path + ": a picture's name ends in .svg or .png");
   }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <utility>
 
 #include "board_opening.hpp"
+#include "board_words.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
@@ -26,6 +28,17 @@ constexpr Seconds answer{2};
 constexpr LineCare virtual_line{.answer_within = Seconds(0.05), .patience = Seconds(3600)};
 constexpr LineCare real_line{.answer_within = Seconds(0.1), .patience = Seconds(60)};
 
+unsigned any_number(unsigned least, unsigned most) {
+  std::random_device random;
+  return std::uniform_int_distribution<unsigned>(least, most)(random);
+}
+
+MotorSteps zero_counts_of(const MachineDescription& machine, const BoardStatus& status, const Point& place) {
+  MotorSteps counts = steps_at(machine, place);
+  for (std::size_t m = 0; m < counts.size(); ++m) counts[m] = status.positions[m] - counts[m];
+  return counts;
+}
+
 }  // namespace
 
 OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWish& wish)
@@ -42,6 +55,8 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.cut) {
       opened->session_ = std::make_unique<MachineSession>(machine, opened->machine_, SessionOptions{.start = at_zero});
+      // For its switches. Over a line, the greeting asks.
+      static_cast<void>(ask_status(opened->session_->board(), answer).has_value());
       return opened;
     }
     opened->line_.emplace(opened->machine_, machine.board.clock, LineOptions());
@@ -56,17 +71,78 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     code = fail(exit_bad_program, address.error());
     return nullptr;
   }
+  const bool outlives = address->kind != BoardAddress::Kind::emulated;
+  if (outlives) {
+    auto claim = BoardClaim::take(*address);
+    if (!claim) {
+      code = fail(exit_failed, claim.error());
+      return nullptr;
+    }
+    opened->claim_.emplace(std::move(*claim));
+    opened->place_file_.emplace(wish.board);
+    opened->record_ = opened->place_file_->read();
+  }
   auto port = open_addressed(*address, &opened->plant_);
   if (!port) {
     code = fail(exit_failed, port.error());
     return nullptr;
   }
   opened->port_ = std::move(*port);
-  opened->plant_is_behind_ = address->kind == BoardAddress::Kind::emulated;
+  opened->plant_is_behind_ = !outlives;
   opened->session_ = std::make_unique<MachineSession>(
       machine, *opened->port_,
       SessionOptions{.over_a_line = true, .care = real_line, .greeting = {.session = 1}, .start = {}});
-  return opened->ask_first(wish.board, wish.may_move, code) ? std::move(opened) : nullptr;
+  if (!opened->ask_first(wish.board, wish.may_move, code)) return nullptr;
+  if (const auto place = opened->place()) opened->start_at(*place);
+  return opened;
+}
+
+OpenedMachine::~OpenedMachine() {
+  keep_place();
+}
+
+Result<KnownPosition, PlaceDoubt> OpenedMachine::place() const {
+  if (!place_file_) return KnownPosition{.place = Point(), .trust = Trust::commanded};
+  return place_of(record_, description_, before_);
+}
+
+// Greeting and session number differ from those of the board's last session, and mean nothing else: 1 is every
+// stranger's.
+Greeting OpenedMachine::any_greeting() const {
+  if (!place_file_) return {.session = has_board() || line_ ? std::uint16_t{1} : std::uint16_t{0}};
+  Greeting greeting{.number = static_cast<std::uint8_t>(any_number(1, 255))};
+  do {
+    greeting.session = static_cast<std::uint16_t>(any_number(2, 65535));
+  } while (greeting.session == before_.session);
+  return greeting;
+}
+
+// What a board has heard it never forgets as long as it has power. So the record is written before the board hears.
+void OpenedMachine::write_down(const KnownPosition& position, const MotorSteps& zero_counts,
+                               const SessionNumbers& numbers) {
+  if (!place_file_) return;
+  if (position.trust == Trust::unknown) {
+    if (record_) place_file_->remove();
+    record_.reset();
+    return;
+  }
+  PlaceRecord record{
+      .machine = place_fingerprint(description_), .trust = position.trust, .zero_counts = {}, .numbers = numbers};
+  for (std::size_t m = 0; m < description_.axes.size(); ++m) {
+    record.zero_counts.push_back(static_cast<int>(zero_counts[m]));
+  }
+  if (record_ == record) return;
+  place_file_->write(record);
+  record_ = record;
+}
+
+// A line that was lost changes nothing of what is written: the board counts on. A board that has stopped its motors at
+// once tells that itself.
+void OpenedMachine::keep_place() {
+  const auto& zero_counts = session_ ? session_->zero_counts() : std::nullopt;
+  const MachineStatus status = session_ ? session_->status() : MachineStatus();
+  if (!greeted_ || !zero_counts || status.trouble) return;
+  write_down(status.position, *zero_counts, numbers_);
 }
 
 bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& code) {
@@ -84,7 +160,10 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
   BoardSession greeting(*port_, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
   passo::greet(greeting, {.motors = static_cast<std::uint8_t>(description_.axes.size())});
   const LinkError error = greeting.error().value_or(LinkError::wrong_version);
-  code = fail(exit_failed, fmt::format("{}: {}", address, message_of(error)));
+  const bool is_sent_away = error == LinkError::no_answer && greeting.hung_up();
+  code = fail(exit_failed, fmt::format("{}: {}", address,
+                                       is_sent_away ? "it closes the line: another program uses it [board.in-use]"
+                                                    : message_of(error)));
   return false;
 }
 
@@ -96,11 +175,30 @@ bool OpenedMachine::wait_for_rest() {
 
 bool OpenedMachine::greet(const Greeting& greeting, int& code) {
   MachineSession& session = *session_;
+  const KnownPosition position = session.status().position;
+  numbers_ = {.session_before = before_.session,
+              .executed_before = before_.executed,
+              .greeting = greeting.number,
+              .session = greeting.session};
+  write_down(position, zero_counts_of(description_, before_, position.place), numbers_);
+  greeted_ = true;
+  frames_asked_ = session.board().frames_sent();
+  bytes_asked_ = session.board().bytes_sent();
   session.greet(greeting);
   while (session.state() == MachineState::offline) session.turn(endless);
   const MachineState state = session.state();
   if (state == MachineState::idle || state == MachineState::door) return true;
   code = fail(exit_failed, "the board: " + session.trouble_words());
+  return false;
+}
+
+bool OpenedMachine::name_session(std::uint16_t number, int& code) {
+  const BoardStatus& status = *session_->board().status();
+  numbers_ = {.session_before = status.session, .executed_before = status.executed, .greeting = 0, .session = number};
+  keep_place();
+  session_->name_session(number);
+  if (await(session_->board(), [&] { return session_->board().ready(); })) return true;
+  code = fail(exit_failed, "the board: it does not answer any more");
   return false;
 }
 
@@ -131,6 +229,24 @@ std::optional<std::string> OpenedMachine::compare() {
                        planned.motors[motor].position);
   }
   return {};
+}
+
+std::string place_words(const MachineDescription& machine, const Point& place) {
+  std::string words;
+  for (const AxisDescription& axis : machine.axes) {
+    words += fmt::format("{}{}{:.3f}", words.empty() ? "" : " ", letter_of(axis.axis), place[axis.axis]);
+  }
+  return words;
+}
+
+std::string words_of(const Refusal& refusal) {
+  return fmt::format("{} [{}]", refusal.message, code_of(refusal.code));
+}
+
+std::string trouble_words(MachineSession& session) {
+  std::string words = session.trouble_words();
+  if (session.status().trouble == LinkError::stopped) words += closed_switches(session.board());
+  return words;
 }
 
 void try_request(MachineSession& session, Request wanted) {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "board_claim.hpp"
 #include "mid_run_changes.hpp"
+#include "place_file.hpp"
 
 #include "passo/activity/touch_box.hpp"
 #include "passo/machine/virtual_line.hpp"
@@ -28,9 +30,14 @@ struct MachineWish {
 
 class OpenedMachine {
  public:
-  // Opens a board. Null, with a message, if there is no such board, or if the board moves and may not; then `code` is
-  // the exit code. A board over a line has been asked for its status, and has not been greeted.
+  // Opens a board. Null, with a message, if there is no such board, if another program has it, or if the board moves
+  // and may not; then `code` is the exit code. A board over a line has been asked for its status, and has not been
+  // greeted.
   static std::unique_ptr<OpenedMachine> open(const MachineDescription& machine, const MachineWish& wish, int& code);
+  // Writes down where the machine stands: keep_place().
+  ~OpenedMachine();
+  OpenedMachine(const OpenedMachine&) = delete;
+  OpenedMachine& operator=(const OpenedMachine&) = delete;
 
   MachineSession& session() { return *session_; }
   const MachineSession& session() const { return *session_; }
@@ -42,10 +49,22 @@ class OpenedMachine {
   const BoardStatus& before() const { return before_; }
   // Asks until the board rests. False: the board does not answer. Call before the hello.
   [[nodiscard]] bool wait_for_rest();
-  // Greets the board, and waits until the machine is ready. False, with a message: the board does not suit. The usual
-  // greeting is enough if nobody has to recognise the board later.
+  // Where the machine stands before the hello, or why nobody knows. Virtual and emulated machines stand at machine
+  // zero. A real board is known by what an earlier command has written down, and by its counts.
+  Result<KnownPosition, PlaceDoubt> place() const;
+  // Says where the machine stands, before the hello.
+  void start_at(const KnownPosition& position) { session_->start_at(position); }
+  // Greets the board, and waits until the machine is ready. False, with a message: the board does not suit.
   [[nodiscard]] bool greet(const Greeting& greeting, int& code);
-  Greeting usual_greeting() const { return {.session = has_board() || line_ ? std::uint16_t{1} : std::uint16_t{0}}; }
+  // A greeting by which the board is recognised later, if that is worth while.
+  Greeting any_greeting() const;
+  // What went to the board from the hello on, without the questions before it.
+  std::uint64_t frames_sent() const { return session_->board().frames_sent() - frames_asked_; }
+  std::uint64_t bytes_sent() const { return session_->board().bytes_sent() - bytes_asked_; }
+  // Gives the board another session number, after the hello and at rest. False, with a message: it does not answer.
+  [[nodiscard]] bool name_session(std::uint16_t number, int& code);
+  // Writes down what has become of the place, for the next command.
+  void keep_place();
 
   // Sends what the board has executed to the virtual machine too. The virtual machine's motors stand at this place when
   // the program begins.
@@ -58,6 +77,7 @@ class OpenedMachine {
  private:
   OpenedMachine(const MachineDescription& machine, const MachineWish& wish);
   bool ask_first(const std::string& address, bool may_move, int& code);
+  void write_down(const KnownPosition& position, const MotorSteps& zero_counts, const SessionNumbers& numbers);
 
   const MachineDescription& description_;
   IdealPlant plant_;
@@ -68,8 +88,21 @@ class OpenedMachine {
   std::unique_ptr<MachineSession> session_;
   std::unique_ptr<BoardSession> shadow_;
   BoardStatus before_;
+  std::optional<BoardClaim> claim_;
+  std::optional<PlaceFile> place_file_;  // for a board that outlives this program
+  std::optional<PlaceRecord> record_;    // as it is in the file
+  SessionNumbers numbers_;
+  bool greeted_ = false;
+  std::uint64_t frames_asked_ = 0;
+  std::uint64_t bytes_asked_ = 0;
 };
 
+// The words for a place, with the letters of the axes: "X1.000 Y-2.500".
+std::string place_words(const MachineDescription& machine, const Point& place);
+// "the machine is busy [machine.busy]".
+std::string words_of(const Refusal& refusal);
+// Why a board cannot go on, with the switches that are closed if it has stopped its motors at once.
+std::string trouble_words(MachineSession& session);
 // Makes a request that may be refused. A refusal means that the machine is already where the request would lead.
 void try_request(MachineSession& session, Request wanted);
 // Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.

@@ -54,15 +54,19 @@ void ProgramStops::watch(const PathItem& item) {
   stops_.push_back({.kind = action->kind, .tool = action->tool, .line = action->source.line});
 }
 
-void ProgramStops::tell(const RunArguments& arguments) const {
-  if (count_ == 0 || arguments.quiet) return;
+std::string ProgramStops::words() const {
   std::string words;
   for (const OperatorWait& stop : stops_) words += (words.empty() ? "" : "; ") + words_of(stop);
   if (count_ > most_told) words += fmt::format("; and {} more", count_ - most_told);
+  return words;
+}
+
+void ProgramStops::tell(const RunArguments& arguments) const {
+  if (count_ == 0 || arguments.quiet) return;
   fmt::print(stderr,
              "passo: note: {} would wait for {}. Nobody stands at this machine, so it goes on; a board waits, and so "
              "does a run on a terminal. --yes goes on everywhere\n",
-             arguments.program.program, words);
+             arguments.program.program, words());
 }
 
 Seconds OperatorPrompt::look(MachineSession& session) {

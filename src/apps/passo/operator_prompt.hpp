@@ -18,11 +18,15 @@ bool asks_operator();
 // "line 12: tool 2 (M6)".
 std::string words_of(const OperatorWait& wait);
 
-// If nobody is asked, the stops of a program are reported before the program runs.
+// The stops of a program, reported by a check, and before a run that asks nobody.
 class ProgramStops {
  public:
   // Call it for each item of the path.
   void watch(const PathItem& item);
+  // All stops: count() is how many there are, words() names the first ones, and first() has them.
+  std::uint64_t count() const { return count_; }
+  std::string words() const;
+  const std::vector<OperatorWait>& first() const { return stops_; }
   // Reports the stops on standard error, if there are any.
   void tell(const RunArguments& arguments) const;
 

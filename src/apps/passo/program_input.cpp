@@ -1,5 +1,7 @@
 #include "program_input.hpp"
 
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -64,6 +66,17 @@ std::string parameter_file(const ProgramArguments& arguments, const InterpreterO
   return options.settings->path_of("RS274NGC", "PARAMETER_FILE");
 }
 
+NamedFiles files_of(const ProgramArguments& arguments, const InterpreterOptions& options) {
+  NamedFiles files;
+  files.reads("the program", arguments.program);
+  files.reads("--settings", arguments.settings);
+  files.reads("the tool table", tool_table_file(arguments, options));
+  files.reads("the parameter file", parameter_file(arguments, options));
+  files.reads_subs(std::filesystem::path(arguments.program).parent_path().string());
+  for (const std::string& folder : options.sub_folders) files.reads_subs(folder);
+  return files;
+}
+
 std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& arguments) {
   InterpreterOptions options;
   options.sub_folders = arguments.sub_folders;
@@ -95,6 +108,16 @@ void show(const Diagnostics& diagnostics) {
 int fail(ExitCode code, const std::string& message) {
   std::fprintf(stderr, "passo: error: %s\n", message.c_str());
   return code;
+}
+
+void note(const std::string& words) {
+  std::fprintf(stderr, "passo: note: %s\n", words.c_str());
+}
+
+int flush_output() {
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (!failed) return exit_done;
+  return errno == EPIPE ? 128 + SIGPIPE : fail(exit_failed, "cannot write to standard output");
 }
 
 }  // namespace passo

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -25,11 +26,19 @@ std::string tool_table_file(const ProgramArguments& arguments, const Interpreter
 // The parameter file that the arguments or the settings name; empty: none.
 std::string parameter_file(const ProgramArguments& arguments, const InterpreterOptions& options);
 
+// The files that the arguments name or that the settings name, as files that are read.
+NamedFiles files_of(const ProgramArguments& arguments, const InterpreterOptions& options);
+
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);
 
 // Reports on standard error why the command ends here. Returns the given exit code.
 int fail(ExitCode code, const std::string& message);
+// Reports on standard error something that the user should know and need not heed.
+void note(const std::string& words);
+// Hands what was printed to the reader of standard output. Returns exit_done, or what the command should return. A
+// reader that has gone away, as `head` does, has seen enough: that is no error to report.
+int flush_output();
 
 bool is_terminal(int descriptor);
 

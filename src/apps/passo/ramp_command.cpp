@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "program_input.hpp"
 #include "ramp_limit.hpp"
 #include "ramp_scene.hpp"
@@ -151,6 +152,7 @@ RampRequest ramp_request_of(const RampArguments& arguments) {
 }
 
 int ramp(const RampArguments& arguments) {
+  if (!outputs_are_apart({arguments.picture}, arguments.output)) return exit_bad_program;
   const std::string missing = missing_options(arguments);
   if (!missing.empty()) return fail(exit_bad_program, "expected also " + missing + "; see passo ramp --help");
   const std::string wrong = wrong_number(arguments);

@@ -1,7 +1,6 @@
 #include "resumable_run.hpp"
 
 #include <filesystem>
-#include <random>
 #include <utility>
 
 #include "program_input.hpp"
@@ -21,31 +20,9 @@ int refuse(ResumeRefusal refusal) {
   return refuse(code_of(refusal), std::string(message_of(refusal)));
 }
 
-void note(const std::string& words) {
-  fmt::print(stderr, "passo: note: {}\n", words);
-}
-
-// A number for the new session, by which the board is recognised later. Differs from `before`, the board's last
-// session, and is never 0 or 1.
-std::uint16_t any_session(std::uint16_t before) {
-  std::random_device random;
-  std::uniform_int_distribution<unsigned> numbers(2, 65535);
-  auto session = static_cast<std::uint16_t>(numbers(random));
-  while (session == before) session = static_cast<std::uint16_t>(numbers(random));
-  return session;
-}
-
-std::uint8_t any_greeting() {
-  std::random_device random;
-  return static_cast<std::uint8_t>(std::uniform_int_distribution<unsigned>(1, 255)(random));
-}
-
-std::string place_words(const ResumePoint& point, const MachineDescription& machine) {
-  std::string words = point.line == 0 ? "at the end of the program" : fmt::format("at line {}", point.line);
-  for (const AxisDescription& axis : machine.axes) {
-    words += fmt::format(" {}{:.3f}", letter_of(axis.axis), point.point[axis.axis]);
-  }
-  return words + " (machine coordinates)";
+std::string words_of(const ResumePoint& point, const MachineDescription& machine) {
+  const std::string line = point.line == 0 ? "at the end of the program" : fmt::format("at line {}", point.line);
+  return fmt::format("{} {} (machine coordinates)", line, place_words(machine, point.point));
 }
 
 // Refuses a program that is not the journal's, or that was changed since.
@@ -56,28 +33,35 @@ int refuse_changed(const FileStamp& now, const FileStamp& then, std::string_view
 
 }  // namespace
 
-std::unique_ptr<ResumableRun> ResumableRun::open(const Subject& subject, int& code) {
-  const RunArguments& arguments = subject.arguments;
+std::string ResumableRun::journal_of(const RunArguments& arguments) {
+  return arguments.journal.empty() ? state_file(arguments.board, ".journal") : arguments.journal;
+}
+
+std::unique_ptr<ResumableRun> ResumableRun::open(const RunArguments& arguments, int& code) {
   code = exit_done;
-  if (subject.check.probes) {
-    if (arguments.resume) code = fail(exit_bad_program, "--resume: not for a program with probe moves yet");
-    return nullptr;
-  }
-  const std::string path = arguments.journal.empty() ? usual_journal(arguments.board) : arguments.journal;
+  const std::string path = journal_of(arguments);
   if (path.empty()) {
     if (arguments.resume) code = refuse("resume.no-journal", "no HOME, and no --journal: where is the journal?");
     return nullptr;
   }
   std::unique_ptr<ResumableRun> run(new ResumableRun(path));
   run->resumes_ = arguments.resume;
-  const std::optional<std::string> text = read_journal(path);
+  if (!run->file_.claim()) {
+    code = fail(exit_failed, path + ": another passo that runs now keeps this journal [journal.in-use]");
+    return nullptr;
+  }
+  const std::optional<std::string> text = read_state_file(path);
   if (text) run->before_ = Journal::read(*text);
   run->head_.made_by = PASSO_VERSION;
   run->head_.program = stamp_of(arguments.program.program);
   run->head_.machine = stamp_of(arguments.machine);
-  run->head_.path = subject.path;
-  if (!arguments.resume) return run;
-
+  if (!arguments.resume) {
+    // Is it a name that was mistyped? Of a file that is too long for a journal there is no text.
+    std::error_code none;
+    if (!text || Journal::is_journal(*text) || std::filesystem::is_empty(path, none)) return run;
+    code = fail(exit_bad_program, path + ": no journal of Passo's, and would be overwritten; name another file");
+    return nullptr;
+  }
   const JournalHead& now = run->head_;
   if (!text) {
     code = refuse("resume.no-journal", path + " is not there: nothing on this board was left unfinished");
@@ -89,13 +73,19 @@ std::unique_ptr<ResumableRun> ResumableRun::open(const Subject& subject, int& co
     code = refuse_changed(now.program, then.program, "resume.program-changed");
   } else if (then.machine != now.machine) {
     code = refuse_changed(now.machine, then.machine, "resume.machine-changed");
-  } else if (then.path != now.path) {
-    code = refuse("resume.path-changed",
-                  "the program does not mean what it meant: other options, or a sub, tool table, parameter or settings "
-                  "file was changed since");
   }
   if (code != exit_done) return nullptr;
   return run;
+}
+
+bool ResumableRun::suits(const Subject& subject, int& code) {
+  head_.path = subject.path;
+  head_.start = subject.options.start;
+  if (!resumes_ || before_->head().path == subject.path) return true;
+  code = refuse("resume.path-changed",
+                "the program does not mean what it meant: other options, or a sub, tool table, parameter or settings "
+                "file was changed since");
+  return false;
 }
 
 bool ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code) {
@@ -118,7 +108,9 @@ bool ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& progr
   }
   point_ = *found;
   head_ = head_of_resumption(before_->head(), machine.before(), *point_);
-  fmt::print(stderr, "passo: goes on {}\n", place_words(*point_, subject.machine));
+  const auto known = machine.place();
+  machine.start_at({.place = point_->point, .trust = known ? known->trust : Trust::counted});
+  fmt::print(stderr, "passo: goes on {}\n", words_of(*point_, subject.machine));
   return true;
 }
 
@@ -130,7 +122,7 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
     if (!find_place(machine, program, subject, code)) return false;
   } else {
     // The old journal knows the board as it was before the hello.
-    if (before_ && before_->is_of(machine.before())) {
+    if (before_ && !refuse_rest(*before_, machine.before())) {
       const std::string name = std::filesystem::path(before_->head().program.name).filename().string();
       note(fmt::format("{} was not finished on this board; --resume would have gone on with it",
                        name.empty() ? "a program" : name));
@@ -138,17 +130,12 @@ bool ResumableRun::begin(OpenedMachine& machine, const ProgramReader& program, c
     head_ = head_of_beginning(std::move(head_), status, steps_at(subject.machine, session.status().position.place),
                               subject.machine.axes.size());
   }
-  head_.session = any_session(status.session);
-  head_.greeting = is_ready ? std::uint8_t{0} : any_greeting();
+  const Greeting greeting = machine.any_greeting();
+  head_.numbers.session = greeting.session;
+  head_.numbers.greeting = is_ready ? std::uint8_t{0} : greeting.number;
   if (!write_head(subject, code)) return false;
-  if (!is_ready) {
-    return machine.greet({.session = head_.session, .number = head_.greeting}, code) &&
-           stands_there(session.board(), code);
-  }
-  session.name_session(head_.session);
-  if (await(session.board(), [&] { return session.board().ready(); })) return true;
-  code = fail(exit_failed, "the board: it does not answer any more");
-  return false;
+  if (is_ready) return machine.name_session(greeting.session, code);
+  return machine.greet(greeting, code) && stands_there(session.board(), code);
 }
 
 bool ResumableRun::write_head(const Subject& subject, int& code) {
@@ -178,11 +165,20 @@ void ResumableRun::add_to(request::Start& start) {
 void ResumableRun::end(const MachineSession& session, const Answered& answered) {
   const auto trouble = session.status().trouble;
   const bool ended = !trouble && answered.outcome == Outcome::done;
-  const bool by_program = answered.fault && answered.fault->code == "program.wrong";
-  if (ended || by_program) return file_.remove();
-  // The machine's place is not certain. So --resume would be refused, and the note below would be wrong.
-  if (trouble == LinkError::stopped || trouble == LinkError::was_reset) return;
+  const std::string code = answered.fault ? answered.fault->code : "";
+  const bool never_began = code.starts_with("machine.");
+  if (ended || never_began || code == "program.wrong") return file_.remove();
   if (writer_.failed()) return note(file_.path() + ": this journal could not be written");
+  if (trouble && *trouble != LinkError::no_answer) return;  // --resume would be refused
+  if (trouble) {
+    return note(
+        "the program has not come to its end; if the board keeps its power, the same command with --resume goes "
+        "on with it");
+  }
+  const std::optional<std::string> text = read_state_file(file_.path());
+  const std::optional<Journal> journal = text ? Journal::read(*text) : std::nullopt;
+  const auto& status = session.board().status();
+  if (!journal || !status || refuse_rest(*journal, *status)) return;
   note("the program has not come to its end; the same command with --resume goes on with it");
 }
 

@@ -27,17 +27,23 @@ class ResumableRun {
     std::uint64_t path;  // the path's fingerprint
   };
   // Reads the journal, if there is one. With --resume there must be a journal of this program on this machine. If there
-  // is none, shows a message, sets `code` and returns null. If no journal can be kept, returns null with `code` ==
-  // exit_done.
-  static std::unique_ptr<ResumableRun> open(const Subject& subject, int& code);
+  // is none, or if another program writes the journal, shows a message, sets `code` and returns null. If no journal can
+  // be kept, returns null with `code` == exit_done.
+  static std::unique_ptr<ResumableRun> open(const RunArguments& arguments, int& code);
+  // The path of the journal of such a run; empty: there is no place for it.
+  static std::string journal_of(const RunArguments& arguments);
 
+  // With --resume: where the job began.
+  std::optional<Point> start() const { return resumes_ ? std::optional(before_->head().start) : std::nullopt; }
+  // With --resume, the program must mean what it meant. If it does not, shows a message and returns false.
+  [[nodiscard]] bool suits(const Subject& subject, int& code);
   // With --resume, waits until the board rests and finds the place to go on from. Writes the head of the new journal.
   // Then greets the board with the head's numbers; if the machine is already ready, only names the session. If the
-  // program cannot begin, shows a message and returns false.
+  // program cannot begin, shows a message and returns false. Call it after suits().
   [[nodiscard]] bool begin(OpenedMachine& machine, const ProgramReader& program, const Subject& subject, int& code);
   void add_to(request::Start& start);
-  // Call it after the run. Removes the journal if the program has come to its end or is wrong. Otherwise the journal
-  // stays.
+  // Call it after the run. Removes the journal if the program has come to its end, is wrong, or did not begin.
+  // Otherwise the journal stays.
   void end(const MachineSession& session, const Answered& answered);
 
  private:

@@ -31,6 +31,11 @@
 namespace passo {
 namespace {
 
+// An emulated board ends with the run, so its journal would be useless.
+bool keeps_journal(const RunArguments& arguments) {
+  return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
+}
+
 // The clock for the progress line is read once in so many turns.
 constexpr unsigned turns_between_looks = 1024;
 
@@ -45,11 +50,10 @@ struct Before {
 
 Before before_program(OpenedMachine& machine) {
   if (machine.session().homing() == nullptr) return {};
-  const BoardSession& board = machine.session().board();
   return {.counts = machine.machine().counts(),
           .time = machine.machine().now(),
-          .frames = board.frames_sent(),
-          .bytes = board.bytes_sent()};
+          .frames = machine.frames_sent(),
+          .bytes = machine.bytes_sent()};
 }
 
 void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescription& machine, const Before& before) {
@@ -59,8 +63,8 @@ void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescript
   const Ticks time{opened.machine().now().count - before.time.count};
   board.end = Seconds(static_cast<double>(time.count) / machine.board.clock.value());
   board.events = static_cast<std::uint64_t>(counts.events - before.counts.events);
-  board.frames = link.frames_sent() - before.frames;
-  board.bytes = link.bytes_sent() - before.bytes;
+  board.frames = opened.frames_sent() - before.frames;
+  board.bytes = opened.bytes_sent() - before.bytes;
   if (const Refiller* refiller = opened.session().refiller(); refiller != nullptr && link.board()) {
     board.held_items = link.board()->capacity;
     board.rests = refiller->recoveries();
@@ -115,6 +119,42 @@ void count(const ProbeOutcome& outcome, const MachineDescription& machine, Probe
   probes.farthest_overrun = std::max(probes.farthest_overrun, Mm(length_of(outcome.rest - outcome.contact)));
 }
 
+// The files of the command line. A run writes the tool table and the parameter file when it has read them.
+bool files_are_apart(const RunArguments& arguments, const InterpreterOptions& options) {
+  NamedFiles files = files_of(arguments.program, options);
+  files.reads("the machine file", arguments.machine);
+  for (const std::string& path : arguments.pictures) files.writes("--picture", path);
+  for (const std::string& path : arguments.traces) files.writes("--trace", path);
+  files.writes("--report", arguments.report);
+  if (keeps_journal(arguments)) files.writes("--journal", ResumableRun::journal_of(arguments));
+  return files.are_apart();
+}
+
+// Where the program begins. Empty, with a message and `code`: nobody knows.
+std::optional<Point> start_of(const RunArguments& arguments, const MachineDescription& machine, OpenedMachine& opened,
+                              const ResumableRun* resumable, int& code) {
+  if (resumable != nullptr && resumable->start()) return resumable->start();
+  const auto known = opened.place();
+  Point start = known ? known->place : Point();
+  if (arguments.from_here) {
+    if (known && known->trust == Trust::homed) {
+      note("the machine was homed, and stood at " + place_words(machine, start) + "; from now on that is machine zero");
+    }
+    start = Point();
+    opened.start_at({.place = start, .trust = Trust::commanded});
+  } else if (!known && !(arguments.home && machine.homing.size() == machine.axes.size())) {
+    code = fail(exit_failed, fmt::format("{}: where the machine stands is not known: {}. --home finds it out by the "
+                                         "switches; --from-here if it stands at machine zero; --resume goes on with a "
+                                         "job that was broken off [run.place-unknown]",
+                                         arguments.board, message_of(known.error())));
+    return {};
+  }
+  if (arguments.home) return home_rest(machine, start);
+  if (start != Point() && !arguments.quiet)
+    note("the program begins at " + place_words(machine, start) + " (machine coordinates)");
+  return start;
+}
+
 // All that a run needs.
 struct Run {
   const RunArguments& arguments;
@@ -149,12 +189,12 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   } else {
     ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
     bool brakes = false;
-    for (unsigned turns = 0; session.busy() && !run.outputs.failed(); ++turns) {
-      if (interrupted_by() != 0 && !std::exchange(brakes, true)) stop(session);
+    for (unsigned turns = 0; session.busy(); ++turns) {
+      if ((interrupted_by() != 0 || run.outputs.failed()) && !std::exchange(brakes, true)) stop(session);
       const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
       session.turn(std::min(most, prompt.look(session)));
       if (!run.opened.has_board()) tails.look(session, run.opened.machine(), machine);
-      load.look(session.now(), session.board().bytes_sent());
+      load.look(session.now(), run.opened.bytes_sent());
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
     answered = answer_of(session.take_changes(), *ticket);
@@ -195,11 +235,6 @@ bool names_are_good(const RunArguments& arguments) {
   return true;
 }
 
-// An emulated board ends with the run, so its journal would be useless.
-bool keeps_journal(const RunArguments& arguments) {
-  return arguments.board != "virtual" && !arguments.board.starts_with("sim:");
-}
-
 // Homes the machine before the program. Returns the exit code.
 int home_first(OpenedMachine& machine, bool shows) {
   const HomingReport report = home_machine(machine, shows);
@@ -208,17 +243,23 @@ int home_first(OpenedMachine& machine, bool shows) {
   return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }
 
-// Makes the machine ready, homes it if that is asked for, and begins the journal. If there is a board, Ctrl-C brakes
-// from here on. Returns the exit code.
+// Makes the machine ready, homes it if that is asked for, and begins the journal. From here on Ctrl-C brakes. Returns
+// the exit code.
 int make_ready(const ResumableRun::Subject& subject, const ProgramReader& program, OpenedMachine& machine,
                ResumableRun* resumable) {
   const RunArguments& arguments = subject.arguments;
   int code = exit_done;
-  if (machine.has_board()) brake_on_signals();
+  brake_on_signals();
   // With --resume the machine is not homed again, because it was homed before the job began.
   const bool homes = arguments.home && !arguments.resume;
-  if ((homes || resumable == nullptr) && !machine.greet(machine.usual_greeting(), code)) return code;
-  if (homes) code = home_first(machine, !arguments.quiet);
+  if (const auto closed = machine.session().closed_limit(); closed && !homes) {
+    return fail(exit_failed, words_of(*closed));
+  }
+  if ((homes || resumable == nullptr) && !machine.greet(machine.any_greeting(), code)) return code;
+  if (homes) {
+    code = home_first(machine, !arguments.quiet);
+    machine.keep_place();
+  }
   if (code == exit_done && resumable != nullptr) {
     static_cast<void>(resumable->begin(machine, program, subject, code));
   }
@@ -231,7 +272,7 @@ int print(const RunSummary& summary, const RunArguments& arguments) {
   } else if (!arguments.quiet) {
     std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
   }
-  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+  return flush_output();
 }
 
 bool suits_the_board(const RunArguments& arguments) {
@@ -242,9 +283,101 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
   } else if (!arguments.touches.empty() && keeps_journal(arguments)) {
     words = "--touch is for the virtual machine and emulated boards";
+  } else if (arguments.from_here && arguments.resume) {
+    words = "--resume knows where the job began, so --from-here has no place beside it";
   }
   if (words != nullptr) fail(exit_bad_program, words);
   return words == nullptr;
+}
+
+// What is left to say and to write when a program has ended. Returns the exit code.
+int end_run(const Run& run, const Answered& answered, const RunSummary& summary, const Diagnostics& late,
+            LengthUnits machine_units) {
+  MachineSession& session = run.opened.session();
+  if (session.status().trouble) return fail(exit_failed, "the board: " + trouble_words(session));
+  if (answered.fault && answered.fault->code.starts_with("board.")) {
+    return fail(exit_failed, "the board: " + answered.fault->message);
+  }
+  if (const auto words = run.opened.compare()) return fail(exit_failed, "the board: " + *words);
+  if (run.opened.has_board()) tell_tails(session);
+  if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
+    show(late);
+    const int failed = fail(exit_failed, stopped_words(answered, summary));
+    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
+  }
+  const Status<OutputError> written =
+      run.outputs.commit(summary, session.program()->saved_parameters(), session.program()->tools(), machine_units);
+  if (!written) return fail(exit_failed, written.error().message);
+  return print(summary, run.arguments);
+}
+
+// Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
+int run_checked(const ResumableRun::Subject& subject, ProgramReader program, OpenedMachine& opened,
+                ResumableRun* resumable, MidRunChanges& changes, const ProgramStops& stops) {
+  const RunArguments& arguments = subject.arguments;
+  const std::string tools =
+      subject.check.tools_change ? tool_table_file(arguments.program, subject.options) : std::string();
+  Result<RunOutputs, OutputError> outputs =
+      RunOutputs::open(arguments, subject.machine, parameter_file(arguments.program, subject.options), tools);
+  if (!outputs) return fail(exit_failed, outputs.error().message);
+  const int code = make_ready(subject, program, opened, resumable);
+  if (code != exit_done) return code;
+
+  Diagnostics late;
+  request::Start start{.program = std::move(program),
+                       .options = subject.options,
+                       .nominal_time = subject.check.nominal_time,
+                       .waits_for_operator = !arguments.yes && (keeps_journal(arguments) || asks_operator()),
+                       .live = changes.any(),
+                       .findings = &late};
+  if (resumable != nullptr) resumable->add_to(start);
+  if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
+  Answered answered;
+  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs};
+  const RunSummary summary = play(run, std::move(start), answered);
+  if (resumable != nullptr) resumable->end(opened.session(), answered);
+  return end_run(run, answered, summary, late, subject.options.machine_units);
+}
+
+// A program with probe moves has no journal, so the journal that is missing is not the reason.
+bool probes(const ProgramReader& program, const MachineDescription& machine, const InterpreterOptions& options) {
+  Diagnostics unheard;
+  return check_program(program.again(), machine, options, unheard).probes;
+}
+int refuse_to_resume_probing() {
+  return fail(exit_bad_program, "--resume: not for a program with probe moves yet");
+}
+
+// Opens the machine, checks the program from where the machine stands, and runs the program. Returns the exit code.
+int run_program(const RunArguments& arguments, const MachineDescription& machine, const MachineWish& wish,
+                ProgramReader program, InterpreterOptions options, MidRunChanges& changes) {
+  int code = exit_done;
+  std::unique_ptr<ResumableRun> resumable;
+  if (keeps_journal(arguments)) resumable = ResumableRun::open(arguments, code);
+  if (code == exit_not_resumed && probes(program, machine, options)) return refuse_to_resume_probing();
+  if (code != exit_done) return code;
+  const auto opened = OpenedMachine::open(machine, wish, code);
+  if (!opened) return code;
+  const std::optional<Point> begins_at = start_of(arguments, machine, *opened, resumable.get(), code);
+  if (!begins_at) return code;
+  options.start = *begins_at;
+
+  Diagnostics findings;
+  PathFingerprint path;
+  ProgramStops stops;
+  const ProgramCheck check = check_program(program.again(), machine, options, findings, [&](const PathItem& item) {
+    if (resumable) path.add(item);
+    stops.watch(item);
+  });
+  show(findings);
+  if (!check.good) return exit_bad_program;
+  if (check.probes) {
+    if (arguments.resume) return refuse_to_resume_probing();
+    resumable.reset();
+  }
+  const ResumableRun::Subject subject{arguments, machine, options, check, path.value()};
+  if (resumable && !resumable->suits(subject, code)) return code;
+  return run_checked(subject, std::move(program), *opened, resumable.get(), changes, stops);
 }
 
 }  // namespace
@@ -269,65 +402,12 @@ int run(const RunArguments& arguments) {
   if (arguments.home && machine->homing.empty()) {
     return fail(exit_bad_machine, words_without_homing(arguments.machine));
   }
-  if (arguments.home) options->start = home_rest(*machine);
-  Diagnostics findings;
-  PathFingerprint path;
-  ProgramStops stops;
-  const ProgramCheck check = check_program(program->again(), *machine, *options, findings, [&](const PathItem& item) {
-    if (keeps_journal(arguments)) path.add(item);
-    stops.watch(item);
-  });
-  show(findings);
-  if (!check.good) return exit_bad_program;
-  if (!suits_the_board(arguments)) return exit_bad_program;
+  if (!suits_the_board(arguments) || !files_are_apart(arguments, *options)) return exit_bad_program;
 
   end_on_signals();
-  const std::string tools = check.tools_change ? tool_table_file(arguments.program, *options) : std::string();
-  Result<RunOutputs, OutputError> outputs =
-      RunOutputs::open(arguments, *machine, parameter_file(arguments.program, *options), tools);
-  if (!outputs) return fail(exit_failed, outputs.error().message);
-
-  int code = exit_done;
-  std::unique_ptr<ResumableRun> resumable;
-  const ResumableRun::Subject subject{arguments, *machine, *options, check, path.value()};
-  if (keeps_journal(arguments)) resumable = ResumableRun::open(subject, code);
-  if (code != exit_done) return code;
-  const auto opened = OpenedMachine::open(
-      *machine, {.board = arguments.board, .cut = cut, .boxes = *boxes, .may_move = arguments.resume}, code);
-  if (!opened) return code;
-  code = make_ready(subject, *program, *opened, resumable.get());
-  if (code != exit_done) return code;
-
-  Diagnostics late;
-  request::Start start{.program = std::move(*program),
-                       .options = *options,
-                       .nominal_time = check.nominal_time,
-                       .waits_for_operator = !arguments.yes && (keeps_journal(arguments) || asks_operator()),
-                       .live = changes->any(),
-                       .findings = &late};
-  if (resumable) resumable->add_to(start);
-  if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
-  Answered answered;
-  const RunSummary summary =
-      play({arguments, *machine, check, *opened, *changes, *outputs}, std::move(start), answered);
-  const MachineSession& session = opened->session();
-  if (resumable) resumable->end(session, answered);
-  if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
-  if (answered.fault && answered.fault->code.starts_with("board.")) {
-    return fail(exit_failed, "the board: " + answered.fault->message);
-  }
-  if (const auto words = opened->compare()) return fail(exit_failed, "the board: " + *words);
-  if (opened->has_board()) tell_tails(session);
-  if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
-    show(late);
-    const int failed = fail(exit_failed, stopped_words(answered, summary));
-    return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
-  }
-  const Status<OutputError> written = outputs->commit(summary, session.program()->saved_parameters(),
-                                                      session.program()->tools(), options->machine_units);
-  if (!written) return fail(exit_failed, written.error().message);
-
-  return print(summary, arguments);
+  return run_program(arguments, *machine,
+                     {.board = arguments.board, .cut = cut, .boxes = *boxes, .may_move = arguments.resume},
+                     std::move(*program), std::move(*options), *changes);
 }
 
 }  // namespace passo

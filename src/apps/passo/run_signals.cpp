@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "run_outputs.hpp"
 #include <unistd.h>
+
+#include "passo/report/nameless_file.hpp"
 
 namespace passo {
 namespace {
@@ -13,31 +14,53 @@ namespace {
 volatile std::sig_atomic_t first_signal = 0;
 
 extern "C" void end_on_signal(int signal) {
-  OutputFile::remove_unfinished();
+  NamelessFile::remove_unfinished();
   std::_Exit(128 + signal);
 }
 
+extern "C" void leave_on_signal(int signal) {
+  constexpr std::string_view words = "\npasso: interrupted; nothing has moved, and nothing was written\n";
+  static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
+  end_on_signal(signal);
+}
+
 extern "C" void brake_on_signal(int signal) {
-  if (first_signal != 0) end_on_signal(signal);
+  if (first_signal != 0) {
+    // A terminal that is closed may say so twice: from the shell, and by itself. Nobody has asked to leave at once.
+    if (signal == SIGHUP) return;
+    end_on_signal(signal);
+  }
   first_signal = signal;
   constexpr std::string_view words = "\npasso: brakes on the path; a second time leaves at once\n";
   static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
 }
 
+using Handler = void (*)(int);
+
+void handle_with(Handler handler) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
+  // Who starts a command by nohup wants it to go on when the terminal is closed.
+  if (std::signal(SIGHUP, handler) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  outlive_readers();
+}
+
 }  // namespace
 
 void end_on_signals() {
-  std::signal(SIGINT, end_on_signal);
-  std::signal(SIGTERM, end_on_signal);
+  handle_with(leave_on_signal);
 }
 
 void brake_on_signals() {
-  std::signal(SIGINT, brake_on_signal);
-  std::signal(SIGTERM, brake_on_signal);
+  handle_with(brake_on_signal);
 }
 
 int interrupted_by() {
   return first_signal;
+}
+
+void outlive_readers() {
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 }  // namespace passo

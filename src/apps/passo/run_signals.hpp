@@ -1,14 +1,19 @@
-// The signals that Ctrl-C and `kill` send to a command. A command that moves a board brakes first; any other command
-// ends.
+// The signals that Ctrl-C, `kill` and a terminal that is closed send to a command. A command that moves a machine
+// brakes first; any other command ends.
+//
+// A reader that goes away (SIGPIPE) ends no command that has called one of these functions: its next write fails. See
+// flush_output().
 #pragma once
 
 namespace passo {
 
-// From now on a signal ends the program. Output files that were begun are removed.
+// From now on a signal ends the program, which has moved nothing yet. Output files that were begun are removed.
 void end_on_signals();
 // From now on interrupted_by() reports the first signal, and a second signal ends the program.
 void brake_on_signals();
 // The signal's number; 0: no signal has come.
 int interrupted_by();
+// For a program without such signals: a reader that goes away is no reason to end.
+void outlive_readers();
 
 }  // namespace passo

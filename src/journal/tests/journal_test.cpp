@@ -15,10 +15,8 @@ JournalHead some_head() {
           .machine = {.name = "/m.toml", .size = 1, .fingerprint = 2},
           .path = 77,
           .job_counts = {5, -2'000'000'000, 0},
-          .session_before = 11,
-          .executed_before = 65'000,
-          .greeting = 200,
-          .session = 300,
+          .start = {{{1.0 / 3, -2}}},
+          .numbers = {.session_before = 11, .executed_before = 65'000, .greeting = 200, .session = 300},
           .place = {.item = 40, .s = Mm(0.1 + 0.2)}};
 }
 
@@ -68,7 +66,7 @@ TEST_F(Journals, know_a_board_that_has_not_heard_all_of_the_greeting) {
 
 TEST_F(Journals, take_a_board_for_reset_that_had_heard_the_session_and_has_forgotten_it) {
   JournalHead head = some_head();
-  head.session_before = head.executed_before = 0;
+  head.numbers.session_before = head.numbers.executed_before = 0;
   writer_.begin(head);
   EXPECT_TRUE(journal().is_of(status(0, 0, 0))) << "as it was, and nothing was sent";
   note(201, 1);

@@ -115,8 +115,8 @@ class Resumptions : public testing::Test {
     JournalWriter writer(store_);
     JournalHead head;
     head.job_counts = {1000, -50};
-    head.greeting = 7;
-    head.session = 99;
+    head.numbers.greeting = 7;
+    head.numbers.session = 99;
     writer.begin(head);
     writer.note({.executed = 20, .place = {.item = 4, .s = Mm(2)}});
     status_.positions[0] = 1300;

@@ -1,5 +1,6 @@
 #include "passo/report/output_file.hpp"
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -56,7 +57,7 @@ TEST_F(OutputFileTest, leaves_nothing_behind_without_commit_and_keeps_the_older_
     auto file = OutputFile::open(path("part.vcd"));
     ASSERT_TRUE(file);
     file->write(std::string(3 * OutputFile::buffer_size, 'x'));
-    EXPECT_EQ(files(), 2U);
+    EXPECT_EQ(files(), 1U);
   }
   EXPECT_EQ(files(), 1U);
   EXPECT_EQ(content(path("part.vcd")), "older");
@@ -134,21 +135,23 @@ TEST_F(OutputFileTest, a_full_disk_is_told_at_commit_and_stops_the_writing) {
   EXPECT_EQ(done.error().message, "cannot write /dev/full: the disk is full");
 }
 
-TEST_F(OutputFileTest, a_signal_handler_can_remove_what_is_unfinished) {
+TEST_F(OutputFileTest, nothing_stays_of_a_program_that_is_killed) {
+  create(path("older"), "older");
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    auto file = OutputFile::open(path("interrupted"));
-    if (!file) ::_exit(2);
-    file->write(std::string(2 * OutputFile::buffer_size, 'x'));
-    const bool there = files() == 1;
-    OutputFile::remove_unfinished();
-    ::_exit(there ? 0 : 3);  // a handler ends the program like this: no destructor runs
+    auto fresh = OutputFile::open(path("fresh"));
+    auto older = OutputFile::open(path("older"));
+    if (!fresh || !older) ::_exit(2);
+    fresh->write(std::string(2 * OutputFile::buffer_size, 'x'));
+    older->write(std::string(2 * OutputFile::buffer_size, 'x'));
+    ::raise(SIGKILL);
   }
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_EQ(status, 0);
-  EXPECT_EQ(files(), 0U);
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(content(path("older")), "older");
 }
 
 }  // namespace

@@ -23,6 +23,8 @@
 
 #include "passo/base/result.hpp"
 #include "passo/drive/refiller.hpp"
+#include "passo/geometry/axes.hpp"
+#include "passo/journal/session_numbers.hpp"
 #include "passo/wire/message.hpp"
 
 namespace passo {
@@ -41,12 +43,9 @@ struct JournalHead {
   FileStamp machine;            // the machine's file
   std::uint64_t path = 0;       // fingerprint of the program's path
   std::vector<int> job_counts;  // the board's count of each motor at machine zero
-  // The board's numbers before this session's hello, and the numbers that the board is told.
-  std::uint16_t session_before = 0;
-  ItemNumber executed_before = 0;
-  std::uint8_t greeting = 0;  // 0: no hello, the board hears only the session's number
-  std::uint16_t session = 0;  // not 0
-  PathPlace place;            // where this session begins
+  Point start;                  // where the job began, machine coordinates
+  SessionNumbers numbers;
+  PathPlace place;  // where this session begins
   friend bool operator==(const JournalHead&, const JournalHead&) = default;
 };
 
@@ -83,23 +82,19 @@ class Journal {
  public:
   // Empty if the head is damaged.
   static std::optional<Journal> read(std::string_view text);
+  // True: the text is a journal of any version, whole or not.
+  static bool is_journal(std::string_view text);
 
   const JournalHead& head() const { return head_; }
   // True: the board last worked on this job.
-  bool is_of(const BoardStatus& status) const { return state_of(status) != State::another; }
+  bool is_of(const BoardStatus& status) const { return stage_of(status) != SessionNumbers::Stage::another; }
   // Where on the path the board rests. The status must be one at rest. Empty: the journal does not know that rest.
   std::optional<PathPlace> place_of(const BoardStatus& status) const;
   // Lines that were torn in writing.
   std::size_t torn() const { return torn_; }
 
  private:
-  enum class State : std::uint8_t {
-    another,         // the board was reset, or has heard of another session
-    before_hello,    // the board is as it was before this session
-    before_session,  // the board has heard this session's hello
-    in_session,
-  };
-  State state_of(const BoardStatus& status) const;
+  SessionNumbers::Stage stage_of(const BoardStatus& status) const;
 
   JournalHead head_;
   std::vector<BoardRest> rests_;  // the latest first

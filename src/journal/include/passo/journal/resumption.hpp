@@ -34,6 +34,8 @@ std::string_view message_of(ResumeRefusal refusal);
 
 // Why this board, moving or not, cannot be the one that last worked on the journal's job. Empty: the board is that one.
 std::optional<ResumeRefusal> refuse_stranger(const Journal& journal, const BoardStatus& status);
+// Why the job cannot go on from where this board rests, as far as that is known without the program. Empty: it can.
+std::optional<ResumeRefusal> refuse_rest(const Journal& journal, const BoardStatus& status);
 
 // Where the job goes on. The status must be one of a board at rest.
 Result<ResumePoint, ResumeRefusal> resume_point_of(const Journal& journal, const BoardStatus& status,

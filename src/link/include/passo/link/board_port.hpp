@@ -24,6 +24,8 @@ class BoardPort {
   [[nodiscard]] virtual bool run(Seconds most) = 0;
   // Takes what the board has said since the last call. The bytes are valid until the next call of any kind.
   virtual std::span<const std::uint8_t> replies() = 0;
+  // True: the other side has closed the line, and has said nothing since.
+  virtual bool hung_up() const { return false; }
   // The time on this side, from any start.
   virtual Seconds elapsed() const = 0;
 };

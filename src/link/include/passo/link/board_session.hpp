@@ -118,6 +118,8 @@ class BoardSession final : public Link {
   std::uint8_t motors() const { return motors_; }
   // The board's answer to the hello. Empty: the board has not answered.
   const std::optional<HelloReply>& board() const { return board_; }
+  // True: the other side of the line has closed it.
+  bool hung_up() const { return port_.hung_up(); }
   // The board's last status, and when it was heard.
   const std::optional<BoardStatus>& status() const { return status_; }
   Seconds status_time() const { return status_time_; }

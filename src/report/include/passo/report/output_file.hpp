@@ -1,8 +1,9 @@
 // OutputFile: a file that appears either whole or not at all. Every writer of the program uses OutputFile.
 //
-// Bytes go to a temporary name in the same directory. commit() gives the file its name in one step (rename). So a
-// reader never sees half a file, and an older file stays until the new one is complete. Without commit() nothing
-// remains. "-" is standard output. A path that is no regular file (a device, a pipe) is written to directly.
+// Bytes go to a file without a name (NamelessFile). commit() gives the file its name in one step. So a reader never
+// sees half a file, and an older file stays until the new one is complete. Without commit() nothing remains, even if
+// the program is killed. "-" is standard output. A path that is no regular file (a device, a pipe) is written to
+// directly.
 //
 // write() never reports an error. The first error is kept, all bytes after the error are dropped, and commit() returns
 // the error. A writer of gigabytes should ask failed() now and then.
@@ -37,10 +38,6 @@ class OutputFile {
   std::uint64_t size() const;
   // Hands the last bytes to the system and gives the file its name. Call it once.
   Status<OutputError> commit();
-
-  // For a signal handler that ends the program: removes the temporary files of all OutputFiles that are open.
-  // Async-signal-safe.
-  static void remove_unfinished() noexcept;
 
  private:
   struct State;

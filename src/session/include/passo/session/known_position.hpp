@@ -12,7 +12,7 @@ enum class Trust : std::uint8_t {
   unknown,    // nobody knows: the machine was never homed, or the motors were stopped at once
   commanded,  // the board has played what was sent, as far as the host knows
   counted,    // the board's counts agree with what was commanded
-  homed,      // counted, from a place that the switches have shown
+  homed,      // counted, from a place that the switches have shown; axes without a switch: from a known place
 };
 constexpr std::string_view name_of(Trust trust) {
   switch (trust) {

@@ -51,6 +51,8 @@ class MachineSession {
   // board.
   BoardSession& board() { return board_; }
   const BoardSession& board() const { return board_; }
+  // Says where the machine stands, before greet() or the first turn(), if that depends on the board's status.
+  void start_at(const KnownPosition& position) { position_ = position; }
   // Greets the board before the first turn(), if the greeting depends on the board's status. Otherwise the greeting
   // comes from SessionOptions.
   void greet(const Greeting& greeting);
@@ -84,6 +86,11 @@ class MachineSession {
     std::int64_t commanded = 0;
   };
   const std::optional<CountMismatch>& mismatch() const { return mismatch_; }
+  // Over a line, when the machine is ready: the board's counts at machine zero.
+  const std::optional<MotorSteps>& zero_counts() const { return zero_counts_; }
+  // Why no program may begin, as far as the board's switches tell: a limit switch is closed, so the board would not
+  // stop at that end any more. Empty: nothing is in the way.
+  std::optional<Refusal> closed_limit() const;
 
  private:
   class Work;
@@ -108,6 +115,7 @@ class MachineSession {
   Answer take(request::Wake& wake);
   std::optional<Refusal> refuse(MachineEvent event) const;
   Refusal why_not() const;
+  std::optional<Refusal> refuse_way(const Point& way) const;
   Answer at_once();
   Answer begin(MachineEvent event, std::unique_ptr<Work> work);
   DriveOptions drive_options() const;

@@ -42,7 +42,8 @@ struct Start {
   Watchers watchers = {};
   Diagnostics* findings = nullptr;  // gets what is found during the run; outlives the run. Null: nobody looks
 };
-// Moves axes for as long as the lease is renewed. The machine begins to brake before the lease is over.
+// Moves axes for as long as the lease is renewed. The machine begins to brake before the lease is over. No axis moves
+// towards a limit switch that is closed.
 struct Jog {
   // A lease has to be longer than the committed motion. An operator who does not renew a lease for `longest_lease` is
   // gone.
@@ -108,6 +109,7 @@ enum class RefusalCode : std::uint8_t {
   door_open,     // the door has to be closed first
   no_switches,   // the machine has no switches for homing
   bad_value,     // not a number, or out of range
+  limit_closed,  // a limit switch is closed: only a jog off it or homing is possible
 };
 std::string_view code_of(RefusalCode code);
 

@@ -32,6 +32,7 @@ class StreamPort final : public BoardPort {
   std::span<const std::uint8_t> replies() override;
   Seconds elapsed() const override;
 
+  bool hung_up() const override { return hung_up_; }
   // Whether the device has gone or the other side has closed.
   bool broken() const { return broken_; }
 
@@ -42,6 +43,7 @@ class StreamPort final : public BoardPort {
   int descriptor_;
   std::function<int()> open_again_;
   bool broken_ = false;
+  bool hung_up_ = false;
   std::vector<std::uint8_t> arrived_;
   std::vector<std::uint8_t> taken_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -1,0 +1,107 @@
+#include "passo/session/place_record.hpp"
+
+#include <fmt/format.h>
+
+#include "passo/activity/stage_options.hpp"
+#include "passo/base/fingerprint.hpp"
+#include "passo/journal/record_text.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::string_view title = "passo place 1\n";
+
+std::optional<Trust> read_trust(RecordWords& words) {
+  const auto value = words.number<unsigned>();
+  return value <= static_cast<unsigned>(Trust::homed) ? std::optional(static_cast<Trust>(value)) : std::nullopt;
+}
+
+// Why the board is not the one of the record, if it is not. A board that was never greeted looks like one that was
+// reset, so it is not believed even if it seems to wait for its first hello.
+std::optional<PlaceDoubt> refuse_board(const SessionNumbers& numbers, const BoardStatus& status) {
+  using Stage = SessionNumbers::Stage;
+  const Stage stage = numbers.stage_of(status, true);
+  const bool is_fresh = stage == Stage::before_hello && numbers.session_before == 0;
+  if (stage != Stage::another && !is_fresh) return {};
+  return status.session == 0 && status.motors == 0 ? PlaceDoubt::board_reset : PlaceDoubt::other_session;
+}
+
+}  // namespace
+
+std::uint64_t place_fingerprint(const MachineDescription& machine) {
+  Fingerprint fingerprint;
+  for (const AxisDescription& axis : machine.axes) {
+    fingerprint.add(std::uint64_t{static_cast<unsigned char>(letter_of(axis.axis))});
+    fingerprint.add(axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
+    if (!axis.home) continue;
+    fingerprint.add(axis.home->switch_at);
+    fingerprint.add(std::uint64_t{axis.home->toward_high});
+  }
+  return fingerprint.value();
+}
+
+std::string text_of(const PlaceRecord& record) {
+  std::string text(title);
+  text += fmt::format("machine {:016x}\ntrust {}\nzero {}", record.machine, static_cast<unsigned>(record.trust),
+                      record.zero_counts.size());
+  for (const int count : record.zero_counts) text += fmt::format(" {}", count);
+  const SessionNumbers& numbers = record.numbers;
+  text += fmt::format("\nbefore {} {}\nsession {} {}\n", numbers.session_before, numbers.executed_before,
+                      numbers.greeting, numbers.session);
+  end_record(text);
+  return text;
+}
+
+std::optional<PlaceRecord> read_place_record(std::string_view text) {
+  const std::optional<RecordParts> parts = read_record(text, title);
+  if (!parts) return {};
+  RecordWords words(parts->body);
+  PlaceRecord record;
+  words.expect("machine");
+  record.machine = words.number<std::uint64_t>(16);
+  words.expect("trust");
+  const std::optional<Trust> trust = read_trust(words);
+  words.expect("zero");
+  const auto motors = words.number<std::size_t>();
+  if (!trust || motors > max_motors) return {};
+  record.trust = *trust;
+  for (std::size_t m = 0; m < motors; ++m) record.zero_counts.push_back(words.number<int>());
+  words.expect("before");
+  record.numbers.session_before = words.number<std::uint16_t>();
+  record.numbers.executed_before = words.number<std::uint16_t>();
+  words.expect("session");
+  record.numbers.greeting = words.number<std::uint8_t>();
+  record.numbers.session = words.number<std::uint16_t>();
+  if (!words.good() || !words.at_end() || record.numbers.session == 0) return {};
+  return record;
+}
+
+std::string_view message_of(PlaceDoubt doubt) {
+  switch (doubt) {
+    case PlaceDoubt::no_record: return "it was never homed, and nobody has said where it stands";
+    case PlaceDoubt::other_machine: return "the machine file is another, or was changed";
+    case PlaceDoubt::board_reset: return "its board was reset or switched off";
+    case PlaceDoubt::other_session: return "another program was run on its board";
+    case PlaceDoubt::stopped_at_once: return "its motors were stopped at once and may have lost steps";
+  }
+  return "its place is in doubt";
+}
+
+Result<KnownPosition, PlaceDoubt> place_of(const std::optional<PlaceRecord>& record, const MachineDescription& machine,
+                                           const BoardStatus& status) {
+  if (!record || record->trust == Trust::unknown) return Failure{PlaceDoubt::no_record};
+  if (record->machine != place_fingerprint(machine) || record->zero_counts.size() != machine.axes.size()) {
+    return Failure{PlaceDoubt::other_machine};
+  }
+  if (const auto refused = refuse_board(record->numbers, status)) return Failure{*refused};
+  if ((status.state & board_trusted) == 0) return Failure{PlaceDoubt::stopped_at_once};
+  KnownPosition position{.place = Point(), .trust = record->trust};
+  const StepOptions steps = step_options(machine);
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const auto counted = static_cast<double>(std::int64_t{status.positions[m]} - record->zero_counts[m]);
+    position.place[steps.motors[m].axis] = counted / steps.motors[m].steps_per_unit;
+  }
+  return position;
+}
+
+}  // namespace passo

@@ -1,0 +1,83 @@
+#include "passo/session/place_record.hpp"
+
+#include <string>
+
+#include "kit/example_machine.hpp"
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+class PlaceRecords : public testing::Test {
+ protected:
+  PlaceRecords() {
+    record_ = {.machine = place_fingerprint(machine_),
+               .trust = Trust::homed,
+               .zero_counts = {1000, -2'000'000'000, 7},
+               .numbers = {.session_before = 11, .executed_before = 65'000, .greeting = 200, .session = 300}};
+    status_.positions[0] = 1000 + 640;
+    status_.positions[1] = -2'000'000'000;
+    status_.positions[2] = 7 - 1280;
+  }
+  Result<KnownPosition, PlaceDoubt> place() const { return place_of(record_, machine_, status_); }
+  PlaceDoubt doubt() const {
+    const auto found = place();
+    EXPECT_FALSE(found);
+    return found ? PlaceDoubt::no_record : found.error();
+  }
+
+  MachineDescription machine_ = test::example_machine("router");
+  PlaceRecord record_;
+  BoardStatus status_{.session = 300, .executed = 4, .state = board_trusted, .motors = 3};
+};
+
+TEST_F(PlaceRecords, are_read_as_they_were_written_and_not_when_they_are_torn) {
+  const std::string text = text_of(record_);
+  EXPECT_EQ(read_place_record(text), record_);
+  for (std::size_t size = 0; size < text.size(); ++size) EXPECT_FALSE(read_place_record(text.substr(0, size)));
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string other = text;
+    other[at] = other[at] == '7' ? '8' : '7';
+    EXPECT_FALSE(read_place_record(other)) << at;
+  }
+}
+
+TEST_F(PlaceRecords, tell_the_place_by_what_the_board_has_counted_since) {
+  const auto found = place();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->trust, Trust::homed);
+  const double scale = machine_.axes[0].steps_per_unit;
+  EXPECT_EQ(found->place[Axis::x], (machine_.axes[0].inverted ? -640 : 640) / scale);
+  EXPECT_EQ(found->place[Axis::y], 0);
+}
+
+TEST_F(PlaceRecords, know_their_board_at_every_stage_of_the_next_hello) {
+  status_.session = 11;
+  status_.executed = 65'000;
+  EXPECT_TRUE(place()) << "no hello came through";
+  status_.session = 0;
+  status_.executed = 200;
+  EXPECT_TRUE(place()) << "but no session";
+}
+
+TEST_F(PlaceRecords, do_not_trust_a_board_that_was_reset) {
+  status_ = {.session = 0, .executed = 0, .state = board_trusted, .motors = 0};
+  EXPECT_EQ(doubt(), PlaceDoubt::board_reset);
+  record_.numbers.session_before = record_.numbers.executed_before = 0;
+  EXPECT_EQ(doubt(), PlaceDoubt::board_reset) << "it looks as it did before its first hello";
+}
+
+TEST_F(PlaceRecords, do_not_trust_a_board_of_another_host_or_machine_or_one_that_was_stopped_at_once) {
+  status_.session = 301;
+  EXPECT_EQ(doubt(), PlaceDoubt::other_session);
+  status_.session = 300;
+  status_.state = 0;
+  EXPECT_EQ(doubt(), PlaceDoubt::stopped_at_once);
+  status_.state = board_trusted;
+  machine_.axes[1].steps_per_unit *= 2;
+  EXPECT_EQ(doubt(), PlaceDoubt::other_machine);
+  EXPECT_FALSE(place_of(std::nullopt, machine_, status_));
+}
+
+}  // namespace
+}  // namespace passo
