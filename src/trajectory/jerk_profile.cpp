@@ -74,12 +74,12 @@ void JerkProfile::begin_in_motion(double speed) {
 // The greatest x with which each axis keeps to its velocity, by the axes' slopes at a place of the cell.
 double JerkProfile::velocity_cap(std::size_t cell, double (*slope)(const AxisShape&, double length)) const {
   if (cells_[cell].straight) return cells_[cell].top_squared;
-  double steepest = 0;  // as a multiple of the velocity
+  double fastest_axis = 0;  // as a multiple of the velocity
   const AxisShape* shape = shapes(cell);
   for (std::size_t k = 0; k < axes_.size(); ++k, ++shape) {
-    steepest = std::max(steepest, std::abs(slope(*shape, cells_[cell].length)) / axes_[k].velocity);
+    fastest_axis = std::max(fastest_axis, std::abs(slope(*shape, cells_[cell].length)) / axes_[k].velocity);
   }
-  return std::min(cells_[cell].top_squared, 1 / (steepest * steepest));
+  return std::min(cells_[cell].top_squared, 1 / (fastest_axis * fastest_axis));
 }
 
 // The cap by feed, velocities and jumps of the bend, which no acceleration changes.

@@ -72,6 +72,22 @@ TEST(JerkLimitedPlanner, short_lines_take_hardly_longer_than_the_best_s_curve) {
   }
 }
 
+// Rest to rest takes a/j + √((a/j)² + 4 d/a). A line of less than 2 a³/j² = 0.4 mm takes 4 ∛(d/2j).
+TEST(JerkLimitedPlanner, single_lines_take_the_time_of_seven_phases) {
+  const double a = 500;
+  const double j = 25'000;
+  const auto expect_best = [&](double length, double best) {
+    SCOPED_TRACE(length);
+    const double third = length / std::sqrt(3);  // along each axis, in any direction
+    EXPECT_NEAR(total_time(plan({line(xyz(0, 0), xyz(length, 0), 90)}, jerk_limits(100, a, j))), best, 1e-6 * best);
+    const MotionLimits along = jerk_limits(100 / std::sqrt(3), a / std::sqrt(3), j / std::sqrt(3));
+    EXPECT_NEAR(total_time(plan({line(xyz(0, 0), xyz(third, third, third), 90)}, along)), best, 1e-6 * best);
+  };
+  expect_best(1, a / j + std::sqrt(a / j * a / j + 4 * 1 / a));
+  expect_best(0.1, 4 * std::cbrt(0.1 / (2 * j)));
+  expect_best(0.01, 4 * std::cbrt(0.01 / (2 * j)));
+}
+
 // A sluggish machine, and a feed that it reaches after a few milliseconds.
 TEST(JerkLimitedPlanner, a_slow_feed_is_reached_at_once) {
   const double a = 500;
