@@ -124,7 +124,7 @@ int check(const CheckArguments& arguments) {
   const std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
   NamedFiles files = files_of(arguments.program, *options);
-  files.reads("--machine", arguments.machine);
+  files.reads("the machine file", arguments.machine);
   files.writes("--picture", arguments.picture);
   if (!files.are_apart()) return exit_bad_program;
 
