@@ -2,21 +2,24 @@
 //
 // The motion is p[0] to p[n] at equal steps of time h, from rest to rest. Each sample belongs to a leg of the path and
 // is at most the tolerance beside it; the last sample of a leg is that near to the corner, which the motion may not cut
-// off. With A = a h², the limit of acceleration is linear:
+// off. The limits of velocity, acceleration and jerk are those of the first, second and third differences of each axis:
 //
-//     |p[k+1] - 2 p[k] + p[k-1]| <= A   for each axis,   2 |p[1] - p[0]| <= A   and alike at the end.
+//     |p[k+1] - p[k]| <= v h,   |p[k+1] - 2 p[k] + p[k-1]| <= a h²,   |p[k+2] - 3 p[k+1] + 3 p[k] - p[k-1]| <= j h³
 //
-// The limit of velocity, |p[k+1] - p[k]| <= v h = v sqrt(A / a), is concave in A, so that the set stays convex. The
-// least A gives the least time n sqrt(A / a). Newton's method finds it along the central path of the logarithmic
-// barrier; its matrix is a band beside the column of A. The tube is taken a little too wide at the legs' ends (an
-// octagon about the circle), so the result is a lower bound but for the steps of time, and for how many samples each
-// leg has: find_optimum() tries that.
+// At both ends the motion is at rest: 2 |p[1] - p[0]| <= a h², 6 |p[1] - p[0]| <= j h³, and p[-1] = p[0]. The unknown
+// beside the samples is b, the power of h in the highest limit: in b, the limits are straight or concave, so that the
+// set is convex. The least b gives the least time n h. Newton's method finds it along the central path of the
+// logarithmic barrier; its matrix is a band beside the column of b. The tube is taken a little too wide at the legs'
+// ends (an octagon about the circle), so the result is a lower bound but for the steps of time, and for how many
+// samples each leg has: find_optimum() tries that.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -31,6 +34,7 @@ struct TubeLimits {
   double tolerance = 0.01;    // mm
   double acceleration = 500;  // mm/s², of each axis
   double velocity = 100;      // mm/s, of each axis
+  double jerk = 0;            // mm/s³, of each axis; 0: no limit
 };
 
 class TubeProgram {
@@ -52,40 +56,52 @@ class TubeProgram {
 
   // The least time, in seconds.
   double solve() {
-    const double constraints = static_cast<double>(16 * legs_.size());
-    for (double weight = constraints / a_; weight < constraints / a_ * 1e5; weight *= 4) {
-      for (int step = 0; step < 60 && newton_step(weight) > 1e-3; ++step) {
+    const double constraints = static_cast<double>(20 * legs_.size());
+    // On the central path, b is above the least by at most constraints / weight.
+    for (double weight = constraints; constraints > 1e-5 * weight * b_; weight *= 6) {
+      for (int i = 0; i < 100 && newton_step(weight * 6) > 1e-2; ++i) {
       }
     }
-    return static_cast<double>(legs_.size() - 1) * std::sqrt(a_ / limits_.acceleration);
+    return static_cast<double>(legs_.size() - 1) * step();
   }
+  // x and y of each sample.
+  const std::vector<double>& samples() const { return z_; }
 
  private:
-  static constexpr std::size_t band = 5;  // a constraint touches three samples of two axes
+  static constexpr std::size_t band = 7;  // a constraint touches four samples of two axes
   // The element `left` places before the diagonal.
   double& element(std::size_t row, std::size_t left) { return matrix_[row * (band + 1) + left]; }
   double element(std::size_t row, std::size_t left) const { return matrix_[row * (band + 1) + left]; }
 
-  // A constraint: the sum of the factors times the variables, plus `constant` plus room(A), is positive.
+  // A constraint: the sum of the factors times the variables, plus `constant` plus the room for the derivative of this
+  // order, is positive.
   struct Term {
     std::size_t variable;
     double factor;
   };
+  using Terms = std::initializer_list<Term>;
   template <class Use>
-  void each_constraint(const Use& use) const {
+  void each_limit(const Use& use) const {
     const std::size_t last = legs_.size() - 1;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const auto var = [&](std::size_t k) { return 2 * k + axis; };
       for (const double sign : {1.0, -1.0}) {
-        for (std::size_t k = 0; k <= last; ++k) {
-          if (k == 0) {
-            use(std::array<Term, 3>{{{var(1), 2 * sign}, {var(0), -2 * sign}, {var(0), 0}}}, 0.0, true);
-          } else if (k == last) {
-            use(std::array<Term, 3>{{{var(k - 1), 2 * sign}, {var(k), -2 * sign}, {var(k), 0}}}, 0.0, true);
-          } else {
-            use(std::array<Term, 3>{{{var(k - 1), sign}, {var(k), -2 * sign}, {var(k + 1), sign}}}, 0.0, true);
-          }
-          if (k < last) use(std::array<Term, 3>{{{var(k), sign}, {var(k + 1), -sign}, {var(k), 0}}}, 0.0, false);
+        const auto difference = [&](std::size_t from, std::size_t to, double times, int order) {
+          use(Terms{{var(to), times * sign}, {var(from), -times * sign}}, order);
+        };
+        for (std::size_t k = 0; k < last; ++k) difference(k, k + 1, 1, 1);
+        difference(0, 1, 2, 2);
+        difference(last, last - 1, 2, 2);
+        for (std::size_t k = 1; k < last; ++k) {
+          use(Terms{{var(k - 1), sign}, {var(k), -2 * sign}, {var(k + 1), sign}}, 2);
+        }
+        if (limits_.jerk == 0) continue;
+        difference(0, 1, 6, 3);
+        difference(last, last - 1, 6, 3);
+        use(Terms{{var(0), 2 * sign}, {var(1), -3 * sign}, {var(2), sign}}, 3);
+        use(Terms{{var(last), 2 * sign}, {var(last - 1), -3 * sign}, {var(last - 2), sign}}, 3);
+        for (std::size_t k = 1; k + 2 <= last; ++k) {
+          use(Terms{{var(k - 1), -sign}, {var(k), 3 * sign}, {var(k + 1), -3 * sign}, {var(k + 2), sign}}, 3);
         }
       }
     }
@@ -102,7 +118,7 @@ class TubeProgram {
       const bool meets = k + 1 < legs_.size() && legs_[k + 1] != legs_[k];
       const auto side = [&](double nx, double ny, double beyond) {
         const double most = beyond + nx * from.x + ny * from.y + limits_.tolerance;
-        use(std::array<Term, 3>{{{2 * k, -nx}, {2 * k + 1, -ny}, {2 * k, 0}}}, most);
+        use(Terms{{2 * k, -nx}, {2 * k + 1, -ny}}, most);
       };
       side(-ty, tx, 0);
       side(ty, -tx, 0);
@@ -119,47 +135,64 @@ class TubeProgram {
     }
   }
 
-  double step_room() const { return limits_.velocity * std::sqrt(a_ / limits_.acceleration); }
+  // The limit of the derivative of this order, times as many steps of time.
+  double room(int order) const { return limit(order) * std::pow(step(), order); }
+  double highest_order() const { return limits_.jerk > 0 ? 3 : 2; }
+  double step() const { return first_step_ * std::pow(b_, 1 / highest_order()); }  // in seconds
+  double limit(int order) const {
+    return order == 1 ? limits_.velocity : order == 2 ? limits_.acceleration : limits_.jerk;
+  }
+  std::array<double, 4> rooms() const { return {0, room(1), room(2), room(3)}; }
 
   void begin_inside() {
-    double most = 0;
-    for (std::size_t i = 2; i + 2 < z_.size(); ++i) most = std::max(most, std::abs(z_[i - 2] - 2 * z_[i] + z_[i + 2]));
-    double stride = 0;
-    for (std::size_t i = 0; i + 2 < z_.size(); ++i) stride = std::max(stride, std::abs(z_[i + 2] - z_[i]));
-    const double root = stride / limits_.velocity;
-    a_ = 1.5 * std::max({most, 2 * stride, root * root * limits_.acceleration});
+    first_step_ = 0;
+    b_ = 1;
+    each_limit([&](Terms terms, int order) {
+      const double needed = std::pow(std::abs(sum_of(terms)) / limit(order), 1.0 / order);
+      first_step_ = std::max(first_step_, 1.2 * needed);
+    });
   }
 
-  bool is_inside() const {
-    bool inside = a_ > 0;
-    if (!inside) return false;
-    const double room = step_room();
-    each_constraint([&](const std::array<Term, 3>& terms, double constant, bool accelerates) {
-      double slack = constant + (accelerates ? a_ : room);
-      for (const Term& term : terms) slack += term.factor * z_[term.variable];
-      inside = inside && slack > 0;
-    });
-    each_side([&](const std::array<Term, 3>& terms, double constant) {
-      double slack = constant;
-      for (const Term& term : terms) slack += term.factor * z_[term.variable];
-      inside = inside && slack > 0;
-    });
-    return inside;
+  double sum_of(Terms terms) const {
+    double sum = 0;
+    for (const Term& term : terms) sum += term.factor * z_[term.variable];
+    return sum;
   }
 
-  // One step on weight A - the sum of the logarithms of all slacks. Returns half the square of Newton's decrement.
+  // What Newton's method makes least: weight b - the sum of the logarithms of all slacks. Infinite outside.
+  double merit(double weight) const {
+    constexpr double outside = std::numeric_limits<double>::infinity();
+    if (!(b_ > 0)) return outside;
+    const std::array<double, 4> most = rooms();
+    double sum = weight * b_;
+    double product = 1;  // of slacks: one logarithm for many
+    const auto take = [&](double slack) {
+      if (!(slack > 0)) {
+        sum = outside;
+        return;
+      }
+      product *= slack;
+      if (product < 1e-200 || product > 1e200) {
+        sum -= std::log(product);
+        product = 1;
+      }
+    };
+    each_limit([&](Terms terms, int order) { take(sum_of(terms) + most[static_cast<std::size_t>(order)]); });
+    each_side([&](Terms terms, double constant) { take(sum_of(terms) + constant); });
+    return sum - std::log(product);
+  }
+
+  // One step. Returns half the square of Newton's decrement.
   double newton_step(double weight) {
     const std::size_t n = z_.size();
     matrix_.assign(n * (band + 1), 0);
     column_.assign(n, 0);
     gradient_.assign(n, 0);
     double corner = 0;
-    double gradient_a = weight;
-    const double room = step_room();
-    const double room_slope = room / (2 * a_);
-    const double room_bend = -room / (4 * a_ * a_);
-    const auto add = [&](const std::array<Term, 3>& terms, double slack, double slope, double bend) {
-      for (const Term& term : terms) slack += term.factor * z_[term.variable];
+    double gradient_b = weight;
+    const std::array<double, 4> most = rooms();
+    const auto add = [&](Terms terms, double slack, double slope, double bend) {
+      slack += sum_of(terms);
       const double inverse = 1 / slack;
       for (const Term& one : terms) {
         gradient_[one.variable] -= one.factor * inverse;
@@ -169,42 +202,44 @@ class TubeProgram {
           element(one.variable, one.variable - other.variable) += one.factor * other.factor * inverse * inverse;
         }
       }
-      gradient_a -= slope * inverse;
+      gradient_b -= slope * inverse;
       corner += slope * slope * inverse * inverse - bend * inverse;
     };
-    each_constraint([&](const std::array<Term, 3>& terms, double constant, bool accelerates) {
-      add(terms, constant + (accelerates ? a_ : room), accelerates ? 1 : room_slope, accelerates ? 0 : room_bend);
+    each_limit([&](Terms terms, int order) {
+      const double power = order / highest_order();
+      const double room = most[static_cast<std::size_t>(order)];
+      add(terms, room, power * room / b_, power * (power - 1) * room / (b_ * b_));
     });
-    each_side([&](const std::array<Term, 3>& terms, double constant) { add(terms, constant, 0, 0); });
+    each_side([&](Terms terms, double constant) { add(terms, constant, 0, 0); });
     for (const std::size_t fixed : {std::size_t{0}, std::size_t{1}, n - 2, n - 1}) hold(fixed);
 
     factor();
-    std::vector<double> by_a = column_;
+    std::vector<double> by_b = column_;
     std::vector<double> step = gradient_;
-    substitute(by_a);
+    substitute(by_b);
     substitute(step);
-    const double pivot = corner - std::inner_product(column_.begin(), column_.end(), by_a.begin(), 0.0);
-    const double step_a = -(gradient_a - std::inner_product(column_.begin(), column_.end(), step.begin(), 0.0)) / pivot;
-    for (std::size_t i = 0; i < n; ++i) step[i] = -step[i] - by_a[i] * step_a;
+    const double pivot = corner - std::inner_product(column_.begin(), column_.end(), by_b.begin(), 0.0);
+    const double step_b = -(gradient_b - std::inner_product(column_.begin(), column_.end(), step.begin(), 0.0)) / pivot;
+    for (std::size_t i = 0; i < n; ++i) step[i] = -step[i] - by_b[i] * step_b;
     const double decrement =
-        -(std::inner_product(gradient_.begin(), gradient_.end(), step.begin(), 0.0) + gradient_a * step_a) / 2;
-    take(step, step_a, decrement);
+        -(std::inner_product(gradient_.begin(), gradient_.end(), step.begin(), 0.0) + gradient_b * step_b) / 2;
+    take(step, step_b, decrement, weight);
     return decrement;
   }
 
-  void take(const std::vector<double>& step, double step_a, double decrement) {
+  // Goes as far along the step as the merit falls by a share of what was promised.
+  void take(const std::vector<double>& step, double step_b, double decrement, double weight) {
+    constexpr double promised = 0.1;
     const std::vector<double> z = z_;
-    const double a = a_;
-    // The damped step of self-concordant functions stays inside and always gains.
-    const double root = std::sqrt(std::max(2 * decrement, 0.0));
-    for (double share = decrement > 0.1 ? std::max(1 / (1 + root), 0.02) * 4 : 1.0; share > 1e-12; share /= 2) {
-      const double part = std::min(share, 1.0);
-      for (std::size_t i = 0; i < z.size(); ++i) z_[i] = z[i] + part * step[i];
-      a_ = a + part * step_a;
-      if (is_inside()) return;
+    const double b = b_;
+    const double before = merit(weight);
+    for (double share = 1; share > 1e-12; share /= 2) {
+      for (std::size_t i = 0; i < z.size(); ++i) z_[i] = z[i] + share * step[i];
+      b_ = b + share * step_b;
+      if (merit(weight) <= before - promised * share * 2 * decrement + 1e-9 * std::abs(before)) return;
     }
     z_ = z;
-    a_ = a;
+    b_ = b;
   }
 
   // A variable that does not move.
@@ -244,30 +279,43 @@ class TubeProgram {
   std::vector<Place> corners_;
   std::vector<double> z_;  // x and y of each sample
   std::vector<std::size_t> legs_;
-  double a_ = 0;
+  double first_step_ = 0;  // in seconds, where b is 1
+  double b_ = 1;
   std::vector<double> matrix_;
   std::vector<double> column_;
   std::vector<double> gradient_;
 };
 
-// The least time through the corners, where the inner legs are alike and so are the two outer ones.
+// The least time through the corners, where the inner legs are alike and so are the two outer ones. How many samples
+// the outer legs have is found with few samples first.
 inline double find_optimum(const std::vector<Place>& corners, const TubeLimits& limits, int samples) {
   const std::size_t legs = corners.size() - 1;
-  const auto time_with = [&](int outer) {
-    std::vector<int> counts(legs, samples);
+  const auto time_with = [&](int inner, int outer) {
+    std::vector<int> counts(legs, inner);
     counts.front() = outer;
     counts.back() = outer;
     return TubeProgram(corners, counts, limits).solve();
   };
-  if (legs == 2) return time_with(samples);
-  int low = samples / 2;
-  int high = samples * 2;
-  while (high - low > 2) {  // the time falls and then rises
-    const int left = low + (high - low) / 3;
-    const int right = high - (high - low) / 3;
-    (time_with(left) < time_with(right) ? high : low) = time_with(left) < time_with(right) ? right : left;
+  if (legs == 2) return time_with(samples, samples);
+  constexpr int coarse = 5;
+  const int few = samples / coarse;
+  int outer = few;
+  double best = time_with(few, outer);
+  for (const int turn : {1, -1}) {  // the time falls and then rises
+    for (double time = time_with(few, outer + turn); time < best; time = time_with(few, outer + turn)) {
+      best = time;
+      outer += turn;
+    }
   }
-  return time_with((low + high) / 2);
+  outer *= coarse;
+  best = time_with(samples, outer);
+  for (const int turn : {1, -1}) {
+    for (double time = time_with(samples, outer + turn); time < best; time = time_with(samples, outer + turn)) {
+      best = time;
+      outer += turn;
+    }
+  }
+  return best;
 }
 
 }  // namespace passo::bench

@@ -1,6 +1,6 @@
 // What the tube gives, as two tables: circles in rounded chords against the same circle as an arc, with limits of
-// acceleration and with limits of jerk too; and corners against the fastest motion inside the tube (tube_optimum.hpp).
-// Beside that optimum: the bound of `passo check --motion` for any path in the tube.
+// acceleration and with limits of jerk too; and corners against the fastest motion inside the tube (tube_optimum.hpp),
+// with the same two machines. Beside that optimum: the bound of `passo check --motion` for any path in the tube.
 //
 // Prints figures and decides nothing.
 #include <cmath>
@@ -21,26 +21,27 @@ using namespace passo;
 
 constexpr double tolerance = 0.01;  // mm
 constexpr double feed = 1000;       // mm/s: more than any axis can do
+constexpr double jerk = 25'000;     // mm/s³, where it is limited: full acceleration takes 20 ms
 
 Segment segment_of(const Curve& curve) {
   return {.curve = curve, .speed = MmPerSecond(feed), .tolerance = Mm(tolerance), .merge = Mm(tolerance / 20)};
 }
 
-// The machine of examples/machines/bench.toml. `jerk` in mm/s³; 0: no limit.
-MotionLimits bench_limits(double jerk) {
+// The machine of examples/machines/bench.toml. `limit` of the jerk, in mm/s³; 0: none.
+MotionLimits bench_limits(double limit) {
   MotionLimits limits;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     limits.velocity[axis] = MmPerSecond(axis == Axis::z ? 50 : 100);
     limits.acceleration[axis] = MmPerSecond2(500);
-    limits.jerk[axis] = MmPerSecond3(jerk);
+    limits.jerk[axis] = MmPerSecond3(limit);
   }
   return limits;
 }
 
-double time_of(const std::vector<PathItem>& path, double jerk) {
+double time_of(const std::vector<PathItem>& path, double limit) {
   test::ListSource<PathItem> source(path);
-  PathSmoother smoother(source, jerk > 0 ? Smoothness::slow_bending : Smoothness::least_bending);
-  Planner planner(smoother, bench_limits(jerk));
+  PathSmoother smoother(source, limit > 0 ? Smoothness::slow_bending : Smoothness::least_bending);
+  Planner planner(smoother, bench_limits(limit));
   double time = 0;
   for (MotionItem item; planner.next(item);) {
     if (const auto* const move = std::get_if<PlannedMove>(&item)) time += move->duration().value();
@@ -79,7 +80,6 @@ std::vector<PathItem> chord_path(double chord, double grid) {
 }
 
 void print_circles() {
-  constexpr double jerk = 25'000;
   const double arc = time_of(arc_path(), 0);
   const double slow_arc = time_of(arc_path(), jerk);
   std::printf("circle of R 25 as G3: %.4f s, with jerk %.4f s\n", arc, slow_arc);
@@ -131,12 +131,18 @@ void print_bounds() {
 }
 
 void print_corners() {
-  std::printf("\n%-26s %12s %12s %12s\n", "", "optimum, s", "ours, s", "ratio");
+  std::printf("\n%-22s %10s %10s %8s   %10s %10s %8s\n", "", "optimum, s", "ours, s", "ratio", "with jerk", "ours, s",
+              "ratio");
   const auto print = [](const char* name, const std::vector<bench::Place>& corners, int samples) {
-    const double best = bench::find_optimum(corners, {.tolerance = tolerance}, samples);
-    corners_done.push_back({name, corners, best});
-    const double ours = time_of(path_of(corners), 0);
-    std::printf("%-26s %12.5f %12.5f %12.4f\n", name, best, ours, ours / best);
+    std::printf("%-22s", name);
+    for (const double limit : {0.0, jerk}) {
+      const double best = bench::find_optimum(corners, {.tolerance = tolerance, .jerk = limit}, samples);
+      if (limit == 0) corners_done.push_back({name, corners, best});
+      const double ours = time_of(path_of(corners), limit);
+      std::printf(" %10.5f %10.5f %8.4f  ", best, ours, ours / best);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
   };
   const auto stairs = [](double leg) {
     std::vector<bench::Place> corners;

@@ -36,6 +36,7 @@ constexpr double weight_fall = 1.2;
 constexpr double weight_fall_less = 2.2;
 constexpr double most_weight_fall = 0.9;
 constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6, 2.2};
+constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.4, 5.0, 7.5};
 constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot
 constexpr double share_of_room = 0.9;       // knots beyond this share of the room are left out
 
@@ -51,11 +52,13 @@ constexpr double unlimited = 1e9;
 }  // namespace
 
 // Widths for swinging are found by trial: the spline then also uses the outer side of the tube, before and after a
-// corner.
+// corner. A swing is passed at more even speed than a corner that is rounded inside, so that s quickens less.
 const KnotPlacer::Spacing KnotPlacer::slow_bending = {
     .corner_width = 5, .knots = knots_for_slow_bending, .quickening = 0.6};
-const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .quickening = 0};
-const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending, .quickening = 0};
+const KnotPlacer::Spacing KnotPlacer::swinging_slowly = {
+    .corner_width = 7, .knots = knots_for_swinging_slowly, .quickening = 0.33, .closer = &slow_bending};
+const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
+const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .closer = &inside};
 
 KnotPlacer::KnotPlacer(RunReader& reader, Smoothness smoothness)
     : reader_(reader), bends_slowly_(smoothness == Smoothness::slow_bending) {}
@@ -84,11 +87,11 @@ bool KnotPlacer::follows_spindle(const Piece& before, const Piece& after) {
 }
 
 const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const {
-  if (bends_slowly_) return slow_bending;
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
   const bool swings =
       before.is_line() && after.is_line() && !follows_spindle(before, after) && reversal(before, after) < most_reversal;
+  if (bends_slowly_) return swings ? swinging_slowly : slow_bending;
   return swings ? swinging : inside;
 }
 
@@ -204,16 +207,17 @@ double KnotPlacer::room_of(const Node& node, const Node& before, const Node& aft
 // spline could not keep to the tube.
 KnotPlacer::Places KnotPlacer::places_of(const Node& node, double width, double room, bool alone) {
   const auto within = [&](const Spacing& spacing, double w) {
-    Places places{.knots = spacing.knots, .width = w};
-    while (w > 0 && places.count < places.knots.size() && places.offset(places.count + 1) < share_of_room * room) {
+    Places places{.spacing = &spacing, .width = w};
+    while (w > 0 && places.count < spacing.knots.size() && places.offset(places.count + 1) < share_of_room * room) {
       ++places.count;
     }
     return places;
   };
   const Places places = within(*node.spacing, width);
-  if (places.count > 0 || node.spacing != &swinging) return places;
+  const Spacing* const closer = node.spacing->closer;
+  if (places.count > 0 || closer == nullptr) return places;
   if (!alone && width < too_far * node.width) return places;
-  return within(inside, width * (inside.corner_width / swinging.corner_width));
+  return within(*closer, width * (closer->corner_width / node.spacing->corner_width));
 }
 
 void KnotPlacer::fill_gap() {
@@ -259,7 +263,7 @@ void KnotPlacer::fill_gap() {
   const bool exact = is_whole || (is_long && has_knots && in_one_piece && !between.is_fitted);
 
   if (in_stretch_ || width > 0 || !exact) {
-    for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, i, knots));
+    for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, own, i));
   }
   if (exact) {
     if (in_stretch_) steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
@@ -270,7 +274,7 @@ void KnotPlacer::fill_gap() {
     steps_.push_back({.mark = Mark::exact_piece, .knot = {}});
   }
   if (!exact && between.is_fitted) add_knots_on_bend(first, last, spacing);
-  for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i), rate_at(to, i, next_knots + 1));
+  for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i), rate_at(to, next, i));
   if (is_last && in_stretch_) {
     add_knot(to.s);
     steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
@@ -287,11 +291,12 @@ void KnotPlacer::add_knots_on_bend(double first, double last, double spacing) {
 }
 
 // At the last two knots it is that of s, so that what is exact may go on there.
-double KnotPlacer::rate_at(const Node& node, std::size_t knot, std::size_t knots) const {
+double KnotPlacer::rate_at(const Node& node, const Places& places, std::size_t knot) {
   constexpr std::size_t at_rate_of_s = 2;
+  const std::size_t knots = places.count + 1;  // with the node
   if (knot + at_rate_of_s >= knots) return 1;
-  const double quickening = node.spacing->quickening * node.turn;
-  const auto distance = [&](std::size_t i) { return i == 0 ? 0 : node.spacing->knots[i - 1]; };
+  const double quickening = places.spacing->quickening * node.turn;
+  const auto distance = [&](std::size_t i) { return i == 0 ? 0 : places.spacing->knots[i - 1]; };
   return (1 + quickening * distance(knot)) / (1 + quickening * distance(knots - at_rate_of_s));
 }
 

@@ -66,8 +66,10 @@ class KnotPlacer {
     std::span<const double> knots;  // in widths from the node
     // How much faster s goes on w times the change of the tangent away from a corner than at it.
     double quickening = 0;
+    const Spacing* closer = nullptr;  // for nodes that have no room for the first knot
   };
   static const Spacing slow_bending;
+  static const Spacing swinging_slowly;
   static const Spacing swinging;
   static const Spacing inside;
   struct Node {
@@ -88,11 +90,11 @@ class KnotPlacer {
     double tube = 0;
   };
   struct Places {
-    std::span<const double> knots;  // in widths from the node
+    const Spacing* spacing = &inside;
     double width = 0;
-    std::size_t count = 0;  // so many of them
+    std::size_t count = 0;  // so many of the spacing's knots
 
-    double offset(std::size_t i) const { return i == 0 ? 0 : knots[i - 1] * width; }
+    double offset(std::size_t i) const { return i == 0 ? 0 : spacing->knots[i - 1] * width; }
   };
   static Places places_of(const Node& node, double width, double room, bool alone);
   bool find_node(Node& node);
@@ -110,7 +112,7 @@ class KnotPlacer {
   static double reversal(const Piece& before, const Piece& after);
   double weight_fall_of(const Cluster& cluster) const;
   double weight_at(double s) const;
-  double rate_at(const Node& node, std::size_t knot, std::size_t knots) const;
+  static double rate_at(const Node& node, const Places& places, std::size_t knot);
 
   RunReader& reader_;
   const bool bends_slowly_;

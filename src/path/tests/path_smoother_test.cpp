@@ -87,6 +87,12 @@ TEST_F(PathSmootherTest, a_corner_swings_to_the_outer_side_unless_an_axis_goes_b
   for (const Segment& segment : smoothed()) outside = std::max(outside, -segment.curve.extents().low[Axis::y]);
   EXPECT_GT(outside, 0.5 * tolerance_);
   EXPECT_LE(outside, tolerance_);
+  double slowly = 0;
+  for (const Segment& segment : segments_of(smooth(path_, Smoothness::slow_bending))) {
+    slowly = std::max(slowly, -segment.curve.extents().low[Axis::y]);
+  }
+  EXPECT_GT(slowly, 0.5 * tolerance_);
+  EXPECT_LE(slowly, tolerance_);
 
   path_.clear();
   position_ = Point();

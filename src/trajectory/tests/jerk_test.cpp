@@ -101,7 +101,7 @@ TEST(JerkLimitedPlanner, a_slow_feed_is_reached_at_once) {
 }
 
 // A leg from rest to rest takes 303.5 ms. With corners of 0.01 mm it takes at least 268.7, by a numerical optimum over
-// all paths within the tolerance. With corners that bend least it takes 299.
+// all paths within the tolerance. With corners that bend least it takes 299, rounded inside with slow bending 283.
 TEST(JerkLimitedPlanner, right_angles_are_passed_much_faster_than_stops) {
   std::vector<PathItem> legs;
   constexpr int count = 40;
@@ -116,7 +116,7 @@ TEST(JerkLimitedPlanner, right_angles_are_passed_much_faster_than_stops) {
   expect_within_limits(motion, limits);
   const double leg = total_time(motion) / count;
   EXPECT_GT(leg, 0.2687);
-  EXPECT_LT(leg, 0.2855);
+  EXPECT_LT(leg, 0.2755);
 }
 
 TEST(JerkLimitedPlanner, the_acceleration_goes_on_across_joints) {
