@@ -27,6 +27,10 @@ const Colour together{0.93, 0.55, 0.10};
 const Colour waiting{0.80, 0.82, 0.86};
 constexpr double margin = 40;
 
+std::string coordinates(const Place& place) {
+  return fmt::format("({})", fmt::join(place, ", "));
+}
+
 struct Shown {  // one pulse, or the start
   Place place;
   int axes = 0;  // number of axes that stepped
@@ -70,6 +74,24 @@ class View {
               height * scale_};
   }
 
+  // A magnified view of the steps from `low` to `high`, which fills the area.
+  View(const View& whole, Spot low, double steps, const Area& area)
+      : across_(whole.across_),
+        up_(whole.up_),
+        low_(low),
+        high_{low.x + steps, low.y + steps},
+        scale_(area.width / steps),
+        frame_(area) {}
+
+  bool shows(const Place& place) const {
+    const double x = value(place, across_);
+    const double y = value(place, up_);
+    return x >= low_.x - 1 && x <= high_.x + 1 && y >= low_.y - 1 && y <= high_.y + 1;
+  }
+  // Whether a pulse has room to be a dot.
+  bool has_dots() const { return dot_radius() >= smallest_dot; }
+  double dot_radius() const { return std::min(5.0, scale_ * 0.2); }
+
   static double value(const Place& place, std::size_t axis) {
     return axis < place.size() ? static_cast<double>(place[axis]) : 0;
   }
@@ -85,6 +107,8 @@ class View {
   std::size_t up() const { return up_; }
 
  private:
+  static constexpr double smallest_dot = 1.2;
+
   void include(double x, double y) {
     low_ = {std::min(low_.x, x), std::min(low_.y, y)};
     high_ = {std::max(high_.x, x), std::max(high_.y, y)};
@@ -126,21 +150,25 @@ std::vector<Tick> step_ticks(double low, double high, double scale, double room)
 
 void draw_ticks(Canvas& canvas, const View& view) {
   const Area& frame = view.frame();
+  double label_end = frame.x;
   const double widest = std::max(canvas.text_width(tick_label(view.low().x, 1), tick_font),
                                  canvas.text_width(tick_label(view.high().x, 1), tick_font));
   for (const Tick& tick : step_ticks(view.low().x, view.high().x, view.scale(), widest + 12)) {
-    canvas.text({view.spot(tick.value, 0).x, frame.bottom() + 12}, tick.label, tick_font, Align::centre);
+    const double x = view.spot(tick.value, 0).x;
+    canvas.text({x, frame.bottom() + 12}, tick.label, tick_font, Align::centre);
+    label_end = x + canvas.text_width(tick.label, tick_font) / 2;
   }
   for (const Tick& tick : step_ticks(view.low().y, view.high().y, view.scale(), 18)) {
     canvas.text({frame.x - 7, view.spot(0, tick.value).y}, tick.label, tick_font, Align::right);
   }
-  canvas.text({frame.right() + 14, frame.bottom() + 12}, axis_name(view.across()), tick_font);
+  // The last label may reach out beyond the frame.
+  canvas.text({std::max(frame.right() + 14, label_end + 10), frame.bottom() + 12}, axis_name(view.across()), tick_font);
   canvas.text({frame.x - 7, frame.y - 14}, axis_name(view.up()), tick_font, Align::right);
 }
 
 void draw_pulses(Canvas& canvas, const View& view, const std::vector<Shown>& shown) {
-  const double radius = std::min(5.0, view.scale() * 0.2);
-  const bool dots = radius >= 1.2;
+  const double radius = view.dot_radius();
+  const bool dots = view.has_dots();
   for (const Shown& one : shown) {
     if (dots && one.waited) canvas.disc(view.spot(one.place), radius * 1.9, waiting);
   }
@@ -164,11 +192,73 @@ void draw_ideal(Canvas& canvas, const View& view, const StepMove& move) {
   canvas.stroke({.colour = ideal_colour, .width = 1.6});
 }
 
+// The corner of the view that is farthest from all pulses, as an area of this size.
+Area emptiest_corner(const View& view, const std::vector<Shown>& shown, double size) {
+  constexpr double gap = 8;
+  const Area& frame = view.frame();
+  Area best;
+  double farthest = -1;
+  for (const double x : {frame.x + gap, frame.right() - gap - size}) {
+    for (const double y : {frame.y + gap, frame.bottom() - gap - size}) {
+      const Spot middle{x + size / 2, y + size / 2};
+      double nearest = INFINITY;
+      for (const Shown& one : shown) {
+        const Spot spot = view.spot(one.place);
+        nearest = std::min(nearest, std::hypot(spot.x - middle.x, spot.y - middle.y));
+      }
+      if (nearest <= farthest) continue;
+      farthest = nearest;
+      best = {x, y, size, size};
+    }
+  }
+  return best;
+}
+
+// Where single pulses cannot be seen, the middle of the move is shown magnified too, in a corner of the view.
+void draw_magnified(Canvas& canvas, const View& view, const std::vector<Shown>& shown, const StepMove& move) {
+  constexpr double pixels = 12;  // a step
+  const double size = 0.42 * std::min(view.frame().width, view.frame().height);
+  const double steps = std::floor(size / pixels);
+  if (view.has_dots() || steps < 4) return;
+  const Place& middle = shown[shown.size() / 2].place;
+  const auto begin = [&](std::size_t axis) { return View::value(middle, axis) - std::floor(steps / 2) - 0.5; };
+  const Spot low{begin(view.across()), begin(view.up())};
+  const View near(view, low, steps, emptiest_corner(view, shown, size));
+  std::vector<Shown> inside;
+  for (const Shown& one : shown) {
+    if (near.shows(one.place)) inside.push_back(one);
+  }
+
+  const Pen mark{.colour = {0.25, 0.27, 0.30}, .width = 1};
+  const Spot corner = view.spot(low.x, low.y + steps);
+  const double least = 5;  // a frame that is smaller cannot be seen
+  const double side = std::max(least, steps * view.scale());
+  canvas.frame({corner.x, corner.y, side, side}, mark);
+  canvas.line({corner.x + side / 2, corner.y + side / 2}, {near.frame().x + size / 2, near.frame().y + size / 2},
+              {.colour = mark.colour, .width = 0.8, .dashes = {2, 3}});
+  canvas.fill(near.frame(), paper);
+  canvas.clip(near.frame());
+  draw_grid(canvas, near);
+  if (!inside.empty()) draw_pulses(canvas, near, inside);
+  draw_ideal(canvas, near, move);
+  canvas.end_clip();
+  canvas.frame(near.frame(), mark);
+  // The place stands above or below the part, on the side of the view's middle.
+  const std::string caption = "at " + coordinates(middle);
+  const bool is_high = near.frame().y + size / 2 < view.frame().y + view.frame().height / 2;
+  const double y = is_high ? near.frame().bottom() + 10 : near.frame().y - 10;
+  const double width = canvas.text_width(caption, tick_font);
+  const double x = near.frame().x + size / 2;
+  canvas.fill({x - width / 2 - 3, y - 8, width + 6, 16}, paper);
+  canvas.text({x, y}, caption, tick_font, Align::centre);
+}
+
 void draw_view(Canvas& canvas, const View& view, const std::vector<Shown>& shown, const StepMove& move) {
   draw_grid(canvas, view);
   draw_ticks(canvas, view);
   draw_pulses(canvas, view, shown);
   draw_ideal(canvas, view, move);
+  draw_magnified(canvas, view, shown, move);
 }
 
 std::string figures(const Measures& found) {
@@ -181,9 +271,6 @@ std::string deviations(const Measures& found) {
   return fmt::format("off by {:.3f} step at most, {:.3f} on average", found.largest_deviation, found.mean_deviation);
 }
 
-std::string coordinates(const Place& place) {
-  return fmt::format("({})", fmt::join(place, ", "));
-}
 std::string move_text(const StepMove& move) {
   const std::string ends = coordinates(move.from) + " to " + coordinates(move.to);
   if (!move.arc) return "Line from " + ends;
