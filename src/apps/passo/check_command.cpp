@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "program_input.hpp"
+#include "program_messages.hpp"
 #include "progress_display.hpp"
 
 #include "passo/activity/machine_plant.hpp"
@@ -66,7 +67,9 @@ int check(const CheckArguments& arguments) {
   if (!program || !options) return exit_bad_program;
 
   Diagnostics findings;
-  const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
+  const ProgramMessages messages(arguments.program.program, !arguments.json);
+  const ProgramCheck result = check_program(program->again(), *machine, *options, findings, {},
+                                            [&](const Operation& operation) { messages.show(operation); });
   if (result.good && arguments.motion) {
     show(findings);
     const MotionProof proof = prove(std::move(*program), *machine, *options, result.nominal_time, findings);

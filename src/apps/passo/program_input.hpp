@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "terminal.hpp"
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -30,7 +31,5 @@ void show(const Diagnostics& diagnostics);
 
 // Reports on standard error why the command ends here. Returns the given exit code.
 int fail(ExitCode code, const std::string& message);
-
-bool is_terminal(int descriptor);
 
 }  // namespace passo

@@ -178,6 +178,9 @@ int ramp(const RampArguments& arguments) {
   if (!missing.empty()) return fail(exit_bad_program, "expected also " + missing + "; see passo ramp --help");
   const std::string wrong = wrong_number(arguments);
   if (!wrong.empty()) return fail(exit_bad_program, wrong);
+  if (arguments.limit && (!arguments.picture.empty() || !arguments.output.empty())) {
+    return fail(exit_bad_program, "--limit prints figures alone: expected no --picture and no --output with it");
+  }
   if (arguments.limit) {
     arguments.json ? print_limit_json(arguments) : print_limit(arguments);
     return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");

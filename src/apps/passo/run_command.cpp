@@ -12,6 +12,7 @@
 #include "opened_machine.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
+#include "program_messages.hpp"
 #include "progress_display.hpp"
 #include "resumable_run.hpp"
 #include "run_outputs.hpp"
@@ -131,6 +132,13 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   const MachineDescription& machine = run.machine;
   SummaryBuilder builder(axes_of(machine));
   ProbeSummary probes;
+  ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
+  ProgramMessages messages(run.arguments.program.program, !run.arguments.quiet);
+  start.watchers.operations = [&](const Operation& operation) {
+    builder.watch_operation(operation);
+    messages.show(operation, [&] { progress.clear(); });
+  };
+  start.watchers.path = [&](const PathItem& item) { builder.watch_path(item); };
   start.watchers.motion = [&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
@@ -147,7 +155,6 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   if (!ticket) {
     answered = {.outcome = Outcome::failed, .fault = refused(ticket.error())};
   } else {
-    ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
     bool brakes = false;
     for (unsigned turns = 0; session.busy() && !run.outputs.failed(); ++turns) {
       if (interrupted_by() != 0 && !std::exchange(brakes, true)) stop(session);
@@ -159,6 +166,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     }
     answered = answer_of(session.take_changes(), *ticket);
   }
+  progress.clear();
   run.opened.catch_up();
   RunSummary summary = builder.summary();
   summary.program = run.arguments.program.program;
@@ -190,6 +198,11 @@ bool names_are_good(const RunArguments& arguments) {
   for (const std::string& path : arguments.traces) {
     if (is_trace_name(path)) continue;
     fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
+    return false;
+  }
+  const bool has_look = arguments.colour_by != "speed" || arguments.view != "auto" || arguments.no_rapids;
+  if (has_look && arguments.pictures.empty()) {
+    fail(exit_bad_program, "--colour-by, --view and --no-rapids are for a --picture");
     return false;
   }
   return true;
@@ -229,9 +242,20 @@ int print(const RunSummary& summary, const RunArguments& arguments) {
   if (arguments.json) {
     std::fputs(to_json(summary).c_str(), stdout);
   } else if (!arguments.quiet) {
-    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
+    std::fputs(to_text(summary, shows_colours(STDOUT_FILENO)).c_str(), stdout);
   }
-  return std::fflush(stdout) == 0 ? exit_done : fail(exit_failed, "cannot write to standard output");
+  return exit_done;
+}
+
+// A virtual probe finds only what --touch puts there. Without it, a probe move comes to its end.
+void tell_of_touch(const RunArguments& arguments, const Diagnostics& findings) {
+  const auto is_untouched = [](const Diagnostic& finding) { return finding.code == "gcode.probe-untouched"; };
+  if (keeps_journal(arguments) || !arguments.touches.empty() || std::ranges::none_of(findings.all(), is_untouched)) {
+    return;
+  }
+  fmt::print(stderr,
+             "passo: note: the virtual probe has nothing to touch. --touch puts something there, as --touch Z:-1.5 (a "
+             "plate) or --touch X10:60,Y10:50,Z:-2 (a block)\n");
 }
 
 bool suits_the_board(const RunArguments& arguments) {
@@ -320,6 +344,7 @@ int run(const RunArguments& arguments) {
   if (opened->has_board()) tell_tails(session);
   if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
     show(late);
+    tell_of_touch(arguments, late);
     const int failed = fail(exit_failed, stopped_words(answered, summary));
     return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
   }
