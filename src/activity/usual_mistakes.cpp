@@ -35,7 +35,11 @@ void UsualMistakes::watch(const Operation& operation) {
   using namespace passo::operation;
   const OperationKind& what = operation.what;
   if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(what)) return feed(operation);
-  if (is_any_of<StraightTraverse, StraightProbe>(what)) return move(operation);
+  if (is_any_of<StraightTraverse, StraightProbe>(what)) {
+    probes_ |= is_any_of<StraightProbe>(what);
+    return move(operation);
+  }
+  if (is_any_of<ChangeTool, SetToolNumber>(what)) probes_ = false;
   if (const auto* turn = std::get_if<TurnSpindle>(&what)) return turn_spindle(operation, turn->direction);
   if (const auto* pause = std::get_if<Dwell>(&what)) return dwell(operation, pause->time);
   if (const auto* speed = std::get_if<SetSpindleSpeed>(&what)) {
@@ -75,7 +79,7 @@ void UsualMistakes::feed(const Operation& operation) {
   if (turned_at_zero_) {
     diagnostics_.add_certain(*std::exchange(turned_at_zero_, std::nullopt));
     told_spindle_ = true;
-  } else if (spindle_ == SpindleDirection::off) {
+  } else if (spindle_ == SpindleDirection::off && !probes_) {
     diagnostics_.add_certain(warning(operation, "path.spindle-off-in-feed", "the tool is fed while the spindle stands",
                                      "S and M3 before the move; a machine file without tool.max_rpm has no spindle"));
     told_spindle_ = true;

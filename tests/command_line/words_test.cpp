@@ -187,6 +187,8 @@ TEST_F(Words, a_spindle_that_stands_while_the_tool_is_fed_is_warned_of) {
   EXPECT_TRUE(contains(check("G21 M3 S1000\nF600\nM5\nG2 X10 I5\nM2\n").err, "p.ngc:4:"));
   EXPECT_FALSE(contains(check("G21 M3 S1000\nF600\nG1 X10\nM2\n").err, "spindle"));
   EXPECT_FALSE(contains(check("G21\nG0 X10\nF60 G38.2 Z-5\nM2\n").err, "spindle")) << "rapids and probes";
+  EXPECT_FALSE(contains(check("G21 F60\nG38.2 Z-5\nG1 Z2\nM2\n").err, "spindle")) << "a probe is drawn back";
+  EXPECT_TRUE(contains(check("G21 F60\nG38.2 Z-5\nT1 M6\nG1 Z-2\nM2\n").err, "p.ngc:4:1: warning"));
   EXPECT_FALSE(contains(check("G21\nF60 G1 X1\nM2\n", relay_file).err, "spindle")) << "no spindle with a speed";
 }
 

@@ -37,6 +37,8 @@ class UsualMistakes {
   double speed_ = 0;  // S
   // M3 or M4 while S is 0. A later S makes it good, so this is reported at the first feed.
   std::optional<Diagnostic> turned_at_zero_;
+  // The tool is a probe since its first probe move, until the tool is changed. A probe does not turn when it is fed.
+  bool probes_ = false;
   bool told_spindle_ = false;
   bool told_dwell_ = false;
 };
