@@ -56,7 +56,11 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       limits_(motion_limits(machine)),
       tools_(options.tools),
       interpreter_(std::move(program), options, diagnostics),
-      builder_(interpreter_, path_options_, diagnostics) {}
+      mistakes_(machine, options.units, path_options_.file, diagnostics),
+      operations_(interpreter_),
+      builder_(operations_, path_options_, diagnostics) {
+  operations_.watch([this](const Operation& operation) { mistakes_.watch(operation); });
+}
 
 bool ProgramChecker::go_on(std::uint64_t items) {
   for (; items > 0 && !done_; --items) {
@@ -88,9 +92,11 @@ void ProgramChecker::finish() {
 }
 
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch) {
+                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch,
+                           const Tap<Operation>::Watcher& watch_operations) {
   ProgramChecker checker(std::move(program), machine, options, diagnostics);
   checker.watch(watch);
+  if (watch_operations) checker.watch_operations(watch_operations);
   while (!checker.go_on(UINT64_MAX)) {
   }
   return checker.result();
@@ -101,7 +107,8 @@ Program::Program(ProgramReader program, const MachineDescription& machine, const
     : path_options_(path_options_of(machine, program.name(), options.start)),
       limits_(motion_limits(machine)),
       interpreter_(std::move(program), options, diagnostics, answers),
-      path_builder_(interpreter_, path_options_, diagnostics, answers),
+      operations_(interpreter_),
+      path_builder_(operations_, path_options_, diagnostics, answers),
       good_path_(path_builder_, diagnostics),
       watched_path_(good_path_),
       smoother_(watched_path_, smoothness(machine)),

@@ -147,4 +147,14 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   return best;
 }
 
+std::string_view suggestion(std::string_view word, const std::vector<std::string_view>& known) {
+  if (const std::string_view near = nearest(word, known); !near.empty()) return near;
+  const auto is_meant = [word](std::string_view candidate) {
+    const bool same_start = word.size() >= 3 && (candidate.starts_with(word) || word.starts_with(candidate));
+    return same_start || std::ranges::is_permutation(word, candidate);
+  };
+  const auto found = std::ranges::find_if(known, is_meant);
+  return found == known.end() ? std::string_view() : *found;
+}
+
 }  // namespace passo

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "foreign_file.hpp"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -290,6 +291,10 @@ Result<ProgramReader, Diagnostic> ProgramReader::open(const std::string& path) {
   const std::string_view first(state->buffer.data(), std::min(state->filled, inspected_bytes));
   if (first.empty() || (first == utf8_mark && state->at_file_end)) {
     return Failure{whole_file("file.empty", name, "the file is empty", "G-code")};
+  }
+  if (const ForeignFile foreign = foreign_file(name, first); !foreign.kind.empty()) {
+    return Failure{whole_file(inspect(first) == Content::text ? "file.not-gcode" : "file.binary", name,
+                              fmt::format("this is {}, not G-code", foreign.kind), std::string(foreign.expected))};
   }
   switch (inspect(first)) {
     case Content::text: break;

@@ -58,9 +58,7 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
   const CodeEntry* const entry = in_range ? find_code(word.letter, static_cast<CodeNumber>(tenths)) : nullptr;
   if (entry == nullptr) {
     const std::string written = word.letter + plain_number(value);
-    const std::string guess = nearest_code(written);
-    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written),
-                   guess.empty() ? "a code of docs/gcode.md" : fmt::format("{}, perhaps", guess));
+    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written), meant_code(written));
     return false;
   }
   const std::size_t group = index_of(entry->group);

@@ -1,11 +1,10 @@
 #include "code_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include <fmt/format.h>
-
-#include "passo/diagnostics/diagnostic.hpp"
 
 namespace passo {
 namespace {
@@ -202,11 +201,35 @@ std::string spelling(char letter, CodeNumber number) {
   return tenth == 0 ? fmt::format("{}{}", letter, whole) : fmt::format("{}{}.{}", letter, whole, tenth);
 }
 
-std::string nearest_code(std::string_view spelled) {
-  std::vector<std::string> spellings;
-  for (const CodeEntry& entry : table) spellings.push_back(spelling(entry));
-  const std::vector<std::string_view> candidates(spellings.begin(), spellings.end());
-  return std::string(nearest(spelled, candidates));
+std::string meant_code(std::string_view spelled) {
+  struct Foreign {
+    std::string_view code;
+    std::string_view meant;
+  };
+  // Codes of other controls that many programs have, and what does the same here.
+  constexpr Foreign foreign[] = {
+      {"G12", "arcs of G2: this is the circular pocket, clockwise, of other controls"},
+      {"G13", "arcs of G3: this is the circular pocket, counterclockwise, of other controls"},
+      {"G31", "G38.3: this is the skip move of other controls"},
+      {"G36", "G38.2 and G10 L10: this measures a tool on other controls"},
+      {"G37", "G38.2 and G10 L10: this measures a tool on other controls"},
+      {"G68", "G10 L2 P… R: this turns the work frame on other controls"},
+      {"G69", "G10 L2 P… R0: this ends a turned work frame on other controls"},
+      {"M13", "M3 and M8: this is both at once on other controls"},
+      {"M14", "M4 and M8: this is both at once on other controls"},
+      {"M29", "G33.1: this announces rigid tapping on other controls"},
+      {"M97", "o… call, or M98: this calls a part of the program on other controls"}};
+  const auto found = std::ranges::find(foreign, spelled, &Foreign::code);
+  if (found != std::end(foreign)) return std::string(found->meant);
+  // One digit more or less is another code, not a slip. Only the digit after the point may be guessed: G38 for G38.2.
+  const std::string_view whole = spelled.substr(0, spelled.find('.'));
+  std::string all;
+  for (const CodeEntry& entry : table) {
+    const std::string name = spelling(entry);
+    if (name == whole || std::string_view(name).substr(0, name.find('.')) != whole) continue;
+    all += all.empty() ? name : ", " + name;
+  }
+  return all.empty() ? "a code of docs/gcode.md" : all;
 }
 
 std::string codes_using(char letter) {

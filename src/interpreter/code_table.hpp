@@ -98,8 +98,9 @@ std::string spelling(char letter, CodeNumber number);
 inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);
 }
-// The code whose spelling is nearest. Empty: no spelling is near.
-std::string nearest_code(std::string_view spelled);
+// What an unknown code was to be: the codes with the same number before the point, or what does here what the code does
+// on other controls. Never empty.
+std::string meant_code(std::string_view spelled);
 // The codes that use this word, as in "G2, G3 or G10". Empty: no code uses it.
 std::string codes_using(char letter);
 

@@ -123,7 +123,9 @@ bool CutterCodes::from_table(CutterSetup& setup) {
   if (number != 0) tool = state_.tools.find(number);
   if (tool == nullptr) {
     return fail("gcode.unknown-tool", span, fmt::format("tool {} is not in the tool table", number),
-                "the number of a tool in the table; G41.1 and G42.1 take the diameter itself");
+                state_.tools.name.empty() ? "a tool table: --tools FILE; G41.1 and G42.1 take the diameter itself"
+                                          : "the number of a tool in the table, or another table: --tools FILE; "
+                                            "G41.1 and G42.1 take the diameter itself");
   }
   setup.radius = tool->diameter.value() / 2;
   setup.orientation = tool->orientation;

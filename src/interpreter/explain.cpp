@@ -1,14 +1,51 @@
 #include "passo/interpreter/explain.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "block_in_words.hpp"
 #include "block_watcher.hpp"
 
+#include "passo/geometry/curve.hpp"
+#include "passo/geometry/nurbs.hpp"
+#include "passo/geometry/plane_arc.hpp"
 #include "passo/interpreter/canon.hpp"
+#include "passo/interpreter/plane_axes.hpp"
 
 namespace passo {
 namespace {
+
+double length_of_arc(const Point& start, const operation::ArcFeed& arc) {
+  const auto [first, second, normal] = axes_of(arc.plane);
+  const double center_first = arc.first_center.value();
+  const double center_second = arc.second_center.value();
+  if (arc.turns == 0) return Curve::line(start, arc.end).length().value();
+  const double sweep =
+      sweep_between(std::atan2(start[second] - center_second, start[first] - center_first),
+                    std::atan2(arc.end[second] - center_second, arc.end[first] - center_first), arc.turns);
+  return Curve::arc(start, arc.end, first, second, center_first, center_second, sweep).length().value();
+}
+
+// Measured along so many chords that no digit which is shown is wrong.
+double length_of_spline(const operation::NurbsFeed& spline) {
+  constexpr int chords = 10'000;
+  Nurbs::Definition definition{.degree = spline.order - 1};
+  for (const operation::ControlPoint& point : spline.points) {
+    definition.control.push_back({point.x, point.y, 0});
+    definition.weights.push_back(point.weight);
+  }
+  const Result<Nurbs, CurveError> curve = Nurbs::create(std::move(definition));
+  if (!curve) return 0;
+  const auto [from, to] = curve->range();
+  double way = 0;
+  Vector3 before = curve->at(from);
+  for (int i = 1; i <= chords; ++i) {
+    const Vector3 at = curve->at(from + (to - from) * i / chords);
+    way += length(at - before);
+    before = at;
+  }
+  return way;
+}
 
 // Fills in the explanations of the lines of a range while the program runs.
 class Explainer final : public BlockWatcher {
@@ -27,6 +64,7 @@ class Explainer final : public BlockWatcher {
     state_before_ = state;
     words_ = word_values(block, parameters, symbols);
     line.before = {state.position, state.machine_position()};
+    place_ = state.position;
   }
 
   void after(const ProgramState& state) override {
@@ -36,6 +74,28 @@ class Explainer final : public BlockWatcher {
     current_->modes = modes_in_words(state_before_, state);
   }
 
+  // Follows the feed of the whole program, and the moves of the current block.
+  void follow(const Operation& operation) {
+    using namespace passo::operation;
+    const OperationKind& what = operation.what;
+    if (const auto* rate = std::get_if<SetFeedRate>(&what)) feed_ = *rate;
+    if (const auto* mode = std::get_if<SetFeedMode>(&what)) per_turn_ = mode->mode == FeedMode::units_per_revolution;
+    if (const auto* speed = std::get_if<SetSpindleSpeed>(&what)) spindle_speed_ = speed->revolutions_per_minute;
+    if (const auto* sync = std::get_if<StartSpeedFeedSync>(&what)) pitch_ = sync->pitch.value();
+    if (std::holds_alternative<StopSpeedFeedSync>(what)) pitch_.reset();
+    if (current_ == nullptr) return;
+    if (const auto* move = std::get_if<StraightTraverse>(&what)) rapid(move->end);
+    if (const auto* move = std::get_if<StraightFeed>(&what)) line(move->end);
+    if (const auto* move = std::get_if<StraightProbe>(&what)) line(move->end);
+    if (const auto* arc = std::get_if<ArcFeed>(&what)) feed(length_of_arc(place_, *arc), arc->end, false);
+    if (const auto* curve = std::get_if<NurbsFeed>(&what)) spline(*curve);
+    if (const auto* tap = std::get_if<RigidTap>(&what)) {
+      const Point start = place_;
+      line(tap->end);
+      line(start);
+    }
+  }
+
   // The operations of a block come after the block was executed, and before the next block is.
   void add(std::string operation) {
     if (current_ != nullptr) current_->operations.push_back(std::move(operation));
@@ -43,9 +103,43 @@ class Explainer final : public BlockWatcher {
   bool all_seen() const { return unseen_ == 0; }
 
  private:
+  void rapid(const Point& end) {
+    current_->moves.rapid_length += Curve::line(place_, end).length().value();
+    place_ = end;
+  }
+  void line(const Point& end) {
+    bool turns_only = true;
+    for (const Axis axis : all_axes) turns_only &= is_rotary(axis) || end[axis] == place_[axis];
+    feed(Curve::line(place_, end).length().value(), end, turns_only);
+  }
+  // The end of a spline is its last control point.
+  void spline(const operation::NurbsFeed& curve) {
+    Point end = place_;
+    end[Axis::x] = curve.points.back().x;
+    end[Axis::y] = curve.points.back().y;
+    feed(length_of_spline(curve), end, false);
+  }
+  void feed(double length, const Point& end, bool turns_only) {
+    Explanation::Moves& moves = current_->moves;
+    moves.feed_length += length;
+    place_ = end;
+    double rate = turns_only ? feed_.rotary_rate : feed_.rate;
+    if (pitch_ || per_turn_) rate = pitch_.value_or(rate) * spindle_speed_ / seconds_per_minute;
+    if (rate > 0 && moves.feed_time) {
+      *moves.feed_time += length / rate;
+    } else if (length > 0) {
+      moves.feed_time.reset();
+    }
+  }
+
   std::string file_;
   LineRange range_;
   Explanations& result_;
+  operation::SetFeedRate feed_;
+  bool per_turn_ = false;
+  std::optional<double> pitch_;
+  double spindle_speed_ = 0;
+  Point place_;  // work coordinates, after the operations so far
   std::size_t unseen_;
   Explanation* current_ = nullptr;
   ProgramState state_before_;
@@ -95,6 +189,7 @@ Explanations explain(ProgramReader program, const InterpreterOptions& options, L
   std::uint64_t left = limits.operations;
   bool counting = false;
   while (interpreter.next(operation)) {
+    explainer.follow(operation);
     printed.clear();
     printer.print(operation, printed);
     // Resets belong to no block: they open and close the program.

@@ -19,7 +19,7 @@ bool ToolCodes::find_tool(std::int32_t number, Span span, const Tool*& tool) {
   tool = state_.tools.find(number);
   if (tool != nullptr || number == 0 || state_.tools.name.empty()) return true;
   return fail("gcode.unknown-tool", span, fmt::format("there is no tool {} in {}", number, state_.tools.name),
-              fmt::format("a line T{} P… in the tool table", number));
+              fmt::format("a line T{} P… in the tool table, or another table: --tools FILE", number));
 }
 
 bool ToolCodes::select() {

@@ -10,17 +10,6 @@
 namespace passo {
 namespace {
 
-// The nearest known key, or a key with swapped letters ("naem"), or one with a unit left out or added ("max_velocity").
-std::string_view suggestion(std::string_view word, const std::vector<std::string_view>& known) {
-  if (const std::string_view near = nearest(word, known); !near.empty()) return near;
-  const auto is_meant = [word](std::string_view key) {
-    const bool same_start = word.size() >= 3 && (key.starts_with(word) || word.starts_with(key));
-    return same_start || std::ranges::is_permutation(word, key);
-  };
-  const auto found = std::ranges::find_if(known, is_meant);
-  return found == known.end() ? std::string_view() : *found;
-}
-
 bool contains(const std::vector<std::string_view>& keys, std::string_view key) {
   return std::ranges::find(keys, key) != keys.end();
 }

@@ -6,10 +6,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "plane_arc.hpp"
 #include "spline_pieces.hpp"
 #include <fmt/format.h>
 
+#include "passo/geometry/plane_arc.hpp"
 #include "passo/interpreter/plane_axes.hpp"
 
 namespace passo {
@@ -40,11 +40,11 @@ template <class What, class... Others>
 inline constexpr bool is_one_of = (std::is_same_v<What, Others> || ...);
 template <class What>
 concept OfOthers =
-    is_one_of<What, operation::SetLengthUnits, operation::SetWorkOffset, operation::SetG92Offset,
-              operation::SetRotation, operation::SetToolOffset, operation::ReloadTools, operation::SelectPlane,
-              operation::SelectTool, operation::StartToolChange, operation::SetToolNumber, operation::SetToolTableEntry,
-              operation::PalletShuttle, operation::Finish, operation::TurnProbe, operation::Comment, operation::Message,
-              operation::Print, operation::Log, operation::Reset, operation::SetFeedReference>;
+    is_one_of<What, operation::SetWorkOffset, operation::SetG92Offset, operation::SetRotation, operation::SetToolOffset,
+              operation::ReloadTools, operation::SelectPlane, operation::SelectTool, operation::StartToolChange,
+              operation::SetToolNumber, operation::SetToolTableEntry, operation::PalletShuttle, operation::Finish,
+              operation::TurnProbe, operation::Comment, operation::Message, operation::Print, operation::Log,
+              operation::Reset, operation::SetFeedReference>;
 
 bool turns_only_rotary_axes(const Curve& curve) {
   for (const Axis axis : all_axes) {
@@ -140,6 +140,7 @@ bool PathBuilder::take(const Operation& operation, PathItem& item) {
           [&](const operation::StraightProbe& probe) { return take_probe(probe, item); },
           [&](const operation::ArcFeed& arc) { return take_arc(arc, item); },
           [&](const operation::NurbsFeed& curve) { return take_spline(curve, item); },
+          [&](const operation::SetLengthUnits& set) { return units_ = set.units, false; },
           [&](const operation::SetFeedMode& mode) { return feed_mode_ = mode.mode, false; },
           [&](const operation::SetFeedRate& rate) { return feed_rate_ = rate, false; },
           [&](const operation::RigidTap& tap) { return take_tap(tap, item); },

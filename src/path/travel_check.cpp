@@ -11,8 +11,15 @@ namespace {
 // A move to exactly the limit may be beyond the limit by rounding. That is no excursion.
 constexpr double slack = 1e-6;
 
-const char* unit_of(Axis axis) {
-  return is_rotary(axis) ? "degrees" : "mm";
+// A length of a message, in the program's units: three decimals of a millimetre, four of an inch. Degrees are degrees.
+std::string in_units(double value, Axis axis, LengthUnits units) {
+  const bool inches = units == LengthUnits::inch && !is_rotary(axis);
+  return fmt::format("{:.{}f}", inches ? value / mm_per_inch : value, inches ? 4 : 3);
+}
+
+const char* unit_of(Axis axis, LengthUnits units) {
+  if (is_rotary(axis)) return "degrees";
+  return units == LengthUnits::inch ? "inches" : "mm";
 }
 
 // The place of the curve where `axis` reaches `reached`: an end, or where the axis turns back. There, an arc's other
@@ -67,12 +74,15 @@ void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Cu
     outside.remove(axis);
   }
   if (!is_new) return;
-  report(
-      Severity::error, "travel.exceeded",
-      fmt::format("{} would reach {:.3f} (work {:.3f}), {:.3f} {} {} its travel's end at {:.3f}", letter_of(axis),
-                  reached, frame_.work_from_machine(place_of(curve, axis, reached))[axis],
-                  high_side ? reached - limit : limit - reached, unit_of(axis), high_side ? "beyond" : "below", limit),
-      fmt::format("{} within {:.3f} to {:.3f}, machine coordinates", letter_of(axis), travel.low, travel.high), axis);
+  const auto shown = [&](double value) { return in_units(value, axis, units_); };
+  const std::string limits = fmt::format("{} within {} to {}", letter_of(axis), shown(travel.low), shown(travel.high));
+  report(Severity::error, "travel.exceeded",
+         fmt::format("{} would reach {} (work {}), {} {} {} its travel's end at {}", letter_of(axis), shown(reached),
+                     shown(frame_.work_from_machine(place_of(curve, axis, reached))[axis]),
+                     shown(high_side ? reached - limit : limit - reached), unit_of(axis, units_),
+                     high_side ? "beyond" : "below", shown(limit)),
+         units_ == LengthUnits::inch ? limits + ", machine coordinates in inches" : limits + ", machine coordinates",
+         axis);
 }
 
 // Each missing axis is reported once, because a program for a machine with more axes moves them in most of its lines.

@@ -16,6 +16,10 @@ namespace {
 
 constexpr double margin = 40;
 
+std::string coordinates(const Place& place) {
+  return fmt::format("({})", fmt::join(place, ", "));
+}
+
 std::vector<Shown> followed(const Method& method, const StepMove& move) {
   std::vector<Shown> all = {{.place = move.from}};
   const auto add = [&](const Followed& now) {
@@ -42,10 +46,72 @@ void draw_ideal(Canvas& canvas, const StepView& view, const StepMove& move) {
   canvas.stroke({.colour = step_look::ideal_colour, .width = 1.6});
 }
 
+// The corner of the view that is farthest from all pulses, as an area of this size.
+Area emptiest_corner(const StepView& view, const std::vector<Shown>& shown, double size) {
+  constexpr double gap = 8;
+  const Area& frame = view.frame();
+  Area best;
+  double farthest = -1;
+  for (const double x : {frame.x + gap, frame.right() - gap - size}) {
+    for (const double y : {frame.y + gap, frame.bottom() - gap - size}) {
+      const Spot middle{x + size / 2, y + size / 2};
+      double nearest = INFINITY;
+      for (const Shown& one : shown) {
+        const Spot spot = view.spot(one.place);
+        nearest = std::min(nearest, std::hypot(spot.x - middle.x, spot.y - middle.y));
+      }
+      if (nearest <= farthest) continue;
+      farthest = nearest;
+      best = {x, y, size, size};
+    }
+  }
+  return best;
+}
+
+// Where single pulses cannot be seen, the middle of the move is shown magnified too, in a corner of the view.
+void draw_magnified(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown, const StepMove& move) {
+  constexpr double pixels = 12;  // a step
+  const double size = 0.42 * std::min(view.frame().width, view.frame().height);
+  const double steps = std::floor(size / pixels);
+  if (view.has_dots() || steps < 4) return;
+  const Place& middle = shown[shown.size() / 2].place;
+  const auto begin = [&](std::size_t axis) { return StepView::value(middle, axis) - std::floor(steps / 2) - 0.5; };
+  const Spot low{begin(view.across()), begin(view.up())};
+  const StepView near(view, low, steps, emptiest_corner(view, shown, size));
+  std::vector<Shown> inside;
+  for (const Shown& one : shown) {
+    if (near.shows(one.place)) inside.push_back(one);
+  }
+
+  const Pen mark{.colour = {0.25, 0.27, 0.30}, .width = 1};
+  const Spot corner = view.spot(low.x, low.y + steps);
+  const double least = 5;  // a frame that is smaller cannot be seen
+  const double side = std::max(least, steps * view.scale());
+  canvas.frame({corner.x, corner.y, side, side}, mark);
+  canvas.line({corner.x + side / 2, corner.y + side / 2}, {near.frame().x + size / 2, near.frame().y + size / 2},
+              {.colour = mark.colour, .width = 0.8, .dashes = {2, 3}});
+  canvas.fill(near.frame(), step_look::paper);
+  canvas.clip(near.frame());
+  draw_step_lines(canvas, near);
+  if (!inside.empty()) draw_pulses(canvas, near, inside);
+  draw_ideal(canvas, near, move);
+  canvas.end_clip();
+  canvas.frame(near.frame(), mark);
+  // The place stands above or below the part, on the side of the view's middle.
+  const std::string caption = "at " + coordinates(middle);
+  const bool is_high = near.frame().y + size / 2 < view.frame().y + view.frame().height / 2;
+  const double y = is_high ? near.frame().bottom() + 10 : near.frame().y - 10;
+  const double width = canvas.text_width(caption, step_look::tick_font);
+  const double x = near.frame().x + size / 2;
+  canvas.fill({x - width / 2 - 3, y - 8, width + 6, 16}, step_look::paper);
+  canvas.text({x, y}, caption, step_look::tick_font, Align::centre);
+}
+
 void draw_view(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown, const StepMove& move) {
   draw_step_grid(canvas, view);
   draw_pulses(canvas, view, shown);
   draw_ideal(canvas, view, move);
+  draw_magnified(canvas, view, shown, move);
 }
 
 std::string figures(const Measures& found) {
@@ -58,9 +124,6 @@ std::string deviations(const Measures& found) {
   return fmt::format("off by {:.3f} step at most, {:.3f} on average", found.largest_deviation, found.mean_deviation);
 }
 
-std::string coordinates(const Place& place) {
-  return fmt::format("({})", fmt::join(place, ", "));
-}
 std::string move_text(const StepMove& move) {
   const std::string ends = coordinates(move.from) + " to " + coordinates(move.to);
   if (!move.arc) return "Line from " + ends;

@@ -58,15 +58,24 @@ class Stroke {
   double length_ = 0;
 };
 
+struct Piece {
+  const PathRecorder::Vertex& end;
+  Spot from;
+  Spot to;
+  double from_z;  // relative to the base of the path, like the vertex
+};
+
 template <class Visit>
 void for_each_piece(const PathRecorder& path, const Projection& projection, const Visit& visit) {
   const Point& base = path.base();
   Spot from;
+  double from_z = 0;
   for (const PathRecorder::Vertex& vertex : path.vertices()) {
     const Spot to = projection.spot(base[Axis::x] + double{vertex.x}, base[Axis::y] + double{vertex.y},
                                     base[Axis::z] + double{vertex.z});
-    if (vertex.kind != Kind::jump) visit(vertex, from, to);
+    if (vertex.kind != Kind::jump) visit(Piece{vertex, from, to, from_z});
     from = to;
+    from_z = double{vertex.z};
   }
 }
 
@@ -75,11 +84,11 @@ double feed_width(const PathRecorder& path, const Projection& projection) {
   double length = 0;
   Spot low{1e9, 1e9};
   Spot high{-1e9, -1e9};
-  for_each_piece(path, projection, [&](const PathRecorder::Vertex& vertex, Spot from, Spot to) {
-    if (vertex.kind != Kind::feed) return;
-    length += distance(from, to);
-    low = {std::min(low.x, to.x), std::min(low.y, to.y)};
-    high = {std::max(high.x, to.x), std::max(high.y, to.y)};
+  for_each_piece(path, projection, [&](const Piece& piece) {
+    if (piece.end.kind != Kind::feed) return;
+    length += distance(piece.from, piece.to);
+    low = {std::min(low.x, piece.to.x), std::min(low.y, piece.to.y)};
+    high = {std::max(high.x, piece.to.x), std::max(high.y, piece.to.y)};
   });
   constexpr double finest = 0.25;
   constexpr double broadest = 2.2;
@@ -100,27 +109,38 @@ Pen rapid_pen() {
   return {.colour = {0.86, 0.36, 0.26}, .width = 0.8, .opacity = 0.75, .dashes = {5, 4}};
 }
 
-void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection) {
+void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection, const PathColours& colours,
+               bool shows_rapids) {
   Stroke rapids;
-  for_each_piece(path, projection, [&](const PathRecorder::Vertex& vertex, Spot from, Spot to) {
-    if (vertex.kind == Kind::rapid) rapids.piece(canvas, rapid_pen(), from, to);
+  for_each_piece(path, projection, [&](const Piece& piece) {
+    if (piece.end.kind == Kind::rapid && shows_rapids) rapids.piece(canvas, rapid_pen(), piece.from, piece.to);
   });
   rapids.flush(canvas, rapid_pen());
 
-  const SpeedColours colours(path.fastest_feed());
   const double width = feed_width(path, projection);
   const auto pen = [&](std::size_t index) {
-    return Pen{.colour = SpeedColours::of_class(index), .width = width, .opacity = 1};
+    return Pen{.colour = colours.of_class(index), .width = width, .opacity = 1};
   };
-  std::vector<Stroke> feeds(SpeedColours::classes);
-  std::vector<Stroke> dots(SpeedColours::classes);
-  for_each_piece(path, projection, [&](const PathRecorder::Vertex& vertex, Spot from, Spot to) {
-    if (vertex.kind != Kind::feed) return;
-    const std::size_t index = colours.class_of(double{vertex.speed});
-    if (from.x == to.x && from.y == to.y) {
-      dots[index].piece(canvas, dot_pen(pen(index)), from, to);
-    } else {
-      feeds[index].piece(canvas, pen(index), from, to);
+  std::vector<Stroke> feeds(colours.classes());
+  std::vector<Stroke> dots(colours.classes());
+  for_each_piece(path, projection, [&](const Piece& piece) {
+    if (piece.end.kind != Kind::feed) return;
+    const int parts = colours.parts_between(piece.from_z, double{piece.end.z});
+    for (int part = 0; part < parts; ++part) {
+      const auto place = [&](int index) {
+        const double share = static_cast<double>(index) / parts;
+        return index == parts ? piece.to
+                              : Spot{piece.from.x + share * (piece.to.x - piece.from.x),
+                                     piece.from.y + share * (piece.to.y - piece.from.y)};
+      };
+      const double z = piece.from_z + (part + 0.5) / parts * (double{piece.end.z} - piece.from_z);
+      const std::size_t index = colours.class_of(piece.end, z);
+      const bool is_dot = piece.from.x == piece.to.x && piece.from.y == piece.to.y;
+      if (is_dot) {
+        dots[index].piece(canvas, dot_pen(pen(index)), piece.from, piece.to);
+      } else {
+        feeds[index].piece(canvas, pen(index), part == 0 ? piece.from : place(part), place(part + 1));
+      }
     }
   });
   for (std::size_t index = 0; index < feeds.size(); ++index) {

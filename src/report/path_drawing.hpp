@@ -1,7 +1,8 @@
-// Draws a recorded path in a projection. Feeds have the colours of their speed and are drawn over the rapids. Private
-// to report/.
+// Draws a recorded path in a projection. Feeds have the colours of their speed, depth or tool and are drawn over the
+// rapids. Private to report/.
 #pragma once
 
+#include "path_colours.hpp"
 #include "projection.hpp"
 
 #include "passo/report/path_recorder.hpp"
@@ -10,6 +11,7 @@ namespace passo {
 
 Pen rapid_pen();
 // A dense path gets a finer pen.
-void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection);
+void draw_path(Canvas& canvas, const PathRecorder& path, const Projection& projection, const PathColours& colours,
+               bool rapids);
 
 }  // namespace passo

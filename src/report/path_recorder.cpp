@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "polyline_joining.hpp"
 
@@ -51,6 +52,18 @@ void PathRecorder::watch(const MotionItem& item, const Point& machine_minus_work
     watch_move(*move, machine_minus_work);
   } else if (const auto& action = std::get<Action>(item); action.kind == Action::Kind::dwell) {
     time_ += action.dwell;
+  } else if (action.kind == Action::Kind::tool_change) {
+    change_tool(action.tool);
+  }
+}
+
+void PathRecorder::change_tool(std::int32_t tool) {
+  const auto found = std::ranges::find(tools_, tool);
+  if (found == tools_.end() && tools_.size() < most_tools) {
+    tool_ = static_cast<std::uint8_t>(tools_.size());
+    tools_.push_back(tool);
+  } else {
+    tool_ = static_cast<std::uint8_t>(std::min<std::ptrdiff_t>(found - tools_.begin(), most_tools - 1));
   }
 }
 
@@ -67,6 +80,13 @@ void PathRecorder::watch_move(const PlannedMove& move, const Point& origin) {
   for (const Axis axis : space) {
     extents_.low[axis] = std::min(extents_.low[axis], box.low[axis]);
     extents_.high[axis] = std::max(extents_.high[axis], box.high[axis]);
+  }
+  if (!move.segment.rapid) {
+    if (!std::exchange(any_feed_, true)) feed_extents_ = box;
+    for (const Axis axis : space) {
+      feed_extents_.low[axis] = std::min(feed_extents_.low[axis], box.low[axis]);
+      feed_extents_.high[axis] = std::max(feed_extents_.high[axis], box.high[axis]);
+    }
   }
   constexpr std::size_t most_origins = 9;
   if (origins_.size() < most_origins && std::ranges::find(origins_, origin) == origins_.end()) {
@@ -125,7 +145,8 @@ void PathRecorder::add(const Point& point, double speed, Kind kind) {
                        .y = static_cast<float>(point[Axis::y] - base_[Axis::y]),
                        .z = static_cast<float>(point[Axis::z] - base_[Axis::z]),
                        .speed = static_cast<float>(speed),
-                       .kind = kind});
+                       .kind = kind,
+                       .tool = tool_});
 }
 
 void PathRecorder::make_room() {

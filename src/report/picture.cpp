@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <vector>
 
 #include "axis_ticks.hpp"
 #include "cairo_canvas.hpp"
@@ -23,13 +25,16 @@ constexpr double margin = 48;
 // "100.0": three or four significant digits, without an exponent.
 std::string length_text(double mm) {
   if (mm == 0) return "0";
-  const int decimals = mm >= 1000 ? 0 : mm >= 10 ? 1 : mm >= 0.1 ? 2 : 4;
+  const double size = std::abs(mm);
+  const int decimals = size >= 1000 ? 0 : size >= 10 ? 1 : size >= 0.1 ? 2 : 4;
   return fmt::format("{:.{}f}", mm, decimals);
 }
 
-std::string size_text(const PathRecorder& path) {
+// The size of what is drawn.
+std::string size_text(const PathRecorder& path, bool rapids) {
   if (path.empty()) return "no motion";
-  const auto size = [&](Axis axis) { return length_text(path.extents().high[axis] - path.extents().low[axis]); };
+  const Box& box = rapids ? path.extents() : path.feed_extents();
+  const auto size = [&](Axis axis) { return length_text(box.high[axis] - box.low[axis]); };
   return fmt::format("X {} \u00D7 Y {} \u00D7 Z {} mm", size(Axis::x), size(Axis::y), size(Axis::z));
 }
 
@@ -48,39 +53,79 @@ void draw_title(Canvas& canvas, const PathRecorder& path, const Scene& scene, co
   const double room = options.width - 2 * margin;
   canvas.text({margin, 42}, shortened(canvas, options.program, title, room), title);
   std::string line = options.machine.empty() ? "" : options.machine + "   \u00B7   ";
-  line += clock_text(path.time()) + "   \u00B7   " + size_text(path);
+  line += clock_text(path.time()) + "   \u00B7   " + size_text(path, options.rapids);
   if (!path.empty())
     line += scene.work_coordinates ? "   \u00B7   work coordinates" : "   \u00B7   machine coordinates";
   canvas.text({margin, 74}, shortened(canvas, line, subtitle, room), subtitle);
 }
 
-void draw_speed_bar(Canvas& canvas, MmPerSecond fastest, const Area& bar) {
-  canvas.text({bar.x, bar.y - 14}, "Feed, actual speed in mm/min", caption);
+// The map of colours with a scale below it, from `begin` at the left to `end` at the right.
+void draw_bar(Canvas& canvas, const std::string& name, double begin, double end, const Area& bar) {
+  canvas.text({bar.x, bar.y - 14}, name, caption);
   canvas.fill_with_speeds(bar);
-  const double highest = fastest.value() * seconds_per_minute;
-  const double pixels = bar.width / highest;
+  const double pixels = bar.width / (end - begin);
   const auto room = [&](const std::string& text) { return canvas.text_width(text, label) + 24; };
   const Pen pen{.colour = label.colour, .width = 1};
-  for (const Tick& tick : ticks(0, highest, pixels, room)) {
-    const double x = bar.x + tick.value * pixels;
+  for (const Tick& tick : ticks(std::min(begin, end), std::max(begin, end), std::abs(pixels), room)) {
+    const double x = bar.x + (tick.value - begin) * pixels;
     canvas.line({x, bar.bottom()}, {x, bar.bottom() + 4}, pen);
     canvas.text({x, bar.bottom() + 14}, tick.label, label, Align::centre);
   }
 }
 
-void draw_legend(Canvas& canvas, const PathRecorder& path, const Area& area) {
+// A stroke in the colour of each tool that feeds. Returns where the legend goes on.
+double draw_tools(Canvas& canvas, const PathRecorder& path, double x, double y) {
+  constexpr std::size_t most_shown = 8;
+  std::vector<bool> feeds(path.tools().size());
+  for (const PathRecorder::Vertex& vertex : path.vertices()) {
+    if (vertex.kind == PathRecorder::Kind::feed) feeds[vertex.tool] = true;
+  }
+  std::size_t shown = 0;
+  for (std::size_t tool = 0; tool < feeds.size(); ++tool) {
+    if (!feeds[tool]) continue;
+    const bool more = ++shown > most_shown;
+    if (!more) canvas.line({x, y}, {x + 26, y}, {.colour = PathColours::of_tool(tool), .width = 3});
+    const std::string name = more                     ? "\u2026"
+                             : path.tools()[tool] > 0 ? fmt::format("T{}", path.tools()[tool])
+                                                      : "no tool";
+    canvas.text({x + (more ? 0 : 34), y}, name, caption);
+    x += 34 + canvas.text_width(name, caption) + 26;
+    if (more) break;
+  }
+  return x + 20;
+}
+
+void draw_legend(Canvas& canvas, const PathRecorder& path, const Scene& scene, const Area& area) {
   const double middle = area.y + area.height / 2;
   double x = area.x;
-  if (path.fastest_feed() > MmPerSecond(0)) {
-    const Area bar{area.x, middle - 6, 520, 12};
-    draw_speed_bar(canvas, path.fastest_feed(), bar);
+  const Area bar{area.x, middle - 6, 520, 12};
+  const PathColour by = scene.colours.by();
+  if (path.fastest_feed() > MmPerSecond(0) && by == PathColour::tool) {
+    x = draw_tools(canvas, path, x, middle);
+  } else if (path.fastest_feed() > MmPerSecond(0) && by == PathColour::speed) {
+    draw_bar(canvas, "Feed, actual speed in mm/min", 0, path.fastest_feed().value() * seconds_per_minute, bar);
     x = bar.right() + 70;
+  } else if (path.fastest_feed() > MmPerSecond(0)) {
+    const double high = path.feed_extents().high[Axis::z] - scene.zero[Axis::z];
+    const double low = path.feed_extents().low[Axis::z] - scene.zero[Axis::z];
+    if (high > low) {
+      draw_bar(canvas, "Feed, Z in mm", high, low, bar);
+      x = bar.right() + 70;
+    } else {
+      const std::string words = fmt::format("Feed, all at Z {} mm", length_text(high));
+      canvas.line({x, middle}, {x + 26, middle},
+                  {.colour = scene.colours.of_class(scene.colours.classes() - 1), .width = 3});
+      canvas.text({x + 34, middle}, words, caption);
+      x += 34 + canvas.text_width(words, caption) + 60;
+    }
   }
-  Pen pen = rapid_pen();
-  pen.width = 1.2;
-  canvas.line({x, middle}, {x + 48, middle}, pen);
-  canvas.text({x + 60, middle}, "Rapid", caption);
-  x += 60 + canvas.text_width("Rapid", caption) + 60;
+  if (scene.rapids) {
+    Pen pen = rapid_pen();
+    pen.width = 1.2;
+    canvas.line({x, middle}, {x + 48, middle}, pen);
+    canvas.text({x + 60, middle}, "Rapid", caption);
+    x += 60 + canvas.text_width("Rapid", caption) + 60;
+  }
   canvas.disc({x, middle}, 3, label.colour);
   canvas.text({x + 14, middle}, path.origins().size() > 1 ? "Work zeros" : "Work zero", caption);
 }
@@ -101,14 +146,15 @@ Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions&
   const double height = options.height;
   canvas.fill({0, 0, width, height}, {1, 1, 1});
 
-  const Scene scene(path);
+  const Scene scene(path, options);
+  const FlatView view = options.view == FlatView::automatic ? natural_view(path, options.is_lathe) : options.view;
   draw_title(canvas, path, scene, options);
   constexpr double upper = 136;
   constexpr double lower = 150;
   const double views = width - 2 * margin;
   draw_isometric_view(canvas, scene, {margin, upper, views * 0.54, height - upper - lower + 30});
-  draw_top_view(canvas, scene, {margin + views * 0.54 + 90, upper, views * 0.46 - 90, height - upper - lower});
-  if (!path.empty()) draw_legend(canvas, path, {margin, height - 84, views, 60});
+  draw_flat_view(canvas, scene, view, {margin + views * 0.54 + 90, upper, views * 0.46 - 90, height - upper - lower});
+  if (!path.empty()) draw_legend(canvas, path, scene, {margin, height - 84, views, 60});
   return canvas.finish();
 }
 

@@ -94,35 +94,60 @@ void draw_scale_bar(Canvas& canvas, Spot right_end, double scale, double view_wi
   canvas.text(moved(left_end, length * scale / 2, -13), tick_label(length, length) + " mm", label, Align::centre);
 }
 
-// Widens the box so that it fills the frame of the top view. So a wide or narrow view also shows what is beside the
+// How a flat view lies: the axis that points right, and the one that points up.
+struct Flat {
+  const char* title;
+  Axis across;
+  Axis up;
+};
+
+Flat flat_of(FlatView view) {
+  switch (view) {
+    case FlatView::front: return {"Front view", Axis::x, Axis::z};
+    case FlatView::side: return {"Side view", Axis::y, Axis::z};
+    case FlatView::lathe: return {"Lathe view", Axis::z, Axis::x};
+    case FlatView::automatic:
+    case FlatView::top: break;
+  }
+  return {"Top view", Axis::x, Axis::y};
+}
+
+// Widens the box so that it fills the frame of the flat view. So a wide or narrow view also shows what is beside the
 // path.
-Box filled_box(const Box& box, const Projection& projection, const Area& area) {
+Box filled_box(const Box& box, const Flat& flat, const Projection& projection, const Area& area) {
   Box filled = box;
-  widen(filled, Axis::x, area.width / projection.scale());
-  widen(filled, Axis::y, area.height / projection.scale());
+  widen(filled, flat.across, area.width / projection.scale());
+  widen(filled, flat.up, area.height / projection.scale());
   return filled;
 }
 
-void draw_top_frame(Canvas& canvas, const Scene& scene, const Projection& projection, const Area& area) {
-  const Box shown = filled_box(scene.box, projection, area);
+void draw_flat_frame(Canvas& canvas, const Scene& scene, const Flat& flat, const Projection& projection,
+                     const Area& area) {
+  const Box shown = filled_box(scene.box, flat, projection, area);
   const double scale = projection.scale();
   // Labels need the same room on both axes, so that the grid is square.
   const auto room = [&](const std::string& text) { return canvas.text_width(text, label) + 22; };
-  for (const Tick& tick : axis_ticks(scene, shown, Axis::x, scale, room)) {
-    const double x = projection.spot(scene.zero[Axis::x] + tick.value, 0, 0).x;
+  const auto spot = [&](Axis axis, double value) {
+    Point place;
+    place[axis] = scene.zero[axis] + value;
+    return projection.spot(place);
+  };
+  for (const Tick& tick : axis_ticks(scene, shown, flat.across, scale, room)) {
+    const double x = spot(flat.across, tick.value).x;
     canvas.line({x, area.y}, {x, area.bottom()}, grid);
     canvas.line({x, area.bottom()}, {x, area.bottom() + mark}, edge);
     canvas.text({x, area.bottom() + mark + 10}, tick.label, label, Align::centre);
   }
-  for (const Tick& tick : axis_ticks(scene, shown, Axis::y, scale, room)) {
-    const double y = projection.spot(0, scene.zero[Axis::y] + tick.value, 0).y;
+  for (const Tick& tick : axis_ticks(scene, shown, flat.up, scale, room)) {
+    const double y = spot(flat.up, tick.value).y;
     canvas.line({area.x, y}, {area.right(), y}, grid);
     canvas.line({area.x - mark, y}, {area.x, y}, edge);
     canvas.text({area.x - mark - 4, y}, tick.label, label, Align::right);
   }
   canvas.frame(area, edge);
-  canvas.text({area.x + area.width / 2, area.bottom() + 36}, "X, mm", heading, Align::centre);
-  canvas.text({area.x - mark - 4, area.y - 16}, "Y, mm", heading, Align::right);
+  canvas.text({area.x + area.width / 2, area.bottom() + 36}, std::string{letter_of(flat.across)} + ", mm", heading,
+              Align::centre);
+  canvas.text({area.x - mark - 4, area.y - 16}, std::string{letter_of(flat.up)} + ", mm", heading, Align::right);
 }
 
 // One edge of the isometric box with its ticks. The axis runs along the edge, and the labels stand outside of the box.
@@ -213,7 +238,11 @@ void draw_box(Canvas& canvas, const Scene& scene, const Projection& projection) 
 
 }  // namespace
 
-Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extents()) {
+Scene::Scene(const PathRecorder& recorded, const PictureOptions& options)
+    : path(recorded),
+      colours(recorded, options.colour),
+      rapids(options.rapids),
+      box(options.rapids ? recorded.extents() : recorded.feed_extents()) {
   if (path.origins().size() == 1) {
     zero = path.origins().front();
     work_coordinates = true;
@@ -236,15 +265,26 @@ Scene::Scene(const PathRecorder& recorded) : path(recorded), box(recorded.extent
   widen(box, Axis::z, largest / 20);
 }
 
-void draw_top_view(Canvas& canvas, const Scene& scene, const Area& area) {
-  canvas.text({area.x + area.width / 2, area.y - 16}, "Top view", heading, Align::centre);
-  Projection projection = Projection::top();
+FlatView natural_view(const PathRecorder& path, bool is_lathe) {
+  const Box& box = path.extents();
+  const double some = 1e-6 * std::max({span(box, Axis::x), span(box, Axis::y), span(box, Axis::z)});
+  const auto moves = [&](Axis axis) { return span(box, axis) > some; };
+  if (path.empty() || !moves(Axis::z)) return FlatView::top;
+  if (moves(Axis::x) && !moves(Axis::y)) return is_lathe ? FlatView::lathe : FlatView::front;
+  if (moves(Axis::y) && !moves(Axis::x)) return FlatView::side;
+  return FlatView::top;
+}
+
+void draw_flat_view(Canvas& canvas, const Scene& scene, FlatView view, const Area& area) {
+  const Flat flat = flat_of(view);
+  canvas.text({area.x + area.width / 2, area.y - 16}, flat.title, heading, Align::centre);
+  Projection projection = Projection::flat(flat.across, flat.up);
   constexpr double margin = 0.06;
   projection.fit(scene.box, {area.x + margin * area.width, area.y + margin * area.height, area.width * (1 - 2 * margin),
                              area.height * (1 - 2 * margin)});
-  draw_top_frame(canvas, scene, projection, area);
-  draw_path(canvas, scene.path, projection);
-  Box shown = filled_box(scene.box, projection, area);
+  draw_flat_frame(canvas, scene, flat, projection, area);
+  draw_path(canvas, scene.path, projection, scene.colours, scene.rapids);
+  Box shown = filled_box(scene.box, flat, projection, area);
   draw_zeros(canvas, scene, projection, shown);
   if (scene.path.empty()) draw_no_motion(canvas, area);
   draw_scale_bar(canvas, {area.right() - 18, area.bottom() - 18}, projection.scale(), area.width);
@@ -262,7 +302,7 @@ void draw_isometric_view(Canvas& canvas, const Scene& scene, const Area& area) {
   draw_edge(canvas, scene, projection, {Axis::x, low, -0.5, cosine, Align::right});
   draw_edge(canvas, scene, projection, {Axis::y, right_corner, 0.5, cosine, Align::left});
   draw_edge(canvas, scene, projection, {Axis::z, low, -1, 0, Align::right});
-  draw_path(canvas, scene.path, projection);
+  draw_path(canvas, scene.path, projection, scene.colours, scene.rapids);
   draw_zeros(canvas, scene, projection, scene.box);
   if (scene.path.empty()) draw_no_motion(canvas, area);
 }

@@ -1,6 +1,7 @@
 // The two views of a picture, with frames, ticks and the work zeros. Private to report/.
 #pragma once
 
+#include "path_colours.hpp"
 #include "projection.hpp"
 
 #include "passo/report/path_recorder.hpp"
@@ -9,15 +10,20 @@ namespace passo {
 
 // What a view shows: the box of the path, which is widened so that it is never flat, and the zero of the ticks.
 struct Scene {
-  explicit Scene(const PathRecorder& path);
+  Scene(const PathRecorder& path, const PictureOptions& options);
 
   const PathRecorder& path;
-  Box box;     // machine coordinates
-  Point zero;  // zero of the ticks: the work zero if there is exactly one, else machine zero
+  PathColours colours;
+  bool rapids;  // the rapids are drawn
+  Box box;      // machine coordinates
+  Point zero;   // zero of the ticks: the work zero if there is exactly one, else machine zero
   bool work_coordinates = false;
 };
 
-void draw_top_view(Canvas& canvas, const Scene& scene, const Area& area);
+// A view along one axis of the machine. `view` is not FlatView::automatic.
+void draw_flat_view(Canvas& canvas, const Scene& scene, FlatView view, const Area& area);
+// The flat view that shows most of the work.
+FlatView natural_view(const PathRecorder& path, bool is_lathe);
 void draw_isometric_view(Canvas& canvas, const Scene& scene, const Area& area);
 
 }  // namespace passo

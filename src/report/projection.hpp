@@ -12,8 +12,11 @@ namespace passo {
 
 class Projection {
  public:
-  // Seen from above: X points right, Y up.
-  static Projection top() { return {{1, 0}, {0, 1}, {0, 0}}; }
+  // Seen along the third axis: `across` points right, `up` points up. Both are X, Y or Z.
+  static Projection flat(Axis across, Axis up) {
+    const auto way = [&](Axis axis) { return Spot{axis == across ? 1.0 : 0.0, axis == up ? 1.0 : 0.0}; };
+    return {way(Axis::x), way(Axis::y), way(Axis::z)};
+  }
   // Seen from the front, the right and above. All axes are equally foreshortened: X points right and down, Y right and
   // up.
   //

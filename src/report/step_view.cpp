@@ -9,8 +9,8 @@ namespace passo {
 namespace {
 
 using step_look::caption_font;
+using step_look::tick_font;
 
-const Font tick_font{.size = 11, .colour = {0.40, 0.42, 0.46}};
 const Colour grid_colour{0.90, 0.91, 0.93};
 const Colour edge_colour{0.62, 0.64, 0.67};
 
@@ -26,15 +26,19 @@ std::vector<Tick> step_ticks(double low, double high, double scale, double room)
 
 void draw_ticks(Canvas& canvas, const StepView& view) {
   const Area& frame = view.frame();
+  double label_end = frame.x;
   const double widest = std::max(canvas.text_width(tick_label(view.low().x, 1), tick_font),
                                  canvas.text_width(tick_label(view.high().x, 1), tick_font));
   for (const Tick& tick : step_ticks(view.low().x, view.high().x, view.scale(), widest + 12)) {
-    canvas.text({view.spot(tick.value, 0).x, frame.bottom() + 12}, tick.label, tick_font, Align::centre);
+    const double x = view.spot(tick.value, 0).x;
+    canvas.text({x, frame.bottom() + 12}, tick.label, tick_font, Align::centre);
+    label_end = x + canvas.text_width(tick.label, tick_font) / 2;
   }
   for (const Tick& tick : step_ticks(view.low().y, view.high().y, view.scale(), 18)) {
     canvas.text({frame.x - 7, view.spot(0, tick.value).y}, tick.label, tick_font, Align::right);
   }
-  canvas.text({frame.right() + 14, frame.bottom() + 12}, axis_name(view.across()), tick_font);
+  // The last label may reach out beyond the frame.
+  canvas.text({std::max(frame.right() + 14, label_end + 10), frame.bottom() + 12}, axis_name(view.across()), tick_font);
   canvas.text({frame.x - 7, frame.y - 14}, axis_name(view.up()), tick_font, Align::right);
 }
 
@@ -57,12 +61,26 @@ StepView::StepView(const std::vector<Shown>& shown, const std::vector<Spot>& pat
             height * scale_};
 }
 
+StepView::StepView(const StepView& whole, Spot low, double steps, const Area& area)
+    : across_(whole.across_),
+      up_(whole.up_),
+      low_(low),
+      high_{low.x + steps, low.y + steps},
+      scale_(area.width / steps),
+      frame_(area) {}
+
+bool StepView::shows(const Place& place) const {
+  const double x = value(place, across_);
+  const double y = value(place, up_);
+  return x >= low_.x - 1 && x <= high_.x + 1 && y >= low_.y - 1 && y <= high_.y + 1;
+}
+
 void StepView::include(double x, double y) {
   low_ = {std::min(low_.x, x), std::min(low_.y, y)};
   high_ = {std::max(high_.x, x), std::max(high_.y, y)};
 }
 
-void draw_step_grid(Canvas& canvas, const StepView& view) {
+void draw_step_lines(Canvas& canvas, const StepView& view) {
   const Pen pen{.colour = grid_colour, .width = 1};
   const Area& frame = view.frame();
   const double step = view.scale() >= 6 ? 1 : round_step(12 / view.scale());
@@ -75,13 +93,17 @@ void draw_step_grid(Canvas& canvas, const StepView& view) {
     canvas.line({frame.x, at.y}, {frame.right(), at.y}, pen);
   }
   canvas.frame(frame, {.colour = edge_colour, .width = 1});
+}
+
+void draw_step_grid(Canvas& canvas, const StepView& view) {
+  draw_step_lines(canvas, view);
   draw_ticks(canvas, view);
 }
 
 void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown) {
   using namespace step_look;
-  const double radius = std::min(5.0, view.scale() * 0.2);
-  const bool dots = radius >= 1.2;
+  const double radius = view.dot_radius();
+  const bool dots = view.has_dots();
   for (const Shown& one : shown) {
     if (dots && one.waited) canvas.disc(view.spot(one.place), radius * 1.9, waiting);
   }

@@ -4,6 +4,7 @@
 // in steps.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace step_look {
 inline const Font title_font{.size = 24, .colour = {0.13, 0.14, 0.17}, .bold = true};
 inline const Font heading_font{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
 inline const Font caption_font{.size = 13, .colour = {0.40, 0.42, 0.46}};
+inline const Font tick_font{.size = 11, .colour = {0.40, 0.42, 0.46}};
 inline const Colour paper{1, 1, 1};
 inline const Colour ideal_colour{0.80, 0.22, 0.20};
 inline const Colour one_axis{0.16, 0.38, 0.70};
@@ -37,6 +39,13 @@ class StepView {
   // `path` has places of the ideal path; the view is wide enough for them too.
   StepView(const std::vector<Shown>& shown, const std::vector<Spot>& path, std::size_t across, std::size_t up,
            const Area& area);
+  // A magnified view of the steps from `low` on, which fills the area. The area is a square.
+  StepView(const StepView& whole, Spot low, double steps, const Area& area);
+
+  bool shows(const Place& place) const;
+  // Whether a pulse has room to be a dot.
+  bool has_dots() const { return dot_radius() >= smallest_dot; }
+  double dot_radius() const { return std::min(5.0, scale_ * 0.2); }
 
   static double value(const Place& place, std::size_t axis) {
     return axis < place.size() ? static_cast<double>(place[axis]) : 0;
@@ -53,6 +62,8 @@ class StepView {
   std::size_t up() const { return up_; }
 
  private:
+  static constexpr double smallest_dot = 1.2;
+
   void include(double x, double y);
 
   std::size_t across_;
@@ -63,7 +74,9 @@ class StepView {
   Area frame_;
 };
 
-// Grid and ticks. There is a line at every step if there is room for it, else only at round numbers of steps.
+// There is a line at every step if there is room for it, else only at round numbers of steps.
+void draw_step_lines(Canvas& canvas, const StepView& view);
+// The same, and the ticks beside them.
 void draw_step_grid(Canvas& canvas, const StepView& view);
 // The pulses, joined by a line. Blue: one axis stepped; orange: several; grey ring: it waited there.
 void draw_pulses(Canvas& canvas, const StepView& view, const std::vector<Shown>& shown);

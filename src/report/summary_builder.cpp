@@ -1,6 +1,7 @@
 #include "passo/report/summary_builder.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "axis_peaks.hpp"
 
@@ -17,6 +18,8 @@ class Extents {
     }
     any_ = true;
   }
+  void add(const Box& box, const Point& zero) { add(box.low - zero, box.high - zero); }
+  bool any() const { return any_; }
   std::optional<Range> of(Axis axis) const {
     if (!any_) return std::nullopt;
     return Range{low_[axis], high_[axis]};
@@ -28,25 +31,77 @@ class Extents {
   Point high_;
 };
 
+void widen(std::optional<Range>& range, double value) {
+  if (!range) range = Range{value, value};
+  range->low = std::min(range->low, value);
+  range->high = std::max(range->high, value);
+}
+
+template <class... Whats>
+bool is_any_of(const OperationKind& what) {
+  return (std::holds_alternative<Whats>(what) || ...);
+}
+
 }  // namespace
 
 class SummaryBuilder::Implementation {
  public:
   explicit Implementation(std::vector<Axis> axes) : axes_(std::move(axes)) {}
 
+  void watch(const Operation& operation) {
+    using namespace passo::operation;
+    const OperationKind& what = operation.what;
+    if (is_any_of<StraightTraverse, StraightFeed, ArcFeed, NurbsFeed, RigidTap, StraightProbe>(what)) {
+      if (sum_.moves++ == 0) sum_.units = units_;
+      if (is_any_of<StraightTraverse>(what)) ++sum_.rapids;
+      if (is_any_of<ArcFeed>(what)) ++sum_.arcs;
+    } else if (const auto* units = std::get_if<SetLengthUnits>(&what)) {
+      units_ = units->units;
+    } else if (const auto* offset = std::get_if<SetWorkOffset>(&what)) {
+      system_ = offset->system;
+    } else if (const auto* tool = std::get_if<SetToolNumber>(&what)) {
+      if (sum_.tools.empty()) first_tool_ = tool->tool;
+    } else if (const auto* message = std::get_if<Message>(&what)) {
+      note(operation, message->text, false);
+    } else if (const auto* print = std::get_if<Print>(&what)) {
+      note(operation, print->text, true);
+    }
+  }
+
+  void watch(const PathItem& item) {
+    if (const auto* action = std::get_if<Action>(&item)) {
+      if (action->kind == Action::Kind::probe_begin) probes_ = true;
+      if (action->kind == Action::Kind::probe_end) probes_ = false;
+      if (action->kind == Action::Kind::tool_change) path_tool_ = action->tool;
+      return;
+    }
+    if (probes_) return;
+    const auto& segment = std::get<Segment>(item);
+    const Box box = segment.curve.extents();
+    WorkExtents& work = work_[system_ < work_.size() ? system_ : 0];
+    work.all.add(box, segment.work_zero);
+    if (segment.rapid) return;
+    work.cutting.add(box, segment.work_zero);
+    ToolSummary& tool = tool_of(path_tool_);
+    widen(tool.feed, segment.speed.value());
+    const double depth = box.low[Axis::z] - segment.work_zero[Axis::z];
+    tool.depth = std::min(tool.depth.value_or(depth), depth);
+  }
+
   void watch(const PlannedMove& move, const Point& machine_minus_work) {
     const Segment& segment = move.segment;
     (segment.rapid ? sum_.rapid_time : sum_.cutting_time) += move.duration();
     peaks_.watch(move);
-    (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += move.to - move.from();
+    const Mm way = move.to - move.from();
+    (segment.rapid ? sum_.rapid_distance : sum_.cutting_distance) += way;
+    ToolSummary& tool = tool_of(motion_tool_);
+    (segment.rapid ? tool.rapid_time : tool.cutting_time) += move.duration();
+    if (!segment.rapid) tool.cutting_distance += way;
     add_extents(move, machine_minus_work);
-    if (move.from() > Mm(0)) return;  // a later part of a segment that was counted already
-    ++sum_.moves;
-    if (segment.rapid) ++sum_.rapids;
-    if (segment.curve.shape() == Curve::Shape::arc) ++sum_.arcs;
   }
 
   void watch(const Action& action, const Point& /*machine_minus_work*/) {
+    if (action.kind == Action::Kind::tool_change) motion_tool_ = action.tool;
     if (action.kind != Action::Kind::dwell) return;
     ++sum_.dwells;
     sum_.dwell_time += action.dwell;
@@ -54,20 +109,54 @@ class SummaryBuilder::Implementation {
 
   RunSummary summary() const {
     RunSummary summary = sum_;
+    for (ToolSummary& tool : summary.tools) {
+      if (tool.tool == before_tools) tool.tool = first_tool_;
+    }
     for (const Axis axis : axes_) {
       summary.axes.push_back({.axis = axis,
                               .machine_extents = machine_.of(axis),
-                              .work_extents = work_.of(axis),
+                              .work_extents = in_work_.of(axis),
+                              .cutting_extents = cutting_.of(axis),
                               .peak_speed = MmPerSecond(peaks_.speed(axis)),
                               .peak_acceleration = MmPerSecond2(peaks_.acceleration(axis)),
                               .net_steps = {},
                               .total_steps = {},
                               .position = 0});
     }
+    for (std::size_t system = 0; system < work_.size(); ++system) add_work(system, summary);
     return summary;
   }
 
  private:
+  struct WorkExtents {
+    Extents all;
+    Extents cutting;
+  };
+  static constexpr std::int32_t before_tools = -1;  // the tool that is in the spindle before the first change
+
+  void note(const Operation& operation, std::string_view text, bool print) {
+    if (sum_.messages.size() == RunSummary::most_messages) return;
+    sum_.messages.push_back({.line = operation.source.line, .print = print, .text = std::string(text)});
+  }
+
+  ToolSummary& tool_of(std::int32_t number) {
+    constexpr std::size_t most_tools = 1000;
+    const auto found = std::ranges::find(sum_.tools, number, &ToolSummary::tool);
+    if (found != sum_.tools.end()) return *found;
+    if (sum_.tools.size() == most_tools) return sum_.tools.back();
+    return sum_.tools.emplace_back(ToolSummary{.tool = number});
+  }
+
+  void add_work(std::size_t system, RunSummary& summary) const {
+    if (!work_[system].all.any()) return;
+    WorkSummary work{.system = static_cast<std::uint8_t>(system)};
+    for (const Axis axis : axes_) {
+      work.extents.push_back(work_[system].all.of(axis));
+      work.cutting.push_back(work_[system].cutting.of(axis));
+    }
+    summary.work.push_back(std::move(work));
+  }
+
   // If only a part of a segment is played, adds only that part.
   void add_extents(const PlannedMove& move, const Point& machine_minus_work) {
     const Curve& whole = move.segment.curve;
@@ -75,19 +164,39 @@ class SummaryBuilder::Implementation {
     if (is_part && !(move.to > move.from())) return;
     const Box box = is_part ? whole.part(move.from(), move.to).extents() : whole.extents();
     machine_.add(box.low, box.high);
-    work_.add(box.low - machine_minus_work, box.high - machine_minus_work);
+    in_work_.add(box, machine_minus_work);
+    if (!move.segment.rapid) cutting_.add(box.low, box.high);
   }
 
   std::vector<Axis> axes_;
   RunSummary sum_;
   Extents machine_;
-  Extents work_;
+  Extents cutting_;
+  Extents in_work_;
   AxisPeaks peaks_;
+
+  // As the program is read:
+  LengthUnits units_ = LengthUnits::mm;
+  std::size_t system_ = 1;
+  std::int32_t first_tool_ = 0;  // M61 before the first move
+  // On the path, and in the motion, which comes later:
+  bool probes_ = false;
+  std::int32_t path_tool_ = before_tools;
+  std::int32_t motion_tool_ = before_tools;
+  std::array<WorkExtents, 10> work_;  // of each system; 0: of none
 };
 
 SummaryBuilder::SummaryBuilder(std::vector<Axis> axes)
     : implementation_(std::make_unique<Implementation>(std::move(axes))) {}
 SummaryBuilder::~SummaryBuilder() = default;
+
+void SummaryBuilder::watch_operation(const Operation& operation) {
+  implementation_->watch(operation);
+}
+
+void SummaryBuilder::watch_path(const PathItem& item) {
+  implementation_->watch(item);
+}
 
 void SummaryBuilder::watch(const MotionItem& item, const Point& machine_minus_work) {
   std::visit([&](const auto& what) { implementation_->watch(what, machine_minus_work); }, item);

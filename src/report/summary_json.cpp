@@ -34,10 +34,39 @@ void add_motion(const RunSummary& summary, Json& json) {
       {"moves", summary.moves}, {"rapids", summary.rapids}, {"arcs", summary.arcs}, {"dwells", summary.dwells}};
   json["extents_mm"] = {
       {"machine", of_axes(summary, [](const AxisSummary& axis) { return range(axis.machine_extents); })},
-      {"work", of_axes(summary, [](const AxisSummary& axis) { return range(axis.work_extents); })}};
+      {"work", of_axes(summary, [](const AxisSummary& axis) { return range(axis.work_extents); })},
+      {"cutting", of_axes(summary, [](const AxisSummary& axis) { return range(axis.cutting_extents); })}};
   json["peak_speed_mm_s"] = of_axes(summary, [](const AxisSummary& axis) { return axis.peak_speed.value(); });
   json["peak_acceleration_mm_s2"] =
       of_axes(summary, [](const AxisSummary& axis) { return axis.peak_acceleration.value(); });
+}
+
+Json ranges(const RunSummary& summary, const std::vector<std::optional<Range>>& extents) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < extents.size(); ++i) json[key(summary.axes[i])] = range(extents[i]);
+  return json;
+}
+
+void add_program(const RunSummary& summary, Json& json) {
+  json["units"] = summary.units == LengthUnits::inch ? "inch" : "mm";
+  for (const WorkSummary& work : summary.work) {
+    json["work_offsets"][name_of_system(work.system)] = {{"extents_mm", ranges(summary, work.extents)},
+                                                         {"cutting_mm", ranges(summary, work.cutting)}};
+  }
+  for (const ToolSummary& tool : summary.tools) {
+    Json feed = nullptr;
+    if (tool.feed) feed = {{"min", tool.feed->low * seconds_per_minute}, {"max", tool.feed->high * seconds_per_minute}};
+    json["tools"].push_back({{"tool", tool.tool},
+                             {"cutting_s", tool.cutting_time.value()},
+                             {"rapid_s", tool.rapid_time.value()},
+                             {"cutting_mm", tool.cutting_distance.value()},
+                             {"feed_mm_min", feed},
+                             {"depth_mm", tool.depth ? Json(*tool.depth) : Json()}});
+  }
+  for (const ProgramMessage& message : summary.messages) {
+    json["messages"].push_back(
+        {{"line", message.line}, {"kind", message.print ? "print" : "message"}, {"text", message.text}});
+  }
 }
 
 void add_board(const RunSummary& summary, const BoardSummary& board, Json& json) {
@@ -97,6 +126,7 @@ std::string to_json(const RunSummary& summary) {
   json["program"] = summary.program;
   json["machine"] = summary.machine;
   add_motion(summary, json);
+  add_program(summary, json);
   if (summary.board) add_board(summary, *summary.board, json);
   add_holds(summary, json);
   if (summary.probes) add_probes(summary, *summary.probes, json);

@@ -36,12 +36,6 @@ std::string share(double part, double whole) {
   return whole > 0 ? fmt::format("{:5.1f} %", 100 * part / whole) : "";
 }
 
-// Three decimals, but never "-0.000".
-std::string place(double value) {
-  const std::string text = fmt::format("{:.3f}", value);
-  return text == "-0.000" ? "0.000" : text;
-}
-
 // Control characters in file names must not reach the terminal.
 std::string printable(std::string text) {
   for (char& c : text) {
@@ -62,7 +56,7 @@ std::string so_often(int count) {
 
 class Text {
  public:
-  explicit Text(bool colour) : colour_(colour) {}
+  Text(bool colour, LengthUnits units) : colour_(colour), inches_(units == LengthUnits::inch) {}
 
   void title(const RunSummary& summary) {
     out_ += strong(printable(summary.program));
@@ -81,20 +75,34 @@ class Text {
 
   void distances(const RunSummary& summary) {
     const Mm all = summary.cutting_distance + summary.rapid_distance;
-    heading("Distance", "mm");
-    line("cutting", place(summary.cutting_distance.value()), share(summary.cutting_distance.value(), all.value()));
-    line("rapid", place(summary.rapid_distance.value()), share(summary.rapid_distance.value(), all.value()));
-    line("total", place(all.value()),
+    heading("Distance", unit());
+    line("cutting", length(summary.cutting_distance), share(summary.cutting_distance.value(), all.value()));
+    line("rapid", length(summary.rapid_distance), share(summary.rapid_distance.value(), all.value()));
+    line("total", length(all),
          fmt::format("  in {}: {}, {}", counted(summary.moves, "move"), counted(summary.rapids, "rapid"),
                      counted(summary.arcs, "arc")));
   }
 
+  void tools(const RunSummary& summary) {
+    heading("Tools", fmt::format("{}; feeds {} a minute; depth is the lowest Z at feed", unit(), unit()));
+    out_ += fmt::format("  {:4}{:>14}{:>14}{:>14}{:>20}{:>12}\n", "", "cutting", "rapid", "distance", "feed", "depth");
+    for (const ToolSummary& tool : summary.tools) {
+      out_ += fmt::format("  {:4}{:>14}{:>14}{:>14}{:>20}{:>12}\n",
+                          tool.tool > 0 ? fmt::format("T{}", tool.tool) : std::string("-"), duration(tool.cutting_time),
+                          duration(tool.rapid_time), length(tool.cutting_distance), feeds(tool.feed),
+                          tool.depth ? place(*tool.depth, Axis::z) : "");
+    }
+  }
+
   void extents(const RunSummary& summary) {
     heading("Extents", unit_of_places(summary));
-    out_ += fmt::format("  {:4}{:>12}{:>12}{:>14}{:>12}\n", "", "machine from", "to", "work from", "to");
-    for (const AxisSummary& axis : summary.axes) {
-      out_ += fmt::format("  {:4}{:>24}{:>26}\n", letter_of(axis.axis), range(axis.machine_extents),
-                          range(axis.work_extents));
+    table_of_extents(
+        summary, "machine", [&](std::size_t i) { return summary.axes[i].machine_extents; },
+        [&](std::size_t i) { return summary.axes[i].cutting_extents; });
+    for (const WorkSummary& work : summary.work) {
+      table_of_extents(
+          summary, name_of_system(work.system), [&](std::size_t i) { return work.extents[i]; },
+          [&](std::size_t i) { return work.cutting[i]; });
     }
   }
 
@@ -105,18 +113,19 @@ class Text {
     out_ += "\n";
     for (const AxisSummary& axis : summary.axes) {
       out_ += fmt::format("  {:4}{:>10.1f}{:>14.1f}", letter_of(axis.axis),
-                          axis.peak_speed.value() * seconds_per_minute, axis.peak_acceleration.value());
+                          in_units(axis.peak_speed.value() * seconds_per_minute, axis.axis),
+                          in_units(axis.peak_acceleration.value(), axis.axis));
       if (summary.board) {
         out_ += fmt::format("{:>13}{:>14}{:>12}", grouped(axis.net_steps.count), grouped(axis.total_steps.count),
-                            place(axis.position));
+                            place(axis.position, axis.axis));
       }
       out_ += "\n";
     }
   }
 
-  void board(const BoardSummary& board) {
+  void board(const RunSummary& summary, const BoardSummary& board) {
     heading("Board", "");
-    line("end", duration(board.end), "");
+    line("end", duration(board.end), difference(summary, board));
     line("pulses", grouped(board.pulses), "  in " + counted(board.events, "event"));
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
     if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
@@ -138,8 +147,8 @@ class Text {
 
   void probes(const RunSummary& summary, const ProbeSummary& probes) {
     heading("Probe", unit_of_places(summary));
-    out_ += fmt::format("  {}, {} touched; at most {:.3f} from contact to rest\n", counted(probes.moves, "move"),
-                        grouped(probes.touched), probes.farthest_overrun.value());
+    out_ += fmt::format("  {}, {} touched; at most {} from contact to rest\n", counted(probes.moves, "move"),
+                        grouped(probes.touched), length(probes.farthest_overrun));
     out_ += probes.last_touched ? "  the last touched at" : "  the last touched nothing, up to";
     add_place(summary, probes.last_contact);
     out_ += ", at rest in";
@@ -162,6 +171,14 @@ class Text {
   std::string strong(std::string_view text) const {
     return colour_ ? fmt::format("\x1b[1m{}\x1b[0m", text) : std::string(text);
   }
+  // Over a line, motion is sent ahead. Of what was sent before a contact, or before the board braked by itself, a part
+  // is not played but planned anew, so the motion's times hold it twice. Waiting makes the board's end later.
+  static std::string difference(const RunSummary& summary, const BoardSummary& board) {
+    const Seconds less = summary.time() - board.end;
+    if (board.held_items == 0 || std::llround(less.value() * 1000) == 0) return {};
+    return less > Seconds(0) ? fmt::format("  {} less than the total: motion that was planned twice", duration(less))
+                             : fmt::format("  {} more than the total: waiting", duration(board.end - summary.time()));
+  }
   void heading(std::string_view name, std::string_view unit) {
     out_ += "\n" + strong(name);
     if (!unit.empty()) out_ += fmt::format(", {}", unit);
@@ -174,34 +191,71 @@ class Text {
   }
   void add_place(const RunSummary& summary, const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      out_ += fmt::format(" {}{}", letter_of(summary.axes[i].axis), place(values[i]));
+      const Axis axis = summary.axes[i].axis;
+      out_ += fmt::format(" {}{}", letter_of(axis), place(values[i], axis));
     }
   }
-  static std::string range(const std::optional<Range>& extents) {
+  // A row for each axis: how far the path goes, and how far it goes at feed.
+  template <class All, class Cutting>
+  void table_of_extents(const RunSummary& summary, std::string_view name, const All& all, const Cutting& cutting) {
+    out_ += fmt::format("  {:8}{:>12}{:>12}{:>16}{:>12}\n", name, "from", "to", "cutting from", "to");
+    for (std::size_t i = 0; i < summary.axes.size(); ++i) {
+      const Axis axis = summary.axes[i].axis;
+      out_ += fmt::format("  {:8}{:>24}{:>28}\n", letter_of(axis), range(all(i), axis), range(cutting(i), axis));
+    }
+  }
+  std::string range(const std::optional<Range>& extents, Axis axis) const {
     if (!extents) return "no motion";
-    return fmt::format("{:>12}{:>12}", place(extents->low), place(extents->high));
+    return fmt::format("{:>12}{:>12}", place(extents->low, axis), place(extents->high, axis));
   }
-  static std::string_view unit_of_places(const RunSummary& summary) {
+  std::string feeds(const std::optional<Range>& feed) const {
+    if (!feed) return "";
+    const auto shown = [&](double speed) {
+      return fmt::format("{:.1f}", in_units(speed * seconds_per_minute, Axis::x));
+    };
+    const std::string low = shown(feed->low);
+    const std::string high = shown(feed->high);
+    return low == high ? low : fmt::format("{} to {}", low, high);
+  }
+
+  // Lengths are shown in the program's units. Degrees are degrees.
+  double in_units(double value, Axis axis) const { return inches_ && !is_rotary(axis) ? value / mm_per_inch : value; }
+  // Three decimals of a millimetre or degree, four of an inch, but never "-0.000".
+  std::string place(double value, Axis axis) const {
+    const std::string text = fmt::format("{:.{}f}", in_units(value, axis), inches_ && !is_rotary(axis) ? 4 : 3);
+    return text.find_first_not_of("-0.") == std::string::npos && text.front() == '-' ? text.substr(1) : text;
+  }
+  std::string length(Mm value) const { return place(value.value(), Axis::x); }
+  std::string_view unit() const { return inches_ ? "inches" : "mm"; }
+  std::string unit_of_places(const RunSummary& summary) const {
     for (const AxisSummary& axis : summary.axes) {
-      if (is_rotary(axis.axis)) return "mm; A B C in degrees";
+      if (is_rotary(axis.axis)) return fmt::format("{}; A B C in degrees", unit());
     }
-    return "mm";
+    return std::string(unit());
   }
 
   bool colour_;
+  bool inches_;
   std::string out_;
 };
 
 }  // namespace
 
+std::string name_of_system(std::uint8_t system) {
+  constexpr int first = 53;
+  constexpr int last_whole = 6;  // G59
+  return system <= last_whole ? fmt::format("G{}", first + system) : fmt::format("G59.{}", system - last_whole);
+}
+
 std::string to_text(const RunSummary& summary, bool colour) {
-  Text text(colour);
+  Text text(colour, summary.units);
   text.title(summary);
   text.times(summary);
   text.distances(summary);
+  if (!summary.tools.empty()) text.tools(summary);
   text.extents(summary);
   text.axes(summary);
-  if (summary.board) text.board(*summary.board);
+  if (summary.board) text.board(summary, *summary.board);
   if (!summary.holds.empty()) text.holds(summary);
   if (summary.probes) text.probes(summary, *summary.probes);
   if (!summary.tails.empty()) text.tails(summary);

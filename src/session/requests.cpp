@@ -184,6 +184,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
       if (const auto* move = std::get_if<PlannedMove>(&item)) work.ahead = move->segment.curve.at(move->to);
     });
   }
+  if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
   if (work.program != nullptr && watchers.path) work.program->path().watch(watchers.path);
   if (watchers.motion) drive.motion().watch(watchers.motion);
   if (watchers.items) drive.items().watch(watchers.items);

@@ -310,7 +310,7 @@ TEST_F(CommandLine, canon_prints_canonical_calls) {
 }
 
 TEST_F(CommandLine, no_colour_and_no_progress_reach_a_pipe) {
-  const Outcome outcome = run_text("G21 F600\nG1 X100\nX0\nM2\n");
+  const Outcome outcome = run_text("G21 F600 M3 S1000\nG1 X100\nX0\nM2\n");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
   EXPECT_EQ(outcome.err, "");

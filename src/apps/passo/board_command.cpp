@@ -152,7 +152,7 @@ int board_monitor(const BoardMonitorArguments& arguments) {
   if (!port) return code;
   interrupted = false;
   std::signal(SIGINT, note_interrupt);
-  const bool live = is_terminal(STDOUT_FILENO) && !arguments.json;
+  const bool live = rewrites_lines(STDOUT_FILENO) && !arguments.json;
   if (!arguments.json) fmt::print("state     steps of each motor   item + events done   switches that are on\n");
   BoardSession board(*port, inquiry_care);
   for (std::uint64_t n = 0; !interrupted && (arguments.count == 0 || n < arguments.count); ++n) {

@@ -10,6 +10,7 @@
 #include "named_files.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
+#include "program_messages.hpp"
 #include "progress_display.hpp"
 #include <fmt/format.h>
 
@@ -130,8 +131,10 @@ int check(const CheckArguments& arguments) {
 
   Diagnostics findings;
   ProgramStops stops;
-  const ProgramCheck result =
-      check_program(program->again(), *machine, *options, findings, [&](const PathItem& item) { stops.watch(item); });
+  const ProgramMessages messages(arguments.program.program, !arguments.json);
+  const ProgramCheck result = check_program(
+      program->again(), *machine, *options, findings, [&](const PathItem& item) { stops.watch(item); },
+      [&](const Operation& operation) { messages.show(operation); });
   if (result.good && (arguments.motion || !arguments.picture.empty())) {
     show(findings);
     return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);

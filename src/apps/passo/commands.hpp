@@ -42,6 +42,9 @@ struct RunArguments {
   ProgramArguments program;
   std::string machine;
   std::vector<std::string> pictures;   // .svg or .png
+  std::string colour_by = "speed";     // of the feeds in pictures: speed, depth or tool
+  std::string view = "auto";           // the flat view of pictures: auto, top, front, side or lathe
+  bool no_rapids = false;              // in pictures
   std::vector<std::string> traces;     // .vcd or .csv
   std::string report;                  // a name that ends in .json, or any other name for text
   std::uint64_t passes = 1;            // how often a main program that ends with M99 is run

@@ -80,6 +80,7 @@ class Writer {
     heading("position");
     position("work", line.before.work, line.after.work);
     position("machine", line.before.machine, line.after.machine);
+    moves(line.moves);
     heading("modes");
     for (const Explanation::Mode& mode : line.modes) {
       const std::string text = mode.code.empty() ? mode.meaning : fmt::format("{:<6}{}", mode.code, mode.meaning);
@@ -108,6 +109,19 @@ class Writer {
                             : fmt::format("    {:<9}{}  ->  {}\n", name, in_words(before), in_words(after));
   }
 
+  void moves(const Explanation::Moves& moves) {
+    if (moves.feed_length == 0 && moves.rapid_length == 0) return;
+    heading("way");
+    if (moves.rapid_length > 0) {
+      out_ += fmt::format("    {:<9}{:.3f} mm, as fast as the machine goes\n", "rapid", moves.rapid_length);
+    }
+    if (moves.feed_length == 0) return;
+    const std::string time = moves.feed_time
+                                 ? fmt::format("{:.3f} s at the programmed feed, without ramps", *moves.feed_time)
+                                 : std::string("for a time that the feed does not tell");
+    out_ += fmt::format("    {:<9}{:.3f} mm, {}\n", "feed", moves.feed_length, time);
+  }
+
   std::string out_;
   bool colour_;
 };
@@ -128,15 +142,20 @@ nlohmann::ordered_json as_json(const Explanation& line) {
   const auto position = [](const Explanation::Position& at) -> nlohmann::ordered_json {
     return {{"work", as_json(at.work)}, {"machine", as_json(at.machine)}};
   };
-  return {{"line", line.line},
-          {"text", line.text},
-          {"executions", line.executions},
-          {"words", words},
-          {"operations", line.operations},
-          {"before", position(line.before)},
-          {"after", position(line.after)},
-          {"modes", modes},
-          {"findings", as_json(line.findings)}};
+  return {
+      {"line", line.line},
+      {"text", line.text},
+      {"executions", line.executions},
+      {"words", words},
+      {"operations", line.operations},
+      {"before", position(line.before)},
+      {"after", position(line.after)},
+      {"moves",
+       {{"rapid_mm", line.moves.rapid_length},
+        {"feed_mm", line.moves.feed_length},
+        {"feed_s", line.moves.feed_time ? nlohmann::ordered_json(*line.moves.feed_time) : nlohmann::ordered_json()}}},
+      {"modes", modes},
+      {"findings", as_json(line.findings)}};
 }
 
 }  // namespace
@@ -170,13 +189,9 @@ int explain(const ExplainArguments& arguments) {
     const nlohmann::ordered_json whole{{"file", place.file}, {"whole_run", result.whole_run}, {"lines", lines}};
     std::puts(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   } else {
-    Writer writer(is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr);
+    Writer writer(shows_colours(STDOUT_FILENO));
     for (const Explanation& line : result.lines) writer.write(line, place.file, result.whole_run);
     std::fputs(writer.text().c_str(), stdout);
-  }
-  if (std::fflush(stdout) != 0) {
-    std::fprintf(stderr, "passo: error: cannot write to standard output\n");
-    return exit_failed;
   }
   const auto is_error = [](const Diagnostic& finding) { return finding.severity == Severity::error; };
   const bool wrong = std::ranges::any_of(

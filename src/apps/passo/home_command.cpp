@@ -64,8 +64,7 @@ int home(const HomeArguments& arguments) {
   } else if (!arguments.quiet) {
     print(report);
   }
-  const int written = flush_output();
-  if (report.code.empty()) return written;
+  if (report.code.empty()) return exit_done;
   const int failed = fail(exit_failed, words_of(report));
   return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
 }

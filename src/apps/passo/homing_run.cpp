@@ -24,7 +24,7 @@ const char* name_of(HomingStage stage) {
 // Shows the present stage on one line of the terminal, and clears the line at the end.
 class StageLine {
  public:
-  explicit StageLine(bool shows) : shows_(shows && is_terminal(STDERR_FILENO)) {}
+  explicit StageLine(bool shows) : shows_(shows && rewrites_lines(STDERR_FILENO)) {}
   ~StageLine() { show(""); }
   StageLine(const StageLine&) = delete;
   StageLine& operator=(const StageLine&) = delete;

@@ -166,8 +166,7 @@ int jog(const JogArguments& arguments) {
   if (ending.fault) return fail(exit_failed, fmt::format("{} [{}]", ending.fault->message, ending.fault->code));
   if (const auto differs = opened->compare()) return fail(exit_failed, "the board: " + *differs);
   print(ending, *machine, arguments.json);
-  const int written = flush_output();
-  return interrupted_by() != 0 ? 128 + interrupted_by() : written;
+  return interrupted_by() != 0 ? 128 + interrupted_by() : exit_done;
 }
 
 }  // namespace passo

@@ -1,12 +1,16 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, board_options.cpp and study_options.cpp know CLI11, because CLI11 compiles slowly. Each command is in
-// a file of its own.
+// Only this file, command_words.cpp, board_options.cpp and study_options.cpp know CLI11, because CLI11 compiles slowly.
+// Each command is in a file of its own.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <utility>
 
 #include "board_options.hpp"
+#include "command_words.hpp"
 #include "commands.hpp"
+#include "program_input.hpp"
 #include "study_options.hpp"
 #include <CLI/CLI.hpp>
 
@@ -32,6 +36,7 @@ constexpr const char* examples = R"(Examples:
   passo board list                                            what is on this computer's serial lines
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
+  passo help run                                              every option of a command
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
   passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
 
@@ -50,7 +55,7 @@ void add_program(CLI::App& command, ProgramArguments& arguments,
   command.add_flag("--inches", arguments.inches, "lengths are inches until the program says G20 or G21");
   command.add_flag("--user-codes", arguments.user_codes, "allow M100 to M199; no program is run for them");
   command.add_option("--loop-limit", arguments.loop_limit, "passes of a loop that does nothing before it is an error")
-      ->check(CLI::PositiveNumber)
+      ->check(refuse_count)
       ->capture_default_str();
 }
 
@@ -130,10 +135,17 @@ int parse_and_run(int argc, char** argv) {
   add_files(run_command, run_arguments.program, false);
   run_arguments.program.parameters_may_lack = true;
   run_command.add_option("-p,--picture", run_arguments.pictures, "draw the path (FILE.svg or FILE.png)");
+  run_command.add_option("--colour-by", run_arguments.colour_by, "of the feeds in pictures: speed, depth or tool")
+      ->check(CLI::IsMember({"speed", "depth", "tool"}))
+      ->capture_default_str();
+  run_command.add_option("--view", run_arguments.view, "the flat view of pictures: auto, top, front, side or lathe")
+      ->check(CLI::IsMember({"auto", "top", "front", "side", "lathe"}))
+      ->capture_default_str();
+  run_command.add_flag("--no-rapids", run_arguments.no_rapids, "pictures show the feeds alone");
   run_command.add_option("-t,--trace", run_arguments.traces, "write every step (FILE.vcd or FILE.csv)");
   run_command.add_option("-r,--report", run_arguments.report, "write the summary (FILE.json, else text)");
   run_command.add_option("--passes", run_arguments.passes, "how often a program that ends with M99 runs")
-      ->check(CLI::PositiveNumber)
+      ->check(refuse_count)
       ->capture_default_str();
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
@@ -156,6 +168,8 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
   run_command.footer(
       "Examples:\n  passo run examples/engrave.ngc -m examples/machines/pantograph.toml --picture engrave.png\n"
+      "  passo run examples/drill-board.ngc -m examples/machines/forty-eight.toml -p board.svg --colour-by tool "
+      "--no-rapids\n"
       "  passo run examples/pocket.ngc -m examples/machines/router.toml --hold-at 10:1 --override 50@20\n"
       "  passo run examples/probe-corner.ngc -m examples/machines/router.toml --touch X42.3:90,Y31.75:70,Z-50:-11.2");
 
@@ -190,18 +204,30 @@ int parse_and_run(int argc, char** argv) {
   canon_arguments.program.files_of_settings = false;
   add_files(canon_command, canon_arguments.program, true);
   canon_command.add_option("-o,--output", canon_arguments.output, "write to a file");
+  canon_command.footer(
+      "Examples:\n  passo canon part.ngc                                 the calls, as rs274 -g prints them\n"
+      "  passo canon part.ngc -t tool.tbl -v rs274ngc.var     with the machine's tools and offsets\n"
+      "  passo canon part.ngc --dialect grbl -o part.canon    a program for grbl, into a file\n"
+      "  passo canon - < part.ngc                             from standard input");
 
   ExplainArguments explain_arguments;
   CLI::App& explain_command = *app.add_subcommand("explain", "say in words what lines of a program do");
-  add_program(explain_command, explain_arguments.program, "FILE:LINE, FILE:FROM-TO or FILE");
+  add_program(explain_command, explain_arguments.program, "FILE:LINE, FILE:FROM-TO or FILE; - is standard input");
+  add_files(explain_command, explain_arguments.program, true);
   explain_command.add_flag("--json", explain_arguments.json, "print it as JSON");
   explain_command.footer(
       "Examples:\n  passo explain part.ngc:12             what it does, with positions and modes as they are there\n"
-      "  passo explain part.ngc:10-20 --json   for scripts");
+      "  passo explain part.ngc:10-20 --json   for scripts\n"
+      "  passo explain part.ngc:12 -t tool.tbl -v rs274ngc.var --subs macros     with the machine's files\n"
+      "  passo explain -:3 < part.ngc          from standard input");
 
   MachineArguments machine_arguments;
   CLI::App& machine_command = *app.add_subcommand("machine", "check a machine file and say what it describes");
   machine_command.add_option("MACHINE", machine_arguments.machine, "machine file (TOML)")->required();
+  machine_command.footer(
+      "Examples:\n  passo machine examples/machines/router.toml     its axes, board and tool, in numbers\n"
+      "  passo machine mine.toml                         what is wrong with a file of your own, and where\n"
+      "Every key is explained in docs/manual/machine-file.md");
 
   BoardArguments board_arguments;
   CLI::App& board_command = add_board_command(app, board_arguments);
@@ -217,8 +243,11 @@ int parse_and_run(int argc, char** argv) {
   ChordsArguments chords_arguments;
   CLI::App& chords_command = add_chords_command(app, chords_arguments);
 
+  std::vector<std::string> words = command_words(argc, argv);
+  if (const std::string refusal = refuse_words(app, words); !refusal.empty()) return fail(exit_bad_program, refusal);
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // CLI11 wants the last word first
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_bad_program;
   }
@@ -240,10 +269,14 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using namespace passo;
   try {
-    return parse_and_run(argc, argv);
+    const int code = parse_and_run(argc, argv);
+    // Every command prints, and its disk may be full. A command that failed has said why.
+    const int printed = code == exit_failed ? exit_done : flush_output();
+    return code == exit_done ? printed : code;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "passo: %s\n", error.what());
-    return passo::exit_failed;
+    return exit_failed;
   }
 }

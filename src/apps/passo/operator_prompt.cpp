@@ -92,7 +92,8 @@ Seconds OperatorPrompt::look(MachineSession& session) {
     return endless;
   }
   if (!std::exchange(asked_, true)) {
-    fmt::print(stderr, "\r\033[K{} waits at {}. Press Enter to go on. ", program_, words_of(*wait));
+    fmt::print(stderr, "{}{} waits at {}. Press Enter to go on. ", rewrites_lines(STDERR_FILENO) ? "\r\033[K" : "",
+               program_, words_of(*wait));
     std::fflush(stderr);
   }
   if (enter_was_pressed(between_looks)) try_request(session, request::OperatorDone{});

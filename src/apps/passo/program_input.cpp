@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include <unistd.h>
@@ -11,10 +10,6 @@
 #include "passo/interpreter/tool_table_file.hpp"
 
 namespace passo {
-
-bool is_terminal(int descriptor) {
-  return isatty(descriptor) != 0;
-}
 
 std::optional<ProgramReader> open_program(const ProgramArguments& arguments) {
   Result<ProgramReader, Diagnostic> reader = ProgramReader::open(arguments.program);
@@ -99,9 +94,7 @@ std::optional<InterpreterOptions> machine_options(const ProgramArguments& argume
 }
 
 void show(const Diagnostics& diagnostics) {
-  // https://no-color.org
-  const bool colour = is_terminal(STDERR_FILENO) && std::getenv("NO_COLOR") == nullptr;
-  const std::string text = render(diagnostics, colour);
+  const std::string text = render(diagnostics, shows_colours(STDERR_FILENO));
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

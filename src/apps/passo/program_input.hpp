@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "named_files.hpp"
+#include "terminal.hpp"
 
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -39,7 +40,5 @@ void note(const std::string& words);
 // Hands what was printed to the reader of standard output. Returns exit_done, or what the command should return. A
 // reader that has gone away, as `head` does, has seen enough: that is no error to report.
 int flush_output();
-
-bool is_terminal(int descriptor);
 
 }  // namespace passo

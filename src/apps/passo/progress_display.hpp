@@ -15,15 +15,17 @@ namespace passo {
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(const std::string& label, bool wanted = true)
-      : line_(label, wanted && is_terminal(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
-  ~ProgressDisplay() { show(line_.clear()); }
+      : line_(label, wanted && rewrites_lines(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+  ~ProgressDisplay() { clear(); }
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
   void update(double fraction) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    show(line_.update(fraction, Seconds(elapsed.count())));
+    show(line_.update(fraction, Seconds(elapsed.count()), [] { return columns_of(STDERR_FILENO); }));
   }
+  // Removes the line, so that other text can be shown. The next update() shows the line again.
+  void clear() { show(line_.clear()); }
 
  private:
   static void show(const std::string& text) {

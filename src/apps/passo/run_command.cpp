@@ -12,6 +12,7 @@
 #include "opened_machine.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
+#include "program_messages.hpp"
 #include "progress_display.hpp"
 #include "resumable_run.hpp"
 #include "run_outputs.hpp"
@@ -171,6 +172,13 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   const MachineDescription& machine = run.machine;
   SummaryBuilder builder(axes_of(machine));
   ProbeSummary probes;
+  ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
+  ProgramMessages messages(run.arguments.program.program, !run.arguments.quiet);
+  start.watchers.operations = [&](const Operation& operation) {
+    builder.watch_operation(operation);
+    messages.show(operation, [&] { progress.clear(); });
+  };
+  start.watchers.path = [&](const PathItem& item) { builder.watch_path(item); };
   start.watchers.motion = [&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
@@ -187,7 +195,6 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   if (!ticket) {
     answered = {.outcome = Outcome::failed, .fault = refused(ticket.error())};
   } else {
-    ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
     bool brakes = false;
     for (unsigned turns = 0; session.busy(); ++turns) {
       if ((interrupted_by() != 0 || run.outputs.failed()) && !std::exchange(brakes, true)) stop(session);
@@ -199,6 +206,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     }
     answered = answer_of(session.take_changes(), *ticket);
   }
+  progress.clear();
   run.opened.catch_up();
   RunSummary summary = builder.summary();
   summary.program = run.arguments.program.program;
@@ -230,6 +238,11 @@ bool names_are_good(const RunArguments& arguments) {
   for (const std::string& path : arguments.traces) {
     if (is_trace_name(path)) continue;
     fail(exit_bad_program, path + ": a trace's name ends in .vcd or .csv");
+    return false;
+  }
+  const bool has_look = arguments.colour_by != "speed" || arguments.view != "auto" || arguments.no_rapids;
+  if (has_look && arguments.pictures.empty()) {
+    fail(exit_bad_program, "--colour-by, --view and --no-rapids are for a --picture");
     return false;
   }
   return true;
@@ -266,13 +279,23 @@ int make_ready(const ResumableRun::Subject& subject, const ProgramReader& progra
   return code;
 }
 
-int print(const RunSummary& summary, const RunArguments& arguments) {
+void print(const RunSummary& summary, const RunArguments& arguments) {
   if (arguments.json) {
     std::fputs(to_json(summary).c_str(), stdout);
   } else if (!arguments.quiet) {
-    std::fputs(to_text(summary, is_terminal(STDOUT_FILENO) && std::getenv("NO_COLOR") == nullptr).c_str(), stdout);
+    std::fputs(to_text(summary, shows_colours(STDOUT_FILENO)).c_str(), stdout);
   }
-  return flush_output();
+}
+
+// A virtual probe finds only what --touch puts there. Without it, a probe move comes to its end.
+void tell_of_touch(const RunArguments& arguments, const Diagnostics& findings) {
+  const auto is_untouched = [](const Diagnostic& finding) { return finding.code == "gcode.probe-untouched"; };
+  if (keeps_journal(arguments) || !arguments.touches.empty() || std::ranges::none_of(findings.all(), is_untouched)) {
+    return;
+  }
+  fmt::print(stderr,
+             "passo: note: the virtual probe has nothing to touch. --touch puts something there, as --touch Z:-1.5 (a "
+             "plate) or --touch X10:60,Y10:50,Z:-2 (a block)\n");
 }
 
 bool suits_the_board(const RunArguments& arguments) {
@@ -302,13 +325,15 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
   if (run.opened.has_board()) tell_tails(session);
   if (answered.outcome == Outcome::failed || interrupted_by() != 0) {
     show(late);
+    tell_of_touch(run.arguments, late);
     const int failed = fail(exit_failed, stopped_words(answered, summary));
     return interrupted_by() != 0 ? 128 + interrupted_by() : failed;
   }
   const Status<OutputError> written =
       run.outputs.commit(summary, session.program()->saved_parameters(), session.program()->tools(), machine_units);
   if (!written) return fail(exit_failed, written.error().message);
-  return print(summary, run.arguments);
+  print(summary, run.arguments);
+  return exit_done;
 }
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.

@@ -1,5 +1,6 @@
 #include "run_outputs.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -33,6 +34,22 @@ TraceOptions trace_options(const MachineDescription& machine) {
   return options;
 }
 
+PictureOptions picture_look(const RunArguments& arguments, const MachineDescription& machine) {
+  PictureOptions look;
+  if (arguments.colour_by == "depth") look.colour = PathColour::depth;
+  if (arguments.colour_by == "tool") look.colour = PathColour::tool;
+  if (arguments.view == "top") look.view = FlatView::top;
+  if (arguments.view == "front") look.view = FlatView::front;
+  if (arguments.view == "side") look.view = FlatView::side;
+  if (arguments.view == "lathe") look.view = FlatView::lathe;
+  look.rapids = !arguments.no_rapids;
+  const auto has = [&](Axis axis) {
+    return std::ranges::find(machine.axes, axis, &AxisDescription::axis) != machine.axes.end();
+  };
+  look.is_lathe = has(Axis::x) && has(Axis::z) && !has(Axis::y);
+  return look;
+}
+
 }  // namespace
 
 struct RunOutputs::State {
@@ -47,6 +64,7 @@ struct RunOutputs::State {
   };
 
   std::vector<PictureFile> pictures;
+  PictureOptions look;  // of all pictures
   std::vector<TraceFile> traces;
   std::optional<OutputFile> report;
   std::optional<OutputFile> parameters;
@@ -98,6 +116,7 @@ bool is_trace_name(const std::string& path) {
 Result<RunOutputs, OutputError> RunOutputs::open(const RunArguments& arguments, const MachineDescription& machine,
                                                  const std::string& parameters, const std::string& tools) {
   auto state = std::make_unique<State>();
+  state->look = picture_look(arguments, machine);
   for (const std::string& path : arguments.pictures) {
     const Status<OutputError> added = state->add_picture(path);
     if (!added) return Failure{added.error()};
@@ -151,7 +170,10 @@ Status<OutputError> RunOutputs::commit(const RunSummary& summary, const SavedPar
   for (State::TraceFile& trace : state_->traces) trace.trace->finish(state_->machine->now());
   for (State::PictureFile& picture : state_->pictures) {
     const std::string title = std::filesystem::path(summary.program).filename();
-    const PictureOptions options{.format = picture.format, .program = title, .machine = summary.machine};
+    PictureOptions options = state_->look;
+    options.format = picture.format;
+    options.program = title;
+    options.machine = summary.machine;
     Status<OutputError> drawn = draw_picture(state_->recorder, options, picture.file);
     if (!drawn) return drawn;
   }

@@ -87,5 +87,12 @@ TEST(Nearest, finds_the_word_that_was_meant_and_nothing_when_none_is_near) {
   EXPECT_EQ(nearest("colour", {"travel", "velocity"}), "");
 }
 
+TEST(Suggestion, also_finds_swapped_letters_and_names_that_are_longer_or_shorter) {
+  EXPECT_EQ(suggestion("naem", {"clock", "name"}), "name");
+  EXPECT_EQ(suggestion("pic", {"passes", "picture"}), "picture");
+  EXPECT_EQ(suggestion("velocity_mm_s", {"velocity", "travel"}), "velocity");
+  EXPECT_EQ(suggestion("q", {"velocity", "travel"}), "");
+}
+
 }  // namespace
 }  // namespace passo

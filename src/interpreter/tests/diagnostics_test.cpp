@@ -381,6 +381,17 @@ TEST(Diagnostics, the_nearest_code_is_suggested) {
   EXPECT_EQ(result.diagnostics.all().front().expected.substr(0, 4), "G59.") << result.rendered();
 }
 
+TEST(Diagnostics, a_code_of_another_control_names_what_does_the_same_here) {
+  const auto expected = [](const std::string& program) {
+    const Interpreted result = interpret_text(program);
+    return result.diagnostics.all().front().expected;
+  };
+  EXPECT_EQ(expected("G12 I5\n"), "arcs of G2: this is the circular pocket, clockwise, of other controls");
+  EXPECT_EQ(expected("M29 S500\n"), "G33.1: this announces rigid tapping on other controls");
+  EXPECT_EQ(expected("G38 Z-1\n"), "G38.2, G38.3, G38.4, G38.5");
+  EXPECT_EQ(expected("G123\n"), "a code of docs/gcode.md");
+}
+
 TEST(Diagnostics, an_unused_word_tells_which_codes_use_it) {
   const Interpreted result = interpret_text("G0 X1 K1\nM2\n");
   EXPECT_EQ(result.diagnostics.all().front().expected, "K with G2, G3, G33, G33.1, G51, G76 or G87");

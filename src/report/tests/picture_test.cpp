@@ -8,6 +8,8 @@
 #include <set>
 
 #include "motion.hpp"
+#include "path_colours.hpp"
+#include "picture_views.hpp"
 #include "speed_colours.hpp"
 #include <png.h>
 
@@ -154,6 +156,60 @@ TEST_F(Picture, rapids_are_dashed) {
   feeds.watch(feed(at(0, 0), at(50, 0)), Point());
   EXPECT_EQ(dashes(draw(feeds, options(PictureFormat::svg))), 1);  // the legend
   EXPECT_EQ(dashes(draw(small_path(), options(PictureFormat::svg))), 3);
+}
+
+TEST_F(Picture, without_rapids_shows_and_measures_the_feeds_alone) {
+  PictureOptions feeds_alone = options(PictureFormat::svg);
+  feeds_alone.rapids = false;
+  EXPECT_EQ(draw(small_path(), feeds_alone).find("dasharray"), std::string::npos);
+  PathRecorder path = small_path();
+  path.watch(rapid(at(30, 20), at(900, 900)), Point());
+  EXPECT_EQ(path.extents().high[Axis::x], 900);
+  EXPECT_EQ(path.feed_extents().high[Axis::x], 30);
+}
+
+TEST_F(Picture, gives_each_tool_a_colour) {
+  PathRecorder path;
+  path.watch(cruise(at(0, 0), at(50, 0), 20), Point());
+  path.watch(Action{.kind = Action::Kind::tool_change, .tool = 7}, Point());
+  path.watch(cruise(at(50, 0), at(50, 50), 20), Point());
+  path.watch(Action{.kind = Action::Kind::tool_change, .tool = 0}, Point());
+  path.watch(cruise(at(50, 50), at(0, 50), 20), Point());
+  EXPECT_EQ(path.tools(), (std::vector<std::int32_t>{0, 7}));
+  const PathColours colours(path, PathColour::tool);
+  std::vector<std::size_t> classes;
+  for (const PathRecorder::Vertex& vertex : path.vertices()) {
+    if (vertex.kind == PathRecorder::Kind::feed) classes.push_back(colours.class_of(vertex, 0));
+  }
+  ASSERT_EQ(classes.size(), 3U);
+  EXPECT_EQ(classes[0], classes[2]);
+  EXPECT_NE(classes[0], classes[1]);
+}
+
+TEST_F(Picture, colours_a_slope_by_its_depth) {
+  PathRecorder path;
+  path.watch(cruise(at(0, 0, 0), at(50, 0, -10), 20), Point());
+  const PathColours colours(path, PathColour::depth);
+  const PathRecorder::Vertex& end = path.vertices().back();
+  EXPECT_EQ(colours.class_of(end, -0.01), 0U);
+  EXPECT_EQ(colours.class_of(end, -10), SpeedColours::classes - 1);
+  EXPECT_EQ(colours.parts_between(0, -10), int{SpeedColours::classes});
+  EXPECT_EQ(colours.parts_between(-5, -5), 1);
+}
+
+TEST_F(Picture, lies_where_the_work_lies) {
+  const auto view = [](const Point& end, bool is_lathe = false) {
+    PathRecorder path;
+    path.watch(feed(at(1, 2, 3), end), Point());
+    return natural_view(path, is_lathe);
+  };
+  EXPECT_EQ(view(at(5, 9, 3)), FlatView::top);
+  EXPECT_EQ(view(at(5, 9, 9)), FlatView::top);
+  EXPECT_EQ(view(at(5, 2, 9)), FlatView::front);
+  EXPECT_EQ(view(at(5, 2, 9), true), FlatView::lathe);
+  EXPECT_EQ(view(at(1, 9, 9)), FlatView::side);
+  EXPECT_EQ(view(at(1, 2, 9)), FlatView::top);
+  EXPECT_EQ(natural_view(PathRecorder(), false), FlatView::top);
 }
 
 TEST_F(Picture, of_a_degenerate_path_is_still_a_picture) {

@@ -14,6 +14,25 @@ TEST(ProgressLine, tells_the_share_done_and_the_time_left) {
   EXPECT_EQ(line.update(0.25, Seconds(4)), "\r\x1b[Kpart.ngc  25 %, 12 s left");
 }
 
+TEST(ProgressLine, is_narrower_than_the_terminal_also_after_the_window_was_resized) {
+  ProgressLine line("a-long-name-of-a-part.ngc", true);
+  std::size_t width = 80;
+  const auto columns = [&] { return width; };
+  EXPECT_EQ(line.update(0.25, Seconds(4), columns), "\r\x1b[Ka-long-name-of-a-part.ngc  25 %, 12 s left");
+  width = 30;  // 29 characters
+  EXPECT_EQ(line.update(0.25, Seconds(8), columns), "\r\x1b[Ka-long\u2026t.ngc  25 %, 24 s left");
+  width = 8;
+  EXPECT_EQ(line.update(0.25, Seconds(12), columns), "\r\x1b[K  25 %,");
+  width = 1;
+  EXPECT_EQ(line.update(0.25, Seconds(16), columns), "\r\x1b[K");
+}
+
+TEST(ProgressLine, cuts_no_character_of_a_name_in_two) {
+  ProgressLine line("\u00e4\u00f6\u00fc\u00df\u00e4\u00f6\u00fc.ngc", true);
+  EXPECT_EQ(line.update(0.25, Seconds(4), [] { return std::size_t{22}; }),
+            "\r\x1b[K\u00e4\u00f6\u2026c  25 %, 12 s left");
+}
+
 TEST(ProgressLine, speaks_at_most_ten_times_a_second) {
   ProgressLine line("part.ngc", true);
   int spoken = 0;

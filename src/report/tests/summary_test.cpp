@@ -18,14 +18,30 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+Operation of(const OperationKind& what, std::uint32_t line = 0) {
+  return {.what = what, .source = {.line = line}};
+}
+
+// Shows the builder the motion of a move, and the program's move that it comes from.
+void watch(SummaryBuilder& builder, const PlannedMove& move, const OperationKind& what, const Point& zero) {
+  builder.watch_operation(of(what));
+  Segment segment = move.segment;
+  segment.work_zero = zero;
+  builder.watch_path(segment);
+  builder.watch(move, zero);
+}
+
 // A rapid, a cut, a half circle and a dwell. The work zero is at X 10 Y 20.
-RunSummary small_job() {
+RunSummary small_job(LengthUnits units = LengthUnits::mm) {
   SummaryBuilder builder({Axis::x, Axis::y, Axis::z});
   const Point offset = at(10, 20);
-  builder.watch(rapid(at(0, 0, 5), at(10, 20, 5)), offset);
-  builder.watch(feed(at(10, 20, 5), at(10, 20, -1)), offset);
+  builder.watch_operation(of(operation::SetLengthUnits{units}));
+  builder.watch_operation(of(operation::Message{"clamp the work"}, 3));
+  watch(builder, rapid(at(0, 0, 5), at(10, 20, 5)), operation::StraightTraverse{}, offset);
+  watch(builder, feed(at(10, 20, 5), at(10, 20, -1)), operation::StraightFeed{}, offset);
   builder.watch(dwell(0.5), offset);
-  builder.watch(play(Curve::arc(at(10, 20, -1), at(30, 20, -1), Axis::x, Axis::y, 20, 20, -pi), 10, 100), offset);
+  watch(builder, play(Curve::arc(at(10, 20, -1), at(30, 20, -1), Axis::x, Axis::y, 20, 20, -pi), 10, 100),
+        operation::ArcFeed{}, offset);
   RunSummary summary = builder.summary();
   summary.program = "small.ngc";
   summary.machine = "Test bench";
@@ -55,6 +71,16 @@ TEST(LineLoad, is_that_of_the_busiest_second) {
 
 TEST(RunSummary, reads_as_a_person_wants_it) {
   test::expect_golden("src/report/tests/golden/small_summary.txt", to_text(small_job(), false));
+}
+
+TEST(RunSummary, is_in_inches_if_the_program_is) {
+  test::expect_golden("src/report/tests/golden/small_summary_inches.txt", to_text(small_job(LengthUnits::inch), false));
+}
+
+TEST(RunSummary, names_the_work_systems_as_programs_do) {
+  EXPECT_EQ(name_of_system(1), "G54");
+  EXPECT_EQ(name_of_system(6), "G59");
+  EXPECT_EQ(name_of_system(9), "G59.3");
 }
 
 TEST(RunSummary, is_json_for_programs) {
@@ -109,6 +135,54 @@ TEST(SummaryBuilder, splits_time_and_distance_into_cutting_rapid_and_dwell) {
   EXPECT_EQ(summary.rapids, 1U);
   EXPECT_EQ(summary.arcs, 1U);
   EXPECT_EQ(summary.dwells, 1U);
+}
+
+TEST(SummaryBuilder, counts_the_programs_moves_and_not_the_pieces_of_the_motion) {
+  SummaryBuilder builder({Axis::x});
+  builder.watch_operation(of(operation::StraightFeed{}));
+  for (int piece = 0; piece < 4; ++piece) builder.watch(feed(at(piece, 0), at(piece + 1, 0)), Point());
+  EXPECT_EQ(builder.summary().moves, 1U);
+}
+
+TEST(SummaryBuilder, tells_tools_apart_in_path_and_motion) {
+  SummaryBuilder builder({Axis::x, Axis::z});
+  const auto change = [](std::int32_t tool) { return Action{.kind = Action::Kind::tool_change, .tool = tool}; };
+  const PlannedMove first = feed(at(0, 0, 0), at(10, 0, -2), 5);
+  const PlannedMove second = feed(at(10, 0, -2), at(0, 0, -7), 8);
+  // The path is read far ahead of the motion.
+  builder.watch_path(change(3));
+  builder.watch_path(first.segment);
+  builder.watch_path(change(1));
+  builder.watch_path(second.segment);
+  builder.watch(change(3), Point());
+  builder.watch(first, Point());
+  builder.watch(change(1), Point());
+  builder.watch(second, Point());
+  const RunSummary summary = builder.summary();
+  ASSERT_EQ(summary.tools.size(), 2U);
+  EXPECT_EQ(summary.tools[0].tool, 3);
+  EXPECT_EQ(summary.tools[0].cutting_time, first.duration());
+  EXPECT_EQ(*summary.tools[0].depth, -2);
+  EXPECT_EQ(summary.tools[1].tool, 1);
+  EXPECT_EQ(*summary.tools[1].depth, -7);
+  EXPECT_EQ(summary.tools[1].feed->low, 8);
+}
+
+TEST(SummaryBuilder, tells_work_systems_apart_and_leaves_probe_moves_out) {
+  SummaryBuilder builder({Axis::x});
+  const auto path = [&](double from, double to) { builder.watch_path(feed(at(from, 0), at(to, 0)).segment); };
+  path(0, 10);
+  builder.watch_operation(of(operation::SetWorkOffset{.system = 7, .offset = {}}));
+  path(10, 30);
+  builder.watch_path(Action{.kind = Action::Kind::probe_begin});
+  path(30, 90);
+  builder.watch_path(Action{.kind = Action::Kind::probe_end});
+  const RunSummary summary = builder.summary();
+  ASSERT_EQ(summary.work.size(), 2U);
+  EXPECT_EQ(summary.work[0].system, 1);
+  EXPECT_EQ(summary.work[0].cutting[0]->high, 10);
+  EXPECT_EQ(summary.work[1].system, 7);
+  EXPECT_EQ(summary.work[1].cutting[0]->high, 30);
 }
 
 TEST(SummaryBuilder, extents_know_how_far_an_arc_bulges_in_both_frames) {
@@ -226,7 +300,6 @@ TEST(SummaryBuilder, peaks_on_cubics_with_jerk_are_those_of_the_motion) {
       }
     }
     const RunSummary summary = builder.summary();
-    EXPECT_EQ(summary.moves, 3U);  // parts of one segment are one move
     EXPECT_NEAR(summary.cutting_distance.value(), length, 1e-9);
     for (const AxisSummary& axis : summary.axes) {
       EXPECT_NEAR(axis.peak_speed.value(), speed[axis.axis], 2e-3 * speed[axis.axis] + 1e-3) << i;

@@ -11,6 +11,7 @@
 
 #include "passo/activity/activity.hpp"
 #include "passo/activity/good_path.hpp"
+#include "passo/activity/usual_mistakes.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
@@ -44,6 +45,8 @@ class ProgramChecker {
                  Diagnostics& diagnostics);
   // The watcher gets each item of the path.
   void watch(std::function<void(const PathItem&)> watcher) { watcher_ = std::move(watcher); }
+  // The watcher gets each operation of the program.
+  void watch_operations(Tap<Operation>::Watcher watcher) { operations_.watch(std::move(watcher)); }
   // Checks up to `items` more path items. True: the check has ended, and result() is complete.
   [[nodiscard]] bool go_on(std::uint64_t items);
   const ProgramCheck& result() const { return check_; }
@@ -57,6 +60,8 @@ class ProgramChecker {
   MotionLimits limits_;
   ToolTable tools_;  // the tools before the check
   Interpreter interpreter_;
+  UsualMistakes mistakes_;
+  Tap<Operation> operations_;
   PathBuilder builder_;
   std::function<void(const PathItem&)> watcher_;
   ProgramCheck check_;
@@ -65,9 +70,10 @@ class ProgramChecker {
   bool done_ = false;
 };
 
-// Checks the whole program at once. `watch` gets each item of the path.
+// Checks the whole program at once. `watch` gets each item of the path, `watch_operations` each operation.
 ProgramCheck check_program(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch = {});
+                           Diagnostics& diagnostics, const std::function<void(const PathItem&)>& watch = {},
+                           const Tap<Operation>::Watcher& watch_operations = {});
 
 class Program final : public Activity {
  public:
@@ -81,7 +87,9 @@ class Program final : public Activity {
   [[nodiscard]] bool next(PathItem& item) override { return smoother_.next(item); }
   std::optional<double> progress() const override;
 
-  // For watchers of the path as the program means it. Watchers are added before the first next().
+  // For watchers of the operations, and of the path as the program means it. Watchers are added before the first
+  // next().
+  Tap<Operation>& operations() { return operations_; }
   Tap<PathItem>& path() { return watched_path_; }
   const Frame& frame() const { return path_builder_.frame(); }
   SavedParameters saved_parameters() const { return interpreter_.saved_parameters(); }
@@ -92,7 +100,8 @@ class Program final : public Activity {
  private:
   PathOptions path_options_;
   MotionLimits limits_;
-  Interpreter interpreter_;   // text -> blocks -> operations
+  Interpreter interpreter_;  // text -> blocks -> operations
+  Tap<Operation> operations_;
   PathBuilder path_builder_;  // operations -> segments
   GoodPath good_path_;        // as long as there is no error
   Tap<PathItem> watched_path_;

@@ -88,4 +88,8 @@ std::string render(const Diagnostics& diagnostics, bool colour);
 // The word of `candidates` nearest to `word` (edit distance, at most a third of its length), or an empty view.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
+// The word that a user probably meant by a name that is not known: the nearest name, or a name with swapped letters
+// ("naem"), or one that is longer or shorter at its end ("max_velocity"). An empty view: no guess.
+std::string_view suggestion(std::string_view word, const std::vector<std::string_view>& known);
+
 }  // namespace passo

@@ -1,8 +1,8 @@
 // ProgramReader: the bytes of a G-code file, line by line, in constant memory.
 //
 // Accepts LF, CR LF and CR line ends, and a UTF-8 byte order mark. Refuses the following, with a diagnostic: a file
-// that cannot be opened or read, an empty file, a directory, binary content (NUL bytes, with line and column), a line
-// over `longest_line` bytes.
+// that cannot be opened or read, an empty file, a directory, binary content (NUL bytes, with line and column), a
+// drawing, picture, model or archive (the diagnostic names its kind), a line over `longest_line` bytes.
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,14 @@ struct Explanation {
   std::vector<std::string> operations;  // as CanonPrinter prints them, without counter and N
   Position before;
   Position after;
+  // The moves that the block makes. The time is that at the programmed feed, without ramps. Empty: the feed is not
+  // known before the machine runs (G95 without a spindle speed), or there is none.
+  struct Moves {
+    double feed_length = 0;               // mm; degrees for a move of rotary axes alone
+    double rapid_length = 0;              // mm
+    std::optional<double> feed_time = 0;  // s
+  };
+  Moves moves;
   std::vector<Mode> modes;           // the modes while the block runs, with its own codes
   std::vector<Diagnostic> findings;  // what is wrong with the line
 };

@@ -130,6 +130,7 @@ class PathBuilder final : public Source<PathItem> {
   bool in_step_ = false;       // in step with the spindle since its index
   Point position_;             // machine
 
+  LengthUnits units_ = LengthUnits::mm;  // for messages
   FeedMode feed_mode_ = FeedMode::units_per_minute;
   operation::SetFeedRate feed_rate_;
   std::optional<Mm> synchronised_pitch_;

@@ -29,6 +29,7 @@ class PathRecorder {
     float z = 0;
     float speed = 0;  // mm/s, of the piece that ends here
     Kind kind = Kind::jump;
+    std::uint8_t tool = 0;  // an index into tools()
   };
 
   // `machine_minus_work` is the work frame at this item, as an offset.
@@ -39,6 +40,12 @@ class PathRecorder {
   // True if nothing moved along X, Y or Z. Then the extents have no meaning.
   bool empty() const { return !any_; }
   const Box& extents() const { return extents_; }  // machine coordinates
+  // The extents of the moves at feed alone; those of all moves if there is no feed.
+  const Box& feed_extents() const { return any_feed_ ? feed_extents_ : extents_; }
+  // The tools in use, each once, in the order of their first use. 0: the tool before the first change. Tools beyond the
+  // first most_tools count as the last of these.
+  static constexpr std::size_t most_tools = 255;
+  const std::vector<std::int32_t>& tools() const { return tools_; }
   // The highest speed at feed, mm/s. 0 if there were only rapids.
   MmPerSecond fastest_feed() const { return MmPerSecond(fastest_feed_); }
   Seconds time() const { return time_; }
@@ -46,6 +53,7 @@ class PathRecorder {
   const std::vector<Point>& origins() const { return origins_; }
 
  private:
+  void change_tool(std::int32_t tool);
   void watch_move(const PlannedMove& move, const Point& origin);
   void record(const PlannedMove& move);
   void record(const PlannedMove& move, const Phase& phase, Mm end);
@@ -57,6 +65,10 @@ class PathRecorder {
   Point base_;
   Box extents_;
   bool any_ = false;
+  Box feed_extents_;
+  bool any_feed_ = false;
+  std::vector<std::int32_t> tools_ = {0};
+  std::uint8_t tool_ = 0;
   double fastest_feed_ = 0;
   Seconds time_{0};
   std::vector<Point> origins_;

@@ -1,4 +1,5 @@
-// A picture of the path: an isometric view and a top view side by side. Feeds are coloured by their real speed.
+// A picture of the path: an isometric view and a flat view side by side. Feeds are coloured by their real speed, by
+// depth or by tool.
 //
 // cairo makes both formats from the same drawing. An SVG stays under 10 MB for any recording.
 #pragma once
@@ -19,10 +20,20 @@ enum class PictureFormat : std::uint8_t { svg, png };
 // Chooses the format by the end of the name: ".svg" or ".png", in upper or lower case.
 std::optional<PictureFormat> picture_format_of(std::string_view path);
 
+enum class PathColour : std::uint8_t { speed, depth, tool };
+
+// The flat view. front: X to the right, Z up. side: Y to the right, Z up. lathe: Z to the right, X up. automatic: the
+// top view, but front or side (on a lathe: lathe) if nothing moves along Y or X.
+enum class FlatView : std::uint8_t { automatic, top, front, side, lathe };
+
 struct PictureOptions {
   PictureFormat format = PictureFormat::svg;
   std::string program;  // the title
   std::string machine;
+  PathColour colour = PathColour::speed;
+  FlatView view = FlatView::automatic;
+  bool is_lathe = false;  // the machine has X and Z, and no Y
+  bool rapids = true;     // false: only the feeds are drawn
   int width = 1600;
   int height = 900;
   int pixels_per_unit = 1;  // for a PNG: 2 gives 3200 × 1800 pixels

@@ -5,6 +5,8 @@
 // 5 ns.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 
 #include "passo/units/units.hpp"
@@ -16,8 +18,12 @@ class ProgressLine {
   // `label` names the work ("part.ngc").
   ProgressLine(std::string label, bool terminal) : label_(std::move(label)), terminal_(terminal) {}
 
-  // Returns the text to write now; empty for none. `fraction` is the share of the work done, 0…1.
-  std::string update(double fraction, Seconds elapsed);
+  // Tells the width of the terminal in characters; 0: not known. Asked for each new line, because a window is resized.
+  using Columns = std::function<std::size_t()>;
+
+  // Returns the text to write now; empty for none. `fraction` is the share of the work done, 0…1. The line is shorter
+  // than the terminal is wide, because a line that wraps cannot be rewritten: the label loses its middle.
+  std::string update(double fraction, Seconds elapsed, const Columns& columns = {});
   // Returns the text that removes the line; empty if no line is shown. After that the line may begin anew.
   std::string clear();
 

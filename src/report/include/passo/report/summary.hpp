@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "passo/geometry/axes.hpp"
+#include "passo/interpreter/operation.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -25,12 +26,38 @@ struct AxisSummary {
   // The extents of the path, rapids included. Empty if nothing moved.
   std::optional<Range> machine_extents;
   std::optional<Range> work_extents;
+  std::optional<Range> cutting_extents = {};  // machine coordinates, of the moves at feed alone
   MmPerSecond peak_speed{0};
   MmPerSecond2 peak_acceleration{0};
   // Counted by the board:
   Steps net_steps;
   Steps total_steps;
   double position = 0;  // machine coordinates at the end, from the counted steps
+};
+
+// How far the program goes in one work system, in work coordinates, as programmed. Probe moves do not count, because
+// they end where they touch. The ranges are of the machine's axes, in the summary's order.
+struct WorkSummary {
+  std::uint8_t system = 1;  // 1 = G54 … 9 = G59.3
+  std::vector<std::optional<Range>> extents = {};
+  std::vector<std::optional<Range>> cutting = {};
+};
+
+// What is done with one tool.
+struct ToolSummary {
+  std::int32_t tool = 0;  // 0: no tool was called
+  Seconds cutting_time{0};
+  Seconds rapid_time{0};
+  Mm cutting_distance{0};
+  std::optional<Range> feed = {};    // mm/s, as programmed: the slowest and the fastest
+  std::optional<double> depth = {};  // mm, the lowest Z at feed in work coordinates
+};
+
+// A text for the operator: (MSG,…) and (DEBUG,…), or (PRINT,…).
+struct ProgramMessage {
+  std::uint32_t line = 0;
+  bool print = false;
+  std::string text;
 };
 
 struct BoardSummary {
@@ -81,12 +108,19 @@ struct RunSummary {
   Seconds dwell_time{0};
   Mm cutting_distance{0};
   Mm rapid_distance{0};
+  // Counted as the program writes them, before corners are rounded and lines are joined.
   std::uint64_t moves = 0;  // including rapids and arcs
   std::uint64_t rapids = 0;
   std::uint64_t arcs = 0;
   std::uint64_t dwells = 0;
 
+  LengthUnits units = LengthUnits::mm;  // of the program's first move; to_text() uses them
+
   std::vector<AxisSummary> axes;
+  std::vector<WorkSummary> work;         // the work systems in use, in their order
+  std::vector<ToolSummary> tools;        // in the order of their first use
+  std::vector<ProgramMessage> messages;  // the first most_messages
+  static constexpr std::size_t most_messages = 1000;
   std::optional<BoardSummary> board;  // empty: nothing was sent to a board
   std::vector<HoldSummary> holds;
   std::optional<ProbeSummary> probes;  // empty: no probe move
@@ -94,6 +128,9 @@ struct RunSummary {
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };
+
+// "G54" … "G59", "G59.1" … "G59.3", for 1 to 9.
+std::string name_of_system(std::uint8_t system);
 
 std::string to_text(const RunSummary& summary, bool colour);
 // Pretty-printed, keys always in the same order, with a line end.

@@ -1,4 +1,4 @@
-// SummaryBuilder: watches the motion and adds it up, in constant memory.
+// SummaryBuilder: watches the program, its path and its motion, and adds them up, in constant memory.
 //
 // A line takes about 70 ns, an arc 1.3 µs. Extents are exact. The peaks of an axis are exact for lines. On curves,
 // bisection finds the peaks, at most 0.1 % below the true ones. On an arc, for example, the pull to the centre and the
@@ -19,8 +19,12 @@ class SummaryBuilder {
   explicit SummaryBuilder(std::vector<Axis> axes);
   ~SummaryBuilder();
 
-  // `machine_minus_work` is the work frame at this item, as an offset. (A frame that is turned about Z has no such
-  // offset; the work extents are then those of its offset alone.)
+  // What the program says, as it is read: units, tools, work systems, counts of moves, messages.
+  void watch_operation(const Operation& operation);
+  // The path as the program means it, before smoothing: work extents, feeds and depths.
+  void watch_path(const PathItem& item);
+  // The motion: times, distances, machine extents and peaks. `machine_minus_work` is the work frame at this item, as an
+  // offset. (A frame that is turned about Z has no such offset; the work extents are then those of its offset alone.)
   void watch(const MotionItem& item, const Point& machine_minus_work);
 
   // The summary of the motion. The caller adds names and board.

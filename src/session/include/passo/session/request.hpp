@@ -20,6 +20,7 @@ namespace passo {
 
 // Functions that watch the data of a run. Empty functions cost nothing.
 struct Watchers {
+  std::function<void(const Operation&)> operations;
   std::function<void(const PathItem&)> path;
   std::function<void(const MotionItem&)> motion;
   std::function<void(const BoardItem&)> items;

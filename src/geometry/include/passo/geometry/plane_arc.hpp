@@ -1,4 +1,4 @@
-// The angle that an arc of RS274/NGC sweeps. Private to path/.
+// The angle that an arc of RS274/NGC sweeps.
 #pragma once
 
 #include <cmath>

@@ -1,0 +1,46 @@
+// UsualMistakes: warns of what is allowed, but seldom meant. A program says no units; it feeds while the spindle
+// stands; M3 runs at S0; a dwell of minutes was probably meant in milliseconds.
+//
+// Each mistake is reported once, where the program makes it first. The warnings about the spindle are for machines
+// whose file gives the spindle a speed (tool.max_rpm). A laser, a hot wire and a pen have none.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/interpreter/operation.hpp"
+#include "passo/machine_file/machine_description.hpp"
+
+namespace passo {
+
+class UsualMistakes {
+ public:
+  // `units`: the units before the program says any; inches were then chosen by the user. `diagnostics` outlives this.
+  UsualMistakes(const MachineDescription& machine, LengthUnits units, std::string file, Diagnostics& diagnostics);
+
+  // Call it for each operation of the program, in order.
+  void watch(const Operation& operation);
+
+ private:
+  void feed(const Operation& operation);
+  void move(const Operation& operation);
+  void dwell(const Operation& operation, Seconds time);
+  void turn_spindle(const Operation& operation, SpindleDirection direction);
+  Diagnostic warning(const Operation& operation, std::string code, std::string message, std::string expected) const;
+
+  bool has_spindle_;
+  std::string file_;
+  Diagnostics& diagnostics_;
+  bool knows_units_;
+  SpindleDirection spindle_ = SpindleDirection::off;
+  double speed_ = 0;  // S
+  // M3 or M4 while S is 0. A later S makes it good, so this is reported at the first feed.
+  std::optional<Diagnostic> turned_at_zero_;
+  // The tool is a probe since its first probe move, until the tool is changed. A probe does not turn when it is fed.
+  bool probes_ = false;
+  bool told_spindle_ = false;
+  bool told_dwell_ = false;
+};
+
+}  // namespace passo

@@ -1,0 +1,102 @@
+#include "passo/activity/usual_mistakes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// Dwells in milliseconds are whole hundreds as a rule. A dwell so long in seconds is rare: a spindle that warms up.
+constexpr Seconds suspicious_dwell{100};
+
+bool is_in_milliseconds(Seconds time) {
+  return time >= suspicious_dwell && std::fmod(time.value(), 10.0) == 0;
+}
+
+template <class... Whats>
+bool is_any_of(const OperationKind& what) {
+  return (std::holds_alternative<Whats>(what) || ...);
+}
+
+}  // namespace
+
+UsualMistakes::UsualMistakes(const MachineDescription& machine, LengthUnits units, std::string file,
+                             Diagnostics& diagnostics)
+    : has_spindle_(machine.tool.highest_rpm > 0),
+      file_(std::move(file)),
+      diagnostics_(diagnostics),
+      knows_units_(units == LengthUnits::inch) {}
+
+void UsualMistakes::watch(const Operation& operation) {
+  using namespace passo::operation;
+  const OperationKind& what = operation.what;
+  if (is_any_of<StraightFeed, ArcFeed, NurbsFeed, RigidTap>(what)) return feed(operation);
+  if (is_any_of<StraightTraverse, StraightProbe>(what)) {
+    probes_ |= is_any_of<StraightProbe>(what);
+    return move(operation);
+  }
+  if (is_any_of<ChangeTool, SetToolNumber>(what)) probes_ = false;
+  if (const auto* turn = std::get_if<TurnSpindle>(&what)) return turn_spindle(operation, turn->direction);
+  if (const auto* pause = std::get_if<Dwell>(&what)) return dwell(operation, pause->time);
+  if (const auto* speed = std::get_if<SetSpindleSpeed>(&what)) {
+    speed_ = speed->revolutions_per_minute;
+    if (speed_ > 0) turned_at_zero_.reset();
+  } else if (is_any_of<SetLengthUnits>(what) && operation.source.line > 0) {
+    knows_units_ = true;  // line 0: the interpreter says its own units before the program begins
+  }
+}
+
+void UsualMistakes::dwell(const Operation& operation, Seconds time) {
+  if (!is_in_milliseconds(time) || std::exchange(told_dwell_, true)) return;
+  diagnostics_.add_certain(
+      warning(operation, "path.long-dwell",
+              fmt::format("this dwell takes {0:g} seconds; were {0:g} milliseconds meant?", time.value()),
+              fmt::format("P in seconds: P{:g} for {:g} milliseconds", time.value() / 1000, time.value())));
+}
+
+void UsualMistakes::turn_spindle(const Operation& operation, SpindleDirection direction) {
+  spindle_ = direction;
+  turned_at_zero_.reset();
+  if (direction == SpindleDirection::off || speed_ > 0) return;
+  turned_at_zero_ = warning(operation, "path.spindle-at-zero", "the spindle is switched on at S0, so it stands",
+                            "S above 0 before the next feed move");
+}
+
+void UsualMistakes::move(const Operation& operation) {
+  if (std::exchange(knows_units_, true)) return;
+  diagnostics_.add_certain(warning(operation, "path.no-units",
+                                   "the program moves before it says its units; lengths are taken as millimetres",
+                                   "G21 (millimetres) or G20 (inches) before the first move, or --inches"));
+}
+
+void UsualMistakes::feed(const Operation& operation) {
+  move(operation);
+  if (!has_spindle_ || told_spindle_) return;
+  if (turned_at_zero_) {
+    diagnostics_.add_certain(*std::exchange(turned_at_zero_, std::nullopt));
+    told_spindle_ = true;
+  } else if (spindle_ == SpindleDirection::off && !probes_) {
+    diagnostics_.add_certain(warning(operation, "path.spindle-off-in-feed", "the tool is fed while the spindle stands",
+                                     "S and M3 before the move; a machine file without tool.max_rpm has no spindle"));
+    told_spindle_ = true;
+  }
+}
+
+Diagnostic UsualMistakes::warning(const Operation& operation, std::string code, std::string message,
+                                  std::string expected) const {
+  return {.severity = Severity::warning,
+          .code = std::move(code),
+          .file = operation.file.empty() ? file_ : std::string(operation.file),
+          .place = {.line = operation.source.line,
+                    .column = operation.word.column,
+                    .length = std::max(operation.word.length, 1U)},
+          .message = std::move(message),
+          .expected = std::move(expected),
+          .text = std::string(operation.text)};
+}
+
+}  // namespace passo

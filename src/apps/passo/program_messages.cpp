@@ -1,0 +1,35 @@
+#include "program_messages.hpp"
+
+#include <cstdio>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// Control characters in a program must not reach the terminal.
+std::string printable(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);  // "(MSG, text)"
+  std::string shown(text);
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7f) c = ' ';
+  }
+  return shown;
+}
+
+}  // namespace
+
+void ProgramMessages::show(const Operation& operation, const std::function<void()>& before) const {
+  if (!wanted_) return;
+  const auto* message = std::get_if<operation::Message>(&operation.what);
+  const auto* print = std::get_if<operation::Print>(&operation.what);
+  if (message == nullptr && print == nullptr) return;
+  if (before) before();
+  const std::string_view file = operation.file.empty() ? std::string_view(program_) : operation.file;
+  fmt::print(stderr, "{}:{}: {}: {}\n", file, operation.source.line, message != nullptr ? "message" : "print",
+             printable(message != nullptr ? message->text : print->text));
+}
+
+}  // namespace passo

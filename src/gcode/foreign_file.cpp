@@ -1,0 +1,144 @@
+#include "foreign_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace passo {
+namespace {
+
+constexpr std::string_view of_drawing = "G-code, which a CAM program makes of the drawing";
+constexpr std::string_view of_picture = "G-code, which an engraving program makes of the picture";
+constexpr std::string_view of_model = "G-code, which a CAM program makes of the model";
+constexpr std::string_view of_circuit = "G-code, which a program such as pcb2gcode makes of the circuit board";
+constexpr std::string_view of_archive = "the program itself, unpacked";
+constexpr std::string_view of_program = "G-code, which is text";
+
+constexpr ForeignFile png{"a PNG picture", of_picture};
+constexpr ForeignFile jpeg{"a JPEG picture", of_picture};
+constexpr ForeignFile tiff{"a TIFF picture", of_picture};
+constexpr ForeignFile gif{"a GIF picture", of_picture};
+constexpr ForeignFile bmp{"a BMP picture", of_picture};
+constexpr ForeignFile svg{"an SVG drawing", of_drawing};
+constexpr ForeignFile dxf{"a DXF drawing", of_drawing};
+constexpr ForeignFile dwg{"a DWG drawing", of_drawing};
+constexpr ForeignFile hpgl{"an HPGL plot", of_drawing};
+constexpr ForeignFile pdf{"a PDF document", of_drawing};
+constexpr ForeignFile gerber{"a Gerber file", of_circuit};
+constexpr ForeignFile excellon{"an Excellon drill file", of_circuit};
+constexpr ForeignFile stl{"an STL model", of_model};
+constexpr ForeignFile step{"a STEP model", of_model};
+constexpr ForeignFile gzip{"a gzip archive", of_archive};
+constexpr ForeignFile zip{"a ZIP archive", of_archive};
+constexpr ForeignFile elf{"a program for a computer or a board (ELF)", of_program};
+constexpr ForeignFile xml{"an XML file", of_program};
+
+// "dxf" of "Part.DXF"; empty: none.
+std::string ending_of(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  std::string ending = dot == std::string::npos ? std::string() : name.substr(dot + 1);
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool is_space(char c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Takes the next line that is not blank from the front of the text.
+std::string_view take_line(std::string_view& text) {
+  std::string_view line;
+  while (line.empty() && !text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    line = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return line;
+}
+
+ForeignFile by_mark(std::string_view first) {
+  struct Mark {
+    std::string_view bytes;
+    ForeignFile file;
+  };
+  using namespace std::string_view_literals;
+  const Mark marks[] = {{"\x89PNG"sv, png},
+                        {"\xFF\xD8\xFF"sv, jpeg},
+                        {"II*\0"sv, tiff},
+                        {"MM\0*"sv, tiff},
+                        {"GIF8"sv, gif},
+                        {"\x1F\x8B"sv, gzip},
+                        {"PK\x03\x04"sv, zip},
+                        {"\x7F"
+                         "ELF"sv,
+                         elf},
+                        {"%PDF-"sv, pdf},
+                        {"AutoCAD Binary DXF"sv, dxf},
+                        {"AC10"sv, dwg},
+                        {"ISO-10303-21"sv, step},
+                        {"\x1B.("sv, hpgl},
+                        {"\x1B%"sv, hpgl}};
+  const auto found = std::ranges::find_if(marks, [&](const Mark& mark) { return first.starts_with(mark.bytes); });
+  return found == std::end(marks) ? ForeignFile{} : found->file;
+}
+
+bool is_hpgl(std::string_view line, const std::string& ending) {
+  const bool is_named = ending == "plt" || ending == "hpgl" || ending == "hpg";
+  if (line.starts_with("IN;") || line.starts_with("DF;")) return true;
+  // Two letters begin each command. No word of G-code has two.
+  return is_named && line.size() >= 2 && std::isupper(static_cast<unsigned char>(line[0])) != 0 &&
+         std::isupper(static_cast<unsigned char>(line[1])) != 0;
+}
+
+// Each command of Gerber ends in a star. In G-code a star begins a checksum, stands in brackets or in a comment.
+bool is_gerber(std::string_view line) {
+  const bool begins = line.size() > 2 && std::string_view("%GXYDM").find(line[0]) != std::string_view::npos;
+  if (!begins || (!line.ends_with("*") && !line.ends_with("*%"))) return false;
+  return line.starts_with("G04") || line.find_first_of(";(") == std::string_view::npos;
+}
+
+// A header of Excellon begins with M48, which is a code of G-code too. Its units or a tool with a diameter follow.
+bool is_excellon(std::string_view line, std::string_view rest, const std::string& ending) {
+  while (line.starts_with(';')) line = take_line(rest);
+  if (line != "M48") return false;
+  if (ending == "drl" || ending == "xln" || ending == "exc") return true;
+  const std::string_view next = take_line(rest);
+  return next.starts_with("METRIC") || next.starts_with("INCH") || next.starts_with("FMAT") || next.starts_with(';');
+}
+
+ForeignFile by_text(std::string_view first, const std::string& ending) {
+  std::string_view rest = first;
+  const std::string_view line = take_line(rest);
+  if (line.starts_with('<')) {
+    if (first.find("<svg") != std::string_view::npos || ending == "svg") return svg;
+    return line.starts_with("<?xml") || line.starts_with("<!") ? xml : ForeignFile{};
+  }
+  if (is_gerber(line)) return gerber;
+  if (line.starts_with("solid") && (first.find("facet") != std::string_view::npos || ending == "stl")) return stl;
+  if (is_hpgl(line, ending)) return hpgl;
+  if (is_excellon(line, rest, ending)) return excellon;
+  if (line == "999" && ending == "dxf") return dxf;
+  return line == "0" && take_line(rest) == "SECTION" ? dxf : ForeignFile{};
+}
+
+bool is_binary(std::string_view first) {
+  return first.find('\0') != std::string_view::npos;
+}
+
+}  // namespace
+
+ForeignFile foreign_file(const std::string& name, std::string_view first) {
+  if (const ForeignFile marked = by_mark(first); !marked.kind.empty()) return marked;
+  const std::string ending = ending_of(name);
+  if (!is_binary(first)) return by_text(first.starts_with("\xEF\xBB\xBF") ? first.substr(3) : first, ending);
+  if (ending == "stl") return stl;
+  if (first.starts_with("BM")) return bmp;
+  return {};
+}
+
+}  // namespace passo
