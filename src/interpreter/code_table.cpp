@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "passo/diagnostics/diagnostic.hpp"
-
 namespace passo {
 namespace {
 
@@ -176,6 +174,32 @@ const CodeEntry* find_user_code(CodeNumber number) {
   return number % 10 == 0 && at < user_codes ? &user_table[at] : nullptr;
 }
 
+// Codes of other controls, and what does the same here.
+struct ForeignCode {
+  char letter;
+  CodeNumber number;
+  std::string_view cure;
+};
+constexpr ForeignCode foreign_codes[] = {
+    {'G', code(12), "G2 or G3 with I and J, a full circle"},
+    {'G', code(13), "G2 or G3 with I and J, a full circle"},
+    {'G', code(15), "X and Y, or @ and ^ for polar coordinates"},
+    {'G', code(16), "@ and ^ for polar coordinates"},
+    {'G', code(31), "G38.2 to G38.5, which probe"},
+    {'G', code(44), "G43 with the offset's other sign"},
+    {'G', code(68), "G10 L2 with R, which turns a work system"},
+    {'G', code(69), "G10 L2 with R0, which ends the turning of a work system"},
+    {'M', code(42), "M62 to M65, which switch a digital output"},
+    {'M', code(47), "M99 in the main program, which begins it again"},
+};
+
+// "G1, G2 or G3".
+std::string in_a_row(const std::vector<std::string>& names) {
+  std::string text = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i) text += (i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
 }  // namespace
 
 std::string_view name_of(ModalGroup group) {
@@ -202,11 +226,16 @@ std::string spelling(char letter, CodeNumber number) {
   return tenth == 0 ? fmt::format("{}{}", letter, whole) : fmt::format("{}{}.{}", letter, whole, tenth);
 }
 
-std::string nearest_code(std::string_view spelled) {
-  std::vector<std::string> spellings;
-  for (const CodeEntry& entry : table) spellings.push_back(spelling(entry));
-  const std::vector<std::string_view> candidates(spellings.begin(), spellings.end());
-  return std::string(nearest(spelled, candidates));
+std::string cure_for_unknown_code(char letter, CodeNumber number) {
+  for (const ForeignCode& foreign : foreign_codes) {
+    if (foreign.letter == letter && foreign.number == number) return std::string(foreign.cure);
+  }
+  std::vector<std::string> relatives;  // of the same whole number
+  for (const CodeEntry& entry : table) {
+    const bool is_other = entry.number % 10 == 0 && number % 10 != 0;
+    if (entry.letter == letter && entry.number / 10 == number / 10 && !is_other) relatives.push_back(spelling(entry));
+  }
+  return relatives.empty() ? "a code of docs/gcode.md" : in_a_row(relatives);
 }
 
 std::string codes_using(char letter) {
@@ -215,10 +244,7 @@ std::string codes_using(char letter) {
   for (const CodeEntry& entry : table) {
     if (entry.letters.has(letter) || (axis && entry.axes != none)) users.push_back(spelling(entry));
   }
-  if (users.empty()) return {};
-  std::string text = users.front();
-  for (std::size_t i = 1; i < users.size(); ++i) text += (i + 1 == users.size() ? " or " : ", ") + users[i];
-  return text;
+  return users.empty() ? std::string() : in_a_row(users);
 }
 
 }  // namespace passo

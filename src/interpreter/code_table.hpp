@@ -98,8 +98,8 @@ std::string spelling(char letter, CodeNumber number);
 inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);
 }
-// The code whose spelling is nearest. Empty: no spelling is near.
-std::string nearest_code(std::string_view spelled);
+// What to write in place of a code that is not in the table.
+std::string cure_for_unknown_code(char letter, CodeNumber number);
 // The codes that use this word, as in "G2, G3 or G10". Empty: no code uses it.
 std::string codes_using(char letter);
 

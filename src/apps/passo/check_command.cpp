@@ -1,6 +1,7 @@
 // passo check: interprets the program, builds its path, and says what is wrong. Nothing runs on a machine. With
 // --motion the path is also planned and stepped, and the motion is measured.
 #include <cstdio>
+#include <functional>
 #include <utility>
 
 #include "commands.hpp"
@@ -66,9 +67,12 @@ int check(const CheckArguments& arguments) {
   if (!program || !options) return exit_bad_program;
 
   Diagnostics findings;
-  const ProgramCheck result = check_program(program->again(), *machine, *options, findings);
+  FindingsDisplay display(findings);
+  const auto tell = [&](const PathItem&) { display.update(); };
+  const auto watch = arguments.json ? std::function<void(const PathItem&)>() : tell;
+  const ProgramCheck result = check_program(program->again(), *machine, *options, findings, watch);
   if (result.good && arguments.motion) {
-    show(findings);
+    display.finish();
     const MotionProof proof = prove(std::move(*program), *machine, *options, result.nominal_time, findings);
     std::fputs((arguments.json ? to_json(proof) : to_text(proof)).c_str(), stdout);
     return proof.good() ? exit_done : exit_failed;
@@ -77,7 +81,7 @@ int check(const CheckArguments& arguments) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     std::puts(findings_as_json(findings).dump(2, ' ', false, replace).c_str());
   } else {
-    show(findings);
+    display.finish();
     if (result.good) std::printf("%s: no errors\n", arguments.program.program.c_str());
   }
   return result.good ? exit_done : exit_bad_program;
