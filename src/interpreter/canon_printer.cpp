@@ -15,11 +15,9 @@ namespace {
 constexpr std::size_t counter_width = 5;
 constexpr std::size_t line_number_digits = 6;
 
-// A value that rounds to zero is printed as 0.0000, never as -0.0000, because the sign of a rounding error means
-// nothing.
-double clean(double value) {
-  return std::abs(value) < 0.00005 ? 0 : value;
-}
+// A value below this rounds to zero. It is printed as 0.0000, never as -0.0000, because the sign of a rounding error
+// means nothing.
+constexpr double smallest_shown = 0.00005;
 
 // The text of one operation. It is put together in a buffer of its own and given to `out` at once.
 class Line {
@@ -45,8 +43,9 @@ class Line {
     return *this;
   }
   Line& number(double value) {
+    if (std::abs(value) < smallest_shown) return *this << "0.0000";
     make_room();
-    at_ = write_decimal_4(at_, clean(value));
+    at_ = write_decimal_4(at_, value);
     return *this;
   }
   Line& six_digits(double value) {
