@@ -2,9 +2,10 @@
 //
 //   language_benchmark
 //
-// Five kinds of programs of 200,000 executed lines: lines a second of CPU time, with operations dropped and with
-// canonical calls printed. The output of rs274 goes to /dev/null. Then the highest memory of `passo canon` for two
-// million lines of each kind. The benchmark prints figures and decides nothing.
+// Five kinds of programs of 200,000 executed lines: lines a second of CPU time, interpreted with operations dropped,
+// checked by `passo check`, and printed as canonical calls by `passo canon` and by `rs274 -g`, both to /dev/null. Then
+// the highest memory of `passo canon` for two million lines of each kind. The benchmark prints figures and decides
+// nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,7 +18,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "passo/interpreter/canon.hpp"
 #include "passo/interpreter/interpreter.hpp"
 
 namespace {
@@ -84,7 +84,8 @@ void write(const Kind& kind, const std::string& path, int lines) {
   std::fclose(file);
 }
 
-double interpret(const std::string& path, bool print) {
+// Lines a second of this process, with operations dropped.
+double interpret(const std::string& path) {
   double best = 1e9;
   for (int round = 0; round < rounds; ++round) {
     const double start = cpu_seconds(RUSAGE_SELF);
@@ -92,13 +93,8 @@ double interpret(const std::string& path, bool print) {
     auto reader = ProgramReader::open(path);
     if (!reader) return 0;
     Interpreter interpreter(std::move(*reader), InterpreterOptions(), diagnostics);
-    CanonPrinter printer;
     Operation operation;
-    std::string canon;
     while (interpreter.next(operation)) {
-      if (!print) continue;
-      canon.clear();
-      printer.print(operation, canon);
     }
     if (diagnostics.any_error()) return 0;
     best = std::min(best, cpu_seconds(RUSAGE_SELF) - start);
@@ -106,13 +102,13 @@ double interpret(const std::string& path, bool print) {
   return timed_lines / best;
 }
 
-// Lines a second; 0 if rs274 is not installed.
-double rs274(const std::string& path) {
+// Lines a second of a command; 0 if it fails, as where it is not installed.
+double run(const std::string& command) {
   double best = 1e9;
   for (int round = 0; round < rounds; ++round) {
     const double start = cpu_seconds(RUSAGE_CHILDREN);
-    const int status = std::system(fmt::format("rs274 -g {} >/dev/null 2>&1", path).c_str());
-    // Now and then it fails where it ran well before. Such a round does not count.
+    const int status = std::system((command + " >/dev/null 2>&1").c_str());
+    // Now and then rs274 fails where it ran well before. Such a round does not count.
     if (status == 0) best = std::min(best, cpu_seconds(RUSAGE_CHILDREN) - start);
   }
   return best < 1e9 ? timed_lines / best : 0;
@@ -131,18 +127,20 @@ int main() {
                         {"while with trigonometry", write_loop},
                         {"subs, named parameters", write_subs}};
   const std::string path = (fs::temp_directory_path() / fmt::format("passo-language-{}.ngc", getpid())).string();
-  std::printf("lines a CPU second            operations dropped   calls printed   rs274 printing   dropped : rs274   ");
-  std::printf("two million\n");
+  std::printf(
+      "lines a CPU second            dropped   passo check   passo canon   rs274 -g   canon : rs274   two million\n");
   for (const Kind& kind : kinds) {
     write(kind, path, timed_lines);
-    const double dropped = interpret(path, false);
-    const double printed = interpret(path, true);
-    const double other = rs274(path);
+    const double dropped = interpret(path);
+    const double checked =
+        run(fmt::format("{} check -m {}/examples/machines/router.toml {}", PASSO_PROGRAM, PASSO_SOURCE_DIR, path));
+    const double printed = run(fmt::format("{} canon {}", PASSO_PROGRAM, path));
+    const double other = run(fmt::format("rs274 -g {}", path));
     write(kind, path, many_lines);
     const Cost cost = cost_of({PASSO_PROGRAM, "canon", path});
-    std::printf("%-28s %19s %15s %16s %17s %9.1f MiB\n", kind.name, thousands(dropped).c_str(),
-                thousands(printed).c_str(), thousands(other).c_str(),
-                other > 0 ? fmt::format("{:.1f}", dropped / other).c_str() : "-", cost.mebibytes);
+    std::printf("%-27s %9s %13s %13s %10s %15s %9.1f MiB\n", kind.name, thousands(dropped).c_str(),
+                thousands(checked).c_str(), thousands(printed).c_str(), thousands(other).c_str(),
+                other > 0 ? fmt::format("{:.1f}", printed / other).c_str() : "-", cost.mebibytes);
   }
   fs::remove(path);
 }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/diagnostics/shown_place.hpp"
+
 namespace passo {
 namespace {
 
@@ -74,6 +76,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+SourcePlace shown_place(const Diagnostic& diagnostic) {
+  SourcePlace place = diagnostic.place;
+  const std::string_view text = diagnostic.text;
+  if (place.column == 0 || place.column > text.size()) return place;
+  const std::size_t before = place.column - 1;
+  place.column = static_cast<std::uint32_t>(characters(text.substr(0, before)) + 1);
+  const std::size_t inside = std::min<std::size_t>(place.length, text.size() - before);
+  place.length -= static_cast<std::uint32_t>(inside - characters(text.substr(before, inside)));
+  return place;
+}
+
 void Diagnostics::add(Diagnostic diagnostic) {
   if (!doubt_.empty() && diagnostic.severity == Severity::error) {
     diagnostic.severity = Severity::warning;
@@ -103,7 +116,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
 
   std::string where = diagnostic.file;
   if (place.line > 0) where += fmt::format(":{}", place.line);
-  if (place.line > 0 && place.column > 0) where += fmt::format(":{}", place.column);
+  if (place.line > 0 && place.column > 0) where += fmt::format(":{}", shown_place(diagnostic).column);
 
   std::string out =
       fmt::format("{}: {}: {} [{}]\n", paint("1", where), is_error ? paint("1;31", "error") : paint("1;35", "warning"),
@@ -111,7 +124,7 @@ std::string render(const Diagnostic& diagnostic, bool colour) {
   if (place.line > 0 && place.column > 0 && !diagnostic.text.empty()) {
     const Window window = window_around(diagnostic.text, place.column - 1, place.length);
     const std::size_t room = characters(window.text) > window.caret ? characters(window.text) - window.caret : 1;
-    const std::size_t length = std::clamp<std::size_t>(place.length, 1, room);
+    const std::size_t length = std::clamp<std::size_t>(shown_place(diagnostic).length, 1, room);
     out += fmt::format("{:>5} | {}\n", place.line, window.text);
     out += fmt::format("      | {}{}\n", std::string(window.caret, ' '),
                        paint("1;32", "^" + std::string(length - 1, '~')));

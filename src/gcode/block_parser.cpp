@@ -9,7 +9,7 @@ bool BlockParser::parse(std::string_view text, std::uint32_t line, Block& block,
   block.line = line;
   block.text = text;
   LineFault fault;
-  if (LineParser(text, block, symbols_, fault).parse()) return true;
+  if (LineParser(text, block, symbols_, fault, line_numbers_anywhere_).parse()) return true;
 
   Diagnostic diagnostic;
   diagnostic.code = fault.code;

@@ -57,9 +57,9 @@ Outcome binary(ExpressionOp op, double a, double b) {
     case ExpressionOp::equal: return {truth(is_equal(a, b))};
     case ExpressionOp::not_equal: return {truth(!is_equal(a, b))};
     case ExpressionOp::greater: return {truth(a > b)};
-    case ExpressionOp::greater_equal: return {truth(a >= b)};
+    case ExpressionOp::greater_equal: return {truth(a > b || is_equal(a, b))};
     case ExpressionOp::less: return {truth(a < b)};
-    case ExpressionOp::less_equal: return {truth(a <= b)};
+    case ExpressionOp::less_equal: return {truth(a < b || is_equal(a, b))};
     case ExpressionOp::bit_and: return {truth(a != 0 && b != 0)};
     case ExpressionOp::bit_or: return {truth(a != 0 || b != 0)};
     case ExpressionOp::bit_xor: return {truth((a != 0) != (b != 0))};

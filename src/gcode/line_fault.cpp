@@ -42,11 +42,25 @@ bool LineParser::fail(const char* code, const char* from, std::size_t length, st
   return false;
 }
 
+// An l or an I right after a letter, and no value after it, is a 1 that was typed wrong.
+bool LineParser::is_digit_alike() const {
+  if (at_end() || at_ == begin_ || !is_letter(at_[-1])) return false;
+  const char c = to_upper(*at_);
+  if (c != 'L' && c != 'I') return false;
+  const char* next = at_ + 1;
+  while (next != end_ && is_blank(*next)) ++next;
+  return next == end_ || (!is_digit(*next) && std::string_view(".+-[#").find(*next) == std::string_view::npos);
+}
+
 bool LineParser::fail_missing_value(const char* owner) {
   const char c = peek();
   const std::string whose = to_upper(*owner) == '[' ? "the bracket is empty" : fmt::format("'{}' has no value", *owner);
   if (at_end() || is_letter(c) || c == '(' || c == ';' || c == ']' || c == '#' || c == '[') {
     if (c == 'O') return fail_letter_o(at_);
+    if (is_digit_alike()) {
+      return fail("gcode.missing-value", at_, 1, fmt::format("the letter '{}' where a value should be", *at_),
+                  "the digit 1");
+    }
     const bool round_bracket = c == '(';
     return fail("gcode.missing-value", owner, 1, whose,
                 round_bracket ? "square brackets: '(' starts a comment" : a_value);

@@ -137,6 +137,9 @@ bool LineParser::parse_items() {
         break;
       case ';': parse_semicolon_comment(); return true;
       case 'N':
+        if (!line_numbers_anywhere_) return fail_unexpected();
+        if (!parse_line_number()) return false;
+        break;
       case 'O': return fail_unexpected();
       default:
         if (!is_letter(c) && c != '@' && c != '^' && c != '$') return fail_unexpected();

@@ -35,14 +35,16 @@ struct LineFault {
 class LineParser {
  public:
   // `block` must be clear. Its views will point into `text`.
-  LineParser(std::string_view text, Block& block, SymbolTable& symbols, LineFault& fault)
+  LineParser(std::string_view text, Block& block, SymbolTable& symbols, LineFault& fault,
+             bool line_numbers_anywhere = false)
       : begin_(text.data()),
         end_(text.data() + text.size()),
         at_(begin_),
         token_end_(begin_),
         block_(block),
         symbols_(symbols),
-        fault_(fault) {}
+        fault_(fault),
+        line_numbers_anywhere_(line_numbers_anywhere) {}
 
   // Returns false after a fault; `fault` then describes it.
   bool parse();
@@ -78,6 +80,7 @@ class LineParser {
   // line_fault.cpp: the messages. All return false.
   bool fail(const char* code, const char* from, std::size_t length, std::string message, std::string expected);
   bool fail_missing_value(const char* owner);
+  bool is_digit_alike() const;
   bool fail_unexpected();                   // at_ is at a place where no item can start
   bool fail_in_brackets(const char* open);  // at_ is at a place that needs an operator or ']'
   bool fail_function(const char* name_start, std::string_view name);
@@ -106,6 +109,7 @@ class LineParser {
   Block& block_;
   SymbolTable& symbols_;
   LineFault& fault_;
+  const bool line_numbers_anywhere_;
   std::size_t nesting_ = 0;   // values inside other values
   std::size_t operands_ = 0;  // operands on the stack of the evaluation
 };

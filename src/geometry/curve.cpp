@@ -36,6 +36,13 @@ double largest_cosine(const Curve::ArcData& arc) {
   return std::max(std::abs(std::cos(arc.start_angle)), std::abs(std::cos(arc.start_angle + arc.sweep)));
 }
 
+// atan2(rise, run) for a positive run. Most arcs are circles but for the rounding of their numbers, where the angle is
+// the slope itself: its third power is below what a double resolves beside an angle of the arc.
+double angle_of_slope(double rise, double run) {
+  const double slope = rise / run;
+  return run > 0 && std::abs(slope) < 1e-6 ? slope : std::atan2(rise, run);
+}
+
 // How far the arc reaches from its centre in the direction `toward`, a multiple of a quarter turn. 0 where one of the
 // arc's ends is the farthest point. A growing radius reaches farthest on the first or on the last turn, at the angle
 // where tan(angle - toward) = growth / radius.
@@ -46,11 +53,18 @@ double reach(const Curve::ArcData& arc, double toward) {
   const double first = toward + 2 * pi * std::ceil((low - pi / 2 - toward) / (2 * pi));
   const double last = toward + 2 * pi * std::floor((high + pi / 2 - toward) / (2 * pi));
   double best = 0;
-  for (const double turn : {first, first + 2 * pi, last - 2 * pi, last}) {
+  const auto look_at = [&](double turn) {
+    if (turn + pi / 2 < low || turn - pi / 2 > high) return;  // the angle is less than a quarter turn away
     double angle = turn;
-    for (int pass = 0; pass < 3 && growth != 0; ++pass) angle = turn + std::atan2(growth, radius_at(arc, angle));
-    if (angle < low || angle > high) continue;
+    for (int pass = 0; pass < 3 && growth != 0; ++pass) angle = turn + angle_of_slope(growth, radius_at(arc, angle));
+    if (angle < low || angle > high) return;
     best = std::max(best, radius_at(arc, angle) * std::cos(angle - turn));
+  };
+  look_at(first);
+  if (last > first) {
+    look_at(first + 2 * pi);
+    look_at(last - 2 * pi);
+    look_at(last);
   }
   return best;
 }

@@ -39,6 +39,7 @@ struct BlockContext {
 
   bool missing_feed_told = false;  // reported since the last F
   bool ended = false;              // the program has ended, and no block follows
+  bool gave_up = false;            // it ended by (ABORT,…)
 };
 
 }  // namespace passo

@@ -82,7 +82,7 @@ BlockExecutor::BlockExecutor(BlockContext& block, SymbolTable& symbols)
       probe_(block),
       drilling_(block),
       threading_(block),
-      lathe_(block, symbols),
+      lathe_(block, cutter_codes_, symbols),
       subprograms_(block),
       symbols_(symbols) {}
 
@@ -124,6 +124,10 @@ void BlockExecutor::execute(const Block& block) {
   if (words_.calls_macro()) return subprograms_.call_macro(readable);
   if (!readable) return;
   words_.find_axes(block_.axis_words);
+  if (words_.has_code(non_modal, code(4)) && !words_.has('P')) {
+    fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
+    return;
+  }
   if (!resolve_motion() || !check_words_used() || !check_words_shared() || !cutter_codes_.check()) return;
   if (const CodeEntry* const stops = words_.code(stopping); stops != nullptr && stops->number >= code(98)) {
     subprograms_.call_or_leave(stops->number);
@@ -145,9 +149,19 @@ void BlockExecutor::go_on() {
     bool more = true;
     operation.word = block_.word;
     operation.axis_words = &block_.axis_words;
-    while (operations_.has_room() && (more = cycle.next(operation))) operations_.push(operation);
-    state_.position = cycle.position();
+    const bool compensated = cutter_.active();
+    while (operations_.has_room() && (more = cycle.next(operation))) {
+      if (!compensated) {
+        operations_.push(operation);
+      } else if (!cutter_codes_.follow(operation.what)) {
+        cycle_ = nullptr;
+        cutter_.skip_to(state_.position = cycle.position());
+        return;
+      }
+    }
+    if (!compensated || !more) state_.position = cycle.position();
     if (more) return;
+    if (compensated) state_.cutter_shift = cutter_.shift(state_.position);
     if (!std::exchange(cycle_, nullptr)->finish()) return;
   }
   if (words_.code(stopping) != nullptr) stop(words_.code(stopping)->number);
@@ -313,6 +327,13 @@ bool BlockExecutor::check_words_used() {
   return false;
 }
 
+// The words that a code takes. Those of G10 depend on its L.
+LetterSet BlockExecutor::letters_of(const CodeEntry& entry) const {
+  if (entry.group != non_modal || entry.number != code(10) || !words_.has('L')) return entry.letters;
+  if (words_['L'] == 2) return "LPR";
+  return words_['L'] == 20 || words_['L'] == 0 ? "LP" : entry.letters;
+}
+
 // One word cannot be meant for two codes.
 bool BlockExecutor::check_words_shared() {
   if ((words_.groups() & (words_.groups() - 1)) == 0) return true;
@@ -320,7 +341,7 @@ bool BlockExecutor::check_words_shared() {
   for (std::size_t group = 0; group < modal_group_count; ++group) {
     const CodeEntry* const entry = words_.code(static_cast<ModalGroup>(group));
     if (entry == nullptr) continue;
-    const LetterSet shared = (words_.present() & entry->letters) - LetterSet("$");
+    const LetterSet shared = (words_.present() & letters_of(*entry)) - LetterSet("$");
     for (const Word& word : reporter_.block().words) {
       if (word.letter == 'G' || word.letter == 'M' || word.letter == 'N' || !shared.has(word.letter)) continue;
       const CodeEntry*& taken = owner[letter_index(word.letter)];
@@ -360,7 +381,8 @@ bool BlockExecutor::assign(const Block& block) {
                   fmt::format("{} is not the number of a parameter", plain_number(index)),
                   fmt::format("a whole number, 1 to {}", highest_parameter));
     }
-    if (!Parameters::is_settable(static_cast<std::int64_t>(whole))) {
+    const auto number = static_cast<std::int64_t>(whole);
+    if (!Parameters::is_settable(number) || parameters_.is_machine_position(number)) {
       return fail("gcode.read-only-parameter", assignment.span,
                   fmt::format("#{} tells what the machine does and cannot be set", plain_number(whole)),
                   "another parameter");
@@ -407,7 +429,7 @@ bool BlockExecutor::obey(const BlockComment& comment) {
     case Kind::log_append: emit_ahead(Log{Log::Kind::append, comment.text}); return true;
     case Kind::log_close: emit_ahead(Log{Log::Kind::close, {}}); return true;
     case Kind::abort:
-      block_.ended = true;
+      block_.ended = block_.gave_up = true;
       return fail("gcode.abort", comment.span, fmt::format("the program gives up:{}", filled()));
     case Kind::probe_open:
     case Kind::probe_close:  // as rs274 shows them: whole

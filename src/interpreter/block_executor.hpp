@@ -44,6 +44,8 @@ class BlockExecutor : private CodeFamily {
   void finish(Closing closing);
   // After M2, M30 or (ABORT,…).
   bool ended() const { return block_.ended; }
+  // After (ABORT,…).
+  bool gave_up() const { return block_.gave_up; }
   // The jump that the block just executed requests.
   std::optional<SubprogramJump> take_jump() { return subprograms_.take_jump(); }
   // Tells that a sub was left, by its O-word or M99. The flow is back in the caller.
@@ -84,6 +86,7 @@ class BlockExecutor : private CodeFamily {
   // The block as a whole.
   bool resolve_motion();
   bool check_words_used();
+  LetterSet letters_of(const CodeEntry& entry) const;
   bool check_words_shared();
   bool assign(const Block& block);
   bool execute_words();
@@ -107,6 +110,7 @@ class BlockExecutor : private CodeFamily {
   bool set_arc_distance_mode(CodeNumber code);
   bool set_retract_mode(CodeNumber code);
   bool run_non_modal(CodeNumber code);
+  bool moves_straight() const;
   bool set_table();
   bool move(CodeNumber code);
   bool move_by(CodeNumber code);

@@ -52,13 +52,23 @@ void BlockWords::find_axes(AxisWords& places) const {
   }
 }
 
+bool BlockWords::is_of_another(char letter, ModalGroup group) const {
+  for (std::uint32_t groups = groups_ & ~bit_of(group); groups != 0; groups &= groups - 1) {
+    const CodeEntry* const entry = codes_[static_cast<std::size_t>(std::countr_zero(groups))];
+    if (entry != nullptr && entry->letters.has(letter)) return true;
+  }
+  return false;
+}
+
 bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
   const double tenths = std::round(value * 10);
   const bool in_range = value >= 0 && value < code_limit && std::abs(value * 10 - tenths) < code_tolerance * 10;
   const CodeEntry* const entry = in_range ? find_code(word.letter, static_cast<CodeNumber>(tenths)) : nullptr;
   if (entry == nullptr) {
     const std::string written = word.letter + plain_number(value);
-    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written), meant_code(written));
+    const bool readable = value >= 0 && value < code_limit;
+    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written),
+                   cure_for_unknown_code(word.letter, readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1}));
     return false;
   }
   const std::size_t group = index_of(entry->group);

@@ -41,6 +41,8 @@ class BlockWords {
     return entry != nullptr && entry->number == number;
   }
   Span span(ModalGroup group) const { return code_spans_[index_of(group)]; }
+  // True: a code of another group than this one takes the word.
+  bool is_of_another(char letter, ModalGroup group) const;
   // The bits of the groups of which the block has a code.
   std::uint32_t groups() const { return groups_; }
 

@@ -1,9 +1,10 @@
+#include <array>
 #include <cmath>
-#include <iterator>
+#include <cstddef>
+#include <cstring>
 #include <variant>
 
-#include <fmt/compile.h>
-#include <fmt/format.h>
+#include "decimal_text.hpp"
 
 #include "passo/interpreter/canon.hpp"
 #include "passo/interpreter/tool_table.hpp"
@@ -14,30 +15,42 @@ namespace {
 constexpr std::size_t counter_width = 5;
 constexpr std::size_t line_number_digits = 6;
 
-// A value that rounds to zero is printed as 0.0000, never as -0.0000, because the sign of a rounding error means
-// nothing.
-double clean(double value) {
-  return std::abs(value) < 0.00005 ? 0 : value;
-}
+// A value below this rounds to zero. It is printed as 0.0000, never as -0.0000, because the sign of a rounding error
+// means nothing.
+constexpr double smallest_shown = 0.00005;
 
+// The text of one operation. It is put together in a buffer of its own and given to `out` at once.
 class Line {
  public:
   Line(std::string& out, LengthUnits units) : out_(out), scale_(units == LengthUnits::inch ? mm_per_inch : 1) {}
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  ~Line() { flush(); }
 
   Line& operator<<(std::string_view text) {
-    out_ += text;
+    if (text.size() > static_cast<std::size_t>(end() - at_)) {
+      flush();
+      if (text.size() > buffer_.size()) return out_ += text, *this;
+    }
+    std::memcpy(at_, text.data(), text.size());
+    at_ += text.size();
     return *this;
   }
   Line& whole(std::int64_t value) {
-    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{}"), value);
+    make_room();
+    if (value < 0) *at_++ = '-';
+    at_ = write_whole(at_, value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value));
     return *this;
   }
   Line& number(double value) {
-    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{:.4f}"), clean(value));
+    if (std::abs(value) < smallest_shown) return *this << "0.0000";
+    make_room();
+    at_ = write_decimal_4(at_, value);
     return *this;
   }
   Line& six_digits(double value) {
-    fmt::format_to(std::back_inserter(out_), FMT_COMPILE("{:.6f}"), value);
+    make_room();
+    at_ = write_decimal_6(at_, value);
     return *this;
   }
   // A length in the program's units.
@@ -51,11 +64,35 @@ class Line {
   Line& rotary(const Point& point) {
     return (((length(point, Axis::a)) << ", ").length(point, Axis::b) << ", ").length(point, Axis::c);
   }
+  // The counter and the line number, each in its column.
+  Line& head(std::uint64_t count, std::int64_t line_number) {
+    std::array<char, longest_decimal_text> digits;
+    const auto size = static_cast<std::size_t>(write_whole(digits.data(), count) - digits.data());
+    for (std::size_t i = size; i < counter_width; ++i) *this << " ";
+    *this << std::string_view(digits.data(), size);
+    if (line_number < 0) return *this << " N..... ";
+    const char* const number = (*this << " N").at_;
+    whole(line_number);
+    for (auto i = static_cast<std::size_t>(at_ - number); i < line_number_digits; ++i) *this << " ";
+    return *this;
+  }
   double scale() const { return scale_; }
 
  private:
+  char* end() { return buffer_.data() + buffer_.size(); }
+  // Gives the buffer away if the longest number no longer fits.
+  void make_room() {
+    if (end() - at_ < static_cast<std::ptrdiff_t>(longest_decimal_text)) flush();
+  }
+  void flush() {
+    out_.append(buffer_.data(), static_cast<std::size_t>(at_ - buffer_.data()));
+    at_ = buffer_.data();
+  }
+
   std::string& out_;
   double scale_;
+  std::array<char, 1024> buffer_;
+  char* at_ = buffer_.data();
 };
 
 const char* name_of(Plane plane) {
@@ -224,15 +261,6 @@ struct Call {
   void operator()(const operation::SetFeedReference&) const { line << "SET_FEED_REFERENCE(CANON_XYZ)"; }
 };
 
-void print_head(std::uint64_t count, std::int64_t line_number, std::string& out) {
-  fmt::format_to(std::back_inserter(out), FMT_COMPILE("{:>{}} "), count, counter_width);
-  if (line_number < 0) {
-    out += "N..... ";
-  } else {
-    fmt::format_to(std::back_inserter(out), FMT_COMPILE("N{:<{}}"), line_number, line_number_digits);
-  }
-}
-
 }  // namespace
 
 void CanonPrinter::print(const Operation& operation, std::string& out) {
@@ -240,12 +268,12 @@ void CanonPrinter::print(const Operation& operation, std::string& out) {
   if (const auto* set = std::get_if<operation::SetFeedMode>(&operation.what)) feed_mode_ = set->mode;
   if (std::holds_alternative<operation::ReadInput>(operation.what)) return;  // rs274 prints nothing for it
   // The text of (PRINT,…) goes to the operator unchanged. rs274 prints no counter and no N before it.
-  if (!std::holds_alternative<operation::Print>(operation.what)) {
-    print_head(++count_, operation.source.line_number, out);
-  }
   Line line(out, units_);
+  if (!std::holds_alternative<operation::Print>(operation.what)) {
+    line.head(++count_, operation.source.line_number);
+  }
   std::visit(Call{line, feed_mode_, machine_units_}, operation.what);
-  out += '\n';
+  line << "\n";
 }
 
 }  // namespace passo

@@ -12,7 +12,7 @@ namespace {
 using enum ModalGroup;
 
 constexpr double whole_tolerance = 1e-4;
-constexpr double slowest_inverse_time = 0.1;  // units a minute, as LinuxCNC bounds it
+constexpr double feed_of_no_way = 0.1;  // units a minute: in inverse time, of a move that leads nowhere
 constexpr int every_spindle = -1;
 
 }  // namespace
@@ -26,7 +26,11 @@ bool CodeFamily::whole_word(char letter, double lowest, double highest, std::int
   const double number = words_[letter];
   const double whole = std::round(number);
   if (std::abs(number - whole) > whole_tolerance || whole < lowest || whole > highest) {
-    return fail("gcode.not-whole", words_.span(letter), fmt::format("{} is {}", letter, plain_number(number)),
+    const bool is_whole = std::abs(number - whole) <= whole_tolerance;
+    return fail("gcode.not-whole", words_.span(letter),
+                is_whole ? fmt::format("{} is {}, outside {} to {}", letter, plain_number(number), plain_number(lowest),
+                                       plain_number(highest))
+                         : fmt::format("{} is {}, which is not whole", letter, plain_number(number)),
                 fmt::format("a whole number, {} to {}", plain_number(lowest), plain_number(highest)));
   }
   value = static_cast<std::int32_t>(whole);
@@ -61,7 +65,7 @@ bool CodeFamily::end_point(Point& end) {
 }
 
 bool CodeFamily::machine_end_point(Point& end) {
-  if (state_.modal.incremental()) {
+  if (state_.modal.incremental() && !speaks_grbl()) {
     return fail("gcode.g53-incremental", words_.span(non_modal), "G53 while distances are incremental (G91)",
                 "G90 before G53, or in its block");
   }
@@ -84,9 +88,13 @@ bool CodeFamily::machine_end_point(Point& end) {
 // @ is a distance from the origin, and ^ is an angle about it. If one is not given, it keeps its value.
 bool CodeFamily::apply_polar(Point& end) {
   const char letter = words_.has('@') ? '@' : '^';
-  if (state_.modal.plane() != Plane::xy || words_.has('X') || words_.has('Y')) {
-    return fail("gcode.bad-polar", words_.span(letter), "polar coordinates outside the plane XY, or beside X and Y",
-                "G17, and @ and ^ alone or with Z and others");
+  if (state_.modal.plane() != Plane::xy) {
+    return fail("gcode.bad-polar", words_.span(letter), "polar coordinates outside the plane XY", "G17 before");
+  }
+  for (const char beside : {'X', 'Y'}) {
+    if (!words_.has(beside)) continue;
+    return fail("gcode.bad-polar", words_.span(letter),
+                fmt::format("{} beside {}: both give a place in X and Y", letter, beside), "@ and ^, or X and Y");
   }
   const double x = end[Axis::x];
   const double y = end[Axis::y];
@@ -123,7 +131,8 @@ bool CodeFamily::check_feed() {
 
 void CodeFamily::emit_inverse_time_feed(double length, bool rotary) {
   const double units = rotary ? length : length / state_.length_unit();
-  emit_feed_rate(std::max(slowest_inverse_time, units * words_['F']));
+  const double feed = units * words_['F'];
+  emit_feed_rate(feed > 0 ? feed : feed_of_no_way);
 }
 
 void CodeFamily::emit_feed_rate(double units) {

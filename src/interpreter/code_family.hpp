@@ -27,6 +27,11 @@ class CodeFamily {
 
   // Faults. fail() returns false.
   bool fail(std::string_view code, Span span, std::string message, std::string expected = {});
+  bool speaks_grbl() const { return block_.options.dialect == Dialect::grbl; }
+  // True: the word is below zero by more than a rounding error, as in P[0.3-0.1-0.2].
+  bool is_negative(char letter) const { return words_[letter] <= -equality_tolerance; }
+  // The word, and 0 where a rounding error has brought it below zero.
+  double never_negative(char letter) const { return words_[letter] < 0 ? 0 : words_[letter]; }
   bool whole_word(char letter, double lowest, double highest, std::int32_t& value);
   bool fail_at_origin(char polar_letter);
   bool report_arc(const ArcCenter& arc);

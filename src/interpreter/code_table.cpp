@@ -175,6 +175,38 @@ const CodeEntry* find_user_code(CodeNumber number) {
   return number % 10 == 0 && at < user_codes ? &user_table[at] : nullptr;
 }
 
+// Codes of other controls, and what does the same here.
+struct ForeignCode {
+  char letter;
+  CodeNumber number;
+  std::string_view cure;
+};
+constexpr ForeignCode foreign_codes[] = {
+    {'G', code(12), "G2 or G3 with I and J, a full circle"},
+    {'G', code(13), "G2 or G3 with I and J, a full circle"},
+    {'G', code(15), "X and Y, or @ and ^ for polar coordinates"},
+    {'G', code(16), "@ and ^ for polar coordinates"},
+    {'G', code(31), "G38.2 to G38.5, which probe"},
+    {'G', code(36), "G38.2 and G10 L10, which measure a tool"},
+    {'G', code(37), "G38.2 and G10 L10, which measure a tool"},
+    {'G', code(44), "G43 with the offset's other sign"},
+    {'G', code(68), "G10 L2 with R, which turns a work system"},
+    {'G', code(69), "G10 L2 with R0, which ends the turning of a work system"},
+    {'M', code(13), "M3 and M8: on other controls this is both at once"},
+    {'M', code(14), "M4 and M8: on other controls this is both at once"},
+    {'M', code(29), "G33.1: on other controls this announces rigid tapping"},
+    {'M', code(42), "M62 to M65, which switch a digital output"},
+    {'M', code(97), "o… call or M98, which call a part of the program"},
+    {'M', code(47), "M99 in the main program, which begins it again"},
+};
+
+// "G1, G2 or G3".
+std::string in_a_row(const std::vector<std::string>& names) {
+  std::string text = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i) text += (i + 1 == names.size() ? " or " : ", ") + names[i];
+  return text;
+}
+
 }  // namespace
 
 std::string_view name_of(ModalGroup group) {
@@ -201,35 +233,16 @@ std::string spelling(char letter, CodeNumber number) {
   return tenth == 0 ? fmt::format("{}{}", letter, whole) : fmt::format("{}{}.{}", letter, whole, tenth);
 }
 
-std::string meant_code(std::string_view spelled) {
-  struct Foreign {
-    std::string_view code;
-    std::string_view meant;
-  };
-  // Codes of other controls that many programs have, and what does the same here.
-  constexpr Foreign foreign[] = {
-      {"G12", "arcs of G2: this is the circular pocket, clockwise, of other controls"},
-      {"G13", "arcs of G3: this is the circular pocket, counterclockwise, of other controls"},
-      {"G31", "G38.3: this is the skip move of other controls"},
-      {"G36", "G38.2 and G10 L10: this measures a tool on other controls"},
-      {"G37", "G38.2 and G10 L10: this measures a tool on other controls"},
-      {"G68", "G10 L2 P… R: this turns the work frame on other controls"},
-      {"G69", "G10 L2 P… R0: this ends a turned work frame on other controls"},
-      {"M13", "M3 and M8: this is both at once on other controls"},
-      {"M14", "M4 and M8: this is both at once on other controls"},
-      {"M29", "G33.1: this announces rigid tapping on other controls"},
-      {"M97", "o… call, or M98: this calls a part of the program on other controls"}};
-  const auto found = std::ranges::find(foreign, spelled, &Foreign::code);
-  if (found != std::end(foreign)) return std::string(found->meant);
-  // One digit more or less is another code, not a slip. Only the digit after the point may be guessed: G38 for G38.2.
-  const std::string_view whole = spelled.substr(0, spelled.find('.'));
-  std::string all;
-  for (const CodeEntry& entry : table) {
-    const std::string name = spelling(entry);
-    if (name == whole || std::string_view(name).substr(0, name.find('.')) != whole) continue;
-    all += all.empty() ? name : ", " + name;
+std::string cure_for_unknown_code(char letter, CodeNumber number) {
+  for (const ForeignCode& foreign : foreign_codes) {
+    if (foreign.letter == letter && foreign.number == number) return std::string(foreign.cure);
   }
-  return all.empty() ? "a code of docs/gcode.md" : all;
+  std::vector<std::string> relatives;  // of the same whole number
+  for (const CodeEntry& entry : table) {
+    const bool is_other = entry.number % 10 == 0 && number % 10 != 0;
+    if (entry.letter == letter && entry.number / 10 == number / 10 && !is_other) relatives.push_back(spelling(entry));
+  }
+  return relatives.empty() ? "a code of docs/gcode.md" : in_a_row(relatives);
 }
 
 std::string codes_using(char letter) {
@@ -238,10 +251,7 @@ std::string codes_using(char letter) {
   for (const CodeEntry& entry : table) {
     if (entry.letters.has(letter) || (axis && entry.axes != none)) users.push_back(spelling(entry));
   }
-  if (users.empty()) return {};
-  std::string text = users.front();
-  for (std::size_t i = 1; i < users.size(); ++i) text += (i + 1 == users.size() ? " or " : ", ") + users[i];
-  return text;
+  return users.empty() ? std::string() : in_a_row(users);
 }
 
 }  // namespace passo

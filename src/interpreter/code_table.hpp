@@ -98,9 +98,8 @@ std::string spelling(char letter, CodeNumber number);
 inline std::string spelling(const CodeEntry& entry) {
   return spelling(entry.letter, entry.number);
 }
-// What an unknown code was to be: the codes with the same number before the point, or what does here what the code does
-// on other controls. Never empty.
-std::string meant_code(std::string_view spelled);
+// What to write in place of a code that is not in the table.
+std::string cure_for_unknown_code(char letter, CodeNumber number);
 // The codes that use this word, as in "G2, G3 or G10". Empty: no code uses it.
 std::string codes_using(char letter);
 

@@ -1,6 +1,7 @@
 #include "cutter_codes.hpp"
 
 #include <cmath>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -27,8 +28,9 @@ bool is_allowed(const CodeEntry& entry, const ModalState& modal) {
   if (entry.group == plane) return entry.number == modal[plane];
   return entry.group == non_modal && (entry.number == code(4) || entry.number == code(10));
 }
+// G70 is made of lines and arcs. G71 and G72 keep their distance from the contour themselves.
 bool is_contour(CodeNumber motion_code) {
-  return motion_code <= code(3) || motion_code == code(80);
+  return motion_code <= code(3) || motion_code == code(70) || motion_code == code(80);
 }
 
 }  // namespace
@@ -136,6 +138,23 @@ bool CutterCodes::from_table(CutterSetup& setup) {
   if (setup.plane == Plane::zx || setup.orientation == 0 || setup.orientation == 9) return true;
   return fail("gcode.cutter-compensation", span, fmt::format("tool {} is a lathe tool", tool->number),
               "G18, the plane ZX, before");
+}
+
+bool CutterCodes::follow(const OperationKind& what) {
+  const Point start = state_.position;
+  const auto line = [&](bool rapid, const Point& end) {
+    state_.position = end;
+    return report(cutter_.line({rapid, start, end, kept_operation()}), motion_span());
+  };
+  if (const auto* const rapid = std::get_if<operation::StraightTraverse>(&what)) return line(true, rapid->end);
+  if (const auto* const feed = std::get_if<operation::StraightFeed>(&what)) return line(false, feed->end);
+  if (const auto* const arc = std::get_if<operation::ArcFeed>(&what)) {
+    state_.position = arc->end;
+    const PlanePoint center{arc->first_center.value(), arc->second_center.value()};
+    return report(cutter_.arc({false, start, arc->end, kept_operation()}, center, arc->turns), motion_span());
+  }
+  emit(what);
+  return true;
 }
 
 bool CutterCodes::report(CutterFault fault, Span span) {

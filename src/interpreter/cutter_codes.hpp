@@ -14,6 +14,8 @@ class CutterCodes : private CodeFamily {
   bool check();
   bool set(CodeNumber code);
   bool report(CutterFault fault, Span span);
+  // Leads the tool beside a move of a cycle. The move begins at the programmed position, which goes on to its end.
+  bool follow(const OperationKind& what);
 
  private:
   bool start(CodeNumber code);

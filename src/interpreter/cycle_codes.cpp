@@ -10,7 +10,11 @@ using enum ModalGroup;
 }  // namespace
 
 bool CycleCodes::check_cycle(std::string_view name) {
-  if (!state_.modal.inverse_time()) return check_uncompensated(name);
+  return check_no_inverse_time(name) && check_uncompensated(name);
+}
+
+bool CycleCodes::check_no_inverse_time(std::string_view name) {
+  if (!state_.modal.inverse_time()) return true;
   return fail("gcode.cycle-inverse-time", motion_span(), fmt::format("{} in inverse time feed (G93)", name),
               "G94 or G95 before");
 }

@@ -21,6 +21,7 @@ class CycleCodes : protected CodeFamily {
   // Checks that the cycle can feed: in units a minute or a revolution, along the programmed path.
   bool check_cycle(std::string_view name);
   bool check_uncompensated(std::string_view name);
+  bool check_no_inverse_time(std::string_view name);
 };
 
 }  // namespace passo

@@ -104,11 +104,11 @@ bool DrillingCodes::check_words(CodeNumber number, bool first, std::int32_t& hol
       return missing(letter, "how far the tool goes aside, or where the back bore begins");
     }
   }
-  if (words_.has('P') && words_['P'] < 0) {
+  if (takes('P') && is_negative('P')) {
     return fail("gcode.negative-word", words_.span('P'),
                 fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
   }
-  if (words_.has('Q') && words_['Q'] <= 0) {
+  if (takes('Q') && words_['Q'] <= 0) {
     return fail("gcode.negative-word", words_.span('Q'), fmt::format("a peck of {}", plain_number(words_['Q'])),
                 "Q above 0");
   }
@@ -121,8 +121,8 @@ void DrillingCodes::keep_words(bool first) {
   if (first) kept_.dwell = 0;
   if (words_.has(letter_of(depth))) kept_.depth = axis_word(depth);
   if (words_.has('R')) kept_.retract = words_['R'] * unit;
-  if (words_.has('P')) kept_.dwell = words_['P'];
-  if (words_.has('Q')) kept_.peck = words_['Q'] * unit;
+  if (takes('P')) kept_.dwell = never_negative('P');
+  if (takes('Q')) kept_.peck = words_['Q'] * unit;
   const std::size_t first_axis = index_of(is_of_uvw(kept_.plane) ? Axis::u : Axis::x);
   for (const auto& [letter, axis] : aside_letters) {
     if (words_.has(letter)) kept_.aside[all_axes[first_axis + axis]] = words_[letter] * unit;

@@ -38,6 +38,8 @@ class DrillingCodes final : public CycleCodes {
   bool check(CodeNumber code, Point& hole);
   bool check_spindle(CodeNumber code);
   bool check_words(CodeNumber code, bool first, std::int32_t& holes);
+  // True: the block has the word, and it is the cycle's, not that of an M67 beside it.
+  bool takes(char letter) const { return words_.has(letter) && block_.motion->letters.has(letter); }
   void keep_words(bool first);
   bool check_depths(const DrillingPlan& plan);
   DrillingPlan plan_of(CodeNumber code, const Point& hole) const;

@@ -6,6 +6,7 @@
 namespace passo {
 namespace {
 
+constexpr double same_height = 1e-9;      // mm: heights in inches differ by rounding, and need no move
 constexpr double peck_clearance = 0.254;  // mm above the depth reached: a hundredth of an inch, as in LinuxCNC
 constexpr double at_bottom = 1e-7;        // mm: a peck that ends this near to the bottom is the last one
 
@@ -27,7 +28,7 @@ bool DrillingCycle::step() {
 
 void DrillingCycle::begin() {
   begun_ = true;
-  if (plan_.initial_height < plan_.retract) traverse_to(plan_.retract);
+  if (plan_.initial_height < plan_.retract - same_height) traverse_to(plan_.retract);
   const double between = plan_.returns_to_initial ? plan_.initial_height : plan_.retract;
   height_ = std::max(position_[plan_.axis], between);
   clear_ = std::max(plan_.retract, between);
@@ -39,7 +40,7 @@ bool DrillingCycle::go_to_hole() {
   if (holes_left_ < plan_.holes && !find_hole(hole)) return false;
   hole[plan_.axis] = height_;
   traverse(hole);
-  if (height_ > plan_.retract) traverse_to(plan_.retract);
+  if (height_ > plan_.retract + same_height) traverse_to(plan_.retract);
   height_ = clear_;
   reached_ = plan_.retract;
   in_hole_ = true;

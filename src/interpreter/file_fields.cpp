@@ -41,9 +41,10 @@ Field FieldReader::rest() const {
   return {text, static_cast<std::uint32_t>(first + 1)};
 }
 
-void FieldReader::error(std::string_view code, const Field& field, std::string message, std::string expected) {
+void FieldReader::report(Severity severity, std::string_view code, const Field& field, std::string message,
+                         std::string expected) {
   const auto length = static_cast<std::uint32_t>(std::max<std::size_t>(field.text.size(), 1));
-  Diagnostic diagnostic{.severity = Severity::error,
+  Diagnostic diagnostic{.severity = severity,
                         .code = std::string(code),
                         .file = file_,
                         .place = {number_, field.column, length},

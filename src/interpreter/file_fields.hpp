@@ -33,7 +33,10 @@ class FieldReader {
   Field rest() const;
 
   const std::string& file() const { return file_; }
-  void error(std::string_view code, const Field& field, std::string message, std::string expected);
+  void error(std::string_view code, const Field& field, std::string message, std::string expected) {
+    report(Severity::error, code, field, std::move(message), std::move(expected));
+  }
+  void report(Severity severity, std::string_view code, const Field& field, std::string message, std::string expected);
   // Reports an error of the whole line.
   void error(std::string_view code, std::string message, std::string expected);
 

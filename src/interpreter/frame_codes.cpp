@@ -96,11 +96,11 @@ bool FrameCodes::check_work_offset_words(int& system) {
   }
   std::int32_t number = 0;
   if (!whole_word('P', 0, work_systems, number)) return false;
-  if (words_['L'] == 20 && words_.has('R')) {
+  if (words_['L'] == 20 && words_.has('R') && !words_.is_of_another('R', non_modal)) {
     return fail("gcode.unused-word", words_.span('R'), "R with G10 L20", "G10 L2 R… turns a work system");
   }
   for (const char letter : {'I', 'J', 'Q'}) {
-    if (!words_.has(letter)) continue;
+    if (!words_.has(letter) || words_.is_of_another(letter, non_modal)) continue;
     return fail("gcode.unused-word", words_.span(letter), fmt::format("{} with G10 L{}", letter, words_['L']),
                 fmt::format("G10 L1 {}… is about a tool", letter));
   }

@@ -131,13 +131,35 @@ class GrblCheck {
     return words_suffice();
   }
 
+  // For a line that cannot be read to its end. True: grbl finds something else before, which is reported.
+  bool refuses_before_fault() {
+    if (is_system_command()) {
+      return !fail(3, {1, 1}, "a line with $ is a command to grbl itself, not G-code",
+                   "such commands outside programs");
+    }
+    for (const Word& word : block_.words) {
+      if (word.value.count == 0) return false;  // here reading ended
+      if (!take(word)) return true;
+    }
+    return false;
+  }
+
+  // Words of I J K that grbl passes over: those outside the plane of an arc.
+  LetterSet idle_letters() const { return idle_letters_; }
+
  private:
   bool fail(int number, Span span, std::string message, std::string expected) {
     reporter_.error(error_of(number).code, span, std::move(message), std::move(expected));
     return false;
   }
 
+  bool is_system_command() const {
+    const std::size_t first = block_.text.find_first_not_of(" \t");
+    return first != std::string_view::npos && block_.text[first] == '$';
+  }
+
   bool lines_shape() {
+    if (is_system_command()) return !refuses_before_fault();
     if (block_.percent) return fail(1, {1, 1}, "grbl knows no '%'", "no '%': the sender takes it out");
     std::size_t length = 0;
     std::size_t comment_at = 0;
@@ -229,11 +251,14 @@ class GrblCheck {
   }
 
   bool take_value(const Word& word, double value) {
-    if (never_negative.has(word.letter) && value < 0) {
-      return fail(4, word.span, fmt::format("{} is {}", word.letter, plain_number(value)), "0 or more");
-    }
     if (word.letter == 'T' && value > highest_grbl_tool) {
       return fail(38, word.span, fmt::format("tool {} is above grbl's highest", plain_number(value)), "T255 at most");
+    }
+    if (has(word.letter)) {
+      return fail(25, word.span, fmt::format("a second {} in one block", word.letter), "each letter once");
+    }
+    if (never_negative.has(word.letter) && value < 0) {
+      return fail(4, word.span, fmt::format("{} is {}", word.letter, plain_number(value)), "0 or more");
     }
     present_.add(word.letter);
     values_[letter_index(word.letter)] = value;
@@ -253,16 +278,59 @@ class GrblCheck {
     return entry != nullptr && entry->axes != AxisUse::none;
   }
 
+  // In grbl's order.
   bool words_suffice() {
+    const CodeNumber motion = motion_of_block();
+    if (is_inverse_time() && moves() && needs_feed(motion) && !has('F')) return fail_feed();
     const CodeEntry* const tool_length = code_of(ModalGroup::tool_length);
     if (tool_length != nullptr && tool_length->number == code(43, 1) &&
         (present_ & grbl_axes).bits() != LetterSet("Z").bits()) {
       return fail(37, code_span_, "G43.1 offsets the axis Z alone", "Z, and no other axis word");
     }
     const CodeEntry* const non_modal = code_of(ModalGroup::non_modal);
-    if (non_modal != nullptr && non_modal->number == code(10)) return g10_suffices();
+    if (non_modal != nullptr && non_modal->number == code(10) && !g10_suffices()) return false;
+    if (non_modal != nullptr && non_modal->number == code(92) && !any_axis()) {
+      return fail(26, code_span_, "G92 without axis words", "X, Y or Z");
+    }
+    if (non_modal != nullptr && non_modal->number == code(53) && motion != code(0) && motion != code(1)) {
+      return fail(30, word_span('G', code(53)), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
+    }
+    if (motion == code(80) && any_axis()) {
+      return fail(31, first_axis_span(), "axis words while G80 is active, which moves nothing", "G0, G1, G2 or G3");
+    }
     if (uses_axes(ModalGroup::non_modal) || tool_length != nullptr) return true;
-    return arc_suffices();
+    if (moves() && needs_feed(motion) && !has_feed()) return fail_feed();
+    return arc_suffices(motion);
+  }
+
+  CodeNumber motion_of_block() const {
+    const CodeEntry* const written = code_of(ModalGroup::motion);
+    return written != nullptr ? written->number : state_.modal[ModalGroup::motion];
+  }
+  // True: a motion takes the block's axis words, or was written without any.
+  bool moves() const {
+    if (code_of(ModalGroup::motion) != nullptr) return true;
+    return any_axis() && !uses_axes(ModalGroup::non_modal) && code_of(ModalGroup::tool_length) == nullptr;
+  }
+  static bool needs_feed(CodeNumber motion) { return motion != code(0) && motion != code(80); }
+  bool is_inverse_time() const {
+    const CodeEntry* const mode = code_of(ModalGroup::feed_mode);
+    return (mode != nullptr ? mode->number : state_.modal[ModalGroup::feed_mode]) == code(93);
+  }
+  bool has_feed() const {
+    if (has('F')) return value('F') > 0;
+    return !is_inverse_time() && !state_.modal.inverse_time() && state_.feed > 0;
+  }
+  bool fail_feed() {
+    const Span at = code_of(ModalGroup::motion) != nullptr ? code_span_ : first_axis_span();
+    return fail(22, at, "no feed rate is set",
+                is_inverse_time() ? "F in each block that feeds (G93)" : "F before, or in this block");
+  }
+  Span word_span(char letter, CodeNumber number) const {
+    for (const Word& word : block_.words) {
+      if (word.letter == letter && std::lround(block_.code[word.value.first].number * 10) == number) return word.span;
+    }
+    return {1, 1};
   }
 
   bool g10_suffices() {
@@ -276,12 +344,8 @@ class GrblCheck {
   }
 
   // In grbl an arc needs an axis word of its plane. LinuxCNC takes the centre alone as a full circle.
-  bool arc_suffices() {
+  bool arc_suffices(CodeNumber motion) {
     const CodeEntry* const written = code_of(ModalGroup::motion);
-    const CodeNumber motion = written != nullptr ? written->number : state_.modal[ModalGroup::motion];
-    if (motion == code(80) && any_axis()) {
-      return fail(31, first_axis_span(), "axis words after G80, which moves nothing", "G0, G1, G2 or G3");
-    }
     if (motion != code(2) && motion != code(3)) return true;
     const bool center = (present_ & LetterSet("IJKR")).any();
     if (written == nullptr && !any_axis() && !center) return true;
@@ -298,6 +362,7 @@ class GrblCheck {
     if (!has('R') && !(present_ & offsets).any()) {
       return fail(35, at, "no centre in the arc's plane", "R, or one of I J K of the plane");
     }
+    if (!has('R')) idle_letters_ = LetterSet("IJK") - offsets;
     if (has('P') && code_of(ModalGroup::non_modal) == nullptr) {
       return fail(36, span('P'), "grbl's arcs have no P", "one block for each turn");
     }
@@ -314,6 +379,7 @@ class GrblCheck {
   const ProgramState& state_;
   Reporter& reporter_;
   LetterSet present_;
+  LetterSet idle_letters_;
   std::array<double, letter_count> values_{};
   std::array<Span, letter_count> spans_{};
   std::array<const CodeEntry*, modal_group_count> codes_{};
@@ -328,11 +394,33 @@ bool is_without_effect(const Block& block, const Word& word) {
   return use_of(word.letter, static_cast<CodeNumber>(std::lround(value * 10)), known) == Use::without_effect;
 }
 
+// Of T, L and P of G10, grbl takes the whole part.
+void drop_decimals(Block& block) {
+  const auto number_of = [&block](const Word& word) -> double& { return block.code[word.value.first].number; };
+  const bool sets_offset = std::ranges::any_of(block.words, [&](const Word& word) {
+    return word.letter == 'G' && std::lround(number_of(word) * 10) == code(10);
+  });
+  for (const Word& word : block.words) {
+    if (word.letter == 'T' || word.letter == 'L' || (word.letter == 'P' && sets_offset)) {
+      number_of(word) = std::trunc(number_of(word));
+    }
+  }
+}
+
 }  // namespace
 
+bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& reporter) {
+  return GrblCheck(block, state, reporter).refuses_before_fault();
+}
+
 bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter) {
-  if (!GrblCheck(block, state, reporter).passes()) return false;
-  std::erase_if(block.words, [&](const Word& word) { return is_without_effect(block, word); });
+  GrblCheck check(block, state, reporter);
+  if (!check.passes()) return false;
+  std::erase_if(block.words, [&](const Word& word) {
+    const bool idle = word.letter != 'G' && word.letter != 'M' && check.idle_letters().has(word.letter);
+    return idle || is_without_effect(block, word);
+  });
+  drop_decimals(block);
   for (BlockComment& comment : block.comments) comment.kind = BlockComment::Kind::plain;
   return true;
 }

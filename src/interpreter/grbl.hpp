@@ -19,6 +19,10 @@ namespace passo {
 // True: grbl accepts the block, and words without effect are taken out. False: the reason was reported.
 [[nodiscard]] bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter);
 
+// For a line that cannot be parsed: whether grbl, which reads word by word, finds another error before, which is then
+// reported.
+[[nodiscard]] bool refuse_as_grbl(const Block& block, const ProgramState& state, Reporter& reporter);
+
 // "grbl error:20, unsupported or invalid command"; empty where grbl has no number for it.
 std::string grbl_error(std::string_view code);
 

@@ -1,11 +1,32 @@
 #include "passo/interpreter/interpreter.hpp"
 
+#include <variant>
+
 #include "block_executor.hpp"
 #include "grbl.hpp"
 #include "program_flow.hpp"
 #include "rules.hpp"
 
 namespace passo {
+namespace {
+
+// True: the machine moves, waits, or needs a person. A loop that gives only other operations does nothing.
+struct IsWork {
+  bool operator()(const operation::StraightTraverse&) const { return true; }
+  bool operator()(const operation::StraightFeed&) const { return true; }
+  bool operator()(const operation::ArcFeed&) const { return true; }
+  bool operator()(const operation::NurbsFeed&) const { return true; }
+  bool operator()(const operation::RigidTap&) const { return true; }
+  bool operator()(const operation::StraightProbe&) const { return true; }
+  bool operator()(const operation::Dwell& dwell) const { return dwell.time > Seconds(0); }
+  bool operator()(const operation::OrientSpindle&) const { return true; }
+  bool operator()(const operation::ChangeTool&) const { return true; }
+  bool operator()(const operation::ProgramStop&) const { return true; }
+  bool operator()(const operation::PalletShuttle&) const { return true; }
+  bool operator()(const auto&) const { return false; }
+};
+
+}  // namespace
 
 class Interpreter::Implementation {
  public:
@@ -32,6 +53,7 @@ class Interpreter::Implementation {
       step();
     }
     operation = operations_.front();
+    flow_.count_operation(std::visit(IsWork(), operation.what));
     if (operation.file.empty()) {
       operation.file = reporter_.file();
       operation.text = text_;
@@ -58,8 +80,13 @@ class Interpreter::Implementation {
  private:
   // grbl throws the '/' away and runs the line.
   static ProgramFlow::Options flow_options(const InterpreterOptions& options) {
-    return {options.block_delete && options.dialect != Dialect::grbl, options.idle_passes, options.main_passes,
-            options.sub_folders, options.dialect};
+    return {options.block_delete && options.dialect != Dialect::grbl,
+            options.idle_passes,
+            options.repeated_steps,
+            options.main_passes,
+            options.sub_folders,
+            options.dialect,
+            !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB"))};
   }
 
   // One block: none, one or several operations.
@@ -75,7 +102,6 @@ class Interpreter::Implementation {
       executor_.execute(*block);
       follow_jump();
       if (watcher_ != nullptr) watcher_->after(state_);
-      if (!operations_.empty()) flow_.note_progress();
       return;
     }
     if (const auto line = flow_.take_left_sub()) return executor_.leave_sub({*line, -1});
@@ -84,6 +110,7 @@ class Interpreter::Implementation {
       reporter_.warning("gcode.no-end", {1, 1}, "the program ends without M2, M30 or '%'", "M2 in its last line");
     }
     if (executor_.ended()) {
+      if (!executor_.gave_up()) flow_.report_never_closed();
       executor_.finish(flow_.lacks_closing_percent() ? BlockExecutor::Closing::missing : BlockExecutor::Closing::none);
     } else {
       const bool at_percent = flow_.end() == ProgramFlow::End::percent;

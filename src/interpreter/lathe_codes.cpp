@@ -30,8 +30,13 @@ bool LatheCodes::start(CodeNumber number) {
   if (!end_point(start) || !check_feed()) return false;
   start[Axis::u] = state_.position[Axis::u];  // here U and W are allowances, not axis words
   start[Axis::w] = state_.position[Axis::w];
+  if (cutter_.active()) {
+    const ContourMove lead{true, state_.position, start, kept_operation()};
+    if (!cutter_codes_.report(cutter_.line(lead), motion_span())) return false;
+  } else {
+    emit(operation::StraightTraverse{start});
+  }
   state_.position = start;
-  emit(operation::StraightTraverse{start});
   state_.modal.set(motion, code(0));  // for a contour whose first line has no motion code
 
   if (contour_ == nullptr) contour_ = std::make_unique<Contour>();
@@ -40,6 +45,8 @@ bool LatheCodes::start(CodeNumber number) {
   contour_->words = words_;
   contour_->span = words_.span('Q');
   contour_->text = reporter_.block().text;
+  contour_->block = reporter_.block();
+  contour_->block.text = contour_->text;
   contour_->source = block_.source;
   contour_->sub = symbols_.intern(fmt::format("{}", sub));
   contour_->start = start;
@@ -56,7 +63,7 @@ bool LatheCodes::check(CodeNumber number) {
   if (state_.modal[plane] != code(18)) {
     return fail("gcode.wrong-plane", motion_span(), fmt::format("{} outside the plane ZX", name), "G18 before");
   }
-  if (!check_cycle(name)) return false;
+  if (!(finishes(number) ? check_no_inverse_time(name) : check_cycle(name))) return false;
   const auto positive = [&](char letter) {
     return !words_.has(letter) || words_[letter] > 0 ||
            fail("gcode.negative-word", words_.span(letter),
@@ -187,6 +194,7 @@ bool LatheCodes::end_contour() {
   block_.source = contour_->source;
   state_.line = contour_->source.line;
   state_.position = contour_->start;
+  reporter_.look_at(contour_->block);  // what is found from here on is about the cycle
   if (!contour_->good) return false;
   if (contour_->shape.segments.size() < 2) {
     return fail_contour("the contour has fewer than two lines and arcs",
@@ -277,11 +285,8 @@ bool LatheCodes::report_contour(LatheFault fault) {
   }
 }
 
-// The reader is past the contour's lines, so the error quotes the line of the cycle.
 bool LatheCodes::fail_contour(std::string message, std::string expected) {
-  reporter_.error_at("gcode.bad-contour", contour_->source.line, contour_->text, contour_->span, std::move(message),
-                     std::move(expected));
-  return false;
+  return fail("gcode.bad-contour", contour_->span, std::move(message), std::move(expected));
 }
 
 }  // namespace passo

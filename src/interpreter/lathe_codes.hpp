@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "cutter_codes.hpp"
 #include "cycle_codes.hpp"
 #include "lathe_cycle.hpp"
 
@@ -17,7 +18,8 @@ namespace passo {
 
 class LatheCodes final : public CycleCodes {
  public:
-  LatheCodes(BlockContext& block, SymbolTable& symbols) : CycleCodes(block), symbols_(symbols) {}
+  LatheCodes(BlockContext& block, CutterCodes& cutter_codes, SymbolTable& symbols)
+      : CycleCodes(block), cutter_codes_(cutter_codes), symbols_(symbols) {}
 
   bool start(CodeNumber code);
 
@@ -46,6 +48,7 @@ class LatheCodes final : public CycleCodes {
     BlockWords words;  // the words of the cycle's block
     Span span;         // the place of the cycle's Q, to which errors of the whole contour point
     std::string text;  // the line of the cycle's block
+    Block block;
     OperationSource source;
     Symbol sub;
     Point start;        // the tool's position before the first cut
@@ -68,6 +71,7 @@ class LatheCodes final : public CycleCodes {
   bool report_contour(LatheFault fault);
   bool fail_contour(std::string message, std::string expected);
 
+  CutterCodes& cutter_codes_;
   SymbolTable& symbols_;
   std::unique_ptr<Contour> contour_;  // made when the first cycle starts
   std::optional<LatheCycle> cycle_;

@@ -32,6 +32,9 @@ bool Parameters::numbered(std::int64_t number, double& value) const {
   if (number >= position_parameter && number <= last_position_parameter) {
     const Axis axis = all_axes[static_cast<std::size_t>(number - position_parameter)];
     value = state_.tool_position()[axis] / state_.units_of(axis);
+  } else if (is_machine_position(number)) {
+    const Axis axis = all_axes[static_cast<std::size_t>(number - machine_position_parameter)];
+    value = state_.machine_position()[axis] / state_.units_of(axis);
   } else if (number >= tool_parameter && number <= last_tool_parameter) {
     value = of_tool(static_cast<int>(number));
   } else {
@@ -58,15 +61,20 @@ double Parameters::of_tool(int number) const {
 
 void Parameters::load(const SavedParameters& saved) {
   for (const auto& [number, value] : saved) {
-    if (is_settable(number)) set(number, value);
+    if (is_settable(number) && !forgets(number)) set(number, value);
   }
 }
 
 void Parameters::save(SavedParameters& saved) const {
-  for (auto& [number, value] : saved) value = get(number);
   for (int number = 1; number <= highest_parameter; ++number) {
-    if (is_always_saved(number)) saved[number] = get(number);
+    if (is_always_saved(number) || saved.contains(number)) saved[number] = forgets(number) ? 0 : get(number);
   }
+}
+
+// With [RS274NGC]DISABLE_G92_PERSISTENCE, the offset of G92 and G52 does not outlive the run.
+bool Parameters::forgets(int number) const {
+  const bool of_g92 = number >= g92_active_parameter && number < g92_parameter + static_cast<int>(axis_count);
+  return of_g92 && settings_ && settings_->is_on("RS274NGC", "DISABLE_G92_PERSISTENCE");
 }
 
 bool Parameters::is_settable(std::int64_t number) {
@@ -92,7 +100,7 @@ bool Parameters::set_named(Symbol name, double value) {
   Named& named = at(name);
   if (named.kind == Named::Kind::predefined) return false;
   if (named.kind == Named::Kind::unseen) {
-    if (settings_ && settings_->parameter(symbols_.name(name))) return false;
+    if (symbols_.name(name).starts_with("_ini[") || symbols_.name(name).starts_with("_hal[")) return false;
     named.kind = symbols_.name(name).starts_with('_') ? Named::Kind::global : Named::Kind::local;
   }
   const std::int32_t depth = named.kind == Named::Kind::local ? state_.call_depth : 0;

@@ -30,6 +30,7 @@ inline constexpr std::size_t sub_parameters = 30;
 // Numbers of parameters. A work system has ten: the offsets of nine axes and the rotation.
 inline constexpr int first_home_parameter = 5161;
 inline constexpr int second_home_parameter = 5181;
+inline constexpr int machine_position_parameter = 5021;
 inline constexpr int probe_parameter = 5061;
 inline constexpr int probe_success_parameter = 5070;
 inline constexpr int input_parameter = 5399;
@@ -66,6 +67,11 @@ class Parameters final : public ParameterValues {
   // False: this name cannot be set.
   [[nodiscard]] bool set_named(Symbol name, double value);
   static bool is_settable(std::int64_t number);
+  // #5021 to #5029, where a machine is there. Elsewhere they are numbers like others.
+  bool is_machine_position(std::int64_t number) const {
+    return state_.on_machine && number >= machine_position_parameter &&
+           number < machine_position_parameter + static_cast<int>(axis_count);
+  }
   void set(int number, double value) { numbers_[static_cast<std::size_t>(number)] = value; }
   double get(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
@@ -99,6 +105,7 @@ class Parameters final : public ParameterValues {
   };
   Named& at(Symbol name);
   double of_tool(int number) const;
+  bool forgets(int number) const;
   double unit_of(Axis axis) const { return is_rotary(axis) ? 1 : machine_unit_; }
 
   SymbolTable& symbols_;

@@ -11,6 +11,10 @@ namespace {
 
 using enum ModalGroup;
 
+double length_of_way(const Point& start, const Point& end) {
+  return std::hypot(end[Axis::x] - start[Axis::x], end[Axis::y] - start[Axis::y], end[Axis::z] - start[Axis::z]);
+}
+
 // LinuxCNC's `rs274` ends a probe move this far (mm) before its end.
 constexpr double preview_retract = 0.254;
 
@@ -34,6 +38,7 @@ bool ProbeCodes::probe(CodeNumber number) {
     return fail("gcode.probe-too-short", motion_span(), "the probe move ends where it starts",
                 "an end away from here, in the direction in which to probe");
   }
+  if (state_.modal.inverse_time()) emit_inverse_time_feed(length_of_way(start, end), false);
   emit(operation::TurnProbe{true});
   emit(operation::StraightProbe{end, is_toward(number), must_touch(number)});
   emit(operation::TurnProbe{false});
@@ -71,7 +76,7 @@ bool ProbeCodes::check(CodeNumber number) {
   if (state_.modal[cutter_compensation] != code(40)) {
     return fail("gcode.probe-mode", motion_span(), name + " while the cutter radius is compensated", "G40 before");
   }
-  if (state_.modal.inverse_time() || state_.modal.per_revolution()) {
+  if ((state_.modal.inverse_time() && !speaks_grbl()) || state_.modal.per_revolution()) {
     return fail("gcode.probe-mode", motion_span(),
                 fmt::format("{} in {}", name, state_.modal.inverse_time() ? "inverse time (G93)" : "G95"),
                 "G94 and F before");
@@ -90,7 +95,7 @@ void ProbeCodes::keep_result(const Point& place, bool touched) {
 Point ProbeCodes::preview_backoff(const Point& start, const Point& end) const {
   Point step;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) step[axis] = end[axis] - start[axis];
-  const double length = std::hypot(step[Axis::x], step[Axis::y], step[Axis::z]);
+  const double length = length_of_way(start, end);
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) step[axis] *= length > 0 ? preview_retract / length : 0;
   return step;
 }

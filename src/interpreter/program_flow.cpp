@@ -45,6 +45,7 @@ ProgramFlow::ProgramFlow(ProgramReader reader, const Options& options, ProgramSt
       value_name_(symbols.intern("_value")),
       returned_name_(symbols.intern("_value_returned")) {
   files_.push_back(std::make_unique<File>(std::move(reader), 0, symbols_));
+  if (options_.dialect == Dialect::grbl) files_.front()->parser.take_line_numbers_anywhere();
   file_ = files_.front().get();
   (void)parameters_.set_named(value_name_, 0);
   (void)parameters_.set_named(returned_name_, 0);
@@ -67,7 +68,7 @@ const Block* ProgramFlow::next() {
         }
         if (!frames_.empty()) {
           const Frame& frame = frames_.back();
-          report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}, 0});
+          report_unclosed({frame.place.numbered ? program : sub, frame.sub, frame.place.at, {}});
         }
         block_->text = {};  // the text is the reader's, and is lost
         return finish(End::file);
@@ -127,13 +128,13 @@ void ProgramFlow::obey(const Control& control) {
     case endrepeat: return end_repeat(label, control);
     case break_:
     case continue_: return leave_or_continue_loop(label, control);
-    default: return;  // where a numbered program begins: nothing happens
+    default: (void)check_numbered_programs(control.span, "a numbered program"); return;  // it begins; nothing happens
   }
 }
 
 void ProgramFlow::begin_sub(Symbol label, const Control& control) {
   if (!frames_.empty()) {
-    stray(control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)),
+    stray(label, control, fmt::format("a sub inside the sub {}", label_text(frames_.back().sub)),
           frames_.back().place.numbered ? "M99 before the next sub" : "endsub before the next sub");
     finish(End::error);
     return;
@@ -141,17 +142,17 @@ void ProgramFlow::begin_sub(Symbol label, const Control& control) {
   const ReaderPosition after = file_->reader.position();
   const auto [known, added] = file_->subs.try_emplace(label.id, SubPlace{block_at_, after, false});
   if (!added && known->second.after.offset != after.offset) {
-    stray(control,
+    stray(label, control,
           fmt::format("a second sub {}; the first one is at line {}", label_text(label), known->second.at.line),
           "another name");
   }
-  skip_to({sub, label, block_at_, after, 0}, kinds({endsub}));
+  skip_to({sub, label, block_at_, after}, kinds({endsub}));
 }
 
 void ProgramFlow::leave_sub(Symbol label, const Control& control) {
   // LinuxCNC does not look at the label of a return.
   if (frames_.empty() || (control.kind == endsub && frames_.back().sub != label)) {
-    stray(control, fmt::format("no sub {} is running", label_text(label)), "endsub with the label of its sub");
+    stray(label, control, fmt::format("no sub {} is running", label_text(label)), "endsub with the label of its sub");
     return;
   }
   const Frame frame = frames_.back();
@@ -174,6 +175,7 @@ void ProgramFlow::leave_sub(Symbol label, const Control& control) {
 }
 
 void ProgramFlow::begin_if(Symbol label, const Control& control) {
+  check_used_once(label, control);
   const Open& open = push(if_, label);
   double condition = 0;
   if (!argument(control, condition)) {
@@ -181,6 +183,18 @@ void ProgramFlow::begin_if(Symbol label, const Control& control) {
   } else if (condition == 0) {
     skip_branch(open);
   }
+}
+
+// An if has its label alone, as in LinuxCNC: in the file, or in its sub.
+void ProgramFlow::check_used_once(Symbol label, const Control& control) {
+  constexpr std::size_t most_remembered = 10'000;  // computed labels have no bound of their own
+  if (file_->ifs.size() >= most_remembered) return;
+  const std::uint32_t inside = frames_.empty() ? 0 : frames_.back().sub.id + 1;
+  const auto [first, added] = file_->ifs.try_emplace({inside, label.id}, block_at_);
+  if (added || first->second.offset == block_at_.offset) return;
+  stray(label, control,
+        fmt::format("a second if {}; the first one is at line {}", label_text(label), first->second.line),
+        "another label");
 }
 
 // Goes from a branch that is not taken to the one that is taken, or behind the endif.
@@ -217,7 +231,7 @@ void ProgramFlow::begin_while(Symbol label, const Control& control) {
 
 void ProgramFlow::end_while(Symbol label, const Control& control) {
   const Open* const open = require_innermost(while_, label, control);
-  if (open != nullptr && go_round(*open)) file_->reader.seek(open->at);  // its condition is evaluated again
+  if (open != nullptr) go_round(*open, open->at);  // its condition is evaluated again
 }
 
 void ProgramFlow::end_do(Symbol label, const Control& control) {
@@ -225,7 +239,7 @@ void ProgramFlow::end_do(Symbol label, const Control& control) {
   double condition = 0;
   if (open == nullptr) return;
   if (argument(control, condition) && condition != 0) {
-    if (go_round(*open)) file_->reader.seek(open->after);
+    go_round(*open, open->after);
   } else {
     open_.pop_back();
   }
@@ -247,8 +261,8 @@ void ProgramFlow::end_repeat(Symbol label, const Control& control) {
   if (open == nullptr) return;
   if (--open->passes_left == 0) {
     open_.pop_back();
-  } else if (go_round(*open)) {
-    file_->reader.seek(open->after);
+  } else {
+    go_round(*open, open->after);
   }
 }
 
@@ -268,7 +282,7 @@ void ProgramFlow::leave_or_continue_loop(Symbol label, const Control& control) {
     }
     return;
   }
-  stray(control, fmt::format("no loop {} is running", label_text(label)),
+  stray(label, control, fmt::format("no loop {} is running", label_text(label)),
         "break and continue with the label of their loop");
 }
 
@@ -283,7 +297,8 @@ ProgramFlow::Kinds ProgramFlow::end_of(ControlKind construct) {
 }
 
 ProgramFlow::Open& ProgramFlow::push(ControlKind kind, Symbol label) {
-  return open_.emplace_back(Open{kind, label, block_at_, file_->reader.position(), 0});
+  if (is_outermost()) steps_ = 0;
+  return open_.emplace_back(Open{kind, label, block_at_, file_->reader.position(), reporter_.errors()});
 }
 
 ProgramFlow::Open* ProgramFlow::innermost(ControlKind kind, Symbol label) {
@@ -299,19 +314,28 @@ ProgramFlow::Open* ProgramFlow::require_innermost(ControlKind kind, Symbol label
     for (; open_.size() > i; open_.pop_back()) report_unclosed(open_.back());
     return &open_[i - 1];
   }
-  stray(control, fmt::format("no {} {} is open", name_of(kind), label_text(label)),
+  stray(label, control, fmt::format("no {} {} is open", name_of(kind), label_text(label)),
         fmt::format("o{} {} before", label_text(label), name_of(kind)));
   return nullptr;
 }
 
-// True: the loop may go round once more. False: it went round too often without any operation.
-bool ProgramFlow::go_round(const Open& loop) {
-  if (++idle_passes_ <= options_.idle_passes) return true;
+// Goes back to `to`, unless a line of the loop is wrong. The next passes would then only repeat it, or, since a wrong
+// line does nothing, never end. So the loop is left.
+void ProgramFlow::go_round(const Open& loop, ReaderPosition to) {
+  if (reporter_.errors() > loop.errors_before) return open_.pop_back();
+  if (may_go_round(loop)) file_->reader.seek(to);
+}
+
+// False: the loop went round too often.
+bool ProgramFlow::may_go_round(const Open& loop) {
+  const bool idles = ++idle_passes_ > options_.idle_passes;
+  if (!idles && ++steps_ <= options_.repeated_steps) return true;
   file_->reader.seek(loop.at);
   (void)read();
   reporter_.error("gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
-                  fmt::format("the loop went round {} times without any operation", options_.idle_passes),
-                  "a loop that ends, or that moves");
+                  idles ? fmt::format("the loop went round {} times, and the machine did nothing", options_.idle_passes)
+                        : fmt::format("the loop came to {} passes, calls and operations", options_.repeated_steps),
+                  idles ? "a loop that ends, or that moves" : "a loop that ends");
   finish(End::error);
   return false;
 }
@@ -337,7 +361,7 @@ bool ProgramFlow::skip_to(const Open& from, Kinds wanted) {
       return false;
     }
     if (kind == sub && opening.kind == sub) {
-      stray(*block_->control, fmt::format("a sub inside the sub {}", label_text(opening.label)),
+      stray(label, *block_->control, fmt::format("a sub inside the sub {}", label_text(opening.label)),
             "endsub before the next sub");
       finish(End::error);
       return false;
@@ -369,6 +393,17 @@ bool ProgramFlow::label_of(const Control& control, Symbol& label) {
   return true;
 }
 
+// A line that is skipped is not executed, so its label may have no value. False: it has none, or is no label.
+bool ProgramFlow::label_of_skipped(const Control& control, Symbol& label) const {
+  label = control.label;
+  if (!control.computed_label) return true;
+  const Evaluation value = evaluate(*block_, *control.computed_label, parameters_);
+  const double whole = value ? std::round(*value) : -1;
+  if (whole < 0 || whole > 1e9 || std::abs(*value - whole) > whole_tolerance) return false;
+  label = symbols_.intern(plain_number(whole));
+  return true;
+}
+
 bool ProgramFlow::argument(const Control& control, double& value) {
   if (!control.arguments.empty()) return value_of(*block_, control.arguments.front(), parameters_, reporter_, value);
   reporter_.error("gcode.missing-condition", control.span, "the O-word needs a value", "[…] behind it");
@@ -376,6 +411,7 @@ bool ProgramFlow::argument(const Control& control, double& value) {
 }
 
 void ProgramFlow::report_unclosed(const Open& open) {
+  if (is_doubtful(open.label)) return;
   const ReaderPosition here = file_->reader.position();
   std::string_view text;
   std::uint32_t line = open.at.line;
@@ -393,7 +429,40 @@ void ProgramFlow::report_unclosed(const Open& open) {
   file_->reader.seek(here);
 }
 
-bool ProgramFlow::stray(const Control& control, std::string message, std::string expected) {
+// M2 may stand in a branch, before the end of its construct.
+void ProgramFlow::report_never_closed() {
+  const ReaderPosition here = file_->reader.position();
+  while (any_open()) {
+    const Open open = open_.back();
+    open_.pop_back();
+    if (!is_closed_further_on(open)) report_unclosed(open);
+  }
+  file_->reader.seek(here);
+}
+
+// Reads on to the end of the construct. Nothing that is read is executed, and so nothing else is reported.
+bool ProgramFlow::is_closed_further_on(const Open& open) {
+  const ReaderPosition here = file_->reader.position();
+  Block block;
+  Diagnostics unheeded;
+  std::string_view text;
+  std::uint32_t line = 0;
+  int inside = 0;
+  while (file_->reader.next_line(text, line, unheeded)) {
+    if (!may_be_control(text) || !file_->parser.parse(text, line, block, unheeded) || !block.control) continue;
+    if (!frames_.empty() && block.control->kind == endsub && block.control->label == frames_.back().sub) break;
+    // A computed label may be this one, so the construct is not said to lack its end.
+    if (!block.control->computed_label && block.control->label != open.label) continue;
+    const bool closes = (end_of(open.kind) >> static_cast<unsigned>(block.control->kind) & 1U) != 0;
+    if (block.control->kind == open.kind && !closes) ++inside;
+    if (closes && inside-- == 0) return true;
+  }
+  file_->reader.seek(here);
+  return false;
+}
+
+bool ProgramFlow::stray(Symbol label, const Control& control, std::string message, std::string expected) {
+  if (is_doubtful(label)) return false;
   reporter_.error("gcode.stray-o-word", control.span, std::move(message), std::move(expected));
   return false;
 }

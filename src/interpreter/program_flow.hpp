@@ -9,11 +9,13 @@
 //
 // A line that is kept costs about 25 ns before it is executed. A line that is parsed costs 100 to 200 ns.
 //
-// Calls nest 100 deep at most. The flow stops a program that goes round its loops too often without any operation, and
-// a program that calls a thousand times what is not there.
+// Calls nest 100 deep at most. A loop with an error inside makes no further pass, and the run goes on after it. The
+// flow stops a program that goes round its loops, or calls, too often while the machine does nothing, a program whose
+// loop or call comes to too many steps in all, and a program that calls a thousand times what is not there.
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -43,9 +45,11 @@ class ProgramFlow final : public CallStack {
   struct Options {
     bool block_delete = false;
     std::uint64_t idle_passes = 0;
+    std::uint64_t repeated_steps = 0;
     std::uint64_t main_passes = 1;
     std::vector<std::string> sub_folders;  // after the program's own
     Dialect dialect = Dialect::linuxcnc;
+    bool numbered_programs = true;  // false: [RS274NGC]DISABLE_FANUC_STYLE_SUB
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -64,9 +68,14 @@ class ProgramFlow final : public CallStack {
   End end() const { return end_; }
   // Calls a sub. next() then gives the blocks of this call, and null once at its end. False: the sub cannot be called.
   bool call_for_contour(Symbol sub, Span span);
-  // Tells that the last block gave an operation, so the loops do something.
-  void note_progress() { idle_passes_ = 0; }
+  // Counts an operation of the program. `works`: the machine does something, so the loops do.
+  void count_operation(bool works) {
+    ++steps_;
+    if (works) idle_passes_ = idle_calls_ = 0;
+  }
 
+  // Called after M2. Reports the constructs around M2 whose end comes nowhere in the file.
+  void report_never_closed();
   // Called after M2. True: the program began with '%', and the rest of the file has no closing '%'.
   bool lacks_closing_percent();
 
@@ -99,14 +108,17 @@ class ProgramFlow final : public CallStack {
     bool seen_all = false;
     bool seen_percent = false;           // the search for subs has passed the opening '%'
     std::set<std::uint32_t> unreadable;  // lines that are no G-code and were reported
+    // Where the if of a label is, in each sub: by the sub's symbol (0: outside subs) and the label's.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, ReaderPosition> ifs;
   };
   // A construct that was entered and not yet left.
   struct Open {
     ControlKind kind = ControlKind::if_;
     Symbol label;
-    ReaderPosition at;              // its line
-    ReaderPosition after;           // the line after it
-    std::uint64_t passes_left = 0;  // only of a repeat
+    ReaderPosition at;                // its line
+    ReaderPosition after;             // the line after it
+    std::uint64_t errors_before = 0;  // errors that were found before it was entered
+    std::uint64_t passes_left = 0;    // only of a repeat
   };
   struct Frame {
     File* caller = nullptr;  // the file to which to return
@@ -114,6 +126,7 @@ class ProgramFlow final : public CallStack {
     Symbol sub;
     SubPlace place;
     std::size_t first_open = 0;
+    std::uint64_t errors_before = 0;
     std::uint64_t passes_left = 1;                                     // L of M98, G65, G66
     bool modal_macro = false;                                          // called by G66
     std::optional<std::array<double, sub_parameters>> arguments = {};  // only of a macro
@@ -132,7 +145,8 @@ class ProgramFlow final : public CallStack {
   bool parse(std::string_view text, std::uint32_t line);
   bool recall();
   void look_at(Block& block);
-  bool is_of_dialect();
+  static bool may_be_control(std::string_view text);
+  bool is_readable(std::string_view text, std::uint32_t line);
   bool is_percent_end();
   bool closes_program(std::string_view text);
   const Block* finish(End end);
@@ -157,7 +171,9 @@ class ProgramFlow final : public CallStack {
   Open* require_innermost(ControlKind kind, Symbol label, const Control& control);
   bool any_open() const { return open_.size() > first_open(); }
   std::size_t first_open() const { return frames_.empty() ? 0 : frames_.back().first_open; }
-  bool go_round(const Open& loop);
+  void go_round(const Open& loop, ReaderPosition to);
+  bool may_go_round(const Open& loop);
+  bool is_outermost() const { return frames_.empty() && open_.empty(); }
 
   // Skipping lines: skip_to() reads on to the next O-word of the wanted kinds that belongs to `from`.
   using Kinds = std::uint32_t;
@@ -172,7 +188,7 @@ class ProgramFlow final : public CallStack {
   static Kinds end_of(ControlKind construct);
 
   // Subs.
-  bool has_room_for_call(Span span);
+  bool may_call(Span span);
   void enter(const Frame& frame, File* file);
   void leave_frame();
   File* find_sub(Symbol label);
@@ -183,16 +199,22 @@ class ProgramFlow final : public CallStack {
   void run_again();
   Followed end_program(const SubprogramJump& jump);
   bool restart_main(const SubprogramJump& jump);
+  bool check_numbered_programs(Span span, std::string_view what);
   bool check_style(const SubPlace& place, Symbol label, Span span, std::string_view caller);
   File* open_named(Symbol label);
   File* open_in(const std::string& folder, const std::string& name);
   std::string places_looked_at(const std::string& file) const;
 
   bool label_of(const Control& control, Symbol& label);
+  bool label_of_skipped(const Control& control, Symbol& label) const;
+  void check_used_once(Symbol label, const Control& control);
+  bool is_closed_further_on(const Open& open);
   bool argument(const Control& control, double& value);
+  void doubt_label();
+  bool is_doubtful(Symbol label) const { return all_labels_doubtful_ || doubtful_labels_.contains(label.id); }
   void report_unclosed(const Open& open);
   void reread_block_text();
-  bool stray(const Control& control, std::string message, std::string expected);
+  bool stray(Symbol label, const Control& control, std::string message, std::string expected);
   std::string label_text(Symbol label) const;
 
   Options options_;
@@ -214,7 +236,13 @@ class ProgramFlow final : public CallStack {
   std::vector<Frame> frames_;
   std::optional<std::uint32_t> left_sub_;
   std::optional<Again> again_;
-  std::uint64_t idle_passes_ = 0;
+  // The O-words of these labels cannot be read, or of any label if nothing more is known. What lacks them is not
+  // reported.
+  std::set<std::uint32_t> doubtful_labels_;
+  bool all_labels_doubtful_ = false;
+  std::uint64_t idle_passes_ = 0;  // passes since the machine last did something
+  std::uint64_t idle_calls_ = 0;   // calls since then
+  std::uint64_t steps_ = 0;        // passes, calls and operations since the outermost loop or call was entered
   std::uint64_t main_passes_ = 0;
   std::uint64_t unknown_calls_ = 0;
   std::size_t contour_depth_ = 0;  // call depth of the contour that is read; 0: none

@@ -7,19 +7,6 @@
 namespace passo {
 namespace {
 
-// Whether an 'O' comes first, after white space, '/' and N with its number. Nothing else is looked at in a skipped
-// line.
-bool may_be_control(std::string_view text) {
-  std::size_t i = 0;
-  const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
-  while (at(" \t/")) ++i;
-  if (at("nN")) {
-    ++i;
-    while (at(" \t0123456789.")) ++i;
-  }
-  return at("oO");
-}
-
 bool is_deleted(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   return first != std::string_view::npos && text[first] == '/';
@@ -31,6 +18,19 @@ bool is_percent(std::string_view text) {
 }
 
 }  // namespace
+
+// Whether an 'O' comes first, after white space, '/' and N with its number. Nothing else is looked at in a skipped
+// line.
+bool ProgramFlow::may_be_control(std::string_view text) {
+  std::size_t i = 0;
+  const auto at = [&](std::string_view any) { return i < text.size() && any.find(text[i]) != std::string_view::npos; };
+  while (at(" \t/")) ++i;
+  if (at("nN")) {
+    ++i;
+    while (at(" \t0123456789.")) ++i;
+  }
+  return at("oO");
+}
 
 ProgramFlow::Read ProgramFlow::read() {
   block_at_ = file_->reader.position();
@@ -63,18 +63,33 @@ bool ProgramFlow::next_line(std::string_view& text, std::uint32_t& line) {
 // A line that is no G-code is reported once, however often a loop reads it. A line that is read a second time is kept.
 bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   std::set<std::uint32_t>& unreadable = file_->unreadable;
-  if (!unreadable.empty() && unreadable.contains(line)) return false;
+  if (!unreadable.empty() && unreadable.contains(line)) {
+    reporter_.meet_again();
+    return false;
+  }
   KeptBlock* kept = nullptr;
   if (block_at_.offset < file_->read_to && text.size() <= KeptBlocks::longest_text) {
     kept = &kept_.make_room(file_->number, block_at_, file_->reader.position(), text);
     text = kept->text;
   }
   look_at(kept != nullptr ? kept->block : line_);
-  if (file_->parser.parse(text, line, *block_, faults_) && is_of_dialect()) return true;
+  if (is_readable(text, line)) return true;
   reporter_.pass_on(faults_);
+  doubt_label();
   if (kept != nullptr) KeptBlocks::drop(*kept);
   unreadable.insert(line);
   return false;
+}
+
+// An O-word that cannot be read may begin or end a construct. Its label is known if the fault comes after it.
+void ProgramFlow::doubt_label() {
+  if (!may_be_control(block_->text)) return;
+  const bool has_label = block_->control && block_->control->label;
+  if (has_label) {
+    doubtful_labels_.insert(block_->control->label.id);
+  } else {
+    all_labels_doubtful_ = true;
+  }
 }
 
 void ProgramFlow::look_at(Block& block) {
@@ -82,8 +97,13 @@ void ProgramFlow::look_at(Block& block) {
   reporter_.look_at(block, file_->name);
 }
 
-bool ProgramFlow::is_of_dialect() {
-  return options_.dialect == Dialect::linuxcnc || accept_as_grbl(*block_, state_, reporter_);
+// grbl reads word by word, so of several errors it tells the first.
+bool ProgramFlow::is_readable(std::string_view text, std::uint32_t line) {
+  const bool good = file_->parser.parse(text, line, *block_, faults_);
+  if (options_.dialect == Dialect::linuxcnc) return good;
+  if (good) return accept_as_grbl(*block_, state_, reporter_);
+  if (refuse_as_grbl(*block_, state_, reporter_)) faults_ = Diagnostics();
+  return false;
 }
 
 // Reads on to the next line with an O-word. False: there is none.
@@ -98,7 +118,7 @@ bool ProgramFlow::read_control(Symbol& label, bool within_percents) {
       if (!may_be_control(text) || (options_.block_delete && is_deleted(text)) || !parse(text, line)) continue;
     }
     if (!block_->control) continue;
-    if (label_of(*block_->control, label)) return true;
+    if (label_of_skipped(*block_->control, label)) return true;
   }
 }
 

@@ -3,6 +3,24 @@
 #include <fmt/format.h>
 
 namespace passo {
+namespace {
+
+// What a function or an operation of the language takes. `text` is where it stands in the program.
+std::string_view domain_of(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    if (c == '[') break;
+    if (c >= 'a' && c <= 'z') name += static_cast<char>(c - 'a' + 'A');
+    if (c >= 'A' && c <= 'Z') name += c;
+  }
+  if (name == "SQRT") return "SQRT of 0 or more";
+  if (name == "LN") return "LN of more than 0";
+  if (name == "ASIN") return "ASIN of -1 to 1";
+  if (name == "ACOS") return "ACOS of -1 to 1";
+  return "a whole exponent: a negative number has no other powers";
+}
+
+}  // namespace
 
 void Reporter::error(std::string_view code, Span span, std::string message, std::string expected) {
   add(Severity::error, code, block_->line, block_->text, span, std::move(message), std::move(expected));
@@ -37,7 +55,7 @@ void Reporter::error(const EvaluationError& error) {
                          "a divisor that is not zero");
     case Kind::domain:
       return this->error("gcode.bad-operand", error.span, fmt::format("{} has no value for {}", what, operand),
-                         "SQRT of 0 or more, LN of more than 0, ACOS and ASIN of -1 to 1, whole powers of negatives");
+                         std::string(domain_of(what)));
     case Kind::not_finite:
       return this->error("gcode.overflow", error.span, fmt::format("{} is too large to compute", what), {});
     case Kind::too_deep:
@@ -55,6 +73,7 @@ std::string Reporter::quote(Span span) const {
 
 void Reporter::add(Severity severity, std::string_view code, std::uint32_t line, std::string_view text, Span span,
                    std::string message, std::string expected) {
+  if (severity == Severity::error) ++errors_;
   // A wrong line in a loop is wrong in every pass, but is reported once.
   const SourcePlace place{line, span.column, span.length == 0 ? 1 : span.length};
   for (const Diagnostic& told : diagnostics_.all()) {
@@ -72,6 +91,7 @@ void Reporter::add(Severity severity, std::string_view code, std::uint32_t line,
 
 void Reporter::pass_on(Diagnostics& faults) {
   for (Diagnostic fault : faults.all()) {
+    if (fault.severity == Severity::error) ++errors_;
     fault.calls = calls();
     diagnostics_.add_certain(std::move(fault));
   }

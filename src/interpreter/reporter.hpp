@@ -1,6 +1,7 @@
 // Reporter: reports what is wrong in the block that is being read, with its line and the place in the line.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ class Reporter {
     file_ = &file;
   }
 
+  // The same for another block of that file.
+  void look_at(const Block& block) { block_ = &block; }
+
   // Sets the stack that tells through which calls the program came to a finding. Borrowed.
   void tell_calls_of(const CallStack& stack) { stack_ = &stack; }
 
@@ -42,6 +46,11 @@ class Reporter {
 
   // Reports what was found while the line was read.
   void pass_on(Diagnostics& faults);
+
+  // Counts an error that was reported before and is met again.
+  void meet_again() { ++errors_; }
+  // How often an error was met, also one that was reported before.
+  std::uint64_t errors() const { return errors_; }
 
   // The text of the block at this place, shortened if it is long.
   std::string quote(Span span) const;
@@ -59,6 +68,7 @@ class Reporter {
   const Block* block_ = nullptr;
   const std::string* file_ = nullptr;
   const CallStack* stack_ = nullptr;
+  std::uint64_t errors_ = 0;
 };
 
 // A number as a person writes it: "2.5", not "2.500000".

@@ -12,6 +12,7 @@ using enum ModalGroup;
 }  // namespace
 
 bool BlockExecutor::set_feed_mode(CodeNumber number) {
+  if (speaks_grbl() && number == code(94) && state_.modal[feed_mode] == number) return true;  // F is kept
   state_.modal.set(feed_mode, number);
   if (number == code(93)) {
     note("interpreter: feed mode set to inverse time");
@@ -28,14 +29,15 @@ bool BlockExecutor::set_feed_mode(CodeNumber number) {
 }
 
 bool BlockExecutor::set_feed_rate() {
-  const double units = words_['F'];
-  if (units < 0) {
-    return fail("gcode.negative-word", words_.span('F'), fmt::format("the feed rate is {}", plain_number(units)),
+  if (is_negative('F')) {
+    return fail("gcode.negative-word", words_.span('F'), fmt::format("the feed rate is {}", plain_number(words_['F'])),
                 "F of 0 or more");
   }
+  const double units = never_negative('F');
   if (state_.modal.inverse_time()) {
     const CodeNumber mover = block_.motion == nullptr ? code(80) : block_.motion->number;
-    const bool feeds = mover >= code(1) && mover <= code(5, 1);
+    const bool probes = speaks_grbl() && mover >= code(38, 2) && mover <= code(38, 5);
+    const bool feeds = probes || (mover >= code(1) && mover <= code(5, 1));
     if (!feeds) {
       reporter_.warning(
           "gcode.unused-feed", words_.span('F'),
@@ -98,18 +100,15 @@ bool BlockExecutor::switch_overrides(CodeNumber number) {
 
 bool BlockExecutor::dwell(CodeNumber number) {
   if (number != code(4)) return true;
-  if (!words_.has('P')) {
-    return fail("gcode.missing-word", words_.span(non_modal), "G4 without P", "P, the seconds to wait");
-  }
   if (block_.motion != nullptr && block_.motion->letters.has('P')) {
     return fail("gcode.ambiguous-word", words_.span('P'),
                 fmt::format("P belongs to G4 or to {}, which both use it", spelling(*block_.motion)), "two blocks");
   }
-  if (words_['P'] < 0) {
+  if (is_negative('P')) {
     return fail("gcode.negative-word", words_.span('P'),
                 fmt::format("a dwell of {} seconds", plain_number(words_['P'])), "P of 0 or more");
   }
-  emit(operation::Dwell{Seconds(words_['P'])});
+  emit(operation::Dwell{Seconds(never_negative('P'))});
   return true;
 }
 
@@ -183,6 +182,13 @@ bool BlockExecutor::set_retract_mode(CodeNumber number) {
   return true;
 }
 
+// In grbl a G53 without axis words needs no motion in its block.
+bool BlockExecutor::moves_straight() const {
+  if (block_.motion == nullptr && !speaks_grbl()) return false;
+  const CodeNumber number = block_.motion != nullptr ? block_.motion->number : state_.modal[motion];
+  return number == code(0) || number == code(1);
+}
+
 bool BlockExecutor::run_non_modal(CodeNumber number) {
   switch (number) {
     case code(10): return set_table();
@@ -198,8 +204,7 @@ bool BlockExecutor::run_non_modal(CodeNumber number) {
     case code(92, 2):
     case code(92, 3): return frame_.set_g92(number);
     case code(53):
-      if (block_.motion != nullptr && (block_.motion->number == code(0) || block_.motion->number == code(1)))
-        return true;
+      if (moves_straight()) return true;
       return fail("gcode.g53-without-move", words_.span(non_modal), "G53 without G0 or G1", "G53 G0 … or G53 G1 …");
     default: return true;  // G4 was executed before
   }
@@ -212,8 +217,9 @@ bool BlockExecutor::set_table() {
   if (table == 1 || table == 10 || table == 11) return tools_.set_tool_table_entry();
   if (table == 2 || table == 20) return frame_.set_work_offset();
   return fail("gcode.missing-word", words_.has('L') ? words_.span('L') : words_.span(non_modal),
-              "G10 without L0, L1, L2, L10, L11 or L20",
-              "G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position, G10 L1 P1 Z… sets a tool");
+              words_.has('L') ? fmt::format("there is no G10 L{}", plain_number(table)) : "G10 without L",
+              "L0, L1, L2, L10, L11 or L20: G10 L2 P1 X… sets an offset, G10 L20 P1 X… makes this the given position, "
+              "G10 L1 P1 Z… sets a tool");
 }
 
 bool BlockExecutor::stop(CodeNumber number) {
@@ -234,7 +240,8 @@ bool BlockExecutor::stop(CodeNumber number) {
 
 // M2 and M30 put the machine back into the state that programs may expect.
 void BlockExecutor::end_program(bool pallet) {
-  frame_.activate_system(1, false);
+  const bool keeps_system = block_.options.settings && block_.options.settings->is_on("RS274NGC", "DISABLE_AUTO_G54");
+  if (!keeps_system) frame_.activate_system(1, false);
   if (state_.modal.plane() != Plane::xy) emit(operation::SelectPlane{Plane::xy});
   emit(operation::SetFeedMode{});
   emit(operation::SetFeedRate{});

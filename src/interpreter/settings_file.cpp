@@ -36,6 +36,61 @@ std::string_view without_comment(std::string_view value) {
   return value;
 }
 
+// A setting of LinuxCNC that changes what programs mean, and that Passo does not follow.
+struct Unfollowed {
+  std::string_view section;
+  std::string_view name;
+  Severity severity;
+  std::string_view
+      harmless;           // the values that change nothing, each between blanks; empty: every value changes something
+  std::string_view what;  // what the setting does, and Passo does not
+};
+constexpr Unfollowed unfollowed[] = {
+    {"RS274NGC", "REMAP", Severity::error, "", "codes are remapped"},
+    {"RS274NGC", "FEATURES", Severity::error, " 0 4 8 12 ",
+     "bits other than 4 (INI_VARS) and 8 (HAL_PIN_VARS) are set"},
+    {"RS274NGC", "RETAIN_G43", Severity::error, " 0 no false off ", "a tool offset follows the tool that is changed"},
+    {"RS274NGC", "OWORD_NARGS", Severity::error, " 0 no false off ", "#<n_args> counts the arguments of a call"},
+    {"RS274NGC", "NO_DOWNCASE_OWORD", Severity::error, " 0 no false off ",
+     "names of subs are not the same in any case"},
+    {"RS274NGC", "OWORD_WARNONLY", Severity::warning, " 0 no false off ", "errors of O-words are warnings"},
+    {"RS274NGC", "OWORD_WARN_ONLY", Severity::warning, " 0 no false off ", "errors of O-words are warnings"},
+    {"RS274NGC", "CENTER_ARC_RADIUS_TOLERANCE_INCH", Severity::error, "", "arcs are checked with another tolerance"},
+    {"RS274NGC", "CENTER_ARC_RADIUS_TOLERANCE_MM", Severity::error, "", "arcs are checked with another tolerance"},
+    {"RS274NGC", "PARAMETER_G73_PECK_CLEARANCE", Severity::error, "", "pecks have another clearance"},
+    {"RS274NGC", "PARAMETER_G83_PECK_CLEARANCE", Severity::error, "", "pecks have another clearance"},
+    {"RS274NGC", "RS274NGC_STARTUP_CODE", Severity::warning, "", "these codes run before each program"},
+    {"RS274NGC", "ON_ABORT_COMMAND", Severity::warning, "", "this command runs after an abort"},
+    {"EMCIO", "RANDOM_TOOLCHANGER", Severity::error, " 0 ", "tools change their pockets"},
+    {"EMCIO", "DB_PROGRAM", Severity::error, "", "tools come from a database"},
+    {"EMCIO", "TOOL_CHANGE_WITH_SPINDLE_ON", Severity::error, " 0 ", "M6 leaves the spindle on"},
+    {"EMCIO", "TOOL_CHANGE_QUILL_UP", Severity::error, " 0 ", "M6 moves Z up"},
+    {"EMCIO", "TOOL_CHANGE_AT_G30", Severity::error, " 0 ", "M6 moves to the place of G30"},
+    {"EMCIO", "TOOL_CHANGE_POSITION", Severity::warning, "", "M6 moves to this place"},
+    {"TRAJ", "ANGULAR_UNITS", Severity::error, " deg degree 1 1.0 ", "angles are not in degrees"},
+};
+
+bool is_one_of(std::string_view list, std::string_view value) {
+  std::string word = " ";
+  for (const char c : value) word += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return list.find(word + " ") != std::string_view::npos;
+}
+
+void report_unfollowed(FieldReader& fields, std::string_view section, const Field& line, std::string_view name,
+                       std::string_view value) {
+  const std::string key = key_of(section, name);
+  for (const Unfollowed& setting : unfollowed) {
+    if (key != key_of(setting.section, setting.name) || is_one_of(setting.harmless, value)) continue;
+    const std::string message =
+        fmt::format("[{}]{} is not followed: with it, {}", setting.section, setting.name, setting.what);
+    const std::string expected = setting.harmless.empty()
+                                     ? std::string("no such setting")
+                                     : fmt::format("one of these values:{}or no such setting", setting.harmless);
+    fields.report(setting.severity, "settings.not-followed", line, message, expected);
+    return;
+  }
+}
+
 }  // namespace
 
 bool SettingsFile::read(const std::string& path, Diagnostics& diagnostics) {
@@ -71,6 +126,8 @@ bool SettingsFile::read(const std::string& path, Diagnostics& diagnostics) {
     } else if (!set(section, name, without_comment(trimmed(line.text.substr(equals + 1))))) {
       fields.error("settings.too-many", line, fmt::format("more than {} settings", most_settings), "a shorter file");
       break;
+    } else {
+      report_unfollowed(fields, section, line, name, without_comment(trimmed(line.text.substr(equals + 1))));
     }
   }
   return diagnostics.errors() == before;
@@ -92,10 +149,16 @@ std::optional<double> SettingsFile::number(std::string_view section, std::string
   return text ? number_of(*text) : std::nullopt;
 }
 
+bool SettingsFile::is_on(std::string_view section, std::string_view name) const {
+  const std::optional<std::string_view> text = find(section, name);
+  return text && is_one_of(" 1 yes true on ", *text);
+}
+
 std::optional<double> SettingsFile::parameter(std::string_view parameter) const {
   constexpr std::string_view opening = "_ini[";
   const std::size_t close = parameter.find(']');
   if (!parameter.starts_with(opening) || close == std::string_view::npos) return std::nullopt;
+  if (number("RS274NGC", "INI_VARS") == 0) return std::nullopt;
   return number(parameter.substr(opening.size(), close - opening.size()), parameter.substr(close + 1));
 }
 

@@ -38,14 +38,14 @@ bool SpindleCodes::set_mode(CodeNumber number) {
 bool SpindleCodes::set_speed() {
   SpindleRange range;
   if (!spindle_word(SpindleChoice::one_or_all, range)) return false;
-  if (words_['S'] < 0) {
+  if (is_negative('S')) {
     return fail("gcode.negative-word", words_.span('S'),
                 fmt::format("the spindle speed is {}", plain_number(words_['S'])),
                 "S of 0 or more; M4 turns the other way");
   }
   for (std::uint8_t i = range.first; i < range.end; ++i) {
-    state_.spindles[i].speed = words_['S'];
-    emit(operation::SetSpindleSpeed{words_['S'], i});
+    state_.spindles[i].speed = never_negative('S');
+    emit(operation::SetSpindleSpeed{state_.spindles[i].speed, i});
   }
   return true;
 }

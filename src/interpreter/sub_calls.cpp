@@ -7,7 +7,7 @@
 namespace passo {
 
 void ProgramFlow::call(Symbol label, const Control& control) {
-  if (!has_room_for_call(control.span)) return;
+  if (!may_call(control.span)) return;
   if (control.arguments.size() > sub_parameters) {
     reporter_.error("gcode.too-many-arguments", control.span,
                     fmt::format("a call with {} arguments", control.arguments.size()), "30 at most: #1 to #30");
@@ -18,7 +18,7 @@ void ProgramFlow::call(Symbol label, const Control& control) {
     if (!value_of(*block_, control.arguments[i], parameters_, reporter_, arguments[i])) return;
   }
 
-  Frame frame{file_, file_->reader.position(), label, {}, open_.size(), 1};
+  Frame frame{file_, file_->reader.position(), label, {}, open_.size(), reporter_.errors()};
   File* const file = find_sub(label);
   if (file == nullptr) return report_unknown_sub(label, control.span, false);
   frame.place = file->subs.at(label.id);
@@ -27,10 +27,24 @@ void ProgramFlow::call(Symbol label, const Control& control) {
   enter(frame, file);
 }
 
-bool ProgramFlow::has_room_for_call(Span span) {
-  if (frames_.size() < deepest_call) return true;
-  reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
-                  "a sub that does not call itself for ever");
+// False: calls are nested too deep, or the program called too often.
+bool ProgramFlow::may_call(Span span) {
+  if (is_outermost()) steps_ = 0;
+  const bool idles = ++idle_calls_ > options_.idle_passes;
+  if (frames_.size() >= deepest_call) {
+    reporter_.error("gcode.calls-too-deep", span, fmt::format("calls are nested more than {} deep", deepest_call),
+                    "a sub that does not call itself for ever");
+  } else if (idles || ++steps_ > options_.repeated_steps) {
+    reporter_.error("gcode.endless-calls", span,
+                    idles
+                        ? fmt::format("the program called {} times, and the machine did nothing", options_.idle_passes)
+                        : fmt::format("the call from line {} came to {} passes, calls and operations",
+                                      frames_.empty() ? block_at_.line : frames_.front().return_to.line - 1,
+                                      options_.repeated_steps),
+                    "a sub that does not call itself again and again");
+  } else {
+    return true;
+  }
   finish(End::error);
   return false;
 }

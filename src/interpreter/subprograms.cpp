@@ -11,6 +11,9 @@
 namespace passo {
 
 ProgramFlow::Followed ProgramFlow::follow(const SubprogramJump& jump) {
+  if (!check_numbered_programs(jump.span, jump.code())) {
+    return jump.kind == SubprogramJump::Kind::leave && frames_.empty() ? Followed::main_ends : Followed::goes_on;
+  }
   if (jump.kind != SubprogramJump::Kind::leave) {
     if (jump.good && jump.passes > 0) call_program(jump);
     return Followed::goes_on;
@@ -24,8 +27,14 @@ void ProgramFlow::call_program(const SubprogramJump& jump) {
   // A move in a macro of G66 does not call the macro again.
   if (jump.kind == Kind::modal_macro && std::ranges::any_of(frames_, &Frame::modal_macro)) return;
   const Symbol label = symbols_.intern(fmt::format("{}", jump.program));
-  if (!has_room_for_call(jump.span)) return;
-  Frame frame{file_, file_->reader.position(), label, {}, open_.size(), static_cast<std::uint64_t>(jump.passes)};
+  if (!may_call(jump.span)) return;
+  Frame frame{file_,
+              file_->reader.position(),
+              label,
+              {},
+              open_.size(),
+              reporter_.errors(),
+              static_cast<std::uint64_t>(jump.passes)};
   File* const file = find_sub(label);
   if (file == nullptr) return report_unknown_sub(label, jump.span, true);
   frame.place = file->subs.at(label.id);
@@ -61,19 +70,19 @@ ProgramFlow::Followed ProgramFlow::end_program(const SubprogramJump& jump) {
     return Followed::left_sub;
   }
   File* const file = file_;
-  const bool again = --frame.passes_left > 0;
-  if (again && !go_round({ControlKind::program, frame.sub, frame.place.at, {}, 0})) return Followed::goes_on;
+  const bool again = --frame.passes_left > 0 && reporter_.errors() == frame.errors_before;
+  if (again && !may_go_round({ControlKind::program, frame.sub, frame.place.at, {}})) return Followed::goes_on;
   leave_frame();
   if (again) again_ = Again{frame, file};
   return Followed::left_sub;
 }
 
-// M99 in the main program. The program begins again, as often as is allowed. False: it does not.
+// M99 in the main program. The program begins again, as often as is allowed, unless it has errors. False: it does not.
 bool ProgramFlow::restart_main(const SubprogramJump& jump) {
-  if (++main_passes_ == options_.main_passes) return false;
+  if (++main_passes_ == options_.main_passes || reporter_.errors() > 0) return false;
   if (++idle_passes_ > options_.idle_passes) {
     reporter_.error("gcode.endless-loop", jump.span,
-                    fmt::format("the program began again {} times without any operation", options_.idle_passes),
+                    fmt::format("the program began again {} times, and the machine did nothing", options_.idle_passes),
                     "a program that moves, or M2 in place of M99");
     finish(End::error);
     return true;
@@ -82,6 +91,14 @@ bool ProgramFlow::restart_main(const SubprogramJump& jump) {
   begun_ = false;
   file_->reader.seek({});
   return true;
+}
+
+bool ProgramFlow::check_numbered_programs(Span span, std::string_view what) {
+  if (options_.numbered_programs) return true;
+  reporter_.error("gcode.no-numbered-programs", span,
+                  fmt::format("{} where the settings forbid numbered programs", what),
+                  "o<name> sub and o<name> call, or no [RS274NGC]DISABLE_FANUC_STYLE_SUB");
+  return false;
 }
 
 // `caller`: M98, G65 or G66; empty: an O-word.

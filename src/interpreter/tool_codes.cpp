@@ -115,6 +115,7 @@ bool ToolCodes::reload_tools() {
   }
   for (const Word& word : reporter_.block().words) {
     if (word.letter == 'G' || word.letter == 'L' || !(LetterSet("PRIJQ") | axis_letters).has(word.letter)) continue;
+    if (words_.is_of_another(word.letter, ModalGroup::non_modal)) continue;
     reporter_.warning("gcode.unused-word", word.span, fmt::format("{} has no effect beside G10 L0", word.letter),
                       "G10 L0 alone");
   }

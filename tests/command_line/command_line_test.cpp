@@ -216,6 +216,22 @@ TEST_F(CommandLine, a_loop_that_does_nothing_is_stopped_at_its_o_word_after_as_m
   EXPECT_EQ(passo("canon --loop-limit 0 " + program).code, 2);
 }
 
+TEST_F(CommandLine, a_program_that_never_ends_is_an_error_wherever_it_is_read) {
+  const std::string typo = write("typo.ngc", "#1=0\no1 while [#1 LT 5]\nG0 X#1\n#1=[#1+1\no1 endwhile\nM2\n");
+  const std::string moving = write("moving.ngc", "o1 while [1]\nG0 X1\nG0 X2\no1 endwhile\nM2\n");
+  for (const std::string& command : {"canon "s, "explain "s, "check -m " + router + " ", "run -m " + router + " "}) {
+    const Outcome bad = passo(command + typo);
+    EXPECT_EQ(bad.code, 2) << command;
+    EXPECT_NE((bad.out + bad.err).find(":4:4: error: the bracket that opens here is not closed"), std::string::npos)
+        << command;
+    const Outcome endless = passo(command + "--step-limit 3000 " + moving);
+    EXPECT_EQ(endless.code, 2) << command;
+    EXPECT_NE((endless.out + endless.err).find(":1:1: error: the loop came to 3000 passes, calls and operations"),
+              std::string::npos)
+        << command;
+  }
+}
+
 TEST_F(CommandLine, crlf_cr_and_a_byte_order_mark_are_fine) {
   for (const char* text : {"G21 F600\r\nG1 X1\r\nM2\r\n", "G21 F600\rG1 X1\rM2\r", "\xEF\xBB\xBFG21 F600\nG1 X1\nM2"}) {
     EXPECT_EQ(run_text(text).code, 0);

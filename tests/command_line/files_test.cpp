@@ -27,7 +27,7 @@ class FilesOfACommand : public passo::test::CommandLine {
     EXPECT_TRUE(read(machine_).starts_with("#") || read(machine_).starts_with("name"));
   }
 
-  std::string text_ = "G21 G1 X1 F600\nM2\n";
+  std::string text_ = "G21 G0 X1\nM2\n";
   std::string program_;
   std::string machine_;
   std::string run_;

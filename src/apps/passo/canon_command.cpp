@@ -9,6 +9,11 @@
 #include "passo/report/output_file.hpp"
 
 namespace passo {
+namespace {
+
+constexpr std::size_t written_at_once = 65'536;
+
+}  // namespace
 
 int canon(const CanonArguments& arguments) {
   std::optional<ProgramReader> program = open_program(arguments.program);
@@ -27,14 +32,19 @@ int canon(const CanonArguments& arguments) {
   Diagnostics findings;
   Interpreter interpreter(std::move(*program), *options, findings);
   CanonPrinter printer(options->machine_units);
+  FindingsDisplay display(findings);
   Operation operation;
-  std::string line;
+  std::string text;
   while (!output->failed() && !findings.full() && interpreter.next(operation)) {
-    line.clear();
-    printer.print(operation, line);
-    output->write(line);
+    printer.print(operation, text);
+    if (text.size() >= written_at_once) {
+      output->write(text);
+      text.clear();
+    }
+    display.update();
   }
-  show(findings);
+  output->write(text);
+  display.finish();
   // Standard output gets what was good. A file appears only if the whole program is good.
   if (findings.any_error() && !arguments.output.empty()) return exit_bad_program;
   const Status<OutputError> written = output->commit();

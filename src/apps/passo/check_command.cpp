@@ -2,6 +2,7 @@
 // --motion the path is also planned and stepped, and the motion is measured.
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -132,18 +133,23 @@ int check(const CheckArguments& arguments) {
   Diagnostics findings;
   ProgramStops stops;
   const ProgramMessages messages(arguments.program.program, !arguments.json);
-  const ProgramCheck result = check_program(
-      program->again(), *machine, *options, findings, [&](const PathItem& item) { stops.watch(item); },
-      [&](const Operation& operation) { messages.show(operation); });
+  FindingsDisplay display(findings);
+  const auto watch_path = [&](const PathItem& item) {
+    stops.watch(item);
+    if (!arguments.json) display.update();
+  };
+  const auto watch_operations = [&](const Operation& operation) { messages.show(operation); };
+  const ProgramCheck result =
+      check_program(program->again(), *machine, *options, findings, watch_path, watch_operations);
   if (result.good && (arguments.motion || !arguments.picture.empty())) {
-    show(findings);
+    display.finish();
     return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);
   }
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
     std::puts(as_json(findings, stops).dump(2, ' ', false, replace).c_str());
   } else {
-    show(findings);
+    display.finish();
     const char* const name = arguments.program.program.c_str();
     if (result.good) std::printf("%s: no errors\n", name);
     if (stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, stops.words().c_str());

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/diagnostics/shown_place.hpp"
 
 namespace passo {
 
@@ -16,12 +16,13 @@ inline nlohmann::ordered_json as_json(std::span<const Diagnostic> findings) {
     for (const CallPlace& call : finding.calls) {
       calls.push_back({{"sub", call.sub}, {"file", call.file}, {"line", call.line}});
     }
+    const SourcePlace place = shown_place(finding);
     list.push_back({{"severity", finding.severity == Severity::error ? "error" : "warning"},
                     {"code", finding.code},
                     {"file", finding.file},
-                    {"line", finding.place.line},
-                    {"column", finding.place.column},
-                    {"length", finding.place.length},
+                    {"line", place.line},
+                    {"column", place.column},
+                    {"length", place.length},
                     {"message", finding.message},
                     {"expected", finding.expected},
                     {"rule", finding.rule},

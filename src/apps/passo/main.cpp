@@ -57,6 +57,11 @@ void add_program(CLI::App& command, ProgramArguments& arguments,
   command.add_option("--loop-limit", arguments.loop_limit, "passes of a loop that does nothing before it is an error")
       ->check(refuse_count)
       ->capture_default_str();
+  command
+      .add_option("--step-limit", arguments.step_limit,
+                  "passes, calls and operations of one loop or call, with all inside, before it is an error")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 // Adds the options for the machine's files on which a program depends. With `letters`, the options have LinuxCNC's

@@ -80,6 +80,7 @@ std::optional<InterpreterOptions> interpreter_options(const ProgramArguments& ar
   options.dialect = arguments.dialect == "grbl" ? Dialect::grbl : Dialect::linuxcnc;
   options.user_codes = arguments.user_codes;
   options.idle_passes = arguments.loop_limit;
+  options.repeated_steps = arguments.step_limit;
   Diagnostics diagnostics;
   read_files(arguments, options, diagnostics);
   show(diagnostics);
@@ -93,9 +94,28 @@ std::optional<InterpreterOptions> machine_options(const ProgramArguments& argume
   return options;
 }
 
-void show(const Diagnostics& diagnostics) {
-  const std::string text = render(diagnostics, shows_colours(STDERR_FILENO));
+namespace {
+
+void show(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace
+
+void show(const Diagnostics& diagnostics) {
+  show(render(diagnostics, shows_colours(STDERR_FILENO)));
+}
+
+void FindingsDisplay::show_new() {
+  for (; shown_ < findings_.all().size(); ++shown_) {
+    const std::string text = render(findings_.all()[shown_], shows_colours(STDERR_FILENO));
+    shown_text_ += text.size();
+    show(text);
+  }
+}
+
+void FindingsDisplay::finish() {
+  show(render(findings_, shows_colours(STDERR_FILENO)).substr(shown_text_));
 }
 
 int fail(ExitCode code, const std::string& message) {

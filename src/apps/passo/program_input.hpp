@@ -33,6 +33,25 @@ NamedFiles files_of(const ProgramArguments& arguments, const InterpreterOptions&
 // Writes all findings to standard error, in colour on a terminal.
 void show(const Diagnostics& diagnostics);
 
+// Shows findings on standard error as soon as they are found, where a stage still works on the program.
+class FindingsDisplay {
+ public:
+  explicit FindingsDisplay(const Diagnostics& findings) : findings_(findings) {}
+  // Shows what is new. Cheap where nothing is.
+  void update() {
+    if (findings_.all().size() != shown_) show_new();
+  }
+  // Shows the rest, and the number of errors.
+  void finish();
+
+ private:
+  void show_new();
+
+  const Diagnostics& findings_;
+  std::size_t shown_ = 0;
+  std::size_t shown_text_ = 0;  // characters
+};
+
 // Reports on standard error why the command ends here. Returns the given exit code.
 int fail(ExitCode code, const std::string& message);
 // Reports on standard error something that the user should know and need not heed.

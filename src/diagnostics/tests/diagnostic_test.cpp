@@ -1,4 +1,4 @@
-#include "passo/diagnostics/diagnostic.hpp"
+#include "passo/diagnostics/shown_place.hpp"
 
 namespace passo {
 namespace {
@@ -37,6 +37,21 @@ TEST(Render, a_caret_stands_under_its_character_after_letters_outside_ascii) {
   diagnostic.text = "(\xC3\xA9\xC3\xA9) X";
   diagnostic.place = {.line = 1, .column = 8, .length = 1};
   EXPECT_NE(render(diagnostic, false).find("      |      ^\n"), std::string::npos);
+}
+
+TEST(Render, columns_count_characters_and_not_bytes) {
+  Diagnostic diagnostic;
+  diagnostic.file = "part.ngc";
+  diagnostic.text =
+      "(Gr\xC3\xB6\xC3\x9F"
+      "e) G0 X\xE2\x88\x92"
+      "5";
+  diagnostic.place = {.line = 3, .column = 15, .length = 4};
+  EXPECT_EQ(shown_place(diagnostic).column, 13U);
+  EXPECT_EQ(shown_place(diagnostic).length, 2U);
+  EXPECT_EQ(render(diagnostic, false).substr(0, 14), "part.ngc:3:13:");
+  diagnostic.text.clear();
+  EXPECT_EQ(shown_place(diagnostic).column, 15U) << "nothing is known of the line";
 }
 
 TEST(Render, tells_the_rule_and_the_ends_of_a_long_stack_of_calls) {

@@ -47,6 +47,10 @@ constexpr Case values[] = {
     {"G1 XO.5", "gcode.bad-o-word 5 1", "digit 0"},
     {"GO1 X5", "gcode.bad-o-word 2 1", "digit 0"},
     {"G1 X1O Y5", "gcode.bad-o-word 6 1", "digit 0"},
+    {"Gl X5", "gcode.missing-value 2 1", "the digit 1"},
+    {"GI X5", "gcode.missing-value 2 1", "the digit 1"},
+    {"G1 Xl", "gcode.missing-value 5 1", "the digit 1"},
+    {"G2 XI5", "gcode.missing-value 4 1", "a number"},
 };
 INSTANTIATE_TEST_SUITE_P(Values, Faults, testing::ValuesIn(values));
 

@@ -257,9 +257,9 @@ class RandomExpression {
     if (name == "EQ") return std::fabs(a - b) < 1e-6;
     if (name == "NE") return std::fabs(a - b) >= 1e-6;
     if (name == "GT") return a > b;
-    if (name == "GE") return a >= b;
+    if (name == "GE") return a > b || std::fabs(a - b) < 1e-6;
     if (name == "LT") return a < b;
-    if (name == "LE") return a <= b;
+    if (name == "LE") return a < b || std::fabs(a - b) < 1e-6;
     if (name == "AND") return a != 0 && b != 0;
     if (name == "OR") return a != 0 || b != 0;
     return (a != 0) != (b != 0);

@@ -67,6 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const unsigned choice = data[0];
   passo::InterpreterOptions options;
   options.idle_passes = 200;
+  options.repeated_steps = 20'000;
   if ((choice & 1U) != 0) options.dialect = passo::Dialect::grbl;
   if ((choice & 2U) != 0) options.units = passo::LengthUnits::inch;
   options.block_delete = (choice & 4U) != 0;

@@ -23,6 +23,7 @@ void run(const std::string& program) {
   constexpr int most_operations = 2000;
   InterpreterOptions options;
   options.idle_passes = 200;
+  options.repeated_steps = 20'000;
   Diagnostics diagnostics;
   Interpreter interpreter(ProgramReader::from_text("fuzz.ngc", program), options, diagnostics);
   CanonPrinter printer;

@@ -50,12 +50,22 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"F9 G2 Z1 I1\nM2", 32}, Refusal{"F9 G18 G2 Y1 I1\nM2", 32}, Refusal{"F9 G2 X1 Y9 I1\nM2", 33},
         Refusal{"F9 G2 X9 R1\nM2", 34}, Refusal{"F9 G2 X1\nM2", 35}, Refusal{"F9 G2 X1 K1\nM2", 35},
         Refusal{"F9 G2 X2 I1 P2\nM2", 36}, Refusal{"G0 X1 L2\nM2", 36}, Refusal{"F9 G2 X2 I1 R1\nM2", 36},
-        Refusal{"G43.1 X1\nM2", 37}, Refusal{"G43.1\nM2", 37}, Refusal{"G43.1 X1 Z1\nM2", 37},
-        Refusal{"T256\nM2", 38}));
+        Refusal{"G43.1 X1\nM2", 37}, Refusal{"G43.1\nM2", 37}, Refusal{"G43.1 X1 Z1\nM2", 37}, Refusal{"T256\nM2", 38},
+        Refusal{"$H\nM2", 3}, Refusal{"$10=1\nM2", 3}, Refusal{" $5\nM2", 3}, Refusal{"G80\nG92 X1\nM2", 31},
+        Refusal{"G80\nG10 L2 P1 X1\nM2", 31}, Refusal{"G80\nG43.1 Z1\nM2", 31}, Refusal{"G80\nG53\nM2", 30}));
+
+// grbl reads word by word, then checks in an order of its own. Its number is that of the first error.
+INSTANTIATE_TEST_SUITE_P(GrblFirst, GrblRefuses,
+                         testing::Values(Refusal{"G99 X\nM2", 20}, Refusal{"G0 X1 X2 G99\nM2", 25},
+                                         Refusal{"G0 X Y1 G99\nM2", 2}, Refusal{"T300 T1\nM2", 38},
+                                         Refusal{"S-1 S-1\nM2", 4}, Refusal{"G1 X1 K1\nM2", 22},
+                                         Refusal{"G2 X1\nM2", 22}, Refusal{"G2\nM2", 22},
+                                         Refusal{"G93 G2 X1 F0\nM2", 22}, Refusal{"G38.2 Z-1\nM2", 22},
+                                         Refusal{"F9 G2 K1\nM2", 26}, Refusal{"M3 M4 X\nM2", 21}));
 
 TEST(Grbl, accepts_what_it_knows) {
   const Interpreted result = as_grbl(
-      "G17 G21 G90 G94 G54 G49 G80\n"
+      "G17 G21 G90 G94 G54 G49 G80\nG0\n"
       "G10 L2 P1 X1 Y2\nG10 L20 P0 Z3\nG0 X1 Y1\nG1 Z-1 F100\nG2 X2 Y1 I.5\nG3 X3 R.5\nG18 G2 X4 I.5\nG17\n"
       "G28 Z1\nG28.1\nG30\nG30.1\nG43.1 Z2\nG53 G0 Z0\nG55\nG59\nG92 X0\nG92.1\nG93 G1 X1 F2\nG94\nG4 P.1\n"
       "M3 S1000\nM4\nM5\nM8\nM9\nM0\nT255\nG91\nG20\nN10000000 G0 X1\nM30\n");
@@ -65,6 +75,44 @@ TEST(Grbl, accepts_what_it_knows) {
 TEST(Grbl, begins_with_rapids) {
   EXPECT_EQ(as_grbl("X10\nM2").all<operation::StraightTraverse>().size(), 1U);
   EXPECT_EQ(interpret_text("X10\nM2").diagnostics.errors(), 1U);
+}
+
+TEST(Grbl, moves_in_machine_coordinates_in_incremental_distances_too) {
+  const Interpreted result = as_grbl("G10 L2 P1 Z5\nG91\nG0 Z1\nG53 G0 Z1\nG53\nG53 G0\nM2");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_EQ(result.last<operation::StraightTraverse>().end[Axis::z], -4);
+}
+
+TEST(Grbl, keeps_the_feed_where_g94_is_active_already) {
+  EXPECT_FALSE(as_grbl("G1 X5 F100\nG94\nG1 X6\nM2").diagnostics.any_error());
+  EXPECT_EQ(as_grbl("G1 X5 F100\nG93\nG94\nG1 X6\nM2").diagnostics.errors(), 1U);
+  EXPECT_EQ(interpret_text("G1 X5 F100\nG94\nG1 X6\nM2").diagnostics.errors(), 1U);
+}
+
+TEST(Grbl, takes_a_line_number_amid_the_line) {
+  const Interpreted result = as_grbl("G0 N20 X1\nX2 N30\nM2");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_NE(result.canon.find("N20    STRAIGHT_TRAVERSE"), std::string::npos) << result.canon;
+  EXPECT_EQ(interpret_text("G0 N20 X1\nM2").diagnostics.errors(), 1U);
+}
+
+TEST(Grbl, takes_the_whole_part_of_a_tool) {
+  const Interpreted result = as_grbl("T2.5\nM2");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_EQ(result.last<operation::SelectTool>().tool, 2);
+}
+
+TEST(Grbl, probes_in_inverse_time) {
+  const Interpreted result = as_grbl("G93\nG38.3 Z-10 F2\nM2");
+  EXPECT_FALSE(result.diagnostics.any_error()) << result.rendered();
+  EXPECT_TRUE(result.diagnostics.all().empty()) << result.rendered();
+  EXPECT_NEAR(result.all<operation::SetFeedRate>().front().rate, 20.0 / 60, 1e-12);
+}
+
+TEST(Grbl, passes_over_centre_words_outside_the_plane_of_an_arc) {
+  EXPECT_EQ(as_grbl("F9 G2 X2 I1 K5\nM2").calls(), as_grbl("F9 G2 X2 I1\nM2").calls());
+  EXPECT_EQ(as_grbl("F9 G18 G2 X2 I1 J5\nM2").calls(), as_grbl("F9 G18 G2 X2 I1\nM2").calls());
+  EXPECT_EQ(interpret_text("F9 G2 X2 I1 K5\nM2").diagnostics.errors(), 1U);
 }
 
 TEST(Grbl, drops_the_slash_and_runs_the_line) {

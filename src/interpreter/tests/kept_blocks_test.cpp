@@ -78,8 +78,8 @@ TEST(KeptBlocks, what_goes_wrong_in_a_later_pass_is_shown_in_its_line) {
 }
 
 TEST(KeptBlocks, a_construct_left_open_in_a_sub_is_shown_in_its_line_each_time) {
-  const Interpreted result = interpret_text(
-      "o1 sub\no2 if [1]\nG1 F1 X1\no1 endsub\no3 repeat [3]\no1 call\nX[#5420 + 1]\no3 endrepeat\nM2\n");
+  const Interpreted result =
+      interpret_text("o1 sub\no2 if [1]\nG1 F1 X1\no1 endsub\no1 call\nX2\no1 call\nX2\no1 call\nX2\nM2\n");
   ASSERT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
   EXPECT_EQ(result.diagnostics.all().front().text, "o2 if [1]");
   EXPECT_EQ(result.all<operation::StraightFeed>().size(), 6U);

@@ -273,6 +273,97 @@ TEST(SettingsFile, what_is_wrong_is_told_with_its_place) {
   }
 }
 
+TEST(SettingsFile, a_setting_that_changes_what_programs_mean_is_followed_or_told) {
+  const auto finding_of = [](const std::string& text) {
+    const WrittenFile file(text);
+    Diagnostics diagnostics;
+    SettingsFile settings;
+    (void)settings.read(file.path(), diagnostics);
+    return diagnostics.all().empty() ? Diagnostic{} : diagnostics.all().front();
+  };
+  for (const char* const setting :
+       {"[RS274NGC]\nREMAP = M6 modalgroup=6 ngc=x", "[RS274NGC]\nFEATURES = 2", "[RS274NGC]\nRETAIN_G43 = 1",
+        "[RS274NGC]\nOWORD_NARGS=yes", "[RS274NGC]\nCENTER_ARC_RADIUS_TOLERANCE_MM = 1",
+        "[EMCIO]\nRANDOM_TOOLCHANGER = 1", "[EMCIO]\nTOOL_CHANGE_AT_G30 = 1", "[TRAJ]\nANGULAR_UNITS = rad"}) {
+    const Diagnostic finding = finding_of(std::string(setting) + "\n");
+    EXPECT_EQ(finding.code, "settings.not-followed") << setting;
+    EXPECT_EQ(finding.severity, Severity::error) << setting;
+    EXPECT_EQ(finding.place.line, 2U);
+  }
+  EXPECT_EQ(finding_of("[RS274NGC]\nRS274NGC_STARTUP_CODE = G20\n").severity, Severity::warning);
+  EXPECT_EQ(finding_of("[RS274NGC]\nRS274NGC_STARTUP_CODE = G20\n").code, "settings.not-followed");
+  for (const char* const harmless :
+       {"[RS274NGC]\nFEATURES = 12", "[RS274NGC]\nRETAIN_G43 = 0", "[EMCIO]\nRANDOM_TOOLCHANGER = 0",
+        "[TRAJ]\nANGULAR_UNITS = degree", "[RS274NGC]\nDISABLE_G92_PERSISTENCE = 1", "[VARS]\nREMAP = 1"}) {
+    EXPECT_EQ(finding_of(std::string(harmless) + "\n").code, "") << harmless;
+  }
+}
+
+InterpreterOptions with_settings(const std::string& text) {
+  InterpreterOptions options;
+  options.settings = std::make_shared<SettingsFile>(settings_of(text));
+  return options;
+}
+
+TEST(SettingsFile, the_offset_of_g92_outlives_the_run_unless_that_is_forbidden) {
+  const auto last_x = [](InterpreterOptions options, SavedParameters& saved) {
+    options.parameters = {{5210, 1}, {5211, 3}};
+    Diagnostics diagnostics;
+    Interpreter interpreter(ProgramReader::from_text("test.ngc", "G53 G0 X10\n(debug,#5420)\nG52 X4\nM2\n"), options,
+                            diagnostics);
+    Operation operation;
+    std::string text;
+    while (interpreter.next(operation)) {
+      if (const auto* message = std::get_if<operation::Message>(&operation.what)) text = message->text;
+    }
+    saved = interpreter.saved_parameters();
+    return text;
+  };
+  SavedParameters saved;
+  EXPECT_EQ(last_x({}, saved), "7.000000");
+  EXPECT_EQ(saved.at(5211), 4);
+  EXPECT_EQ(last_x(with_settings("[RS274NGC]\nDISABLE_G92_PERSISTENCE = 1\n"), saved), "10.000000");
+  EXPECT_EQ(saved.at(5210), 0);
+  EXPECT_EQ(saved.at(5211), 0);
+}
+
+TEST(SettingsFile, numbered_programs_may_be_forbidden) {
+  const InterpreterOptions options = with_settings("[RS274NGC]\nDISABLE_FANUC_STYLE_SUB = 1\n");
+  for (const char* const program : {"M98 P1\nM2\nO1\nM99\n", "O1\nG0 X1\nM2\n", "G0 X1\nM99\n"}) {
+    const Interpreted result = interpret_text(program, options);
+    EXPECT_EQ(result.diagnostics.errors(), 1U) << program << result.rendered();
+    EXPECT_EQ(result.diagnostics.all().front().code, "gcode.no-numbered-programs") << result.rendered();
+  }
+}
+
+TEST(SettingsFile, the_work_system_may_stay_after_the_program) {
+  const auto system_after = [](const InterpreterOptions& options) {
+    return interpret_text("G55\nM2\n", options).last<operation::SetWorkOffset>().system;
+  };
+  EXPECT_EQ(system_after({}), 1);
+  EXPECT_EQ(system_after(with_settings("[RS274NGC]\nDISABLE_AUTO_G54 = 1\n")), 2);
+}
+
+TEST(SettingsFile, its_values_are_read_only_and_may_be_hidden) {
+  for (const char* const text : {"[A]\nB = 3\n", "[A]\nC = 3\n"}) {
+    const Interpreted result = interpret_text("#<_ini[a]b>=5\nM2\n", with_settings(text));
+    EXPECT_EQ(result.diagnostics.all().front().code, "gcode.read-only-parameter") << result.rendered();
+  }
+  const std::string program = "#1=#<_ini[a]b>\nM2\n";
+  EXPECT_EQ(interpret_text(program, with_settings("[A]\nB = 3\n")).diagnostics.errors(), 0U);
+  EXPECT_EQ(interpret_text(program, with_settings("[A]\nB = 3\n[RS274NGC]\nINI_VARS = 0\n")).diagnostics.errors(), 1U);
+}
+
+TEST(Parameters, numbers_5021_on_are_the_machine_position_where_a_machine_is_there) {
+  InterpreterOptions options;
+  options.on_machine = true;
+  const std::string program = "G21 G10 L2 P1 X5\nG0 X2\n#1=#5021\nG0 Y#1\nM2\n";
+  EXPECT_EQ(interpret_text(program, options).last<operation::StraightTraverse>().end[Axis::y], 7);
+  EXPECT_EQ(interpret_text(program).last<operation::StraightTraverse>().end[Axis::y], 0);
+  EXPECT_EQ(interpret_text("#5029=1\nM2\n", options).diagnostics.errors(), 1U);
+  EXPECT_EQ(interpret_text("#5029=1\nM2\n").diagnostics.errors(), 0U);
+}
+
 TEST(Subs, are_found_in_the_folders_of_the_options_in_order) {
   const fs::path folder = fs::temp_directory_path() / "passo_subs_in_folders";
   for (const char* const name : {"first", "second"}) {

@@ -206,8 +206,10 @@ TEST(OWords, a_sub_that_is_nowhere_tells_where_it_was_looked_for_and_the_run_goe
   EXPECT_EQ(found[4].code, "gcode.unused-word");
 }
 
-TEST(OWords, a_loop_of_calls_that_lead_nowhere_ends) {
-  const Interpreted result = interpret_text("o1 while [1]\n#31=[#31+1]\nG0 X#31\no[#31+9] call\no1 endwhile\nM2\n");
+TEST(OWords, a_recursion_with_calls_that_lead_nowhere_ends) {
+  const Interpreted result = interpret_text(
+      "o1 sub\n#31=[#31+1]\nG0 X#31\no[#31+9] call\no2 if [#1 GT 0]\no1 call [#1-1]\no1 call [#1-1]\no2 endif\n"
+      "o1 endsub\no1 call [60]\nM2\n");
   EXPECT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
   EXPECT_EQ(result.all<operation::StraightTraverse>().size(), 1000U);
 }

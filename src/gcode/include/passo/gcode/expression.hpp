@@ -39,7 +39,8 @@ struct EvaluationError {
 // The greatest number of operands on the stack, and of brackets, signs and # inside one another. BlockParser refuses
 // more.
 inline constexpr std::size_t deepest_expression = 64;
-// EQ and NE: two numbers are equal if they differ by less than this (LinuxCNC's TOLERANCE_EQUAL; 1e-4 in old versions).
+// EQ, NE, GE and LE: two numbers are equal if they differ by less than this (LinuxCNC's TOLERANCE_EQUAL; 1e-4 in old
+// versions).
 inline constexpr double equality_tolerance = 1e-6;
 // A number that must be whole (of a parameter or an O-word) may differ from a whole number by this much.
 inline constexpr double whole_number_tolerance = 1e-4;

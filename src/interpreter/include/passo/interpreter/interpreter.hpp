@@ -37,8 +37,12 @@ struct InterpreterOptions {
   std::vector<std::string> sub_folders;  // folders to search for subs in files, after the program's own folder
   // Answers #<_ini[section]name>. Null: there are no settings.
   std::shared_ptr<const SettingsFile> settings;
-  // How many passes without any operation a loop may make before it is stopped with a diagnostic.
+  // How many passes in which the machine does nothing a loop may make (how many such calls a program may make) before
+  // the program is stopped with a diagnostic. Moves, waits, stops and tool changes are something; modes are not.
   std::uint64_t idle_passes = 1'000'000;
+  // How many passes, calls and operations an outermost loop or call may come to, with all that is inside, before the
+  // program is stopped with a diagnostic.
+  std::uint64_t repeated_steps = 100'000'000;
   // Who answers when the program asks the machine (probe, inputs, #<_task>). A preview answers as LinuxCNC's `rs274`
   // does: a probe move ends 0.254 mm before its end, and inputs are 0. A machine has no inputs, and a probe move is
   // touched at its very end unless the machine's answers say otherwise.

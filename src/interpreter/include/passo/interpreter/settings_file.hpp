@@ -7,6 +7,8 @@
 //
 // Lines that start with '#' or ';' are comments, and so is text after a blank and '#'. If a name has two values, the
 // first one counts. Names are compared as in RS274/NGC: any case, without blanks.
+//
+// A setting that changes what programs mean is followed, or read() reports that it is not.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +33,8 @@ class SettingsFile {
   // Empty: there is no such setting.
   std::optional<std::string_view> find(std::string_view section, std::string_view name) const;
   std::optional<double> number(std::string_view section, std::string_view name) const;
+  // True: the setting is 1, yes, true or on.
+  bool is_on(std::string_view section, std::string_view name) const;
   // The value of #<_ini[section]name>: `parameter` is what stands between '<' and '>'.
   std::optional<double> parameter(std::string_view parameter) const;
 
