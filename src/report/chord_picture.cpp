@@ -6,6 +6,7 @@
 #include "axis_ticks.hpp"
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -16,18 +17,14 @@ const Colour quiet_ink{0.48, 0.50, 0.54};
 const Colour tube_colour{0.86, 0.92, 0.98};
 const Colour chord_colour{0.12, 0.36, 0.75};
 const Colour limit_colour{0.82, 0.22, 0.20};
-const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
 const Font heading{.size = 14, .colour = quiet_ink};
-const Font label{.size = 12, .colour = ink};
-const Font caption{.size = 14, .colour = ink};
 const Pen grid{.colour = {0.91, 0.92, 0.93}, .width = 0.8};
 const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Pen curve_pen{.colour = ink, .width = 1.1};
 const Pen chord_pen{.colour = chord_colour, .width = 1.4};
 const Pen tube_pen{.colour = tube_colour, .width = 14};
 const Pen limit_pen{.colour = limit_colour, .width = 1.2, .opacity = 1, .dashes = {7, 5}};
-constexpr double margin = 48;
+using namespace sheet;
 
 double distance(const ChordDrawing::Sample& sample) {
   return length(sample.curve - sample.chord);
@@ -208,26 +205,12 @@ std::string factor_text(double factor) {
 }
 
 void draw_legend(Canvas& canvas, const ChordDrawing& drawing, double factor, double right, double y) {
-  struct Entry {
-    const Pen* pen;
-    std::string text;
-  };
   const std::string times = factor == 1 ? "" : fmt::format(", distance from the curve drawn {:g} \u00D7", factor);
   const std::string limit = drawing.chord_length ? "Greatest distance" : "Tolerance";
-  const std::array<Entry, 4> entries = {{{&curve_pen, "Curve"},
-                                         {&chord_pen, "Chords" + times},
-                                         {&tube_pen, limit + ", " + factor_text(factor)},
-                                         {&limit_pen, limit}}};
-  constexpr double sample = 40;
-  constexpr double gap = 34;
-  double width = -gap;
-  for (const Entry& entry : entries) width += sample + 10 + canvas.text_width(entry.text, caption) + gap;
-  double x = right - width;
-  for (const Entry& entry : entries) {
-    canvas.line({x, y}, {x + sample, y}, *entry.pen);
-    canvas.text({x + sample + 10, y}, entry.text, caption);
-    x += sample + 10 + canvas.text_width(entry.text, caption) + gap;
-  }
+  const std::array<const Pen*, 4> pens = {&curve_pen, &chord_pen, &tube_pen, &limit_pen};
+  const std::vector<std::string> words = {"Curve", "Chords" + times, limit + ", " + factor_text(factor), limit};
+  Legend legend(canvas, {right - Legend::width_of_lines(canvas, words), y});
+  for (std::size_t i = 0; i < pens.size(); ++i) legend.line(*pens[i], words[i]);
 }
 
 std::string mm_text(double mm) {
@@ -246,14 +229,11 @@ Status<OutputError> draw_chords(const ChordDrawing& drawing, const PictureOption
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, {1, 1, 1});
-  canvas.text({margin, 42}, options.program, title);
   const std::size_t count = drawing.ends.size() - 1;
-  canvas.text({margin, 74},
+  begin_sheet(canvas, options,
               fmt::format("{} {}   \u00B7   {}   \u00B7   at most {} from the curve   \u00B7   {} long", count,
                           count == 1 ? "chord" : "chords", choice_text(drawing), mm_text(farthest(drawing)),
-                          mm_text(path_length(drawing))),
-              subtitle);
+                          mm_text(path_length(drawing))));
 
   constexpr double left = margin + 40;
   constexpr double upper = 132;

@@ -7,14 +7,11 @@
 
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 
 namespace passo {
 namespace {
 
-const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
-const Font caption{.size = 14};
-const Colour paper{1, 1, 1};
 const Colour tube_colour{0.90, 0.93, 0.97};
 const Pen programmed_pen{.colour = {0.45, 0.47, 0.50}, .width = 1.2, .dashes = {7, 5}};
 const Pen path_pen{.colour = {0.80, 0.40, 0.05}, .width = 2.2};
@@ -26,7 +23,7 @@ const Colour cell_colour{0.10, 0.33, 0.60};
 const std::array<Pen, 3> axis_pens = {Pen{.colour = {0.10, 0.33, 0.60}, .width = 2.2},
                                       Pen{.colour = {0.80, 0.40, 0.05}, .width = 2.2},
                                       Pen{.colour = {0.05, 0.42, 0.25}, .width = 2.2}};
-constexpr double margin = 48;
+using namespace sheet;
 constexpr double top = 120;
 constexpr double room = 1.08;  // above the greatest value
 // With more cells than this, single cells cannot be told apart.
@@ -177,24 +174,14 @@ void draw_axes(Canvas& canvas, const Area& area, const MotionRecorder& motion, c
 }
 
 void draw_legend(Canvas& canvas, const Peaks& peaks, Spot place) {
-  double x = place.x;
-  const auto line = [&](const Pen& pen, const std::string& words) {
-    canvas.line({x, place.y}, {x + 36, place.y}, pen);
-    canvas.text({x + 46, place.y}, words, caption);
-    x += 46 + canvas.text_width(words, caption) + 32;
-  };
-  canvas.fill({x, place.y - 8, 28, 16}, tube_colour);
-  canvas.text({x + 38, place.y}, "within the tolerance", caption);
-  x += 38 + canvas.text_width("within the tolerance", caption) + 32;
-  line(programmed_pen, "programmed; limits");
-  line(path_pen, "planned path");
-  if (peaks.phases <= most_dots) {
-    canvas.disc({x + 6, place.y}, 3, cell_colour);
-    canvas.text({x + 18, place.y}, "a phase begins", caption);
-    x += 18 + canvas.text_width("a phase begins", caption) + 32;
+  Legend legend(canvas, place);
+  legend.patch(tube_colour, "within the tolerance");
+  legend.line(programmed_pen, "programmed; limits");
+  legend.line(path_pen, "planned path");
+  if (peaks.phases <= most_dots) legend.dot(3, cell_colour, "a phase begins");
+  for (std::size_t i = 0; i < peaks.axes.size(); ++i) {
+    legend.line(axis_pens[i], std::string("axis ") + letter_of(peaks.axes[i]));
   }
-  for (std::size_t i = 0; i < peaks.axes.size(); ++i)
-    line(axis_pens[i], std::string("axis ") + letter_of(peaks.axes[i]));
 }
 
 }  // namespace
@@ -203,9 +190,7 @@ Status<OutputError> draw_motion_picture(const MotionRecorder& motion, const Pict
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, paper);
-  canvas.text({margin, 42}, options.program, title);
-  canvas.text({margin, 74}, options.machine, subtitle);
+  begin_sheet(canvas, options);
   const Peaks peaks = peaks_of(motion);
   const double bottom = height - 110;
   PathView(canvas, {margin, top, 0.4 * width - margin, bottom - top}, motion).draw();

@@ -7,15 +7,12 @@
 #include "axis_ticks.hpp"
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
-const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
-const Font caption{.size = 14};
-const Colour paper{1, 1, 1};
 // Everyone can tell blue and orange apart, even in grey.
 const Pen pull_out_pen{.colour = {0.10, 0.33, 0.60}, .width = 2.6};
 const Pen pull_in_pen{.colour = {0.80, 0.40, 0.05}, .width = 2.6};
@@ -25,7 +22,7 @@ const Pen guide{.colour = {0.45, 0.47, 0.50}, .width = 1, .opacity = 1, .dashes 
 const Colour start_shade{0.99, 0.87, 0.70};
 const Colour ramp_shade{0.86, 0.92, 0.98};
 const Colour acceleration_shade{0.87, 0.95, 0.90};
-constexpr double margin = 48;
+using namespace sheet;
 
 // All values as functions of the rate. The rate is along x in both charts.
 struct Functions {
@@ -121,28 +118,13 @@ void draw_acceleration(Chart& chart, const Functions& motor) {
 }
 
 void draw_legend(Canvas& canvas, const Functions& motor, Spot place) {
-  double x = place.x;
-  const auto words = [&](const std::string& text) {
-    canvas.text({x, place.y}, text, caption);
-    x += canvas.text_width(text, caption) + 44;
-  };
-  const auto line = [&](const Pen& pen, const std::string& text) {
-    canvas.line({x, place.y}, {x + 40, place.y}, pen);
-    x += 52;
-    words(text);
-  };
-  const auto patch = [&](const Colour& colour, const std::string& text) {
-    canvas.fill({x, place.y - 8, 28, 16}, colour);
-    canvas.frame({x, place.y - 8, 28, 16}, {.colour = {0.75, 0.77, 0.80}, .width = 0.8});
-    x += 40;
-    words(text);
-  };
-  line(pull_out_pen, "Pull-out");
-  line(pull_in_pen,
-       motor.scene.load.inertia.value > 0 ? "Pull-in with the load's inertia" : "Pull-in, no inertia but the rotor's");
-  if (motor.has_friction()) line(friction_pen, "Friction");
-  patch(start_shade, "starts and stops without a ramp");
-  patch(ramp_shade, "runs, but needs a ramp");
+  const bool has_load = motor.scene.load.inertia.value > 0;
+  Legend legend(canvas, place);
+  legend.line(pull_out_pen, "Pull-out");
+  legend.line(pull_in_pen, has_load ? "Pull-in with the load's inertia" : "Pull-in, no inertia but the rotor's");
+  if (motor.has_friction()) legend.line(friction_pen, "Friction");
+  legend.patch(start_shade, "starts and stops without a ramp");
+  legend.patch(ramp_shade, "runs, but needs a ramp");
 }
 
 }  // namespace
@@ -151,9 +133,7 @@ Status<OutputError> draw_motor_picture(const MotorScene& scene, const PictureOpt
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, {1, 1, 1});
-  canvas.text({margin, 42}, options.program, title);
-  canvas.text({margin, 74}, options.machine, subtitle);
+  begin_sheet(canvas, options);
 
   const Functions motor(scene);
   const double rates = axis_end(scene.end.value());

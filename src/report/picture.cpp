@@ -9,6 +9,7 @@
 #include "cairo_canvas.hpp"
 #include "path_drawing.hpp"
 #include "picture_views.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 #include "passo/report/progress.hpp"
@@ -16,11 +17,7 @@
 namespace passo {
 namespace {
 
-const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
-const Font label{.size = 12};
-const Font caption{.size = 14};
-constexpr double margin = 48;
+using namespace sheet;
 
 // "100.0": three or four significant digits, without an exponent.
 std::string length_text(double mm) {
@@ -38,25 +35,13 @@ std::string size_text(const PathRecorder& path, bool rapids) {
   return fmt::format("X {} \u00D7 Y {} \u00D7 Z {} mm", size(Axis::x), size(Axis::y), size(Axis::z));
 }
 
-// Cuts text out of the middle if the text is wider than `room`. The start of a name tells the job, the end tells the
-// kind of file.
-std::string shortened(Canvas& canvas, const std::string& text, const Font& font, double room) {
-  std::string shown = text;
-  for (std::size_t kept = text.size(); canvas.text_width(shown, font) > room && kept > 8;) {
-    kept -= std::max<std::size_t>(1, kept / 16);
-    shown = text.substr(0, kept / 2) + "\u2026" + text.substr(text.size() - kept / 2);
-  }
-  return shown;
-}
-
-void draw_title(Canvas& canvas, const PathRecorder& path, const Scene& scene, const PictureOptions& options) {
-  const double room = options.width - 2 * margin;
-  canvas.text({margin, 42}, shortened(canvas, options.program, title, room), title);
+// What stands below the title.
+std::string words_of(const PathRecorder& path, const Scene& scene, const PictureOptions& options) {
   std::string line = options.machine.empty() ? "" : options.machine + "   \u00B7   ";
   line += clock_text(path.time()) + "   \u00B7   " + size_text(path, options.rapids);
   if (!path.empty())
     line += scene.work_coordinates ? "   \u00B7   work coordinates" : "   \u00B7   machine coordinates";
-  canvas.text({margin, 74}, shortened(canvas, line, subtitle, room), subtitle);
+  return line;
 }
 
 // The map of colours with a scale below it, from `begin` at the left to `end` at the right.
@@ -144,11 +129,9 @@ Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions&
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, {1, 1, 1});
-
   const Scene scene(path, options);
   const FlatView view = options.view == FlatView::automatic ? natural_view(path, options.is_lathe) : options.view;
-  draw_title(canvas, path, scene, options);
+  begin_sheet(canvas, options, words_of(path, scene, options));
   constexpr double upper = 136;
   constexpr double lower = 150;
   const double views = width - 2 * margin;

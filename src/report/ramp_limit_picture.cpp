@@ -5,16 +5,13 @@
 
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
-const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
-const Font caption{.size = 14};
-const Font label{.size = 12, .colour = {0.25, 0.27, 0.30}};
-constexpr double margin = 48;
+using namespace sheet;
 // A colour for each size of the table. Half the acceleration in twice the table is the same curve: dashes show both.
 const std::array<Pen, 3> size_pens = {Pen{.colour = {0.10, 0.33, 0.60}, .width = 2.2},
                                       Pen{.colour = {0.80, 0.40, 0.05}, .width = 2.2, .opacity = 1, .dashes = {10, 7}},
@@ -81,17 +78,12 @@ void draw_reached_rates(Canvas& canvas, const Area& area, const RampLimitScene& 
 }
 
 void draw_legend(Canvas& canvas, const RampLimitScene& scene, Spot place) {
-  double x = place.x;
-  const auto entry = [&](const Pen& pen, const std::string& text) {
-    canvas.line({x, place.y}, {x + 40, place.y}, pen);
-    canvas.text({x + 52, place.y}, text, caption);
-    x += 52 + canvas.text_width(text, caption) + 44;
-  };
+  Legend legend(canvas, place);
   for (std::size_t i = 0; i < scene.table_sizes.size(); ++i) {
-    entry(size_pens[i], fmt::format("table of {} entries", scene.table_sizes[i]));
+    legend.line(size_pens[i], fmt::format("table of {} entries", scene.table_sizes[i]));
   }
-  if (scene.rate) entry(wanted_pen, fmt::format("{:g} steps/s wanted", scene.rate->value()));
-  canvas.text({x, place.y}, "numbers at the curves: acceleration, rad/s\u00B2", caption);
+  if (scene.rate) legend.line(wanted_pen, fmt::format("{:g} steps/s wanted", scene.rate->value()));
+  legend.words("numbers at the curves: acceleration, rad/s\u00B2");
 }
 
 }  // namespace
@@ -100,9 +92,7 @@ Status<OutputError> draw_ramp_limits(const RampLimitScene& scene, const PictureO
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, {1, 1, 1});
-  canvas.text({margin, 42}, options.program, title);
-  canvas.text({margin, 74}, options.machine, subtitle);
+  begin_sheet(canvas, options);
   constexpr double left = margin + 52;
   constexpr double upper = 128;
   const double tall = height - upper - 130;

@@ -6,15 +6,13 @@
 
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 namespace passo {
 namespace {
 
-const Font title{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
-const Font caption{.size = 14};
-constexpr double margin = 48;
+using namespace sheet;
 // With more intervals than this, single intervals cannot be told apart.
 constexpr std::size_t most_single = 120;
 
@@ -171,14 +169,9 @@ void draw_acceleration(Canvas& canvas, const Area& area, const RampScene& scene,
 }
 
 void draw_legend(Canvas& canvas, const RampScene& scene, Spot place) {
-  double x = place.x;
-  const auto entry = [&](const Pen& pen, const std::string& name) {
-    canvas.line({x, place.y}, {x + 40, place.y}, pen);
-    canvas.text({x + 52, place.y}, name, caption);
-    x += 52 + canvas.text_width(name, caption) + 44;
-  };
-  for (std::size_t i = 0; i < scene.traces.size(); ++i) entry(trace_pens[i], scene.traces[i].name);
-  if (!scene.ideal.empty()) entry(ideal_pen, scene.ideal_name);
+  Legend legend(canvas, place);
+  for (std::size_t i = 0; i < scene.traces.size(); ++i) legend.line(trace_pens[i], scene.traces[i].name);
+  if (!scene.ideal.empty()) legend.line(ideal_pen, scene.ideal_name);
 }
 
 }  // namespace
@@ -187,9 +180,7 @@ Status<OutputError> draw_ramp_picture(const RampScene& scene, const PictureOptio
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, {1, 1, 1});
-  canvas.text({margin, 42}, options.program, title);
-  canvas.text({margin, 74}, options.machine, subtitle);
+  begin_sheet(canvas, options);
 
   const Extent extent = extent_of(scene);
   constexpr double left = margin + 52;

@@ -3,6 +3,7 @@
 
 #include "cairo_canvas.hpp"
 #include "chart.hpp"
+#include "sheet.hpp"
 #include <fmt/format.h>
 
 #include "passo/report/winding_record.hpp"
@@ -11,17 +12,14 @@
 namespace passo {
 namespace {
 
-const Font title_font{.size = 26, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font subtitle{.size = 15, .colour = {0.40, 0.42, 0.46}};
 const Font heading{.size = 17, .colour = {0.13, 0.14, 0.17}, .bold = true};
-const Font label{.size = 12, .colour = {0.25, 0.27, 0.30}};
 const Colour on_colour{0.93, 0.55, 0.10};
 const Colour off_colour{0.93, 0.94, 0.95};
 const Pen edge{.colour = {0.62, 0.64, 0.67}, .width = 1};
 const Pen phase_a{.colour = {0.10, 0.33, 0.60}, .width = 1.8};
 const Pen phase_b{.colour = {0.80, 0.40, 0.05}, .width = 1.8};
 const Pen rotor_pen{.colour = {0.05, 0.42, 0.25}, .width = 1.8};
-constexpr double margin = 48;
+using namespace sheet;
 constexpr unsigned outputs = 4;
 
 // A motor stands at `place` from `from` to `to`, in units of the time axis.
@@ -125,9 +123,7 @@ Status<OutputError> draw_windings(const WindingScene& scene, const PictureOption
   Canvas canvas(options, file);
   const double width = options.width;
   const double height = options.height;
-  canvas.fill({0, 0, width, height}, {1, 1, 1});
-  canvas.text({margin, 42}, options.program, title_font);
-  canvas.text({margin, 74}, options.machine, subtitle);
+  begin_sheet(canvas, options);
   const bool in_ms = scene.end < Seconds(2);
   const double unit = in_ms ? 1000 : 1;
   const double time_end = shown_end(scene) * unit;
