@@ -42,23 +42,23 @@ NumberReading read_long_number(const char* first, const char* last, bool negativ
   return reading;
 }
 
-}  // namespace
-
-NumberReading read_number(const char* at, const char* end) {
-  const bool negative = at != end && *at == '-';
-  if (at != end && (*at == '-' || *at == '+')) ++at;
-
-  const char* const first = at;
-  const char* last = at;
-  std::uint64_t mantissa = 0;
-  std::size_t digits = 0;
+// The digits of a number, and how many of them there are.
+struct Digits {
+  std::uint64_t mantissa = 0;  // not used after most_digits_of_mantissa
+  std::size_t count = 0;
   std::size_t decimals = 0;
+  const char* end = nullptr;  // after the last digit or the decimal point
+};
+
+// Digits with blanks between them.
+Digits read_spaced_digits(const char* at, const char* end) {
+  Digits digits{.end = at};
   bool point = false;
   for (; at != end; ++at) {
     if (is_digit(*at)) {
-      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');  // not used after most_digits_of_mantissa
-      ++digits;
-      decimals += point ? 1 : 0;
+      digits.mantissa = digits.mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+      ++digits.count;
+      digits.decimals += point ? 1 : 0;
     } else if (*at == '.' && !point) {
       point = true;
     } else if (is_blank(*at)) {
@@ -66,15 +66,45 @@ NumberReading read_number(const char* at, const char* end) {
     } else {
       break;
     }
-    last = at + 1;
+    digits.end = at + 1;
   }
-  if (digits == 0) return {0, last, NumberStatus::no_digits};
+  return digits;
+}
+
+// Nearly every number is written without blanks, and is read without looking for them.
+Digits read_digits(const char* const first, const char* end) {
+  const char* at = first;
+  std::uint64_t mantissa = 0;
+  for (; at != end && is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+  auto count = static_cast<std::size_t>(at - first);
+  std::size_t decimals = 0;
+  if (at != end && *at == '.') {
+    const char* const point = at++;
+    for (; at != end && is_digit(*at); ++at) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+    decimals = static_cast<std::size_t>(at - point) - 1;
+    count += decimals;
+  }
+  const char* next = at;
+  while (next != end && is_blank(*next)) ++next;
+  const bool goes_on = next != at && next != end && (is_digit(*next) || *next == '.');
+  return goes_on ? read_spaced_digits(first, end) : Digits{mantissa, count, decimals, at};
+}
+
+}  // namespace
+
+NumberReading read_number(const char* at, const char* end) {
+  const bool negative = at != end && *at == '-';
+  if (at != end && (*at == '-' || *at == '+')) ++at;
+
+  const Digits digits = read_digits(at, end);
+  if (digits.count == 0) return {0, digits.end, NumberStatus::no_digits};
   // Both operands are exact doubles, so the one division rounds correctly.
-  if (digits <= most_digits_of_mantissa && mantissa <= largest_exact_integer && decimals < powers_of_ten.size()) {
-    const double value = static_cast<double>(mantissa) / powers_of_ten[decimals];
-    return {negative ? -value : value, last, NumberStatus::good};
+  if (digits.count <= most_digits_of_mantissa && digits.mantissa <= largest_exact_integer &&
+      digits.decimals < powers_of_ten.size()) {
+    const double value = static_cast<double>(digits.mantissa) / powers_of_ten[digits.decimals];
+    return {negative ? -value : value, digits.end, NumberStatus::good};
   }
-  return read_long_number(first, last, negative);
+  return read_long_number(at, digits.end, negative);
 }
 
 std::string format_number(double value) {

@@ -86,28 +86,31 @@ Curve Curve::line(const Point& start, const Point& end) {
 
 Curve Curve::arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                  double second_center, double sweep) {
+  const double first_arm = start[first] - first_center;
+  const double second_arm = start[second] - second_center;
+  return arc(start, end,
+             {.first = first,
+              .second = second,
+              .first_center = first_center,
+              .second_center = second_center,
+              .start_radius = std::hypot(first_arm, second_arm),
+              .end_radius = std::hypot(end[first] - first_center, end[second] - second_center),
+              .start_angle = std::atan2(second_arm, first_arm),
+              .sweep = sweep});
+}
+
+Curve Curve::arc(const Point& start, const Point& end, const ArcData& arc) {
   Curve curve;
   curve.shape_ = Shape::arc;
   curve.start_ = start;
   curve.end_ = end;
-
-  const double first_arm = start[first] - first_center;
-  const double second_arm = start[second] - second_center;
-  ArcData& arc = curve.arc_;
-  arc.first = first;
-  arc.second = second;
-  arc.first_center = first_center;
-  arc.second_center = second_center;
-  arc.start_radius = std::hypot(first_arm, second_arm);
-  arc.end_radius = std::hypot(end[first] - first_center, end[second] - second_center);
-  arc.start_angle = std::atan2(second_arm, first_arm);
-  arc.sweep = sweep;
+  curve.arc_ = arc;
 
   Point travel = end - start;
-  travel[first] = 0;
-  travel[second] = 0;
+  travel[arc.first] = 0;
+  travel[arc.second] = 0;
   const double along = length_in(travel, CountedGroup::xyz);
-  const double around = (arc.start_radius + arc.end_radius) / 2 * std::abs(sweep);
+  const double around = (arc.start_radius + arc.end_radius) / 2 * std::abs(arc.sweep);
   const double outward = arc.end_radius - arc.start_radius;
   curve.length_ = std::sqrt(around * around + outward * outward + along * along);
   for (std::size_t i = 0; i < axis_count && curve.length_ > 0; ++i) {
@@ -266,6 +269,23 @@ Point Curve::steepest() const {
   return steepest;
 }
 
+Point Curve::steepest_bound() const {
+  if (shape_ != Shape::arc) return steepest();
+  Point bound;
+  for (std::size_t i = 0; i < axis_count; ++i) bound.values[i] = std::abs(slope_.values[i]);
+  if (!(length_ > 0)) return bound;
+  const double outward = std::abs(arc_.end_radius - arc_.start_radius) / length_;
+  const double around = std::max(arc_.start_radius, arc_.end_radius) * std::abs(arc_.sweep) / length_;
+  bound[arc_.first] = bound[arc_.second] = outward + around;
+  return bound;
+}
+
+bool Curve::moves(Axis axis) const {
+  if (slope_[axis] != 0) return true;
+  if (shape_ == Shape::cubic) return square_[axis] != 0 || cube_[axis] != 0;
+  return shape_ == Shape::arc && (axis == arc_.first || axis == arc_.second) && steepest()[axis] != 0;
+}
+
 // A cubic's second derivative is linear. A slope is a quadratic; one of at most k changes at a rate of at most 8 k /
 // length (Markov).
 double Curve::turning(const Point& steep) const {
@@ -319,12 +339,30 @@ void Curve::widen_by_turning_points(Box& box) const {
   }
 }
 
-Box Curve::extents() const {
+Box Curve::extents_of_ends() const {
   Box box;
   for (std::size_t i = 0; i < axis_count; ++i) {
     box.low.values[i] = std::min(start_.values[i], end_.values[i]);
     box.high.values[i] = std::max(start_.values[i], end_.values[i]);
   }
+  return box;
+}
+
+Box Curve::bounds() const {
+  if (shape_ != Shape::arc) return extents();
+  Box box = extents_of_ends();
+  const double radius = std::max(arc_.start_radius, arc_.end_radius);
+  const auto widen = [&](Axis axis, double center) {
+    box.low[axis] = std::min(box.low[axis], center - radius);
+    box.high[axis] = std::max(box.high[axis], center + radius);
+  };
+  widen(arc_.first, arc_.first_center);
+  widen(arc_.second, arc_.second_center);
+  return box;
+}
+
+Box Curve::extents() const {
+  Box box = extents_of_ends();
   if (shape_ == Shape::cubic) widen_by_turning_points(box);
   if (shape_ == Shape::arc) {
     const auto widen = [&box](Axis axis, double center, double up, double down) {

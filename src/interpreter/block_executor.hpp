@@ -55,6 +55,9 @@ class BlockExecutor : private CodeFamily {
   // True: a cycle of the last block has more operations to give.
   bool busy() const { return cycle_ != nullptr; }
   void go_on();
+  // The word that says how often the cycle repeats: L, or its code.
+  Span repeated() const { return words_.has('L') ? words_.span('L') : Span{block_.word.column, block_.word.length}; }
+  void drop_cycle() { cycle_ = nullptr; }
 
   // True: the program waits for what the machine finds in the last probe move.
   bool awaits_probe() const { return probe_.awaits_outcome(); }

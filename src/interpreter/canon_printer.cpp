@@ -18,6 +18,7 @@ constexpr std::size_t line_number_digits = 6;
 // A value below this rounds to zero. It is printed as 0.0000, never as -0.0000, because the sign of a rounding error
 // means nothing.
 constexpr double smallest_shown = 0.00005;
+constexpr char zero[] = "0.0000";
 
 // The text of one operation. It is put together in a buffer of its own and given to `out` at once.
 class Line {
@@ -27,6 +28,15 @@ class Line {
   Line& operator=(const Line&) = delete;
   ~Line() { flush(); }
 
+  // A text of the program's own: its size is known when Passo is compiled.
+  template <std::size_t size>
+  Line& operator<<(const char (&text)[size]) {
+    static_assert(size <= longest_decimal_text);
+    make_room();
+    std::memcpy(at_, text, size - 1);
+    at_ += size - 1;
+    return *this;
+  }
   Line& operator<<(std::string_view text) {
     if (text.size() > static_cast<std::size_t>(end() - at_)) {
       flush();
@@ -43,7 +53,7 @@ class Line {
     return *this;
   }
   Line& number(double value) {
-    if (std::abs(value) < smallest_shown) return *this << "0.0000";
+    if (std::abs(value) < smallest_shown) return *this << zero;
     make_room();
     at_ = write_decimal_4(at_, value);
     return *this;
@@ -62,6 +72,8 @@ class Line {
     return rotary(point);
   }
   Line& rotary(const Point& point) {
+    const auto is_zero = [&](Axis axis) { return std::abs(point[axis]) < smallest_shown; };
+    if (is_zero(Axis::a) && is_zero(Axis::b) && is_zero(Axis::c)) return *this << "0.0000, 0.0000, 0.0000";
     return (((length(point, Axis::a)) << ", ").length(point, Axis::b) << ", ").length(point, Axis::c);
   }
   // The counter and the line number, each in its column.

@@ -93,6 +93,7 @@ class Interpreter::Implementation {
   void step() {
     if (LatheCodes* const lathe = executor_.wants_contour()) return read_contour(*lathe);
     if (executor_.busy()) {
+      if (!flow_.may_go_on_with_cycle(executor_.repeated())) return executor_.drop_cycle();
       executor_.go_on();
       return follow_jump();
     }
@@ -100,6 +101,7 @@ class Interpreter::Implementation {
     text_ = block != nullptr ? block->text : std::string_view();
     if (block != nullptr) {
       executor_.execute(*block);
+      if (executor_.busy()) flow_.begin_cycle();
       follow_jump();
       if (watcher_ != nullptr) watcher_->after(state_);
       return;

@@ -327,6 +327,15 @@ void ProgramFlow::go_round(const Open& loop, ReaderPosition to) {
 }
 
 // False: the loop went round too often.
+bool ProgramFlow::may_go_on_with_cycle(Span repeated) {
+  if (steps_ <= options_.repeated_steps) return true;
+  reporter_.error("gcode.endless-cycle", repeated,
+                  fmt::format("the cycle came to {} operations", options_.repeated_steps),
+                  "fewer repetitions (L) or larger pecks (Q); or a higher --step-limit");
+  finish(End::error);
+  return false;
+}
+
 bool ProgramFlow::may_go_round(const Open& loop) {
   const bool idles = ++idle_passes_ > options_.idle_passes;
   if (!idles && ++steps_ <= options_.repeated_steps) return true;
@@ -335,7 +344,7 @@ bool ProgramFlow::may_go_round(const Open& loop) {
   reporter_.error("gcode.endless-loop", block_->control ? block_->control->span : Span{1, 1},
                   idles ? fmt::format("the loop went round {} times, and the machine did nothing", options_.idle_passes)
                         : fmt::format("the loop came to {} passes, calls and operations", options_.repeated_steps),
-                  idles ? "a loop that ends, or that moves" : "a loop that ends");
+                  idles ? "a loop that ends, or that moves" : "a loop that ends; or a higher --step-limit");
   finish(End::error);
   return false;
 }

@@ -74,6 +74,14 @@ class ProgramFlow final : public CallStack {
     if (works) idle_passes_ = idle_calls_ = 0;
   }
 
+  // The block at hand has begun a cycle, whose operations count from here if no loop or call is around the block.
+  void begin_cycle() {
+    if (is_outermost()) steps_ = 0;
+  }
+  // Called before each part of the cycle. False: the cycle came to too many operations, and the program ends.
+  // `repeated` is the word that asks for them.
+  bool may_go_on_with_cycle(Span repeated);
+
   // Called after M2. Reports the constructs around M2 whose end comes nowhere in the file.
   void report_never_closed();
   // Called after M2. True: the program began with '%', and the rest of the file has no closing '%'.

@@ -38,6 +38,7 @@ constexpr Rule table[] = {
     {"gcode.cycle-spindle", "RS274/NGC 3.5.16, canned cycles"},
     {"gcode.division-by-zero", "RS274/NGC 3.3.2.3, expressions and binary operations"},
     {"gcode.endless-calls", "Passo, docs/gcode.md: Limits"},
+    {"gcode.endless-cycle", "Passo, docs/gcode.md: Limits"},
     {"gcode.endless-loop", "Passo, docs/gcode.md: Limits"},
     {"gcode.expression-too-deep", "Passo, docs/gcode.md: Limits"},
     {"gcode.feed-before-units", "RS274/NGC 3.8, order of execution"},

@@ -259,12 +259,22 @@ bool PathBuilder::take_arc(const operation::ArcFeed& arc, PathItem& item) {
   const double start_second = position_[second] - center[second];
   const double end_first = end[first] - center[first];
   const double end_second = end[second] - center[second];
-  const double radius = std::max(std::hypot(start_first, start_second), std::hypot(end_first, end_second));
-  if (arc.turns == 0 || radius < still) return take_curve(Curve::line(position_, end), false, item);
+  const double start_radius = std::hypot(start_first, start_second);
+  const double end_radius = std::hypot(end_first, end_second);
+  if (arc.turns == 0 || std::max(start_radius, end_radius) < still) {
+    return take_curve(Curve::line(position_, end), false, item);
+  }
 
-  const double sweep =
-      sweep_between(std::atan2(start_second, start_first), std::atan2(end_second, end_first), arc.turns);
-  return take_curve(Curve::arc(position_, end, first, second, center[first], center[second], sweep), false, item);
+  const double start_angle = std::atan2(start_second, start_first);
+  const Curve::ArcData data{.first = first,
+                            .second = second,
+                            .first_center = center[first],
+                            .second_center = center[second],
+                            .start_radius = start_radius,
+                            .end_radius = end_radius,
+                            .start_angle = start_angle,
+                            .sweep = sweep_between(start_angle, std::atan2(end_second, end_first), arc.turns)};
+  return take_curve(Curve::arc(position_, end, data), false, item);
 }
 
 // In the work frame the arc lies in its plane. So the sweep is computed, and the arc is cut into chords, in the work

@@ -18,7 +18,7 @@ std::string number(double value) {
 std::string place(const Point& point, const Curve& curve) {
   std::string text;
   for (const Axis axis : all_axes) {
-    if (curve.steepest()[axis] == 0 && point[axis] == 0) continue;
+    if (!curve.moves(axis) && point[axis] == 0) continue;
     text += fmt::format("{}{}{}", text.empty() ? "" : " ", letter_of(axis), number(point[axis]));
   }
   return "(" + text + ")";

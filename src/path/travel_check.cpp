@@ -43,7 +43,21 @@ Point place_of(const Curve& curve, Axis axis, double reached) {
 
 }  // namespace
 
+bool PathBuilder::is_within_travel(const Box& box) const {
+  for (const Axis axis : all_axes) {
+    if (!options_.axes.has(axis)) continue;
+    const TravelLimit& travel = options_.travel[axis];
+    if (box.high[axis] > travel.high + slack || box.low[axis] < travel.low - slack) return false;
+  }
+  return true;
+}
+
+// Most arcs lie within the travel with their whole circles. Only another arc is measured exactly.
 void PathBuilder::check_travel(const Curve& curve) {
+  if (is_within_travel(curve.bounds())) {
+    above_ = below_ = {};
+    return;
+  }
   const Box box = curve.extents();
   for (const Axis axis : all_axes) {
     if (!options_.axes.has(axis)) continue;
@@ -88,7 +102,7 @@ void PathBuilder::check_side(Axis axis, bool high_side, double reached, const Cu
 // Each missing axis is reported once, because a program for a machine with more axes moves them in most of its lines.
 void PathBuilder::check_axes(const Curve& curve) {
   for (const Axis axis : all_axes) {
-    if (options_.axes.has(axis) || missing_.has(axis) || curve.steepest()[axis] == 0) continue;
+    if (options_.axes.has(axis) || missing_.has(axis) || !curve.moves(axis)) continue;
     missing_.add(axis);
     std::string has;
     for (const Axis other : all_axes) {

@@ -59,7 +59,7 @@ void add_program(CLI::App& command, ProgramArguments& arguments,
       ->capture_default_str();
   command
       .add_option("--step-limit", arguments.step_limit,
-                  "passes, calls and operations of one loop or call, with all inside, before it is an error")
+                  "passes, calls and operations of one loop, call or cycle, with all inside, before it is an error")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }

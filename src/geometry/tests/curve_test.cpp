@@ -236,7 +236,13 @@ TEST_F(RandomArcs, extents_hold_every_point_and_are_touched) {
     }
     // Between two samples the arc bulges by r·(angle step)²/8.
     const double bulge = static_cast<double>(drawn.start_radius) * 1e-5;
+    const Curve curve = drawn.curve();
+    const Box bounds = curve.bounds();
     for (const Axis axis : all_axes) {
+      ASSERT_LE(bounds.low[axis], box.low[axis]) << letter_of(axis);
+      ASSERT_GE(bounds.high[axis], box.high[axis]) << letter_of(axis);
+      ASSERT_GE(curve.steepest_bound()[axis], curve.steepest()[axis]) << letter_of(axis);
+      ASSERT_EQ(curve.moves(axis), curve.steepest()[axis] > 0) << letter_of(axis);
       ASSERT_LE(box.low[axis], low[axis] + 1e-10) << letter_of(axis);
       ASSERT_GE(box.high[axis], high[axis] - 1e-10) << letter_of(axis);
       ASSERT_GE(box.low[axis], low[axis] - bulge - 1e-10) << letter_of(axis);
@@ -363,6 +369,8 @@ TEST_F(RandomCubics, extents_and_steepest_hold_and_are_touched) {
       ASSERT_LE(high, box.high[axis] + 1e-9);
       ASSERT_NEAR(low, box.low[axis], slack);
       ASSERT_NEAR(high, box.high[axis], slack);
+      ASSERT_GE(curve.steepest_bound()[axis], steepest[axis]);
+      ASSERT_EQ(curve.moves(axis), steepest[axis] > 0);
       ASSERT_GE(steepest[axis], steep - 1e-9);
       ASSERT_NEAR(steepest[axis], steep, 1e-3 * (1 + steep));
     }

@@ -88,6 +88,22 @@ TEST(Endless, calls_without_end_are_stopped) {
   EXPECT_THAT(moving.rendered(), HasSubstr("the call from line 8 came to 5000 passes, calls and operations"));
 }
 
+TEST(Endless, a_cycle_with_very_many_holes_or_pecks_is_stopped) {
+  for (const char* const cycle :
+       {"G91 G81 X1 Z-1 R1 L1000000", "G91 G83 X1 Z-1 R1 Q0.00002 L1000000", "G83 X1 Z-1 R1 Q0.0001",
+        "G91 G73 X1 Z-1 R1 Q0.001 L1000000", "G18 G8 G76 P1 Z-20 I-1 J0.0001 K10 R1 H90000"}) {
+    const Interpreted result =
+        interpret_text(std::string("G21 F100 S100 M3\nG0 X5 Z5\n") + cycle + "\nG0 X1\nM2\n", small_bounds());
+    EXPECT_THAT(codes_of(result), testing::ElementsAre("gcode.endless-cycle")) << cycle << result.rendered();
+    EXPECT_THAT(result.rendered(), HasSubstr("the cycle came to 5000 operations")) << cycle;
+    EXPECT_THAT(result.rendered(), HasSubstr(":3:")) << cycle;
+    EXPECT_LT(result.operations.size(), 6000U) << cycle;
+  }
+  const Interpreted inside =
+      interpret_text("G21 F100\no1 repeat [1000]\nG91 G81 X1 Z-1 R1 L10\no1 endrepeat\nM2\n", small_bounds());
+  EXPECT_EQ(codes_of(inside).size(), 1U) << "the loop's steps and the cycle's count together";
+}
+
 // The bound is about what is repeated. A program of many lines, loops and calls is only long.
 TEST(Endless, a_long_program_is_not_an_endless_one) {
   std::string program = "o1 sub\nG0 X1\no1 endsub\n";

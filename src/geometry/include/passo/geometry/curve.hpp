@@ -45,6 +45,8 @@ class Curve {
   // `sweep` is in radians and not zero.
   static Curve arc(const Point& start, const Point& end, Axis first, Axis second, double first_center,
                    double second_center, double sweep);
+  // The same with the radii and the start's angle computed before.
+  static Curve arc(const Point& start, const Point& end, const ArcData& arc);
 
   // The piece from one s to another as a curve of its own, with the same places, tangents and second derivatives. Its
   // ends are at(from) and at(to), bit for bit.
@@ -72,6 +74,10 @@ class Curve {
   Point third_derivative(Mm s) const;
   // The largest |dP/ds| of each axis anywhere on the curve.
   Point steepest() const;
+  // Not less than steepest(), found without the trigonometry of an arc. Equal for a line.
+  Point steepest_bound() const;
+  // Whether the axis moves anywhere on the curve: steepest() is above 0.
+  bool moves(Axis axis) const;
   // An upper bound of |d²P/ds²|. For an arc only the arc's plane counts: 1/r times the square of the share of s that
   // lies in the plane. For a cubic all axes count. 0 for a line.
   double curvature() const;
@@ -81,11 +87,14 @@ class Curve {
   double turning() const { return turning(steepest()); }
   double turning(const Point& steepest) const;
   Box extents() const;
+  // Not less than extents(), found without the trigonometry of an arc: its whole circle. Equal for a line.
+  Box bounds() const;
   // The places between a cubic's ends where the axis turns back: at most two. A negative place stands for none.
   std::array<Mm, 2> turning_points(Axis axis) const;
 
  private:
   Point steepest_of_cubic() const;
+  Box extents_of_ends() const;
   void widen_by_turning_points(Box& box) const;
 
   Shape shape_ = Shape::line;

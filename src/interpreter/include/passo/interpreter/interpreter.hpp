@@ -40,9 +40,10 @@ struct InterpreterOptions {
   // How many passes in which the machine does nothing a loop may make (how many such calls a program may make) before
   // the program is stopped with a diagnostic. Moves, waits, stops and tool changes are something; modes are not.
   std::uint64_t idle_passes = 1'000'000;
-  // How many passes, calls and operations an outermost loop or call may come to, with all that is inside, before the
-  // program is stopped with a diagnostic.
-  std::uint64_t repeated_steps = 100'000'000;
+  // How many passes, calls and operations an outermost loop, call or cycle may come to, with all that is inside, before
+  // the program is stopped with a diagnostic. Twenty million moves take a machine days: 100 moves a second are 55
+  // hours. The check comes to them in seconds.
+  std::uint64_t repeated_steps = 20'000'000;
   // Who answers when the program asks the machine (probe, inputs, #<_task>). A preview answers as LinuxCNC's `rs274`
   // does: a probe move ends 0.254 mm before its end, and inputs are 0. A machine has no inputs, and a probe move is
   // touched at its very end unless the machine's answers say otherwise.

@@ -91,6 +91,7 @@ class PathBuilder final : public Source<PathItem> {
   bool must_await_index(const PathItem& item);
 
   void check_travel(const Curve& curve);
+  bool is_within_travel(const Box& box) const;
   void check_side(Axis axis, bool high_side, double reached, const Curve& curve, AxisSet& outside);
   void check_axes(const Curve& curve);
   // Reports at the axis word, or, where there is none, at the words that ask for the current operation.
