@@ -18,6 +18,8 @@ constexpr double as_good_as_rest = 1e-3;
 constexpr double standing = 1e-9;
 // A cut nearer to a cell's end than this share of the cell is that end.
 constexpr double least_part = 1e-6;
+// A corner turns back if the cosine of its angle is below minus this.
+constexpr double nearly_back = 0.999;
 constexpr int halvings = 60;  // of a bisection: down to rounding
 
 double square(double value) {
@@ -43,7 +45,7 @@ double least_through(double first, double second, double third) {
 
 }  // namespace
 
-TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes) {
+TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(options.axes) {
   for (const ProvenAxis& axis : axes_) {
     limits_.emplace_back(axis);
     ramps_.emplace_back(axis, limits_.back());
@@ -65,6 +67,7 @@ void TimeBound::watch(const PlannedMove& move) {
 void TimeBound::rest(Seconds dwell) {
   end_stretch();
   time_ += dwell.value();
+  line_->began = time_;
 }
 
 void TimeBound::add_curve(const Segment& segment) {
@@ -80,10 +83,11 @@ void TimeBound::add_curve(const Segment& segment) {
     double slowest = fastest;
     for (const ProvenAxis& axis : axes_) slowest = std::min(slowest, axis.velocity.value());
     if (kink * square(start.steepness) < square(as_good_as_rest * slowest)) {
-      end_stretch();
+      end_stretch(!goes_back(*joint_, start));
       scale = 1;
     }
   }
+  add_to_line(segment, from);
   const std::size_t first = cells_.size();
   const bool one_cell = curve.is_line() && !any_falls_;
   const double cells = one_cell ? 1 : std::ceil(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
@@ -142,7 +146,7 @@ void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place
     cell.entry.slope[i] = square(from.slope[i]);
     cell.exit.slope[i] = square(to.slope[i]);
     // Simpson's rule, exact for cubics. A difference of places would lose the digits of a short way.
-    cell.way[i] = std::abs(from.slope[i] + 4 * middle.slope[i] + to.slope[i]) * cell.length / 6;
+    cell.way[i] = (from.slope[i] + 4 * middle.slope[i] + to.slope[i]) * cell.length / 6;
   }
   cells_.push_back(cell);
 }
@@ -225,7 +229,7 @@ double TimeBound::most_at(const End& end, const End& other, double at_other, con
   double most = end.cap;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (!ramps_[i].limits() || !(end.slope[i] > cell.standing)) continue;
-    most = std::min(most, ramps_[i].square_after(other.slope[i] * at_other, cell.way[i]) / end.slope[i]);
+    most = std::min(most, ramps_[i].square_after(other.slope[i] * at_other, std::abs(cell.way[i])) / end.slope[i]);
   }
   return most;
 }
@@ -238,7 +242,7 @@ double TimeBound::least_time(const Cell& cell, double entry, double exit) const 
     double top = steepest * cell.cap;
     if (axes_[i].velocity > MmPerSecond(0)) top = std::min(top, square(axes_[i].velocity.value()));
     const AxisRamp::Squares squares{.start = cell.entry.slope[i] * entry, .end = cell.exit.slope[i] * exit, .top = top};
-    time = std::max(time, ramps_[i].least_time(squares, cell.way[i]));
+    time = std::max(time, ramps_[i].least_time(squares, std::abs(cell.way[i])));
   }
   return time;
 }
@@ -262,16 +266,82 @@ void TimeBound::settle(std::size_t cells) {
     x_ = std::min(x_ * cell.entry_scale, cell.controllable);
     const double next = i + 1 < cells_.size() ? cells_[i + 1].controllable / cells_[i + 1].entry_scale : 0;
     const double exit = std::min(next, most_at(cell.exit, cell.entry, x_, cell));
+    if (ways_.any()) time_ = ways_.enter(rides_in(cell, x_, exit), time_);
     time_ += least_time(cell, x_, exit);
     x_ = exit;
   }
   cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(cells));
 }
 
-void TimeBound::end_stretch() {
+// `steady`: the path rests without acceleration.
+void TimeBound::end_stretch(bool steady) {
   settle(cells_.size());
+  time_ = ways_.rest(time_, steady);
+  raise_by_line(steady);
+  line_ = Line{.began = time_, .steady = steady};
   joint_.reset();
   x_ = 0;
+}
+
+JerkWays::Rides TimeBound::rides_in(const Cell& cell, double entry, double exit) const {
+  JerkWays::Rides rides;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double steepest = std::max(cell.entry.slope[i], cell.exit.slope[i]);
+    if (!(steepest > cell.standing)) continue;
+    const double velocity = axes_[i].velocity.value();
+    const double top = velocity > 0 ? std::min(steepest * cell.cap, square(velocity)) : steepest * cell.cap;
+    rides[i] = {
+        .way = cell.way[i], .entry = cell.entry.slope[i] * entry, .exit = cell.exit.slope[i] * exit, .top = top};
+  }
+  return rides;
+}
+
+// Whether the axes with a limit of jerk go back where they came from. Then their acceleration may go on through the
+// rest. In any other corner it would jump.
+bool TimeBound::goes_back(const Joint& before, const Joint& after) const {
+  double common = 0;
+  double size_before = 0;
+  double size_after = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!(axes_[i].jerk > MmPerSecond3(0))) continue;
+    common += before.direction[i] * after.direction[i];
+    size_before += square(before.direction[i]);
+    size_after += square(after.direction[i]);
+  }
+  return common < -nearly_back * std::sqrt(size_before * size_after);
+}
+
+void TimeBound::add_to_line(const Segment& segment, const Place& place) {
+  if (!line_) return;
+  Line& line = *line_;
+  double apart = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    apart = std::max(apart, std::abs(place.slope[i] - line.direction[i]));
+  }
+  if (segment.curve.shape() != Curve::Shape::line || (line.curves > 0 && apart > standing)) {
+    line_.reset();
+    return;
+  }
+  line.length += segment.curve.length().value();
+  line.top = std::max(line.top, std::sqrt(std::min(place.cap, square(segment.speed.value()))));
+  if (line.curves++ > 0) return;
+  line.direction = place.slope;
+  const auto lower = [](double& lowest, double limit, double part) {
+    if (limit > 0 && part > standing && (lowest == 0 || limit / part < lowest)) lowest = limit / part;
+  };
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    lower(line.acceleration, axes_[i].acceleration.value(), std::abs(place.slope[i]));
+    lower(line.jerk, axes_[i].jerk.value(), std::abs(place.slope[i]));
+  }
+}
+
+// On a straight line from rest to rest several axes may set limits: one the jerk, another the acceleration.
+void TimeBound::raise_by_line(bool steady) {
+  if (!line_ || line_->curves == 0) return;
+  const JerkRamp ramp(line_->acceleration, line_->jerk);
+  if (!ramp.limits()) return;
+  const double time = ramp.least_time({.steady = line_->steady}, {.steady = steady}, line_->length, line_->top);
+  time_ = std::max(time_, line_->began + time);
 }
 
 }  // namespace passo::proof

@@ -1,4 +1,4 @@
-// TimeBound: a time that no motion on the planned path can beat within velocity, acceleration and feed.
+// TimeBound: a time that no motion on the planned path can beat within velocity, acceleration, jerk and feed.
 //
 // With x = ṡ² each axis has q̇² = q'² x. The path is cut into small cells, in each of which every axis goes one way
 // only and its |q'| only rises or only falls. From one end of a cell to the other, the axis can change q̇² by no more
@@ -13,6 +13,8 @@
 // the time of the whole cell at the largest x in it. What is lost is only that the axes may take turns within a cell;
 // so the bound can be a little too small, and never too large.
 //
+// Limits of jerk make the bound higher where an axis, or a straight line, goes from one place to another (JerkWays).
+//
 // The path rests where the program demands it: at actions, exact stops and the ends, and where the direction jumps by
 // more than rounding. Memory: a window of cells, many braking distances long. Motion after the window is assumed to be
 // as fast as its first cell allows.
@@ -24,6 +26,7 @@
 
 #include "axis_ramp.hpp"
 #include "exact_curve.hpp"
+#include "jerk_ways.hpp"
 #include "speed_limit.hpp"
 
 #include "passo/proof/motion_proof.hpp"
@@ -61,7 +64,7 @@ class TimeBound {
     double entry_scale = 1;   // x at its start divided by x at the end of the cell before
     double controllable = 0;  // the largest x at its start from which the path can be played
     double standing = 0;      // an axis with a smaller q'² stands, but for rounding
-    Row way{};                // |Δq|
+    Row way{};                // Δq
   };
   struct Joint {  // the end of the last curve
     Row direction{};
@@ -72,7 +75,11 @@ class TimeBound {
   void add_cells(const ExactCurve& curve, const Place& from, const Place& to, double feed);
   void add_cell(const ExactCurve& curve, const Place& from, const Place& to, double feed);
   void settle(std::size_t cells);
-  void end_stretch();
+  void end_stretch(bool steady = true);
+  void raise_by_line(bool steady);
+  void add_to_line(const Segment& segment, const Place& place);
+  bool goes_back(const Joint& before, const Joint& after) const;
+  JerkWays::Rides rides_in(const Cell& cell, double entry, double exit) const;
   void plan_backwards(double last);
 
   Place place_at(const ExactCurve& curve, double s) const;
@@ -92,8 +99,21 @@ class TimeBound {
   std::optional<Joint> joint_;
   double x_ = 0;  // at the start of the first cell
   double time_ = 0;
-  bool inside_curve_ = false;  // a part of the curve has come, but not its end
-  Mm reached_{0};              // the length of the curve that has come
+  JerkWays ways_;
+  // The stretch as long as it is a single straight line. Its limits are those along the line.
+  struct Line {
+    double began = 0;  // the bound of the time up to its start
+    bool steady = true;
+    std::size_t curves = 0;
+    Row direction{};
+    double length = 0;
+    double top = 0;
+    double acceleration = 0;
+    double jerk = 0;
+  };
+  std::optional<Line> line_ = Line();  // empty: the stretch is not straight
+  bool inside_curve_ = false;          // a part of the curve has come, but not its end
+  Mm reached_{0};                      // the length of the curve that has come
 };
 
 }  // namespace passo::proof

@@ -136,6 +136,7 @@ class CellCutter {
   static void cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                         const CellPlace& place);
   double graded(double size, double left) const;
+  double even_size() const;
 
   Axes limited_;  // all axes that have a limit
   Axes moving_;   // those of them that move on the segment
@@ -144,7 +145,8 @@ class CellCutter {
   double longest_ = 0;   // length of cells in the middle
   double shortest_ = 0;  // length of the cells at the ends; from there they grow
   bool straight_ = false;
-  double grade_ = 0;  // where limits fall with the speed: each cell adds this to the root of s, from a rest on
+  bool evens_ = false;  // cells are shorter where the acceleration along the path changes much
+  double grade_ = 0;    // where limits fall with the speed: each cell adds this to the root of s, from a rest on
 };
 
 }  // namespace passo

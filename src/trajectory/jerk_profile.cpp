@@ -26,6 +26,9 @@ constexpr double rises_to_settle = 1;  // times the rise of the acceleration fro
 constexpr double room_to_lift = 0.5;   // for squares of speeds: with that all limits have room
 constexpr int most_lifts = 8;
 constexpr int most_attempts = 6;
+// A window that begins in motion and is not lifted at once begins too fast for the path ahead, mostly because it must
+// brake harder than its jerk allows from the first cell on. Of 107 such windows further attempts lifted none.
+constexpr int most_attempts_in_motion = 1;
 constexpr double worth = 0.98;  // of the time: a further lift is worth it
 
 // Where a cell exceeds a limit, the share is lowered to what would have been right, in these bounds.
@@ -330,7 +333,8 @@ bool JerkProfile::lift_between_steady() {
 // Finds a motion over all cells that keeps the limits.
 bool JerkProfile::find_motion() {
   find_steady();
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  const int most = in_motion_ ? most_attempts_in_motion : most_attempts;
+  for (int attempt = 0; attempt < most; ++attempt) {
     begin_with_guess();
     const bool is_lifted = attempt == 0 ? lift_between_steady() : lift({.first = 0, .last = cells_.size()});
     if (is_lifted && mend()) return true;

@@ -22,6 +22,9 @@ constexpr double laid_badly = 1.03;
 // The plan before goes on instead. The hardest lowering gets there in 11 trials, so a change has more than twice that.
 constexpr double weakest = 0.02;
 constexpr int most_trials = 30;
+// A change that leaves less than this share of the speed is a stop in all but name: near the end of a stop, what is
+// left when the acceleration has gone is rounding. From there a plan would creep for ages; from rest it starts at once.
+constexpr double least_left = 1e-3;
 
 constexpr double rounding = 1e-6;  // share of a limit: far above that of doubles, far below what a motor feels
 // On curves a parabola through each three looks tells what lies between them. Over this turn, in radians, its error is
@@ -115,7 +118,7 @@ Seconds SpeedChange::duration_from(std::size_t piece) const {
 }
 
 // The acceleration goes to -p, stays there and goes back to 0, where p is the strongest braking. Returns false where
-// the speed must fall below 0.
+// the speed must fall below 0, or to hardly any although some is wanted.
 bool SpeedChange::shape(const PathState& state, double exit, const Strength& strength) {
   const double v = state.speed;
   const double a = state.acceleration;
@@ -125,7 +128,7 @@ bool SpeedChange::shape(const PathState& state, double exit, const Strength& str
   const double eased = v + a * std::abs(a) / (2 * j);
   if (eased <= exit || eased <= 0) {
     exit_ = eased;
-    if (!(eased > 0)) return false;
+    if (!(eased > (exit > 0 ? least_left * v : 0))) return false;
     add(std::abs(a) / j, a > 0 ? -j : j);
     return true;
   }

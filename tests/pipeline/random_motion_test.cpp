@@ -139,6 +139,16 @@ TEST(RotaryCorners, are_passed_nearly_as_fast_as_can_be) {
   }
 }
 
+// On a short arc from rest to rest the slow axis alone decides, and its slope halves on the way.
+TEST(UnevenAxes, play_a_short_arc_nearly_as_fast_as_can_be) {
+  MachineDescription machine = even_machine({Axis::x, Axis::y}, 50, MmPerSecond(200), MmPerSecond2(130));
+  machine.axes[0].acceleration = MmPerSecond2(32);
+  const std::string program = "G21 G90 F30000\nG2 X-0.012965 Y0.027477 I0.084315 J0.056581\nM2\n";
+  const test::Ending ending = test::run(program, machine, {.live = {}});
+  for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+  EXPECT_LT(ending.proof.times_bound(), 1.01);
+}
+
 // Lines that are one but for rounding, at feeds that change. They are smoothed into long spans, in each of which the
 // motion may speed up and slow down.
 TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {
@@ -174,9 +184,10 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_and_overrides) {
   acts.print();
 }
 
-// A very slow feed with limits of jerk; dust of a rotary axis; an override lowered where the torque leaves no choice.
+// A very slow feed with limits of jerk; dust of a rotary axis; an override lowered where the torque leaves no choice; a
+// stop taken back in its last instant, where 1e-16 mm/s were left.
 TEST(RandomMotion, keeps_them_in_programs_that_once_failed) {
-  for (const std::uint64_t number : {1544U, 1673U, 900310U}) {
+  for (const std::uint64_t number : {1544U, 1673U, 900310U, 811500132U}) {
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
     test::Random random = test::Random::of(number);
     const test::RandomJob job(random);

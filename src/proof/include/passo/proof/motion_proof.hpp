@@ -71,7 +71,7 @@ struct MotionProof {
   Finding deviation;  // between planned and programmed path; the limit is the tolerance at that place
   Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
-  Seconds time_bound{0};  // no motion on the same path within velocity, acceleration and feed takes less
+  Seconds time_bound{0};  // no motion on the same path within velocity, acceleration, jerk and feed takes less
   // No motion on any path within the tolerance takes less, within the same limits. 0 without a programmed path.
   Seconds tube_bound{0};
   std::uint64_t moves = 0;

@@ -1,0 +1,49 @@
+#include "jerk_ramp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace passo::proof {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr int halvings = 100;
+constexpr double precise = 1e-13;
+
+}  // namespace
+
+JerkRamp::JerkRamp(double acceleration, double jerk)
+    : acceleration_(acceleration > 0 ? acceleration : infinity), jerk_(jerk), limits_(jerk > 0) {}
+
+JerkRamp::Ramp JerkRamp::ramp(const End& end, double peak) const {
+  const double rise = peak - end.speed;
+  if (end.steady) {
+    const bool is_full = rise * jerk_ >= acceleration_ * acceleration_;
+    const double time = is_full ? rise / acceleration_ + acceleration_ / jerk_ : 2 * std::sqrt(rise / jerk_);
+    return {.time = time, .way = time * (end.speed + peak) / 2};
+  }
+  // The acceleration stays at its limit, and falls to 0 in the time `fall`.
+  const double first = std::min(acceleration_, std::sqrt(2 * jerk_ * rise));
+  const double fall = first / jerk_;
+  const double before = rise - first * fall / 2;
+  const double full = before > 0 ? before / first : 0;
+  const double way = full * (end.speed + before / 2) + fall * (end.speed + before + first * fall / 3);
+  return {.time = full + fall, .way = way};
+}
+
+double JerkRamp::least_time(const End& start, const End& end, double way, double top) const {
+  double low = std::max(start.speed, end.speed);
+  double high = std::max(top, low);
+  const auto room = [&](double peak) { return way - ramp(start, peak).way - ramp(end, peak).way; };
+  if (!(way > 0) || !(high > 0) || !(room(low) > 0)) return 0;
+  if (room(high) < 0) {
+    for (int i = 0; i < halvings && high - low > precise * high; ++i) {
+      const double middle = (low + high) / 2;
+      (room(middle) > 0 ? low : high) = middle;
+    }
+  }
+  return ramp(start, high).time + ramp(end, high).time + std::max(room(high), 0.0) / high;
+}
+
+}  // namespace passo::proof
