@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,13 +14,14 @@ namespace passo {
 
 class CellQueue {
  public:
+  static constexpr double no_rest = std::numeric_limits<double>::infinity();
   struct Entry {
     Cell cell;
-    bool begins_at_rest = false;
-    double top_squared = 0;    // limit in the cell, with the override of the feed
-    double entry_cap = 0;      // limit at the entry, squared: by the tops on both sides, 0 at a rest
-    double entry_if_rest = 0;  // the greatest entry, squared, if the path came to rest after the queue
-    double entry_if_open = 0;  // the same if the path went straight on for ever
+    double rest_cap = no_rest;  // the greatest entry, squared, if the path rests at the entry
+    double top_squared = 0;     // limit in the cell, with the override of the feed
+    double entry_cap = 0;       // limit at the entry, squared: by the tops on both sides, and by a rest
+    double entry_if_rest = 0;   // the greatest entry, squared, if the path came to rest after the queue
+    double entry_if_open = 0;   // the same if the path went straight on for ever
     // Of a decided cell: its exit if it is entered like this. Below 0: the cell was changed since.
     double decided_entry = -1;
     double decided_exit = 0;
@@ -74,7 +76,7 @@ class CellQueue {
   static constexpr std::size_t first_capacity = 256;
 
   CellPlace new_place(std::size_t at) {
-    entries_[at].begins_at_rest = false;
+    entries_[at].rest_cap = no_rest;
     entries_[at].entry_if_rest = entries_[at].entry_if_open = 0;
     return place(at);
   }

@@ -108,6 +108,11 @@ TEST(RandomMotion, is_nearly_the_fastest_with_limits_of_jerk_on_some_axes) {
   expect_nearly_the_fastest(test::Machines::mixed);
 }
 
+// The bound is just as near where the axes start and stop at a velocity of their own.
+TEST(RandomMotion, is_nearly_the_fastest_with_start_stop_velocities) {
+  expect_nearly_the_fastest(test::Machines::starting);
+}
+
 // A machine whose axes are all alike.
 MachineDescription even_machine(std::initializer_list<Axis> axes, double steps, MmPerSecond velocity,
                                 MmPerSecond2 acceleration) {
@@ -171,6 +176,15 @@ TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_and_overrides) {
   test::for_each_job(100, [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
     expect_right_in_spite_of_acts(job, random, acts);
   });
+  acts.print();
+}
+
+TEST(RandomMotion, keeps_limits_and_path_in_spite_of_holds_with_start_stop_velocities) {
+  test::Acts acts;
+  const auto try_one = [&](std::uint64_t, const test::RandomJob& job, test::Random& random) {
+    expect_right_in_spite_of_acts(job, random, acts);
+  };
+  test::for_each_job(60, try_one, test::Machines::starting);
   acts.print();
 }
 
