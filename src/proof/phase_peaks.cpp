@@ -97,10 +97,19 @@ void PhasePeaks::watch(const PlannedMove& move) {
 void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   const Way start = way_at(phase, 0);
   if (place_) check_gap(distance(*place_, curve.place(start.s)));
+  rests = rests || stands();
   for (std::size_t i = 0; i < before_.size(); ++i) {
     meet(i, motion_of(curve.at(proof_.axes[i].axis, start.s), start), rests);
     stopped_[i] = 0;
   }
+}
+
+// Whether the machine stood at the end of the last phase. A hold rests so within a segment.
+bool PhasePeaks::stands() const {
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    if (std::abs(before_[i].velocity) > velocity_rounding * proof_.axes[i].velocity.limit) return false;
+  }
+  return true;
 }
 
 void PhasePeaks::meet(std::size_t i, const Motion& motion, bool rests) {

@@ -44,6 +44,7 @@ class PhasePeaks {
   void see(std::size_t i, const Motion& motion, double t);
   void see_feed(const Segment& segment, const Phase& phase);
   void join(const ExactCurve& curve, const Phase& phase, bool rests);
+  bool stands() const;
   void meet(std::size_t i, const Motion& motion, bool rests);
   void raise_jump(std::size_t i, double jump, double limit);
   void check_gap(double gap);

@@ -64,12 +64,9 @@ class AccelerationLaw final : public SpeedLaw {
 
   bool go_on(PlannedMove& move) override {
     if (std::exchange(braking_, false)) decided_ = 0;
-    if (decided_ == 0) {
-      while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
-      if (cells_.empty()) return false;
-      speed_squared_ = cells_[0].decided_entry;  // from rest the motion may begin with some speed
-      stands_ = false;
-    }
+    while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
+    if (cells_.empty()) return false;
+    if (std::exchange(stands_, false) && rests_.any()) speed_squared_ = cells_[0].decided_entry;
     give_move(move);
     return true;
   }
@@ -86,14 +83,14 @@ class AccelerationLaw final : public SpeedLaw {
       add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
       complete = go(ride, move);
     }
-    if (speed_squared_ == 0 && !cells_.empty()) stand_after({});
+    if (speed_squared_ == 0 && !stands_) stand_after({});
     return true;
   }
 
   void braking_plan(std::vector<PlannedMove>& plan) override {
     double speed_squared = speed_squared_;
     std::uint64_t segment = path_.first();
-    for (std::size_t i = 0; speed_squared > 0 && i < cells_.size(); ++i) {
+    for (std::size_t i = 0; speed_squared > 0 && i < cells_.size() && !(i > 0 && cells_[i].begins_at_rest()); ++i) {
       const Cell& cell = cells_[i].cell;
       const bool begins = plan.empty() || plan.back().to >= plan.back().segment.curve.length();
       if (begins && !plan.empty()) ++segment;
@@ -141,19 +138,20 @@ class AccelerationLaw final : public SpeedLaw {
       return;
     }
     next_rest_ = rest_before(*segment);
-    if (next_rest_ < CellQueue::no_rest) reached_squared_ = next_rest_;
+    if (next_rest_) reached_squared_ = next_rest_->start;
     cutter_.begin(*segment, reached_squared_);
     cutting_ = true;
     cut_feed_squared_ = feed_squared(*segment);
     ++next_segment_;
   }
 
-  // The limit at the start of the next segment, if the path rests there.
-  double rest_before(const Segment& segment) {
+  // The speeds at the start of the next segment, if the path rests there.
+  std::optional<RestSpeeds::Pair> rest_before(const Segment& segment) {
+    const bool is_first = next_segment_ == path_.first();
+    if (!is_first && !rests_between(*path_.at(next_segment_ - 1), segment)) return std::nullopt;
+    if (!rests_.any()) return RestSpeeds::Pair{};
     const Point direction = segment.curve.tangent(Mm(0));
-    if (next_segment_ == path_.first()) return rests_.at_start(direction, stopped_);
-    const Segment& before = *path_.at(next_segment_ - 1);
-    if (!rests_between(before, segment)) return CellQueue::no_rest;
+    if (is_first) return RestSpeeds::Pair{.start = rests_.at_start(direction, stopped_)};
     return rests_.between(end_direction(next_segment_ - 1), direction);
   }
   Point end_direction(std::uint64_t number) {
@@ -164,7 +162,8 @@ class AccelerationLaw final : public SpeedLaw {
   void append() {
     cutter_.next(cells_.push());
     cutting_ = !cutter_.at_end();
-    cells_.back().rest_cap = std::exchange(next_rest_, CellQueue::no_rest);
+    if (next_rest_) cells_.back().rest_at(next_rest_->end, next_rest_->start);
+    next_rest_.reset();
     const Cell& cell = cells_.back().cell;
     reached_squared_ = std::min(cell.top_squared, reached_squared_ + 2 * cell.acceleration * cell.length);
     set_caps(cells_.size() - 1, cut_feed_squared_);
@@ -176,7 +175,7 @@ class AccelerationLaw final : public SpeedLaw {
     CellQueue::Entry& entry = cells_[i];
     entry.top_squared = std::min(entry.cell.top_squared, feed_squared);
     entry.entry_cap = std::min(entry.rest_cap, entry.top_squared);
-    if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
+    if (i > 0 && !entry.begins_at_rest()) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
 
   double entry_to(std::size_t i, double exit_most) {
@@ -212,6 +211,7 @@ class AccelerationLaw final : public SpeedLaw {
       if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after if_open: its choice of lines is the one kept
       if (equal) if_open = if_rest;
       cells_[i].entry_if_open = if_open;
+      if (i > 0 && cells_[i].begins_at_rest()) if_rest = if_open = exit_before(i, 0);
     }
   }
 
@@ -221,17 +221,16 @@ class AccelerationLaw final : public SpeedLaw {
     // rest at its end: slower, but safe and still linear.
     const std::size_t at_least = cells_.full() ? cells_.size() / 2 : 0;
     double entry = speed_squared_;
-    decided_ = 0;
-    if (stands_ && rests_.any() && !cells_.empty()) {
-      const double most = cap_from_rest();
-      entry = std::min(most, cells_[0].entry_if_rest);
-      if (at_least == 0 && entry != std::min(most, cells_[0].entry_if_open)) return;
-    }
-    for (; decided_ < cells_.size(); ++decided_) {
+    for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
+      if (rests_.any() && (decided_ > 0 ? cells_[decided_].begins_at_rest() : stands_)) {
+        const double most = decided_ > 0 ? CellQueue::no_rest : cap_from_rest();
+        entry = std::min(most, cells_[decided_].entry_if_rest);
+        if (decided_ >= at_least && entry != std::min(most, cells_[decided_].entry_if_open)) break;
+      }
       const bool last = decided_ + 1 == cells_.size();
-      const double if_rest = last ? exit_if_rest() : cells_[decided_ + 1].entry_if_rest;
-      const double if_open =
-          last ? (closed_ ? if_rest : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
+      const double if_rest = last ? exit_if_rest() : exit_before(decided_ + 1, cells_[decided_ + 1].entry_if_rest);
+      const double if_open = last ? (closed_ ? if_rest : cells_[decided_].top_squared)
+                                  : exit_before(decided_ + 1, cells_[decided_ + 1].entry_if_open);
       const double exit = exit_from(decided_, entry, if_rest);
       if (decided_ >= at_least && if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
       cells_[decided_].decided_entry = std::exchange(entry, exit);
@@ -239,6 +238,10 @@ class AccelerationLaw final : public SpeedLaw {
     }
   }
 
+  // The limit at the end of the cell before cell i, which may be entered with this speed.
+  double exit_before(std::size_t i, double entry) const {
+    return cells_[i].begins_at_rest() ? std::min(cells_[i].rest_exit, cells_[i - 1].top_squared) : entry;
+  }
   // The square of the speed at the end of the queue if the path comes to rest there.
   double exit_if_rest() const {
     return closed_ && !cells_.empty() ? std::min(end_cap_, cells_[cells_.size() - 1].top_squared) : 0;
@@ -296,7 +299,8 @@ class AccelerationLaw final : public SpeedLaw {
   }
   // The exit of cell i, entered with this speed.
   double planned_exit(std::size_t i, double entry) const {
-    return exit_from(i, entry, i + 1 < cells_.size() ? cells_[i + 1].entry_if_rest : exit_if_rest());
+    const bool last = i + 1 == cells_.size();
+    return exit_from(i, entry, last ? exit_if_rest() : exit_before(i + 1, cells_[i + 1].entry_if_rest));
   }
 
   // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
@@ -331,7 +335,7 @@ class AccelerationLaw final : public SpeedLaw {
     decided_ -= std::min<std::size_t>(decided_, 1);
     move.to = Mm(cell_end);
     cells_.pop();
-    if (cells_.empty() && closed_) {
+    if (rests_.any() && (cells_.empty() || cells_[0].begins_at_rest())) {
       stand_after(segment.curve.tangent(segment.curve.length()) * std::sqrt(speed_squared_));
     }
     return rest || cell_end >= segment.curve.length().value();
@@ -343,7 +347,7 @@ class AccelerationLaw final : public SpeedLaw {
     cutter_.cut(segment, from, to, front.cell.straight, front);
     front.allow(speed_squared_, exit);
     if (!rests_.any()) return;
-    cells_[0].rest_cap = CellQueue::no_rest;
+    cells_[0].go_on_at_entry();
     set_caps(0, feed_squared(segment));
   }
 
@@ -360,7 +364,7 @@ class AccelerationLaw final : public SpeedLaw {
     const CellPlace first = cells_.push_front();
     cutter_.cut(*path_.front(), start, middle, false, first);
     first.allow(speed_squared_, halfway);
-    cells_[1].rest_cap = CellQueue::no_rest;
+    cells_[1].go_on_at_entry();
     for (std::size_t i = 0; i < 2; ++i) set_caps(i, feed_squared(*path_.front()));
     cells_[1].entry_if_rest = std::max(halfway, entry_to(1, exit));
     if (decided_ == 0) return;
@@ -380,13 +384,13 @@ class AccelerationLaw final : public SpeedLaw {
   CellQueue cells_;
   std::uint64_t next_segment_ = 0;  // the first segment of which no cell is cut
   bool cutting_ = false;
-  double next_rest_ = CellQueue::no_rest;  // the rest_cap of the next cell
-  double cut_feed_squared_ = 0;            // of the segment that is being cut
-  double reached_squared_ = 0;             // the square of the highest speed at which it may begin
-  std::size_t decided_ = 0;                // cells at the head whose exit speed no later cell can change
-  double speed_squared_ = 0;               // at the start of the head
-  bool closed_ = false;                    // an action or the program's end follows the queue, which ends at rest
-  double end_cap_ = 0;                     // then: the limit of the square of the speed at its end
+  std::optional<RestSpeeds::Pair> next_rest_;  // at the start of the next cell
+  double cut_feed_squared_ = 0;                // of the segment that is being cut
+  double reached_squared_ = 0;                 // the square of the highest speed at which it may begin
+  std::size_t decided_ = 0;                    // cells at the head whose exit speed no later cell can change
+  double speed_squared_ = 0;                   // at the start of the head
+  bool closed_ = false;                        // an action or the program's end follows the queue, which ends at rest
+  double end_cap_ = 0;                         // then: the limit of the square of the speed at its end
   bool braking_ = false;
   bool stands_ = true;  // at rest, which the motion may leave with some speed
   Point stopped_;       // how fast the axes were when the machine last came to rest

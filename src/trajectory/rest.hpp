@@ -45,13 +45,30 @@ class RestSpeeds {
       return room(std::max(velocity + turned, 0.0), part);
     });
   }
-  // Where a path goes on in another direction. Neither speed may be greater.
-  double between(const Point& before, const Point& after) const {
-    return squared([&](std::size_t i, double velocity) {
-      const double in = before.values[i];
-      const double out = after.values[i];
-      return room(velocity, std::max({std::abs(in), std::abs(out), std::abs(out - in)}));
-    });
+  // Where a path goes on in another direction: at the end of the first part, at the start of the second. Each speed may
+  // be less, whatever the other one is. An axis that turns back shares its velocity between the two.
+  struct Pair {
+    double end = 0;
+    double start = 0;
+  };
+  Pair between(const Point& before, const Point& after) const {
+    Pair pair{.end = at_end(before), .start = at_end(after)};
+    const double in = std::sqrt(pair.end);
+    const double out = std::sqrt(pair.start);
+    double share = 1;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      const double arriving = std::abs(before.values[i]);
+      const double leaving = std::abs(after.values[i]);
+      const bool turns_back = before.values[i] * after.values[i] < 0;
+      if (!turns_back || !(limits_.acceleration.values[i] > MmPerSecond2(0))) continue;
+      if (std::min(arriving, leaving) < least_part_of_direction) continue;
+      const double jump = in * arriving + out * leaving;
+      const double most = std::max(limits_.start_stop.values[i].value(), 0.0);
+      if (jump > most) share = std::min(share, most / jump);
+    }
+    pair.end *= share * share;
+    pair.start *= share * share;
+    return pair;
   }
 
  private:

@@ -66,7 +66,22 @@ TEST(StartStop, a_corner_is_passed_where_no_axis_jumps_by_more) {
   };
   EXPECT_NEAR(speed_at_corner(xyz(20, 20)), 8, 1e-12);
   EXPECT_NEAR(speed_at_corner(xyz(0, 0)), 4, 1e-12);
-  EXPECT_NEAR(speed_at_corner(xyz(20 - 8, 6)), 8 / 1.8, 1e-12);
+  EXPECT_NEAR(speed_at_corner(xyz(20 - 8, 6)), 4, 1e-12);
+}
+
+// X stops at its own velocity and Y starts at its own.
+TEST(StartStop, each_side_of_a_corner_has_its_own_speed) {
+  MotionLimits limits = limits_with(8);
+  for (const double own : {0.0, 3.0}) {
+    limits.start_stop[Axis::y] = MmPerSecond(own);
+    const auto motion = plan(polyline({xyz(0, 0), xyz(20, 0), xyz(20, 20), xyz(40, 20)}, 50), limits);
+    ASSERT_EQ(motion.size(), 3U);
+    EXPECT_NEAR(exit_speed(std::get<PlannedMove>(motion[0])), 8, 1e-12);
+    EXPECT_NEAR(entry_speed(std::get<PlannedMove>(motion[1])), own, 1e-12);
+    EXPECT_NEAR(exit_speed(std::get<PlannedMove>(motion[1])), own, 1e-12);
+    EXPECT_NEAR(entry_speed(std::get<PlannedMove>(motion[2])), 8, 1e-12);
+    EXPECT_NEAR(total_time(motion), 2 * seconds_of(20, 8, 50, 500) + seconds_of(20, own, 50, 500), 1e-12);
+  }
 }
 
 TEST(StartStop, exact_stops_slow_down_to_it_only) {
