@@ -55,6 +55,7 @@ MotionLimits motion_limits(const MachineDescription& machine) {
     limits.velocity[axis.axis] = axis.velocity;
     limits.acceleration[axis.axis] = axis.acceleration;
     limits.jerk[axis.axis] = axis.jerk;
+    limits.start_stop[axis.axis] = axis.start_stop;
     limits.falling[axis.axis] = falling_limit(axis);
   }
   return limits;
@@ -87,6 +88,7 @@ ProofOptions proof_options(const MachineDescription& machine) {
                             .velocity = axis.velocity,
                             .acceleration = axis.acceleration,
                             .jerk = axis.jerk,
+                            .start_stop = axis.start_stop,
                             .acceleration_at = proven_limit(axis)});
   }
   options.tick_rate = machine.board.clock;

@@ -35,6 +35,10 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
       letter_of(axis.axis), motor, axis.steps_per_unit, axis.step().value(), axis.travel_low, axis.travel_high,
       axis.velocity.value(), axis.highest_step_rate().value(), axis.acceleration.value(), fmt::arg("unit", unit));
   if (axis.jerk > MmPerSecond3(0)) line += fmt::format(", {:g} {}/s3", axis.jerk.value(), unit);
+  if (axis.start_stop > MmPerSecond(0)) {
+    line += fmt::format(", starts and stops at {:g} {}/s ({:.6g} steps/s)", axis.start_stop.value(), unit,
+                        axis.start_stop_rate().value());
+  }
   if (axis.inverted) line += ", inverted";
   return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit);
 }

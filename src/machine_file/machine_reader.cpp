@@ -45,6 +45,7 @@ struct AxisKeys {
   NumberKey velocity;
   NumberKey acceleration;
   NumberKey jerk;
+  NumberKey start_stop;
 };
 constexpr AxisKeys linear_keys{
     .unit = "mm",
@@ -54,6 +55,7 @@ constexpr AxisKeys linear_keys{
     .velocity = {"max_velocity_mm_s", 1e-3, 1e5, "25"},
     .acceleration = {"max_acceleration_mm_s2", 1e-3, 1e6, "200"},
     .jerk = {"max_jerk_mm_s3", 1e-3, 1e9, "5000"},
+    .start_stop = {"start_stop_velocity_mm_s", 0, 1e5, "2"},
 };
 constexpr AxisKeys rotary_keys{
     .unit = "deg",
@@ -63,6 +65,7 @@ constexpr AxisKeys rotary_keys{
     .velocity = {"max_velocity_deg_s", 1e-3, 1e5, "60"},
     .acceleration = {"max_acceleration_deg_s2", 1e-3, 1e6, "300"},
     .jerk = {"max_jerk_deg_s3", 1e-3, 1e9, "8000"},
+    .start_stop = {"start_stop_velocity_deg_s", 0, 1e5, "5"},
 };
 
 // Fewer ticks for an event are impossible: on any processor its interrupt takes longer.
@@ -93,6 +96,7 @@ class MachineReader {
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
   std::optional<HomeDescription> read_home_of(TableReader& reader, const AxisDescription& axis);
+  static void read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
   void read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const;
   static std::optional<double> way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis);
   double read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const;
@@ -277,7 +281,20 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
   if (const auto velocity = reader.number(keys.velocity, Need::required)) axis.velocity = MmPerSecond(*velocity);
   read_acceleration(reader, keys, axis);
   if (const auto jerk = reader.number(keys.jerk, Need::optional)) axis.jerk = MmPerSecond3(*jerk);
+  read_start_stop(reader, keys, axis);
   check_velocity(reader, keys, axis);
+}
+
+void MachineReader::read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {
+  const auto velocity = reader.number(keys.start_stop, Need::optional);
+  if (!velocity) return;
+  axis.start_stop = MmPerSecond(*velocity);
+  if (axis.velocity == MmPerSecond(0) || axis.start_stop <= axis.velocity) return;
+  reader.error("machine.start-stop", keys.start_stop.name,
+               fmt::format("axis {} would start at {:g} {}/s, and is never faster than {:g} {}/s", letter_of(axis.axis),
+                           *velocity, keys.unit, axis.velocity.value(), keys.unit),
+               fmt::format("{} = {:g} or less: {} is the limit", keys.start_stop.name, axis.velocity.value(),
+                           keys.velocity.name));
 }
 
 // The limit is a constant, or the motor's, or the lower one of both.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace passo::proof {
 namespace {
@@ -9,11 +10,17 @@ namespace {
 constexpr double turn_between_looks = 0.05;  // radians
 constexpr double fewest_looks = 12;
 constexpr double most_looks = 4096;
+// A jump of the velocity by less than this share of an axis's limit is rounding, at a rest too.
+constexpr double velocity_rounding = 1e-6;
 
 }  // namespace
 
-PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options) : proof_(proof), before_(proof.axes.size()) {
-  for (const ProvenAxis& axis : options.axes) limits_.emplace_back(axis);
+PhasePeaks::PhasePeaks(MotionProof& proof, const ProofOptions& options)
+    : proof_(proof), before_(proof.axes.size()), stopped_(proof.axes.size()) {
+  for (const ProvenAxis& axis : options.axes) {
+    limits_.emplace_back(axis);
+    start_stop_.push_back(axis.start_stop.value());
+  }
 }
 
 PhasePeaks::Way PhasePeaks::way_at(const Phase& phase, double t) {
@@ -71,9 +78,11 @@ void PhasePeaks::watch(const PlannedMove& move) {
   ++proof_.moves;
   line_ = move.segment.source.line;
   const ExactCurve curve(move.segment.curve);
+  bool begins_segment = move.from() == Mm(0);
   for (const Phase& phase : move) {
     ++proof_.phases;
-    join(curve, phase);
+    join(curve, phase, std::exchange(begins_segment, false) || at_rest_);
+    at_rest_ = false;
     look_at(curve, phase);
     see_feed(move.segment, phase);
     const Way end = way_at(phase, phase.duration.value());
@@ -84,16 +93,50 @@ void PhasePeaks::watch(const PlannedMove& move) {
   check_gap(distance(*place_, curve.place(move.to.value())));
 }
 
-// Compares the end of the last phase with the start of this one.
-void PhasePeaks::join(const ExactCurve& curve, const Phase& phase) {
+// Compares the end of the last phase with the start of this one. `rests`: the machine may have rested between.
+void PhasePeaks::join(const ExactCurve& curve, const Phase& phase, bool rests) {
   const Way start = way_at(phase, 0);
   if (place_) check_gap(distance(*place_, curve.place(start.s)));
-  for (std::size_t i = 0; i < before_.size(); ++i) meet(i, motion_of(curve.at(proof_.axes[i].axis, start.s), start));
+  rests = rests || stands();
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    meet(i, motion_of(curve.at(proof_.axes[i].axis, start.s), start), rests);
+    stopped_[i] = 0;
+  }
 }
 
-void PhasePeaks::meet(std::size_t i, const Motion& motion) {
-  raise(proof_.axes[i].velocity_jump, motion.velocity - before_[i].velocity, 0);
+// Whether the machine stood at the end of the last phase. A hold rests so within a segment.
+bool PhasePeaks::stands() const {
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    if (std::abs(before_[i].velocity) > velocity_rounding * proof_.axes[i].velocity.limit) return false;
+  }
+  return true;
+}
+
+void PhasePeaks::meet(std::size_t i, const Motion& motion, bool rests) {
+  if (start_stop_[i] > 0) {
+    const double jump = std::abs(motion.velocity - before_[i].velocity);
+    const double rounding = velocity_rounding * proof_.axes[i].velocity.limit;
+    if (rests && jump > rounding) {
+      const double from_stop = std::abs(motion.velocity - stopped_[i]);
+      raise_jump(i,
+                 std::max({jump, std::abs(motion.velocity), std::abs(before_[i].velocity), at_rest_ ? from_stop : 0.0}),
+                 start_stop_[i]);
+    } else {
+      raise_jump(i, jump, rounding);
+    }
+  } else {
+    raise(proof_.axes[i].velocity_jump, motion.velocity - before_[i].velocity, 0);
+  }
   raise(proof_.axes[i].acceleration_jump, motion.acceleration - before_[i].acceleration, 0);
+}
+
+// The jump that is the largest multiple of its limit is kept.
+void PhasePeaks::raise_jump(std::size_t i, double jump, double limit) {
+  Finding& finding = proof_.axes[i].velocity_jump;
+  if (!(limit > 0) || !(jump > finding.multiple() * limit)) return;
+  finding.limit = limit;
+  finding.value = 0;
+  raise(finding, jump, 0);
 }
 
 void PhasePeaks::check_gap(double gap) {
@@ -102,9 +145,15 @@ void PhasePeaks::check_gap(double gap) {
 
 void PhasePeaks::rest(Seconds dwell) {
   for (std::size_t i = 0; i < before_.size(); ++i) {
-    meet(i, {});
+    meet(i, {}, true);
+    if (dwell > Seconds(0)) {
+      stopped_[i] = 0;
+    } else if (!at_rest_) {
+      stopped_[i] = before_[i].velocity;
+    }
     before_[i] = {};
   }
+  at_rest_ = true;
   now_ += dwell;
 }
 

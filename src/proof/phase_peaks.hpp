@@ -43,8 +43,10 @@ class PhasePeaks {
   void look_at_curved(const ExactCurve& curve, const Phase& phase, std::size_t i);
   void see(std::size_t i, const Motion& motion, double t);
   void see_feed(const Segment& segment, const Phase& phase);
-  void join(const ExactCurve& curve, const Phase& phase);
-  void meet(std::size_t i, const Motion& motion);
+  void join(const ExactCurve& curve, const Phase& phase, bool rests);
+  bool stands() const;
+  void meet(std::size_t i, const Motion& motion, bool rests);
+  void raise_jump(std::size_t i, double jump, double limit);
   void check_gap(double gap);
   void raise(Finding& finding, double value, double t) const;
   void raise_acceleration(std::size_t i, const Motion& motion, double t);
@@ -54,8 +56,11 @@ class PhasePeaks {
   Seconds now_{0};  // at the start of the present phase
   std::uint32_t line_ = 0;
   std::vector<SpeedLimit> limits_;  // by axis
+  std::vector<double> start_stop_;  // by axis
   std::vector<Motion> before_;      // by axis, at the end of the last phase
-  std::optional<Point> place_;      // the place at the end of the last phase
+  std::vector<double> stopped_;     // by axis: the velocity just before a rest that takes no time, which has come since
+  bool at_rest_ = true;
+  std::optional<Point> place_;  // the place at the end of the last phase
 };
 
 }  // namespace passo::proof

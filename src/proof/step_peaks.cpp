@@ -28,6 +28,7 @@ StepPeaks::StepPeaks(const ProofOptions& options, MotionProof& proof)
   for (std::size_t m = 0; m < options.axes.size(); ++m) {
     step_.push_back(options.axes[m].step.value());
     limits_.emplace_back(options.axes[m]);
+    start_stop_.push_back(options.axes[m].start_stop.value());
     proof_.axes[m].step_velocity_noise = 2 * step_[m] / window;
     proof_.axes[m].step_acceleration_noise = 4 * step_[m] / (window * window);
   }
@@ -76,18 +77,29 @@ void StepPeaks::difference(std::size_t m) {
   };
   AxisProof& axis = proof_.axes[m];
   raise(axis.step_velocity, static_cast<double>(std::abs(here - middle)) * step_[m] / window, window / 2);
+  const double faster = static_cast<double>(std::max(std::abs(here - middle), std::abs(middle - first)));
+  const double of_rests = of_jumps(m, faster * step_[m] / window);
+  const double bend = static_cast<double>(std::abs(here - 2 * middle + first)) * step_[m] / (window * window);
+  const double acceleration = std::max(bend - of_rests, 0.0);
   if (limits_[m].falls()) {
     const double slower = static_cast<double>(std::min(std::abs(here - middle), std::abs(middle - first)));
     const double least = (slower - 2) * step_[m] / window - limits_[m].constant() * window;
-    const double limit = limits_[m].at(std::max(least, 0.0));
-    const double value = static_cast<double>(std::abs(here - 2 * middle + first)) * step_[m] / (window * window);
+    const double limit = limits_[m].at(of_rests > 0 ? 0.0 : std::max(least, 0.0));
     const double noise = axis.step_acceleration_noise;
-    if (!(value * (axis.step_acceleration.limit + noise) > axis.step_acceleration.value * (limit + noise))) return;
+    if (!(acceleration * (axis.step_acceleration.limit + noise) > axis.step_acceleration.value * (limit + noise)))
+      return;
     axis.step_acceleration.limit = limit;
     axis.step_acceleration.value = 0;
   }
-  raise(axis.step_acceleration, static_cast<double>(std::abs(here - 2 * middle + first)) * step_[m] / (window * window),
-        window);
+  raise(axis.step_acceleration, acceleration, window);
+}
+
+// How much of the mean acceleration the jumps at rests may have done. `faster`: the mean velocity of the faster half.
+double StepPeaks::of_jumps(std::size_t m, double faster) const {
+  const double velocity = start_stop_[m];
+  const double rounding = 2 * step_[m] / window;
+  const bool slow = faster <= velocity + 2 * window * limits_[m].constant() + rounding;
+  return velocity > 0 && slow ? 2 * velocity / window : 0;
 }
 
 }  // namespace passo::proof

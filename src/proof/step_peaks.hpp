@@ -9,6 +9,10 @@
 // Where the limit falls with the speed, the limit at the lowest possible speed of the window counts: the speed of the
 // slower half of the window, less what the constant limit can change in T.
 //
+// With a start-stop velocity s the velocity jumps at a rest, from a velocity of at most s to another. If there is such
+// a jump in the window, no speed in the window is above s + 2 A T, and the mean acceleration is above A by 2 s / T at
+// most (the first jump in each T begins at -s at least, and the last one ends at s). That part is not counted.
+//
 // Neither can exceed its limit except by rounding. A count is within a step of the true place: half a step of rounding,
 // and as much again for steps that wait for the event clock. That adds up to 2 steps/T and 4 steps/T².
 #pragma once
@@ -36,10 +40,12 @@ class StepPeaks {
 
   void sample();
   void difference(std::size_t m);
+  double of_jumps(std::size_t m, double faster) const;
   std::int64_t before(std::size_t m, std::size_t samples) const;
 
   MotionProof& proof_;
   std::vector<SpeedLimit> limits_;   // by motor
+  std::vector<double> start_stop_;   // mm/s, by motor
   std::vector<double> step_;         // mm; 0: not checked
   std::vector<std::int64_t> place_;  // 1/65536 step, by motor
   std::int64_t time_ = 32768;        // 1/65536 tick

@@ -43,13 +43,22 @@ double least_through(double first, double second, double third) {
   return std::min(least, std::abs(second - rise * rise / (8 * bend)));
 }
 
+// An axis that may start and stop at a velocity needs no ramp there, so its jerk bounds no time.
+std::vector<ProvenAxis> without_jumps(std::vector<ProvenAxis> axes) {
+  for (ProvenAxis& axis : axes) {
+    if (axis.start_stop > MmPerSecond(0)) axis.jerk = MmPerSecond3(0);
+  }
+  return axes;
+}
+
 }  // namespace
 
-TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(options.axes) {
+TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(without_jumps(options.axes)) {
   for (const ProvenAxis& axis : axes_) {
     limits_.emplace_back(axis);
     ramps_.emplace_back(axis, limits_.back());
     any_falls_ |= limits_.back().falls();
+    any_jumps_ |= axis.start_stop > MmPerSecond(0);
   }
 }
 
@@ -74,7 +83,7 @@ void TimeBound::add_curve(const Segment& segment) {
   const ExactCurve curve(segment.curve);
   const double feed = std::min(square(segment.speed.value()), fastest);
   Place from = place_at(curve, 0);
-  const Joint start = joint_at(from);
+  Joint start = joint_at(from);
   double scale = 1;
   double kink = fastest;
   if (joint_) {
@@ -82,11 +91,20 @@ void TimeBound::add_curve(const Segment& segment) {
     kink = kink_cap(*joint_, start);
     double slowest = fastest;
     for (const ProvenAxis& axis : axes_) slowest = std::min(slowest, axis.velocity.value());
-    if (kink * square(start.steepness) < square(as_good_as_rest * slowest)) {
+    bool rests = kink * square(start.steepness) < square(as_good_as_rest * slowest);
+    if (any_jumps_ && kink < std::max(start.rest_cap, joint_->rest_cap * scale)) {
+      // The motion passes the kink, or stops and starts at two speeds of its own.
+      start.rest_cap = std::max(start.rest_cap, kink);
+      joint_->rest_cap = std::max(joint_->rest_cap, kink / scale);
+      rests = true;
+    }
+    if (rests) {
       end_stretch(!goes_back(*joint_, start));
       scale = 1;
+      kink = fastest;
     }
   }
+  if (!joint_) x_ = start.rest_cap;
   add_to_line(segment, from);
   const std::size_t first = cells_.size();
   const bool one_cell = curve.is_line() && !any_falls_;
@@ -208,7 +226,8 @@ double TimeBound::cap_within(const Place& from, const Place& middle, const Place
 }
 
 TimeBound::Joint TimeBound::joint_at(const Place& place) const {
-  Joint joint{.direction = place.slope, .steepness = std::sqrt(squares_of(place.slope))};
+  Joint joint{
+      .direction = place.slope, .steepness = std::sqrt(squares_of(place.slope)), .rest_cap = rest_cap(place.slope)};
   for (double& part : joint.direction) part = joint.steepness > 0 ? part / joint.steepness : 0;
   return joint;
 }
@@ -220,6 +239,18 @@ double TimeBound::kink_cap(const Joint& before, const Joint& after) const {
     const double jump = std::abs(after.direction[i] - before.direction[i]) * after.steepness;
     if (jump > 0 && axes_[i].velocity.value() > 0)
       cap = std::min(cap, square(rounding * axes_[i].velocity.value() / jump));
+  }
+  return cap;
+}
+
+// The largest x with which a path of this slope can begin or end at a rest.
+double TimeBound::rest_cap(const Row& slope) const {
+  if (!any_jumps_) return 0;
+  double cap = fastest;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!ramps_[i].limits() || slope[i] == 0) continue;
+    const double most = axes_[i].start_stop.value() + rounding * axes_[i].velocity.value();
+    cap = std::min(cap, square(most / slope[i]));
   }
   return cap;
 }
@@ -260,11 +291,12 @@ void TimeBound::plan_backwards(double last) {
 void TimeBound::settle(std::size_t cells) {
   const bool all = cells == cells_.size();
   if (cells_.empty()) return;
-  plan_backwards(all ? 0 : cells_.back().exit.cap);
+  const double at_end = all ? (joint_ ? joint_->rest_cap : 0) : cells_.back().exit.cap;
+  plan_backwards(at_end);
   for (std::size_t i = 0; i < cells; ++i) {
     const Cell& cell = cells_[i];
     x_ = std::min(x_ * cell.entry_scale, cell.controllable);
-    const double next = i + 1 < cells_.size() ? cells_[i + 1].controllable / cells_[i + 1].entry_scale : 0;
+    const double next = i + 1 < cells_.size() ? cells_[i + 1].controllable / cells_[i + 1].entry_scale : at_end;
     const double exit = std::min(next, most_at(cell.exit, cell.entry, x_, cell));
     if (ways_.any()) time_ = ways_.enter(rides_in(cell, x_, exit), time_);
     time_ += least_time(cell, x_, exit);
@@ -330,6 +362,7 @@ void TimeBound::add_to_line(const Segment& segment, const Place& place) {
     if (limit > 0 && part > standing && (lowest == 0 || limit / part < lowest)) lowest = limit / part;
   };
   for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (axes_[i].start_stop > MmPerSecond(0)) continue;
     lower(line.acceleration, axes_[i].acceleration.value(), std::abs(place.slope[i]));
     lower(line.jerk, axes_[i].jerk.value(), std::abs(place.slope[i]));
   }

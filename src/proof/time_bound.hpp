@@ -16,8 +16,8 @@
 // Limits of jerk make the bound higher where an axis, or a straight line, goes from one place to another (JerkWays).
 //
 // The path rests where the program demands it: at actions, exact stops and the ends, and where the direction jumps by
-// more than rounding. Memory: a window of cells, many braking distances long. Motion after the window is assumed to be
-// as fast as its first cell allows.
+// more than rounding. There x may be as large as the start-stop velocities of the axes allow. Memory: a window of
+// cells, many braking distances long. Motion after the window is assumed to be as fast as its first cell allows.
 #pragma once
 
 #include <array>
@@ -69,6 +69,7 @@ class TimeBound {
   struct Joint {  // the end of the last curve
     Row direction{};
     double steepness = 0;  // |q'|
+    double rest_cap = 0;   // the largest x with which the path can end here
   };
 
   void add_curve(const Segment& segment);
@@ -88,6 +89,7 @@ class TimeBound {
   double cap_within(const Place& from, const Place& middle, const Place& to) const;
   Joint joint_at(const Place& place) const;
   double kink_cap(const Joint& before, const Joint& after) const;
+  double rest_cap(const Row& slope) const;
   double most_at(const End& end, const End& other, double at_other, const Cell& cell) const;
   double least_time(const Cell& cell, double entry, double exit) const;
 
@@ -95,6 +97,7 @@ class TimeBound {
   std::vector<SpeedLimit> limits_;
   std::vector<AxisRamp> ramps_;
   bool any_falls_ = false;
+  bool any_jumps_ = false;  // some axis has a start-stop velocity
   std::vector<Cell> cells_;
   std::optional<Joint> joint_;
   double x_ = 0;  // at the start of the first cell

@@ -21,9 +21,21 @@ double size_of_difference(const AxisRow& a, const AxisRow& b) {
   return std::sqrt(sum);
 }
 
+// What is known of motion that speeds up from rest does not hold of an axis that jumps to a speed. Such an axis counts
+// as if no acceleration limited it. So the bound stays below the time of every motion.
+std::vector<ProvenAxis> axes_without_jumps(std::vector<ProvenAxis> axes) {
+  for (ProvenAxis& axis : axes) {
+    if (!(axis.start_stop > MmPerSecond(0))) continue;
+    axis.acceleration = MmPerSecond2(0);
+    axis.acceleration_at = {};
+  }
+  return axes;
+}
+
 }  // namespace
 
-TubeBound::TubeBound(const ProofOptions& options) : axes_(options.axes), path_(axes_), speeds_(axes_) {}
+TubeBound::TubeBound(const ProofOptions& options)
+    : axes_(axes_without_jumps(options.axes)), path_(axes_), speeds_(axes_) {}
 
 void TubeBound::watch(const PathItem& item) {
   if (const auto* action = std::get_if<Action>(&item)) {

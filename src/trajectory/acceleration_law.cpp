@@ -39,6 +39,7 @@ class AccelerationLaw final : public SpeedLaw {
       : path_(inputs.path),
         wishes_(inputs.wishes),
         cutter_(inputs.limits),
+        rests_(inputs.limits),
         cells_(std::max<std::size_t>(inputs.most_queued, 2), cutter_.most_demands(), cutter_.most_falling()) {}
 
   void begin() override {
@@ -47,6 +48,7 @@ class AccelerationLaw final : public SpeedLaw {
     cutting_ = closed_ = braking_ = false;
     decided_ = 0;
     speed_squared_ = 0;
+    stands_ = true;
   }
 
   void feeds_changed() override {
@@ -64,6 +66,7 @@ class AccelerationLaw final : public SpeedLaw {
     if (std::exchange(braking_, false)) decided_ = 0;
     while (decided_ == 0 && !(cells_.empty() && closed_)) look_ahead();
     if (cells_.empty()) return false;
+    if (std::exchange(stands_, false) && rests_.any()) speed_squared_ = cells_[0].decided_entry;
     give_move(move);
     return true;
   }
@@ -80,13 +83,14 @@ class AccelerationLaw final : public SpeedLaw {
       add_phase(cells_[0].cell.start, ride.way, speed_squared_, ride.exit, move);
       complete = go(ride, move);
     }
+    if (speed_squared_ == 0 && !stands_) stand_after({});
     return true;
   }
 
   void braking_plan(std::vector<PlannedMove>& plan) override {
     double speed_squared = speed_squared_;
     std::uint64_t segment = path_.first();
-    for (std::size_t i = 0; speed_squared > 0; ++i) {
+    for (std::size_t i = 0; speed_squared > 0 && i < cells_.size() && !(i > 0 && cells_[i].begins_at_rest()); ++i) {
       const Cell& cell = cells_[i].cell;
       const bool begins = plan.empty() || plan.back().to >= plan.back().segment.curve.length();
       if (begins && !plan.empty()) ++segment;
@@ -129,20 +133,37 @@ class AccelerationLaw final : public SpeedLaw {
     }
     const Segment* segment = path_.at(next_segment_);
     closed_ = segment == nullptr;
-    if (closed_) return;
-    at_rest_ = next_segment_ == path_.first() || rests_between(*path_.at(next_segment_ - 1), *segment);
-    if (at_rest_) reached_squared_ = 0;
+    if (closed_) {
+      if (!cells_.empty()) end_cap_ = rests_.at_end(end_direction(next_segment_ - 1));
+      return;
+    }
+    next_rest_ = rest_before(*segment);
+    if (next_rest_) reached_squared_ = next_rest_->start;
     cutter_.begin(*segment, reached_squared_);
     cutting_ = true;
     cut_feed_squared_ = feed_squared(*segment);
     ++next_segment_;
   }
 
+  // The speeds at the start of the next segment, if the path rests there.
+  std::optional<RestSpeeds::Pair> rest_before(const Segment& segment) {
+    const bool is_first = next_segment_ == path_.first();
+    if (!is_first && !rests_between(*path_.at(next_segment_ - 1), segment)) return std::nullopt;
+    if (!rests_.any()) return RestSpeeds::Pair{};
+    const Point direction = segment.curve.tangent(Mm(0));
+    if (is_first) return RestSpeeds::Pair{.start = rests_.at_start(direction, stopped_)};
+    return rests_.between(end_direction(next_segment_ - 1), direction);
+  }
+  Point end_direction(std::uint64_t number) {
+    const Curve& curve = path_.at(number)->curve;
+    return curve.tangent(curve.length());
+  }
+
   void append() {
-    const bool at_rest = std::exchange(at_rest_, false) || cells_.empty();
     cutter_.next(cells_.push());
     cutting_ = !cutter_.at_end();
-    cells_.back().begins_at_rest = at_rest;
+    if (next_rest_) cells_.back().rest_at(next_rest_->end, next_rest_->start);
+    next_rest_.reset();
     const Cell& cell = cells_.back().cell;
     reached_squared_ = std::min(cell.top_squared, reached_squared_ + 2 * cell.acceleration * cell.length);
     set_caps(cells_.size() - 1, cut_feed_squared_);
@@ -153,8 +174,8 @@ class AccelerationLaw final : public SpeedLaw {
   void set_caps(std::size_t i, double feed_squared) {
     CellQueue::Entry& entry = cells_[i];
     entry.top_squared = std::min(entry.cell.top_squared, feed_squared);
-    entry.entry_cap = entry.begins_at_rest ? 0 : entry.top_squared;
-    if (i > 0) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
+    entry.entry_cap = std::min(entry.rest_cap, entry.top_squared);
+    if (i > 0 && !entry.begins_at_rest()) entry.entry_cap = std::min(entry.entry_cap, cells_[i - 1].top_squared);
   }
 
   double entry_to(std::size_t i, double exit_most) {
@@ -182,14 +203,15 @@ class AccelerationLaw final : public SpeedLaw {
   // The path after the queue lies between two cases: a stop at once, and nothing that slows. Both are carried back.
   // Where a cap makes them equal they stay equal, and later cells change nothing before that place.
   void plan_backwards() {
-    double if_rest = 0;
-    double if_open = closed_ || cells_.empty() ? 0 : cells_.back().top_squared;
+    double if_rest = exit_if_rest();
+    double if_open = closed_ || cells_.empty() ? if_rest : cells_.back().top_squared;
     for (std::size_t i = cells_.size(); i-- > 0;) {
       const bool equal = if_rest == if_open;
       if (!equal) if_open = entry_to(i, if_open);
       if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after if_open: its choice of lines is the one kept
       if (equal) if_open = if_rest;
       cells_[i].entry_if_open = if_open;
+      if (i > 0 && cells_[i].begins_at_rest()) if_rest = if_open = exit_before(i, 0);
     }
   }
 
@@ -200,14 +222,39 @@ class AccelerationLaw final : public SpeedLaw {
     const std::size_t at_least = cells_.full() ? cells_.size() / 2 : 0;
     double entry = speed_squared_;
     for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
+      if (rests_.any() && (decided_ > 0 ? cells_[decided_].begins_at_rest() : stands_)) {
+        const double most = decided_ > 0 ? CellQueue::no_rest : cap_from_rest();
+        entry = std::min(most, cells_[decided_].entry_if_rest);
+        if (decided_ >= at_least && entry != std::min(most, cells_[decided_].entry_if_open)) break;
+      }
       const bool last = decided_ + 1 == cells_.size();
-      const double if_rest = last ? 0 : cells_[decided_ + 1].entry_if_rest;
-      const double if_open = last ? (closed_ ? 0 : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
+      const double if_rest = last ? exit_if_rest() : exit_before(decided_ + 1, cells_[decided_ + 1].entry_if_rest);
+      const double if_open = last ? (closed_ ? if_rest : cells_[decided_].top_squared)
+                                  : exit_before(decided_ + 1, cells_[decided_ + 1].entry_if_open);
       const double exit = exit_from(decided_, entry, if_rest);
       if (decided_ >= at_least && if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
       cells_[decided_].decided_entry = std::exchange(entry, exit);
       cells_[decided_].decided_exit = exit;
     }
+  }
+
+  // The limit at the end of the cell before cell i, which may be entered with this speed.
+  double exit_before(std::size_t i, double entry) const {
+    return cells_[i].begins_at_rest() ? std::min(cells_[i].rest_exit, cells_[i - 1].top_squared) : entry;
+  }
+  // The square of the speed at the end of the queue if the path comes to rest there.
+  double exit_if_rest() const {
+    return closed_ && !cells_.empty() ? std::min(end_cap_, cells_[cells_.size() - 1].top_squared) : 0;
+  }
+
+  // The limit of the speed with which the motion may begin at its present place.
+  double cap_from_rest() { return rests_.at_start(path_.front()->curve.tangent(Mm(cells_[0].cell.start)), stopped_); }
+
+  // The machine has come to rest, and stopped with this velocity.
+  void stand_after(const Point& velocity) {
+    speed_squared_ = 0;
+    stopped_ = velocity;
+    stands_ = true;
   }
 
   // The way into the first cell that the path goes now, and the square of the speed after it.
@@ -252,7 +299,8 @@ class AccelerationLaw final : public SpeedLaw {
   }
   // The exit of cell i, entered with this speed.
   double planned_exit(std::size_t i, double entry) const {
-    return exit_from(i, entry, i + 1 < cells_.size() ? cells_[i + 1].entry_if_rest : 0);
+    const bool last = i + 1 == cells_.size();
+    return exit_from(i, entry, last ? exit_if_rest() : exit_before(i + 1, cells_[i + 1].entry_if_rest));
   }
 
   // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
@@ -287,6 +335,9 @@ class AccelerationLaw final : public SpeedLaw {
     decided_ -= std::min<std::size_t>(decided_, 1);
     move.to = Mm(cell_end);
     cells_.pop();
+    if (rests_.any() && (cells_.empty() || cells_[0].begins_at_rest())) {
+      stand_after(segment.curve.tangent(segment.curve.length()) * std::sqrt(speed_squared_));
+    }
     return rest || cell_end >= segment.curve.length().value();
   }
 
@@ -295,6 +346,9 @@ class AccelerationLaw final : public SpeedLaw {
     const CellPlace front = cells_.front_again();
     cutter_.cut(segment, from, to, front.cell.straight, front);
     front.allow(speed_squared_, exit);
+    if (!rests_.any()) return;
+    cells_[0].go_on_at_entry();
+    set_caps(0, feed_squared(segment));
   }
 
   // The exit stays, and with it all that was decided.
@@ -310,7 +364,7 @@ class AccelerationLaw final : public SpeedLaw {
     const CellPlace first = cells_.push_front();
     cutter_.cut(*path_.front(), start, middle, false, first);
     first.allow(speed_squared_, halfway);
-    cells_[1].begins_at_rest = false;
+    cells_[1].go_on_at_entry();
     for (std::size_t i = 0; i < 2; ++i) set_caps(i, feed_squared(*path_.front()));
     cells_[1].entry_if_rest = std::max(halfway, entry_to(1, exit));
     if (decided_ == 0) return;
@@ -325,17 +379,21 @@ class AccelerationLaw final : public SpeedLaw {
   PathAhead& path_;
   const MidRunWishes& wishes_;
   CellCutter cutter_;
+  RestSpeeds rests_;
 
   CellQueue cells_;
   std::uint64_t next_segment_ = 0;  // the first segment of which no cell is cut
   bool cutting_ = false;
-  bool at_rest_ = true;          // the next cell begins at rest
-  double cut_feed_squared_ = 0;  // of the segment that is being cut
-  double reached_squared_ = 0;   // the square of the highest speed at which it may begin
-  std::size_t decided_ = 0;      // cells at the head whose exit speed no later cell can change
-  double speed_squared_ = 0;     // at the start of the head
-  bool closed_ = false;          // an action or the program's end follows the queue, which ends at rest
+  std::optional<RestSpeeds::Pair> next_rest_;  // at the start of the next cell
+  double cut_feed_squared_ = 0;                // of the segment that is being cut
+  double reached_squared_ = 0;                 // the square of the highest speed at which it may begin
+  std::size_t decided_ = 0;                    // cells at the head whose exit speed no later cell can change
+  double speed_squared_ = 0;                   // at the start of the head
+  bool closed_ = false;                        // an action or the program's end follows the queue, which ends at rest
+  double end_cap_ = 0;                         // then: the limit of the square of the speed at its end
   bool braking_ = false;
+  bool stands_ = true;  // at rest, which the motion may leave with some speed
+  Point stopped_;       // how fast the axes were when the machine last came to rest
 };
 
 }  // namespace

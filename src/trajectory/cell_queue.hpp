@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,16 +14,26 @@ namespace passo {
 
 class CellQueue {
  public:
+  static constexpr double no_rest = std::numeric_limits<double>::infinity();
   struct Entry {
     Cell cell;
-    bool begins_at_rest = false;
+    // Where the path rests at the entry: the limits, squared, of the entry and of the exit of the cell before.
+    double rest_cap = no_rest;
+    double rest_exit = no_rest;
     double top_squared = 0;    // limit in the cell, with the override of the feed
-    double entry_cap = 0;      // limit at the entry, squared: by the tops on both sides, 0 at a rest
+    double entry_cap = 0;      // limit at the entry, squared: by the tops on both sides, and by a rest
     double entry_if_rest = 0;  // the greatest entry, squared, if the path came to rest after the queue
     double entry_if_open = 0;  // the same if the path went straight on for ever
     // Of a decided cell: its exit if it is entered like this. Below 0: the cell was changed since.
     double decided_entry = -1;
     double decided_exit = 0;
+
+    bool begins_at_rest() const { return rest_cap < no_rest; }
+    void rest_at(double exit_before, double entry) {
+      rest_exit = exit_before;
+      rest_cap = entry;
+    }
+    void go_on_at_entry() { rest_cap = no_rest; }
   };
 
   // `axes` is the most demands of a cell; `falling_axes` of them have limits that fall with the speed.
@@ -74,7 +85,7 @@ class CellQueue {
   static constexpr std::size_t first_capacity = 256;
 
   CellPlace new_place(std::size_t at) {
-    entries_[at].begins_at_rest = false;
+    entries_[at].go_on_at_entry();
     entries_[at].entry_if_rest = entries_[at].entry_if_open = 0;
     return place(at);
   }

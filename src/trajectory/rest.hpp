@@ -1,16 +1,20 @@
-// Where a path must rest between two of its segments. Private to trajectory/.
+// Where a path must rest between two of its segments, and how fast a motion may begin and end at a rest. Private to
+// trajectory/.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
 #include "passo/path/segment.hpp"
+#include "passo/trajectory/motion_limits.hpp"
 
 namespace passo {
 
 // If the directions of two segments differ by more, the path has a corner, and the motion must rest there. At 100 mm/s
 // the speed of an axis jumps by 1e-4 mm/s where they differ by just that.
 inline constexpr double tangent_tolerance = 1e-6;
+// A part of a direction smaller than this is rounding: the axis stands.
+inline constexpr double least_part_of_direction = 1e-9;
 
 inline bool rests_between(const Segment& before, const Segment& after) {
   if (before.mode == PathMode::exact_stop) return true;
@@ -18,5 +22,72 @@ inline bool rests_between(const Segment& before, const Segment& after) {
   return std::any_of(change.values.begin(), change.values.end(),
                      [](double part) { return std::abs(part) > tangent_tolerance; });
 }
+
+// The squares of the speeds along the path at which a motion may begin and end at a rest. Then no axis is faster there
+// than its start-stop velocity, and the velocity of no axis jumps by more. An axis that can jump to any velocity does
+// not limit.
+class RestSpeeds {
+ public:
+  explicit RestSpeeds(const MotionLimits& limits)
+      : limits_(limits),
+        any_(std::ranges::any_of(limits.start_stop.values, [](MmPerSecond v) { return v > MmPerSecond(0); })) {}
+
+  bool any() const { return any_; }
+  // At the end of a path of this direction.
+  double at_end(const Point& direction) const {
+    return squared([&](std::size_t i, double velocity) { return room(velocity, direction.values[i]); });
+  }
+  // At the start of a path of this direction, right after a rest at which an earlier motion stopped with this velocity.
+  double at_start(const Point& direction, const Point& stopped) const {
+    return squared([&](std::size_t i, double velocity) {
+      const double part = direction.values[i];
+      const double turned = std::min(part < 0 ? -stopped.values[i] : stopped.values[i], 0.0);
+      return room(std::max(velocity + turned, 0.0), part);
+    });
+  }
+  // Where a path goes on in another direction: at the end of the first part, at the start of the second. Each speed may
+  // be less, whatever the other one is. An axis that turns back shares its velocity between the two.
+  struct Pair {
+    double end = 0;
+    double start = 0;
+  };
+  Pair between(const Point& before, const Point& after) const {
+    Pair pair{.end = at_end(before), .start = at_end(after)};
+    const double in = std::sqrt(pair.end);
+    const double out = std::sqrt(pair.start);
+    double share = 1;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      const double arriving = std::abs(before.values[i]);
+      const double leaving = std::abs(after.values[i]);
+      const bool turns_back = before.values[i] * after.values[i] < 0;
+      if (!turns_back || !(limits_.acceleration.values[i] > MmPerSecond2(0))) continue;
+      if (std::min(arriving, leaving) < least_part_of_direction) continue;
+      const double jump = in * arriving + out * leaving;
+      const double most = std::max(limits_.start_stop.values[i].value(), 0.0);
+      if (jump > most) share = std::min(share, most / jump);
+    }
+    pair.end *= share * share;
+    pair.start *= share * share;
+    return pair;
+  }
+
+ private:
+  static double room(double velocity, double part) {
+    return std::abs(part) < least_part_of_direction ? fastest : std::min(velocity / std::abs(part), fastest);
+  }
+  template <class SpeedOfAxis>
+  double squared(const SpeedOfAxis& speed_of_axis) const {
+    if (!any_) return 0;
+    double speed = fastest;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      if (!(limits_.acceleration.values[i] > MmPerSecond2(0))) continue;
+      speed = std::min(speed, speed_of_axis(i, std::max(limits_.start_stop.values[i].value(), 0.0)));
+    }
+    return speed * speed;
+  }
+
+  const MotionLimits& limits_;
+  bool any_;
+};
 
 }  // namespace passo

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -25,20 +26,30 @@ class Watch {
       if (const auto* segment = std::get_if<Segment>(&item)) place_ = segment->curve.end();
     });
     job.items().watch([this](const BoardItem& item) { prover_.watch(item); });
-    job.motion().watch([this](const MotionItem& item) {
+    job.motion().watch([this, &machine](const MotionItem& item) {
       const auto* action = std::get_if<Action>(&item);
       if (action != nullptr && action->kind == Action::Kind::feed_hold) {
         EXPECT_TRUE(rests_) << "held in motion";
         return;
       }
       prover_.watch(item);
-      rests_ = action != nullptr || std::get<PlannedMove>(item).ends_at_rest();
+      rests_ = action != nullptr || comes_to_rest(std::get<PlannedMove>(item), machine);
     });
   }
   MotionProof finish() { return prover_.finish(); }
   const Point& place() const { return place_; }
 
  private:
+  // At the end of a path the motors may stop at their start-stop velocities.
+  static bool comes_to_rest(const PlannedMove& move, const MachineDescription& machine) {
+    if (move.ends_at_rest()) return true;
+    if (move.to < move.segment.curve.length()) return false;
+    const Point velocity = move.segment.curve.tangent(move.to) * move.exit_velocity().value();
+    return std::ranges::all_of(machine.axes, [&](const AxisDescription& axis) {
+      return std::abs(velocity[axis.axis]) <= axis.start_stop.value() * (1 + 1e-9) + 1e-6;
+    });
+  }
+
   MotionProver prover_;
   Point place_;
   bool rests_ = true;

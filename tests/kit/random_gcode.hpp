@@ -91,6 +91,15 @@ inline void mix_limits(std::uint64_t number, MachineDescription& machine) {
   machine.axes.push_back(axis);
 }
 
+// Gives most axes a velocity at which they start and stop. One machine of five keeps its limits of jerk.
+inline void give_starts(std::uint64_t number, MachineDescription& machine) {
+  Random random = Random::of(number ^ 0x737461);
+  for (AxisDescription& axis : machine.axes) {
+    if (number % 5 != 0) axis.jerk = MmPerSecond3(0);
+    if (random.chance(0.8)) axis.start_stop = axis.velocity * random.between(0.01, 0.3);
+  }
+}
+
 class RandomGcode {
  public:
   RandomGcode(Random& random, const MachineDescription& machine) : random_(random), machine_(machine) {}
@@ -234,6 +243,8 @@ class RandomGcode {
   double size_ = 1;
 };
 
+enum class Machines : std::uint8_t { as_drawn, mixed, starting };
+
 struct RandomJob {
   explicit RandomJob(Random& random) : machine(random_machine(random)), program(RandomGcode(random, machine).draw()) {}
   RandomJob(Random& random, MachineDescription on)
@@ -243,6 +254,20 @@ struct RandomJob {
     MachineDescription machine = random_machine(random);
     mix_limits(number, machine);
     return {random, std::move(machine)};
+  }
+  // With start-stop velocities.
+  static RandomJob starting(std::uint64_t number, Random& random) {
+    MachineDescription machine = random_machine(random);
+    give_starts(number, machine);
+    return {random, std::move(machine)};
+  }
+  static RandomJob of(Machines machines, std::uint64_t number, Random& random) {
+    switch (machines) {
+      case Machines::as_drawn: break;
+      case Machines::mixed: return mixed(number, random);
+      case Machines::starting: return starting(number, random);
+    }
+    return RandomJob(random);
   }
   MachineDescription machine;
   std::string program;
@@ -256,14 +281,13 @@ inline std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
 // Calls `try_one` for PASSO_RUNS numbers from PASSO_SEED on, each time with the number's job and generator. Ends at the
 // first failure. Without PASSO_RUNS there are `runs_otherwise` numbers, or fewer as PASSO_ONE_IN says. Each job depends
 // only on its number.
-enum class Machines : std::uint8_t { as_drawn, mixed };
 template <class Try>
 void for_each_job(int runs_otherwise, const Try& try_one, Machines machines = Machines::as_drawn) {
   const std::uint64_t first = number_of("PASSO_SEED", 1);
   const std::uint64_t runs = number_of("PASSO_RUNS", static_cast<std::uint64_t>(fewer(runs_otherwise)));
   for (std::uint64_t number = first; number < first + runs && !testing::Test::HasFailure(); ++number) {
     Random random = Random::of(number);
-    const RandomJob job = machines == Machines::mixed ? RandomJob::mixed(number, random) : RandomJob(random);
+    const RandomJob job = RandomJob::of(machines, number, random);
     SCOPED_TRACE("PASSO_SEED=" + std::to_string(number) + "\n" + describe(job.machine) + job.program);
     if (runs == 1) std::printf("%s%s", describe(job.machine).c_str(), job.program.c_str());
     try_one(number, job, random);

@@ -48,6 +48,16 @@ TEST(RandomLine, faults_and_cuts_change_no_step) {
               sums.faults, sums.recoveries);
 }
 
+TEST(RandomLine, faults_and_cuts_change_no_step_with_start_stop_velocities) {
+  Sums sums;
+  const auto try_one = [&](std::uint64_t number, const test::RandomJob& job, test::Random& random) {
+    expect_every_step(number, job, random, sums);
+  };
+  test::for_each_job(15, try_one, test::Machines::starting);
+  std::printf("%llu frames, %d faults, %d recoveries from a tail\n", static_cast<unsigned long long>(sums.frames),
+              sums.faults, sums.recoveries);
+}
+
 // Dust on a board with few places: the limit of speed was lowered in motion, and the motion could not follow.
 TEST(RandomLine, changes_no_step_in_a_program_that_once_failed) {
   constexpr std::uint64_t number = 2026113738;

@@ -60,6 +60,28 @@ TEST(MachineReader, a_jerk_limit_may_be_given_and_is_none_otherwise) {
   EXPECT_EQ(diagnostics.all()[0].code, "machine.out-of-range");
 }
 
+TEST(MachineReader, an_axis_may_have_a_start_stop_velocity_up_to_its_velocity) {
+  EXPECT_EQ(parsed(sound_machine).axes[0].start_stop, MmPerSecond(0));
+  const MachineDescription machine =
+      parsed(replaced(replaced(sound_machine, "[axis.X]\n", "[axis.X]\nstart_stop_velocity_mm_s = 2.5\n"), "[axis.A]\n",
+                      "[axis.A]\nstart_stop_velocity_deg_s = 5\n"));
+  EXPECT_EQ(machine.axes[0].start_stop, MmPerSecond(2.5));
+  EXPECT_EQ(machine.axes[1].start_stop, MmPerSecond(5));
+  const double rate = 2.5 * machine.axes[0].steps_per_unit;
+  EXPECT_THAT(describe(machine), testing::HasSubstr("200 mm/s2, starts and stops at 2.5 mm/s (" +
+                                                    std::to_string(std::lround(rate)) + " steps/s)\n"));
+
+  Diagnostics diagnostics;
+  const std::string faster = replaced(sound_machine, "[axis.X]\n", "[axis.X]\nstart_stop_velocity_mm_s = 1e4\n");
+  EXPECT_FALSE(parse_machine(faster, "machine.toml", diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1U);
+  EXPECT_EQ(diagnostics.all()[0].code, "machine.start-stop");
+  EXPECT_EQ(diagnostics.all()[0].message.substr(0, 27), "axis X would start at 10000");
+  const std::string below = replaced(sound_machine, "[axis.X]\n", "[axis.X]\nstart_stop_velocity_mm_s = -1\n");
+  EXPECT_FALSE(parse_machine(below, "machine.toml", diagnostics));
+  EXPECT_EQ(diagnostics.all()[1].code, "machine.out-of-range");
+}
+
 TEST(MachineReader, takes_defaults_for_what_may_be_left_out) {
   const MachineDescription machine = parsed(
       "name = 'Plain'\n[board]\nclock_hz = 16e6\nmax_event_rate_hz = 50e3\n"

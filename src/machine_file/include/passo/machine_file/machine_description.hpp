@@ -45,6 +45,7 @@ struct AxisDescription {
   MmPerSecond2 acceleration{0};    // an upper limit; the motor may leave less
   std::optional<AxisMotor> motor;  // the motor, where the file describes it: acceleration follows its torque
   MmPerSecond3 jerk{0};            // 0: no limit
+  MmPerSecond start_stop{0};       // the motor starts and stops at it in one step; 0: always from rest
   bool inverted = false;           // true: the motor turns the other way
   std::optional<HomeDescription> home = {};
 
@@ -55,6 +56,8 @@ struct AxisDescription {
   // The length of one step, and the steps a second at full velocity.
   Mm step() const { return Mm(1.0 / steps_per_unit); }
   Hertz highest_step_rate() const { return Hertz(velocity.value() * steps_per_unit); }
+  // The motor's pull-in rate, as far as it is used: steps a second.
+  Hertz start_stop_rate() const { return Hertz(start_stop.value() * steps_per_unit); }
 };
 
 struct BoardDescription {

@@ -29,6 +29,9 @@ struct ProvenAxis {
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};
   MmPerSecond3 jerk{0};
+  // At a rest the velocity may jump: between two values, either way round, that differ by no more than this and of
+  // which neither is greater. 0: no jump.
+  MmPerSecond start_stop = MmPerSecond(0);
   // The limit where it falls with the speed: never rising, above 0 up to `velocity`. Empty: `acceleration` at all
   // speeds.
   std::function<MmPerSecond2(MmPerSecond)> acceleration_at = {};
@@ -56,9 +59,10 @@ struct AxisProof {
   Finding acceleration;
   Finding jerk;
   // Between two phases.
-  Finding velocity_jump;      // the limit is what rounding may leave
+  Finding velocity_jump;      // the limit is what rounding may leave, or the start-stop velocity at a rest
   Finding acceleration_jump;  // no limit where the jerk has no limit
-  // From the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add `..._noise`.
+  // From the steps, over windows of 10 ms. `limit` is the machine's; rounding to whole steps may add `..._noise`. What
+  // the jumps at rests may have done is not counted as acceleration.
   Finding step_velocity;
   Finding step_acceleration;
   double step_velocity_noise = 0;
@@ -72,7 +76,8 @@ struct MotionProof {
   Finding gap;        // between the end of one phase and the start of the next, mm
   Seconds time{0};
   Seconds time_bound{0};  // no motion on the same path within velocity, acceleration, jerk and feed takes less
-  // No motion on any path within the tolerance takes less, within the same limits. 0 without a programmed path.
+  // No motion on any path within the tolerance takes less, within the same limits. 0 without a programmed path. Axes
+  // with a start-stop velocity count as if any acceleration were possible.
   Seconds tube_bound{0};
   std::uint64_t moves = 0;
   std::uint64_t phases = 0;

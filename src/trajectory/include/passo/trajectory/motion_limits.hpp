@@ -21,6 +21,9 @@ struct MotionLimits {
   // The acceleration that a motor has left at the axis's speed; it limits beside the constant. Empty: the constant
   // alone.
   PerAxis<AccelerationCurve> falling;
+  // The velocity to which a motor jumps from rest, and from which it stops at once, without losing a step. 0: none.
+  // Planning with limited jerk does not use it.
+  PerAxis<MmPerSecond> start_stop;
 
   // Of some axis at least.
   bool limits_jerk() const {
