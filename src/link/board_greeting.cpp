@@ -18,6 +18,7 @@ void BoardSession::greet(const Greeting& greeting) {
   forget_what_was();
   motors_ = greeting.motors;
   session_ = greeting.session;
+  silence_ = greeting.silence;
   greeting_ = greeting.number;
   sent_ = taken_ = executed_ = asked_behind_ = greeting_;
   decoder_.set_motors(motors_);
@@ -37,7 +38,7 @@ void BoardSession::forget_what_was() {
   probe_ = {};
   usual_question_ = last_question_ = Question::status;
   answered_ = true;
-  rests_ = repeating_ = false;
+  rests_ = repeating_ = outputs_timed_out_ = false;
   refusals_ = doubts_ = free_ = 0;
   pressed_ = 0;
 }
@@ -63,7 +64,7 @@ void BoardSession::name_session(std::uint16_t number) {
 
 void BoardSession::say_session() {
   greeted_ = quiet_since_ = port_.elapsed();
-  say(Session{.number = session_}, std::uint8_t{0});
+  say(Session{.number = session_, .silence = silence_}, std::uint8_t{0});
   ask(Question::status);
 }
 

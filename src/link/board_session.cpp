@@ -98,6 +98,7 @@ void BoardSession::send(const BoardSegment& segment) {
 
 void BoardSession::send(const BoardOutputs& outputs) {
   assert(error_ || room() > 0);
+  outputs_timed_out_ = false;
   send_counted(outputs);
 }
 
@@ -149,7 +150,7 @@ void BoardSession::read_spindle() {
 void BoardSession::rehearse(std::size_t bytes) {
   rehearsed_ = port_.elapsed();
   for (const std::uint64_t end = bytes_sent_ + bytes; bytes_sent_ < end && !error_;) {
-    say(Session{.number = session_}, std::uint8_t{0});
+    say(Session{.number = session_, .silence = silence_}, std::uint8_t{0});
   }
   read_spindle();
 }
@@ -281,6 +282,7 @@ void BoardSession::take(const BoardStatus& status) {
   if (status.answers == question_) settle(Question::status);
   if (!is_known) return;
   doubts_ = 0;
+  note_timeout(status);
   const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
   note_progress(credit, status.answers);
   rests_ = holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0;
@@ -326,10 +328,17 @@ void BoardSession::take(const Captured& captured) {
 }
 
 void BoardSession::note_inputs(const BoardStatus& status) {
-  const auto pressed = static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{probe_.input()});
+  const auto inputs = static_cast<std::uint16_t>(status.inputs & ~passo::outputs_timed_out);
+  const auto pressed = static_cast<std::uint16_t>(inputs & ~inputs_ & ~unsigned{probe_.input()});
   pressed_ |= pressed;
   news_ = news_ || pressed != 0;
-  inputs_ = status.inputs;
+  inputs_ = inputs;
+}
+
+// A status from before the last outputs says nothing of now.
+void BoardSession::note_timeout(const BoardStatus& status) {
+  if (status.taken != static_cast<std::uint8_t>(sent_)) return;
+  outputs_timed_out_ = (status.inputs & passo::outputs_timed_out) != 0;
 }
 
 void BoardSession::note_probe(ProbeWatch::News news) {
@@ -350,6 +359,7 @@ void BoardSession::take(const ErrorReport& error) {
     case WireError::out_of_sequence:
     case WireError::queue_full: break;
     case WireError::too_late:
+    case WireError::silent_host:
     case WireError::wrong_sums: return;  // the executed items will tell
     case WireError::manual: error_ = LinkError::manual; return;
     default:

@@ -72,6 +72,9 @@ class Link {
   virtual bool rests() const = 0;
   // True: something that was sent is, as far as the host knows, not done.
   virtual bool busy() const = 0;
+  // True: the board did not hear the host for so long that it has switched outputs off. It takes no replacement before
+  // outputs are sent alone.
+  virtual bool outputs_timed_out() const { return false; }
 
   // Questions that must be answered before the host goes on. Only one may be open at a time. settled() tells when the
   // answer has come.
