@@ -22,7 +22,7 @@ void BoardSession::greet(const Greeting& greeting) {
   greeting_ = greeting.number;
   sent_ = taken_ = executed_ = asked_behind_ = greeting_;
   decoder_.set_motors(motors_);
-  heard_ = port_.elapsed();
+  progressed_ = heard_ = port_.elapsed();
   phase_ = Phase::greeting;
   say_hello();
 }
@@ -59,6 +59,7 @@ void BoardSession::name_session(std::uint16_t number) {
   assert(number != 0 && !busy());
   session_ = number;
   phase_ = Phase::naming;
+  progressed_ = port_.elapsed();
   say_session();
 }
 
@@ -78,6 +79,7 @@ void BoardSession::look_at_greeting() {
       error_ = LinkError::too_few_motors;
     } else if (session_ != 0) {
       phase_ = Phase::naming;
+      progressed_ = port_.elapsed();
       status_.reset();
       say_session();
     } else {

@@ -220,6 +220,7 @@ class BoardSession final : public Link {
   std::vector<Frame> frames_;  // the frames of a replacement while it is put together
   std::deque<Frame> kept_;     // frames sent and, as far as the host knows, not taken
   Seconds heard_{0};           // when the board last said anything
+  Seconds progressed_{0};      // when the board last answered, took or executed something
   Seconds quiet_since_{0};     // when the board did, or was asked again
   Seconds moved_on_{0};        // when the board last took something, or the host asked or sent
   std::uint64_t frames_sent_ = 0;

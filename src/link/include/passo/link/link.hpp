@@ -20,6 +20,7 @@ namespace passo {
 
 enum class LinkError : std::uint8_t {
   no_answer,       // the board is silent, though an answer is due
+  no_progress,     // the board, or what is in its place, talks, and does nothing of what it was told
   wrong_version,   // the board speaks another protocol
   too_few_motors,  // the board has fewer motors than the machine
   refused,         // the board did not take what was sent
