@@ -33,7 +33,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       feed_(make_feed(options, steps)),
       probe_(board_, answers, steps),
       spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
-               steps.clock.tick_rate) {
+               steps.clock.tick_rate),
+      spindle_wait_(options.spindle_wait) {
   watched_path_.watch([this](const PathItem& item) { watch(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
   if (options.guards_by_probe) probe_.guard_other_moves();
@@ -164,6 +165,7 @@ MotionDrive::Turn MotionDrive::take(Feed::Turn turn) {
     case Feed::Turn::rests_in_hold: come_to_rest(); break;
     case Feed::Turn::at_action: act(feed_->take_action()); break;
     case Feed::Turn::lost_thread: lose_thread(); break;
+    case Feed::Turn::outputs_off: switch_on_again(); break;
     case Feed::Turn::ended: return end();
   }
   return Turn::goes_on;
@@ -391,6 +393,12 @@ void MotionDrive::switch_on(const OutputState& outputs, Seconds spindle_wait) {
     script_.until([this] { return pause_end_ - now() <= hardly_any; });
   }
   if (spindle != outputs) order(outputs);
+}
+
+// The machine rests. What the program has ordered is as it was before motion goes on.
+void MotionDrive::switch_on_again() {
+  ++output_timeouts_;
+  switch_on(outputs_.ordered(), spindle_wait_);
 }
 
 std::optional<std::string> unsuited(const BoardSession& board, const StepOptions& steps, bool wants_encoder) {

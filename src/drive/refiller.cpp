@@ -88,6 +88,10 @@ Refiller::Turn Refiller::advance() {
       told_ahead_.reset();
     }
   }
+  if (stages_.link.outputs_timed_out() && refills_under_way_.empty() && !(ended_ && pulled_.empty())) {
+    take_up();
+    return Turn::outputs_off;
+  }
   if (!on_tail_ && !brakes_) {
     if (may_plan()) pull();
     if (const std::size_t items = size_of_refill(); items > 0) {

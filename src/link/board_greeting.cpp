@@ -18,10 +18,11 @@ void BoardSession::greet(const Greeting& greeting) {
   forget_what_was();
   motors_ = greeting.motors;
   session_ = greeting.session;
+  silence_ = greeting.silence;
   greeting_ = greeting.number;
   sent_ = taken_ = executed_ = asked_behind_ = greeting_;
   decoder_.set_motors(motors_);
-  heard_ = port_.elapsed();
+  progressed_ = heard_ = port_.elapsed();
   phase_ = Phase::greeting;
   say_hello();
 }
@@ -37,7 +38,7 @@ void BoardSession::forget_what_was() {
   probe_ = {};
   usual_question_ = last_question_ = Question::status;
   answered_ = true;
-  rests_ = repeating_ = false;
+  rests_ = repeating_ = outputs_timed_out_ = false;
   refusals_ = doubts_ = free_ = 0;
   pressed_ = 0;
 }
@@ -58,12 +59,13 @@ void BoardSession::name_session(std::uint16_t number) {
   assert(number != 0 && !busy());
   session_ = number;
   phase_ = Phase::naming;
+  progressed_ = port_.elapsed();
   say_session();
 }
 
 void BoardSession::say_session() {
   greeted_ = quiet_since_ = port_.elapsed();
-  say(Session{.number = session_}, std::uint8_t{0});
+  say(Session{.number = session_, .silence = silence_}, std::uint8_t{0});
   ask(Question::status);
 }
 
@@ -77,6 +79,7 @@ void BoardSession::look_at_greeting() {
       error_ = LinkError::too_few_motors;
     } else if (session_ != 0) {
       phase_ = Phase::naming;
+      progressed_ = port_.elapsed();
       status_.reset();
       say_session();
     } else {

@@ -20,6 +20,10 @@ constexpr std::size_t repeated_at_once = 16;
 constexpr int most_refusals = 8;  // of one frame
 constexpr int sure_of_status = 2;
 
+// A peer that talks, and neither answers nor takes nor executes anything, is given up after this many times the
+// patience. No item has so long between two of its events.
+constexpr double most_patiences = 2;
+
 constexpr std::size_t most_gibberish = 256;
 
 }  // namespace
@@ -57,7 +61,7 @@ bool BoardSession::expects() const {
 
 // Silence counts from now on, if nothing was expected before.
 void BoardSession::begin_to_expect() {
-  if (!expects()) heard_ = quiet_since_ = port_.elapsed();
+  if (!expects()) progressed_ = heard_ = quiet_since_ = port_.elapsed();
 }
 
 // Asks again, or gives up, after a silence. An endless wait expects something in any case.
@@ -66,11 +70,13 @@ void BoardSession::mind_silence(bool heard, bool endless) {
   if (error_) return;
   if (heard) quiet_since_ = now;
   if (!endless && !expects()) {
-    heard_ = quiet_since_ = now;
+    progressed_ = heard_ = quiet_since_ = now;
   } else if (!may_lose()) {
     if (!heard && endless) error_ = LinkError::no_answer;
   } else if (now - heard_ > care_.patience) {
     error_ = LinkError::no_answer;
+  } else if (now - progressed_ > most_patiences * care_.patience) {
+    error_ = LinkError::no_progress;
   } else if ((!heard && (endless || care_.answer_within - (now - quiet_since_) <= hardly_any)) || overdue()) {
     quiet_since_ = now;
     ask_again();
@@ -98,6 +104,7 @@ void BoardSession::send(const BoardSegment& segment) {
 
 void BoardSession::send(const BoardOutputs& outputs) {
   assert(error_ || room() > 0);
+  outputs_timed_out_ = false;
   send_counted(outputs);
 }
 
@@ -124,6 +131,7 @@ ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> ite
 
 void BoardSession::await(Question question) {
   begin_to_expect();
+  progressed_ = port_.elapsed();
   awaited_ = question;
   ask(question);
 }
@@ -149,7 +157,7 @@ void BoardSession::read_spindle() {
 void BoardSession::rehearse(std::size_t bytes) {
   rehearsed_ = port_.elapsed();
   for (const std::uint64_t end = bytes_sent_ + bytes; bytes_sent_ < end && !error_;) {
-    say(Session{.number = session_}, std::uint8_t{0});
+    say(Session{.number = session_, .silence = silence_}, std::uint8_t{0});
   }
   read_spindle();
 }
@@ -244,6 +252,7 @@ void BoardSession::take(const Credit& credit) {
   const ItemNumber before = taken_;
   note_taken(credit.taken);
   if (more == 0 && taken_ == before && credit.free <= free_) return;
+  if (more != 0) progressed_ = port_.elapsed();
   executed_ = credit.executed;
   free_ = credit.free;
   news_ = true;
@@ -254,6 +263,7 @@ bool BoardSession::holds_nothing_of(const Credit& credit) const {
 }
 
 void BoardSession::take(const BoardStatus& status) {
+  if (status_ && status.event != status_->event) progressed_ = port_.elapsed();
   status_ = status;
   status_time_ = port_.elapsed();
   if (phase_ == Phase::before_hello) {
@@ -281,6 +291,7 @@ void BoardSession::take(const BoardStatus& status) {
   if (status.answers == question_) settle(Question::status);
   if (!is_known) return;
   doubts_ = 0;
+  note_timeout(status);
   const Credit credit{.executed = status.executed, .taken = status.taken, .free = status.free};
   note_progress(credit, status.answers);
   rests_ = holds_nothing_of(credit) && (status.state & (board_moves | board_replaces)) == 0;
@@ -326,10 +337,17 @@ void BoardSession::take(const Captured& captured) {
 }
 
 void BoardSession::note_inputs(const BoardStatus& status) {
-  const auto pressed = static_cast<std::uint16_t>(status.inputs & ~inputs_ & ~unsigned{probe_.input()});
+  const auto inputs = static_cast<std::uint16_t>(status.inputs & ~passo::outputs_timed_out);
+  const auto pressed = static_cast<std::uint16_t>(inputs & ~inputs_ & ~unsigned{probe_.input()});
   pressed_ |= pressed;
   news_ = news_ || pressed != 0;
-  inputs_ = status.inputs;
+  inputs_ = inputs;
+}
+
+// A status from before the last outputs says nothing of now.
+void BoardSession::note_timeout(const BoardStatus& status) {
+  if (status.taken != static_cast<std::uint8_t>(sent_)) return;
+  outputs_timed_out_ = (status.inputs & passo::outputs_timed_out) != 0;
 }
 
 void BoardSession::note_probe(ProbeWatch::News news) {
@@ -340,6 +358,8 @@ void BoardSession::note_probe(ProbeWatch::News news) {
 void BoardSession::note_answer(std::uint8_t taken) {
   if (answered_ || static_cast<std::uint8_t>(sent_) != taken) return;
   answered_ = news_ = true;
+  // What was sent must be done, too, and what was asked answered.
+  if (!busy() && !awaited_) progressed_ = port_.elapsed();
   answer_time_ = port_.elapsed() - unanswered_since_;
 }
 
@@ -350,6 +370,7 @@ void BoardSession::take(const ErrorReport& error) {
     case WireError::out_of_sequence:
     case WireError::queue_full: break;
     case WireError::too_late:
+    case WireError::silent_host:
     case WireError::wrong_sums: return;  // the executed items will tell
     case WireError::manual: error_ = LinkError::manual; return;
     default:
@@ -372,7 +393,7 @@ void BoardSession::note_taken(std::uint8_t sequence) {
   const auto more = static_cast<std::uint8_t>(sequence - static_cast<std::uint8_t>(taken_));
   if (more == 0 || more > later_by(sent_, taken_)) return;
   taken_ = static_cast<ItemNumber>(taken_ + more);
-  moved_on_ = port_.elapsed();
+  progressed_ = moved_on_ = port_.elapsed();
   news_ = true;
   while (!kept_.empty() && later_by(kept_.front().number, taken_) <= 0) kept_.pop_front();
 }

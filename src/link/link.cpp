@@ -5,6 +5,10 @@ namespace passo {
 std::string_view message_of(LinkError error) {
   switch (error) {
     case LinkError::no_answer: return "the board does not answer";
+    case LinkError::no_progress:
+      return "something talks on the line, but does not do what it is told: it is no board of Passo's, or the line "
+             "returns "
+             "what is sent";
     case LinkError::wrong_version:
       return "the board speaks another version of the protocol: its firmware and passo must be of one version";
     case LinkError::too_few_motors: return "the board has fewer motors than the machine has axes";

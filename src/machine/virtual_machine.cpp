@@ -27,7 +27,9 @@ VirtualMachine::VirtualMachine(std::uint8_t motors, Hertz clock, Hertz highest_e
     : identity_(identity_of(motors, clock, highest_event_rate, places)),
       board_(hardware_, identity_),
       clock_(clock),
-      motor_count_(motors) {
+      motor_count_(motors),
+      tenth_(std::max<std::int64_t>(std::llround(clock.value() / 10), 1)),
+      next_tenth_(tenth_) {
   hardware_.seconds_a_tick = 1 / clock.value();
   hardware_.plant = &own_plant_;
 }
@@ -68,13 +70,21 @@ bool VirtualMachine::run_to(Ticks time) {
     hardware_.now = next_event_;
     ++events_;
     board_.on_event();
+    if (hardware_.now >= next_tenth_) count_silence();
     if (--look_in_ <= 0) look_at_plant();
     if (board_.owes_report()) board_.report();
   }
   hardware_.pulse_plant();
   if (!hardware_.to_host.empty()) return true;
-  if (end != INT64_MAX) hardware_.now = std::max(hardware_.now, end);
+  if (end == INT64_MAX || end <= hardware_.now) return false;
+  for (; next_tenth_ <= end && board_.idle(); count_silence()) hardware_.now = std::max(hardware_.now, next_tenth_);
+  hardware_.now = end;
+  count_silence();
   return false;
+}
+
+void VirtualMachine::count_silence() {
+  for (; next_tenth_ <= hardware_.now; next_tenth_ += tenth_) board_.count_silence();
 }
 
 void VirtualMachine::set_switch(std::uint16_t which, bool closed) {
@@ -121,6 +131,7 @@ void VirtualMachine::reset_board() {
 void VirtualMachine::wait(Ticks time) {
   assert(board_.idle() && time.count >= 0);
   hardware_.now += time.count;
+  count_silence();
 }
 
 std::span<const std::uint8_t> VirtualMachine::replies() {
@@ -162,6 +173,15 @@ void VirtualMachine::Hardware::outputs(const BoardOutputs& wanted) {
 
 void VirtualMachine::Hardware::switch_off() {
   if (outputs_now.switches != 0) outputs({});
+}
+
+bool VirtualMachine::Hardware::switch_off(std::uint8_t switches) {
+  BoardOutputs left = outputs_now;
+  left.switches = static_cast<std::uint8_t>(left.switches & ~switches);
+  if (left.switches == outputs_now.switches) return false;
+  if ((switches & OutputSwitch::spindle_on) != 0) left.spindle_rpm = 0;
+  outputs(left);
+  return true;
 }
 
 SpindleCount VirtualMachine::Hardware::spindle() const {

@@ -29,6 +29,13 @@ constexpr NumberKey droop_key{"droop_percent", 0, 50, "3"};
 constexpr NumberKey ripple_key{"ripple_percent", 0, 50, "5"};
 constexpr NumberKey ripple_rate_key{"ripple_hz", 0.01, 1000, "2"};
 
+constexpr NumberKey silent_spindle_key{"spindle_off_after_s", 0, 25.5, "2"};
+constexpr NumberKey silent_mist_key{"mist_off_after_s", 0, 25.5, "2"};
+constexpr NumberKey silent_flood_key{"flood_off_after_s", 0, 25.5, "10"};
+constexpr NumberKey spindle_wait_key{"spindle_wait_s", 0, 1000, "5"};
+// While it works, a host is heard five times a second.
+constexpr double shortest_silence = 0.5;
+
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
 constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
@@ -91,6 +98,7 @@ class MachineReader {
   void read_tool(const TomlEntry& entry);
   void read_probe(const TomlEntry& entry);
   void read_spindle(const TomlEntry& entry);
+  void read_silence(const TomlEntry& entry);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
@@ -123,6 +131,7 @@ MachineDescription MachineReader::read() {
   const TomlEntry* tool = top.table("tool", "a table [tool]", Need::optional);
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
   const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
+  const TomlEntry* silence = top.table("silence", "a table [silence]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
   finish(top);
@@ -130,6 +139,7 @@ MachineDescription MachineReader::read() {
   if (tool != nullptr) read_tool(*tool);
   if (probe != nullptr) read_probe(*probe);
   if (spindle != nullptr) read_spindle(*spindle);
+  if (silence != nullptr) read_silence(*silence);
   if (axes != nullptr) read_axes(*axes);
   read_homing(homing);
   return std::move(machine_);
@@ -163,6 +173,7 @@ void MachineReader::read_board(const TomlEntry& entry) {
   board.highest_event_rate = Hertz(*rate);
   event_rate_ = board.highest_event_rate;
   if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
+  board.step_pulse_is_given = pulse.has_value();
   // A driver wants a pause as long as the pulse.
   const double longest_us = 1e6 / (2 * *rate);
   if ((pulse || !pulse_is_given) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
@@ -198,6 +209,28 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
   if (const auto droop = reader.number(droop_key, Need::optional)) spindle.droop = *droop / 100;
   if (const auto ripple = reader.number(ripple_key, Need::optional)) spindle.ripple = *ripple / 100;
   if (const auto rate = reader.number(ripple_rate_key, Need::optional)) spindle.ripple_rate = Hertz(*rate);
+  finish(reader);
+}
+
+void MachineReader::read_silence(const TomlEntry& entry) {
+  TableReader reader(std::get<TomlTable>(entry.value.content), "silence", entry.place, reporter_);
+  const auto read_time = [&](const NumberKey& key, Seconds& time) {
+    const auto given = reader.number(key, Need::optional);
+    if (!given) return;
+    const double tenths = std::round(*given * 10);
+    const bool is_whole = std::abs(*given * 10 - tenths) < 1e-6;
+    if (*given != 0 && (*given < shortest_silence || !is_whole)) {
+      reader.error("machine.silence", key.name, fmt::format("{} = {:g}", reader.full_name(key.name), *given),
+                   fmt::format("{:g} to {:g} seconds in whole tenths, or 0 for never", shortest_silence, key.most));
+      return;
+    }
+    time = Seconds(tenths / 10);
+  };
+  SilenceDescription& silence = machine_.silence;
+  read_time(silent_spindle_key, silence.spindle);
+  read_time(silent_mist_key, silence.mist);
+  read_time(silent_flood_key, silence.flood);
+  if (const auto wait = reader.number(spindle_wait_key, Need::optional)) silence.spindle_wait = Seconds(*wait);
   finish(reader);
 }
 

@@ -31,6 +31,15 @@ constexpr bool is_of_work(LinkError error) {
   }
 }
 
+Greeting with_machine(Greeting greeting, const MachineDescription& machine) {
+  const auto tenths = [](Seconds time) { return static_cast<std::uint8_t>(std::lround(time.value() * 10)); };
+  greeting.motors = static_cast<std::uint8_t>(machine.axes.size());
+  greeting.silence = {.spindle = tenths(machine.silence.spindle),
+                      .mist = tenths(machine.silence.mist),
+                      .flood = tenths(machine.silence.flood)};
+  return greeting;
+}
+
 // False: some axes have no switches, and stand where they stood.
 bool homes_all_axes(const MachineDescription& machine) {
   return machine.homing.size() == machine.axes.size();
@@ -44,14 +53,13 @@ MachineSession::MachineSession(const MachineDescription& machine, BoardPort& por
       board_(port, options.care),
       position_(options.start),
       panel_(std::make_unique<Panel>(board_)) {
-  options_.greeting.motors = static_cast<std::uint8_t>(machine.axes.size());
+  options_.greeting = with_machine(options_.greeting, machine);
 }
 
 MachineSession::~MachineSession() = default;
 
 void MachineSession::greet(const Greeting& greeting) {
-  options_.greeting = greeting;
-  options_.greeting.motors = static_cast<std::uint8_t>(machine_.axes.size());
+  options_.greeting = with_machine(greeting, machine_);
   greeted_ = true;
   board_.greet(options_.greeting);
 }

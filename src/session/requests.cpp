@@ -160,6 +160,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   work->activity = std::move(program);
   work->watchers = std::move(start.watchers);
   DriveOptions options = drive_options();
+  options.spindle_wait = machine_.silence.spindle_wait;
   options.counts_per_turn = counts;
   options.guards_by_probe = machine_.probe.guards && start.answers_probes;
   options.waits_for_operator = start.waits_for_operator;

@@ -91,6 +91,9 @@ TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) 
   const std::size_t rate = machine.find("140_000");
   ASSERT_NE(rate, std::string::npos);
   machine.replace(rate, 7, "100_000");
+  const std::size_t pulse = machine.find("step_pulse_us = 1.2");
+  ASSERT_NE(pulse, std::string::npos);
+  machine.replace(pulse, 19, "step_pulse_us = 1.0");
   machine += "\n[spindle]\nencoder_counts_per_turn = 1024\nrun_up_s = 0.5\nripple_percent = 3\n";
   const std::string program = write("p.ngc", "G21 S600 M3\nG0 Z1\nG33 Z-8 K1.5\nG0 X1\nZ1\nM5\nM2\n");
   const std::string command = "run " + program + " --json -m " + write("lathe.toml", machine);
@@ -104,6 +107,30 @@ TEST_F(Boards, thread_with_an_encoder_on_their_pins_or_say_that_they_have_none) 
   const Outcome refused = passo(command + " --board sim:uno");
   EXPECT_EQ(refused.code, 1);
   EXPECT_NE(refused.err.find("has no encoder"), std::string::npos) << refused.err;
+}
+
+// What the machine file asks of a board, and the board cannot do, is refused before anything moves.
+TEST_F(Boards, that_are_too_slow_or_make_too_short_pulses_are_refused_in_words) {
+  const std::string uno = read(std::filesystem::path(PASSO_SOURCE_DIR) / "examples" / "machines" / "uno.toml");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = uno;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    return write("m.toml", text.replace(at, from.size(), to));
+  };
+  const std::string command = "run " + write("p.ngc", "G21 G1 F600 X1\nM2\n") + " -m ";
+  const Outcome pulse = passo(command + with("step_pulse_us = 1.2", "step_pulse_us = 1.9") + " --board sim:uno");
+  if (pulse.err.find("was built without") != std::string::npos || pulse.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << pulse.err;
+  }
+  EXPECT_EQ(pulse.code, 1);
+  EXPECT_NE(pulse.err.find("its step pulses last 1.19 us, and step_pulse_us = 1.9 of the machine file asks for longer"),
+            std::string::npos)
+      << pulse.err;
+  const Outcome rate = passo(command + with("step_pulse_us = 1.2", "step_pulse_us = 1") + " --board sim:mega");
+  EXPECT_EQ(rate.code, 1);
+  EXPECT_NE(rate.err.find("it makes at most 110000 events a second, and max_event_rate_hz = 140000"), std::string::npos)
+      << rate.err;
 }
 
 // 67 seconds are the longest item, and an Uno holds 31: it goes on with the next refill.

@@ -206,5 +206,40 @@ TEST(MegaOutputs, are_switched_at_the_event_to_which_they_belong) {
   expect_outputs_in_step(mega(), 80);
 }
 
+// The host is killed with all outputs on: after half a second the spindle stands, a moment later the mist is off, and
+// the flood goes on.
+void expect_outputs_to_end(const BoardWithOutputs& kind) {
+  constexpr std::uint64_t clock_rate = 16'000'000;
+  BoardBench bench(kind.board);
+  const OutputWatch watch(bench, kind);
+  const auto all = std::uint8_t{spindle_on | spindle_reverse | mist_on | flood_on};
+  BoardSegment segment{.events = 200, .flips = 1, .interval = kind.shortest_interval << 16};
+  bench.start_items({segment, BoardOutputs{.switches = all, .spindle_rpm = 12'000}, segment});
+  bench.name_session({.number = 7, .silence = {.spindle = 5, .mist = 8, .flood = 0}});
+  bench.run(clock_rate / 5);
+  const std::uint64_t silent_from = bench.cycles() - clock_rate / 5;
+  bench.run(clock_rate);
+  const std::vector<OutputState> states = watch.states();
+  ASSERT_EQ(states.size(), 3U);
+  EXPECT_EQ(states[0].switches, unsigned{spindle_reverse | mist_on | flood_on});
+  EXPECT_GT(states[0].duty, 0U);
+  EXPECT_EQ(states[1].duty, 0U);
+  EXPECT_EQ(states[1].switches, states[0].switches);
+  EXPECT_NEAR(static_cast<double>(states[1].cycle - silent_from) / clock_rate, 0.5, 0.12);
+  EXPECT_EQ(states[2].switches, unsigned{spindle_reverse | flood_on});
+  EXPECT_NEAR(static_cast<double>(states[2].cycle - states[1].cycle) / clock_rate, 0.3, 0.02);
+  bench.ask();
+  bench.run(clock_rate / 100);
+  ASSERT_TRUE(bench.status());
+  EXPECT_EQ(bench.status()->inputs & outputs_timed_out, unsigned{outputs_timed_out});
+}
+
+TEST(UnoOutputs, end_when_the_host_is_silent) {
+  expect_outputs_to_end(uno());
+}
+TEST(MegaOutputs, end_when_the_host_is_silent) {
+  expect_outputs_to_end(mega());
+}
+
 }  // namespace
 }  // namespace passo

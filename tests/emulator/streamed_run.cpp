@@ -185,6 +185,11 @@ void BoardBench::start_items(const std::vector<Item>& items) {
   for (const Item& item : items) std::visit([this](const auto& one) { send_item(one); }, item);
 }
 
+void BoardBench::name_session(const Session& session) {
+  std::uint8_t frame[largest_frame];
+  put_on_line({frame, encode(session, 0, frame)});
+}
+
 void BoardBench::run(std::uint64_t cycles) {
   const std::uint64_t end = chip_->cycles() + cycles;
   while (chip_->cycles() < end) chip_->run_for(end - chip_->cycles());

@@ -88,6 +88,7 @@ class BoardBench {
   std::vector<SeenSteps> seen();
   // Finds where the motors stand in their winding tables after motion that play() did not play.
   void follow_windings();
+  void name_session(const Session& session);
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
   // Asks the board for its status or something else. The answer comes while the board runs.

@@ -79,6 +79,11 @@ class SessionRun {
   IdealPlant& plant() { return plant_; }
   MachineState state() const { return session_.state(); }
   Seconds now() const { return session_.now(); }
+  std::int64_t steps_made() const {
+    std::int64_t steps = 0;
+    for (const MotorCounts& motor : board_.counts().motors) steps += motor.total;
+    return steps;
+  }
 
   Result<Ticket, Refusal> ask(Request wanted) {
     auto answer = session_.request(std::move(wanted));
@@ -173,11 +178,6 @@ class SessionRun {
             .care = {.answer_within = Seconds(0.05), .patience = Seconds(2)},
             .greeting = {.session = 1},
             .start = on_.start};
-  }
-  std::int64_t steps_made() const {
-    std::int64_t steps = 0;
-    for (const MotorCounts& motor : board_.counts().motors) steps += motor.total;
-    return steps;
   }
   void collect() {
     for (MachineChange& change : session_.take_changes()) {

@@ -190,6 +190,39 @@ TEST(LineTrouble, a_short_cut_is_survived) {
   run.expect_at_place();
 }
 
+// A cut that is longer than the board's patience with a silent host, and shorter than the host's: the spindle stands
+// while the line is away, and turns again for the stated time before anything moves.
+TEST(LineTrouble, outputs_end_with_a_long_silence_and_come_back_before_the_motion_does) {
+  for (const double allowed : {0.5, 0.0}) {
+    SCOPED_TRACE(allowed);
+    MachineDescription machine = test::short_router();
+    machine.silence = {
+        .spindle = Seconds(allowed), .mist = Seconds(0), .flood = Seconds(0), .spindle_wait = Seconds(3)};
+    SessionRun run(machine, {.line = true});
+    run.make_ready();
+    const Ticket program = run.taken(start_of("G21 G90 M3 S1000 M8 G1 F1200\nX30\nX0 Y10\nM2\n"));
+    run.pass(Seconds(0.7));
+    run.line().cut(run.now(), Seconds(1.9));
+    run.pass(Seconds(1.8));
+    const std::int64_t steps = run.steps_made();
+    const unsigned left = run.board().counts().outputs.switches;
+    EXPECT_EQ(left, allowed > 0 ? unsigned{flood_on} : unsigned{spindle_on | flood_on});
+    ASSERT_TRUE(run.turn_until([&] { return (run.board().counts().outputs.switches & spindle_on) != 0; }));
+    EXPECT_EQ(run.steps_made(), steps);
+    const Seconds on_again = run.now();
+    ASSERT_TRUE(run.turn_until([&] { return run.steps_made() != steps; }));
+    if (allowed > 0) {
+      EXPECT_GE(run.now() - on_again, Seconds(2.9));
+    } else {
+      EXPECT_LT(run.now() - on_again, Seconds(1));
+    }
+    run.to_end();
+    EXPECT_EQ(run.outcome(program), Outcome::done);
+    EXPECT_EQ(run.session().status().position.trust, Trust::counted);
+    run.expect_at_place();
+  }
+}
+
 // As after a reset of the board: it knows no session, and where the motors are is no longer certain.
 void make_board_forget(SessionRun& run) {
   std::uint8_t frame[largest_frame];

@@ -73,7 +73,8 @@ nlohmann::json to_json(const About& about) {
   return {{"name", name_of(about)},
           {"firmware", version_of(about)},
           {"highest_event_rate_hz", about.highest_event_rate},
-          {"highest_baud", about.baud}};
+          {"highest_baud", about.baud},
+          {"step_pulse_us", about.step_pulse / 16.0}};
 }
 
 nlohmann::json to_json(const BoardStatus& status) {

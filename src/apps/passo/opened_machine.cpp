@@ -33,6 +33,28 @@ unsigned any_number(unsigned least, unsigned most) {
   return std::uniform_int_distribution<unsigned>(least, most)(random);
 }
 
+// Why the board cannot do what the machine file asks of it, as a sentence without a full stop. Empty: it can.
+std::string unsuited_to(const BoardDescription& board, const About& about) {
+  if (about.highest_event_rate != 0 && board.highest_event_rate.value() > about.highest_event_rate) {
+    return fmt::format(
+        "it makes at most {} events a second, and max_event_rate_hz = {:.0f} of the machine file asks for more: lower "
+        "max_event_rate_hz to {} or less [board.event-rate]",
+        about.highest_event_rate, board.highest_event_rate.value(), about.highest_event_rate);
+  }
+  constexpr double ticks_a_microsecond = 16;
+  constexpr double hardly_shorter = 0.98;
+  const double pulse = about.step_pulse / ticks_a_microsecond;
+  const double wanted = board.step_pulse.value() * 1e6;
+  if (!board.step_pulse_is_given || about.step_pulse == 0 || pulse >= wanted * hardly_shorter) return "";
+  return fmt::format(
+      "its step pulses last {:.2f} us, and step_pulse_us = {:g} of the machine file asks for longer ones: the drivers "
+      "may "
+      "miss steps. Take drivers that are content with less and lower step_pulse_us, or build the firmware with a "
+      "larger "
+      "shortest_pulse (docs/boards.md) [board.step-pulse]",
+      pulse, wanted);
+}
+
 MotorSteps zero_counts_of(const MachineDescription& machine, const BoardStatus& status, const Point& place) {
   MotorSteps counts = steps_at(machine, place);
   for (std::size_t m = 0; m < counts.size(); ++m) counts[m] = status.positions[m] - counts[m];
@@ -150,6 +172,12 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
     before_ = *status;
     if ((status->state & board_manual) != 0) {
       code = fail(exit_failed, fmt::format("{}: {}", address, message_of(LinkError::manual)));
+      return false;
+    }
+    const auto about = ask_about(session_->board(), answer);
+    const std::string reason = about ? unsuited_to(description_.board, *about) : "it does not answer any more";
+    if (!reason.empty()) {
+      code = fail(exit_failed, fmt::format("{}: {}", address, reason));
       return false;
     }
     if (may_move || (status->state & board_moves) == 0) return true;

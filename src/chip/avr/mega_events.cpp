@@ -12,7 +12,7 @@ constexpr uint8_t toggle_a = 0x00;
 constexpr uint8_t toggle_c = 0x06;
 constexpr uint16_t toggle_l = 0x109;
 // A pulse takes 16 cycles without padding.
-constexpr uint8_t padding = pins.shortest_pulse > 16 ? pins.shortest_pulse - 16 : 0;
+constexpr uint8_t padding = about.step_pulse - pulse_without_padding;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
 }

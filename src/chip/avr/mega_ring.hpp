@@ -12,8 +12,14 @@ namespace passo::chip {
 inline constexpr const PinMap<6>& pins = mega_ramps;
 inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
+// The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
+inline constexpr uint8_t pulse_without_padding = 16;
 inline constexpr About about = {
-    .firmware = 100, .highest_event_rate = 110'000, .baud = 500'000, .name = "mega ramps 1.4"};
+    .firmware = 101,
+    .highest_event_rate = 110'000,
+    .baud = 500'000,
+    .name = "mega ramps 1.4",
+    .step_pulse = pins.shortest_pulse > pulse_without_padding ? pins.shortest_pulse : pulse_without_padding};
 
 // Pages at the start of RAM, before everything that the linker places: the times' high and low bytes, then the bits to
 // toggle on each step port, in the pin map's order.

@@ -18,6 +18,7 @@ namespace passo::chip {
 namespace {
 
 constexpr uint32_t clock = 16'000'000;
+constexpr uint8_t ticks_a_tenth = (clock / 10 + 0x8000) >> 16;  // a tick has 65,536 cycles
 constexpr uint32_t shortest = shortest_interval(clock, about.highest_event_rate);
 
 struct Hardware {
@@ -26,6 +27,7 @@ struct Hardware {
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() { return line.room(); }
   void enable() { Wiring::enable_motors(true); }
+  bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
@@ -117,8 +119,19 @@ bool take_tick() {
   return tick;
 }
 
+// Counts the host's silence, a tenth of a second at a time.
+[[gnu::noinline]] void count_tick() {
+  static uint8_t ticks = ticks_a_tenth;
+  if (--ticks != 0) return;
+  ticks = ticks_a_tenth;
+  SerialLine::breathe();
+  board.count_silence();
+  SerialLine::breathe();
+}
+
 [[gnu::noinline]] void look_at_inputs() {
   const bool tick = take_tick();
+  if (tick) count_tick();
   if (halted != 0) return stop_at_once();
   uint16_t raw = Wiring::inputs();
   const uint16_t watched = board.watched();

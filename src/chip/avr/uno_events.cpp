@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint8_t toggle_port = 0x09;  // PIND
 // A pulse takes 19 cycles without padding.
-constexpr uint8_t padding = pins.shortest_pulse > 19 ? pins.shortest_pulse - 19 : 0;
+constexpr uint8_t padding = about.step_pulse - pulse_without_padding;
 constexpr uint8_t io(uint16_t address) {
   return static_cast<uint8_t>(address - io_base);
 }

@@ -12,8 +12,14 @@ namespace passo::chip {
 inline constexpr const PinMap<3>& pins = uno_cnc_shield;
 inline constexpr uint8_t flag_special = pins.flag_special;
 inline constexpr uint8_t flag_stop = pins.flag_stop;
+// The interrupt makes a pulse of so many cycles, or of more if the pin map wants a longer one.
+inline constexpr uint8_t pulse_without_padding = 19;
 inline constexpr About about = {
-    .firmware = 100, .highest_event_rate = 140'000, .baud = 500'000, .name = "uno cnc shield3"};
+    .firmware = 101,
+    .highest_event_rate = 140'000,
+    .baud = 500'000,
+    .name = "uno cnc shield3",
+    .step_pulse = pins.shortest_pulse > pulse_without_padding ? pins.shortest_pulse : pulse_without_padding};
 
 // The ring lies at the start of RAM, before everything that the linker places.
 struct EventEntry {

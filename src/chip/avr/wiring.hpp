@@ -65,6 +65,19 @@ class Wiring {
     SpindleControl::write(action.control);
   }
 
+  // Switches these outputs off at rest, and tells whether one was on. A spindle that turns at no speed counts as off.
+  [[gnu::noinline]] static bool switch_off(uint8_t switches) {
+    bool was_on = false;
+    if ((switches & spindle_on) != 0) {
+      was_on = pins.spindle_pwm.exists() && SpindleControl::read() == spindle_connected;
+      if (was_on) SpindleControl::write(spindle_disconnected);
+      if (switch_off(pins.spindle_relay)) was_on = true;
+    }
+    if ((switches & mist_on) != 0 && switch_off(pins.mist)) was_on = true;
+    if ((switches & flood_on) != 0 && switch_off(pins.flood)) was_on = true;
+    return was_on;
+  }
+
   // Bits of BoardInput, set where a switch is closed.
   static uint16_t inputs() {
     uint16_t on = 0;
@@ -93,6 +106,12 @@ class Wiring {
   }
 
  private:
+  [[gnu::always_inline]] static bool switch_off(Pin pin) {
+    if (!pin.exists() || (port_register(pin.port, 2) & pin.mask()) == 0) return false;
+    set(pin, false);
+    return true;
+  }
+
   // The spindle's speed at full duty.
   static constexpr uint32_t full_rpm = 24'000;
 

@@ -20,12 +20,20 @@ struct Bench {
   void outputs(const BoardOutputs& outputs) {
     log.push_back(std::to_string(now) + " outputs " + std::to_string(outputs.switches) + " rpm " +
                   std::to_string(outputs.spindle_rpm));
+    on = outputs.switches;
+  }
+  bool switch_off(std::uint8_t switches) {
+    const unsigned was_on = on & switches;
+    on &= ~unsigned{switches};
+    if (was_on != 0) log.push_back(std::to_string(now) + " off " + std::to_string(was_on));
+    return was_on != 0;
   }
   void send(std::uint8_t byte) {
     if (decoder.feed(byte) == Decoded::frame) replies.push_back(decoder.frame());
   }
 
   std::int64_t now = 0;
+  unsigned on = 0;  // the outputs
   std::vector<std::string> log;
   Decoder decoder;
   std::vector<WireFrame> replies;

@@ -226,9 +226,9 @@ TEST(BoardSession, says_that_a_person_moves_the_machine) {
 TEST(LinkError, has_a_sentence_for_each_reason) {
   std::vector<std::string_view> sentences;
   for (const LinkError error :
-       {LinkError::no_answer, LinkError::wrong_version, LinkError::too_few_motors, LinkError::refused,
-        LinkError::was_reset, LinkError::stopped, LinkError::too_few_places, LinkError::manual, LinkError::no_encoder,
-        LinkError::spindle_stands, LinkError::encoder_wrong, LinkError::thread_lost}) {
+       {LinkError::no_answer, LinkError::no_progress, LinkError::wrong_version, LinkError::too_few_motors,
+        LinkError::refused, LinkError::was_reset, LinkError::stopped, LinkError::too_few_places, LinkError::manual,
+        LinkError::no_encoder, LinkError::spindle_stands, LinkError::encoder_wrong, LinkError::thread_lost}) {
     sentences.push_back(message_of(error));
   }
   std::sort(sentences.begin(), sentences.end());

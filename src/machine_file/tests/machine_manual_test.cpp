@@ -57,8 +57,8 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   const std::string manual = content_of(manual_path);
   // All keys, as the program itself lists them to users who guess.
   std::string keys;
-  for (const char* table : {"", "[board]\n", "[tool]\n", "[probe]\n", "[spindle]\n", "[homing]\n", "[axis.X]\n",
-                            "[axis.A]\n", "[axis.X.torque]\n", "[axis.X.home]\n", "[axis.A.home]\n"}) {
+  for (const char* table : {"", "[board]\n", "[tool]\n", "[probe]\n", "[spindle]\n", "[silence]\n", "[homing]\n",
+                            "[axis.X]\n", "[axis.A]\n", "[axis.X.torque]\n", "[axis.X.home]\n", "[axis.A.home]\n"}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_machine(std::string(table) + "qqqqqqqqqqqqqqqqqqqqqqqqqqqqqq = 1\n", "m.toml", diagnostics));
     for (const Diagnostic& diagnostic : diagnostics.all()) {

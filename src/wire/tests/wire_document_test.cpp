@@ -27,9 +27,11 @@ std::vector<std::string> example_session() {
   const auto line = [&](std::uint8_t size) { lines.push_back(hex(frame, size)); };
   line(encode(Hello{.motors = 2}, 0, frame));
   line(encode(HelloReply{.motors = 4, .capacity = 32, .clock = 16'000'000}, 0, frame));
-  line(encode(Session{.number = 0x1234}, 0, frame));
+  line(encode(Session{.number = 0x1234, .silence = {.spindle = 20, .mist = 20, .flood = 20}}, 0, frame));
   line(encode(Ask{.motors = 2, .question = Question::about}, 0, frame));
-  line(encode(About{.firmware = 100, .highest_event_rate = 140'000, .baud = 1'000'000, .name = "uno cnc3"}, 1, frame));
+  line(encode(
+      About{.firmware = 101, .highest_event_rate = 140'000, .baud = 1'000'000, .name = "uno cnc3", .step_pulse = 19}, 1,
+      frame));
   line(encode(BoardOutputs{.switches = spindle_on | flood_on, .spindle_rpm = 12000}, 1, frame));
   line(encode(Credit{.executed = 1, .taken = 1, .free = 32}, 2, frame));
   // After item 1 come 300 events: the first after 160.5 ticks, each next one a 256th of a tick sooner. X goes down at

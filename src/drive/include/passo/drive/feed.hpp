@@ -53,6 +53,7 @@ class Feed {
     rests_in_hold,  // the planner holds, and the board has executed all motion given
     at_action,      // the drive has to carry out take_action(); all before it is executed
     lost_thread,    // the board played a tail to its end in a thread, which cannot go on
+    outputs_off,    // the board did not hear the host, rests, and has switched outputs off
     ended,          // the whole path is executed, or the link has an error
   };
   virtual ~Feed() = default;

@@ -42,6 +42,7 @@ struct DriveOptions {
   Commitment live = endless_commitment;  // only for a board without a line
   // Where to begin in the middle of a path. Another host has done all before this place.
   std::optional<PathPlace> begin_at = {};
+  Seconds spindle_wait{0};          // before motion goes on, after the board had switched its outputs off
   int counts_per_turn = 0;          // counts of the spindle's encoder; 0: nothing follows the spindle
   bool guards_by_probe = false;     // a touch outside a probe move stops the drive
   bool waits_for_operator = false;  // at stops (M0, M1) and tool changes (M6)
@@ -104,6 +105,8 @@ class MotionDrive {
   // Only with tails, before the first advance(). Switches the outputs on as they are where the path begins: the spindle
   // first, then the wait, then the rest.
   void switch_on(const OutputState& outputs, Seconds spindle_wait);
+  // How often the board had switched its outputs off because it did not hear the host.
+  int output_timeouts() const { return output_timeouts_; }
 
   // For watchers of what probe moves find. Watchers are added before the first advance().
   ProbeMove& probe() { return probe_; }
@@ -140,6 +143,7 @@ class MotionDrive {
   void come_to_rest();
   void rest_in_hold();
   void lose_thread();
+  void switch_on_again();
   void switch_off_and_end(std::optional<LinkError> error);
   Turn end();
   Seconds due() const;
@@ -160,6 +164,8 @@ class MotionDrive {
   SpindleTracker spindle_;
   Script script_;  // the steps to do at rest
   Seconds pause_end_{0};
+  Seconds spindle_wait_;
+  int output_timeouts_ = 0;
   bool awaits_index_ = false;
 
   State state_ = State::running;

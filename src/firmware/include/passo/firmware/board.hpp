@@ -77,6 +77,21 @@ class Board {
     send(fault);
   }
 
+  // Call ten times a second. A board whose host is silent for too long, killed perhaps or cut off, ends its motion and
+  // then switches the outputs off. What comes after may not move with a spindle that stands: no replacement is taken
+  // until the host has sent outputs or a hello.
+  void count_silence() {
+    if (silence_ != 0xFF) ++silence_;
+    if (manual_ != Manual::off || !rests()) return;
+    uint8_t late = 0;
+    if (is_too_long(allowed_.spindle)) late |= spindle_on;
+    if (is_too_long(allowed_.mist)) late |= mist_on;
+    if (is_too_long(allowed_.flood)) late |= flood_on;
+    if constexpr (requires { hardware_.switch_off(late); }) {
+      if (late != 0 && hardware_.switch_off(late)) timed_out_ = true;
+    }
+  }
+
   // Manual mode: a person moves the machine (ManualMode), and a host may only ask questions. The place is another
   // afterwards, so the session ends. Call it only at rest.
   void begin_manual() {
@@ -144,6 +159,8 @@ class Board {
 
   // A function of its own, so that a byte inside a frame need not save all the registers that a whole frame needs.
   [[gnu::noinline]] void take(const WireFrame& frame) {
+    // Whoever only asks, with other motors in mind, is not the host.
+    if (frame.type != MessageType::ask || frame.payload[1] == motors_) silence_ = 0;
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::session: return name_session(frame);
@@ -188,11 +205,13 @@ class Board {
     executed_ = frame.sequence;
     owed_ = 0;
     trusted_ = true;
+    timed_out_ = false;
     manual_ = Manual::off;
     send_hello_reply();
     // Not while the button is still pressed.
     if (is_pressed()) stop_at_once(FaultReason::emergency_stop);
   }
+  bool is_too_long(uint8_t allowed) const { return allowed != 0 && silence_ >= allowed; }
   bool is_pressed() const { return (inputs_ & input_emergency_stop) != 0; }
   void enable() {
     breathe();
@@ -208,7 +227,9 @@ class Board {
   void name_session(const WireFrame& frame) {
     Session session;
     decode(frame, session);
-    if (motors_ != 0 && manual_ == Manual::off) session_ = session.number;
+    if (motors_ == 0 || manual_ != Manual::off) return;
+    session_ = session.number;
+    allowed_ = session.silence;
   }
 
   // Rare and large work, so functions of their own: all in one function would need more registers than a chip has.
@@ -255,16 +276,17 @@ class Board {
     if (manual()) state |= board_manual;
     if (watch_.limit() != 0) state |= board_homes;
     if (has_encoder(hardware_)) state |= board_encodes;
-    BoardStatusFor<most_motors> status{.session = session_,
-                                       .executed = executed_,
-                                       .taken = taken(),
-                                       .free = list_.free(),
-                                       .event = played(),
-                                       .state = static_cast<uint8_t>(state),
-                                       .reset = identity_.reset,
-                                       .motors = motors_,
-                                       .inputs = inputs_,
-                                       .answers = question};
+    BoardStatusFor<most_motors> status{
+        .session = session_,
+        .executed = executed_,
+        .taken = taken(),
+        .free = list_.free(),
+        .event = played(),
+        .state = static_cast<uint8_t>(state),
+        .reset = identity_.reset,
+        .motors = motors_,
+        .inputs = timed_out_ ? static_cast<uint16_t>(inputs_ | outputs_timed_out) : inputs_,
+        .answers = question};
     for (uint8_t motor = 0; motor < motors && motor < most_motors; ++motor) {
       breathe();
       status.positions[motor] = position(motor);
@@ -347,6 +369,7 @@ class Board {
       BoardOutputs outputs;
       decode(frame, outputs);
       item.keep(outputs);
+      if (!list_.gathering()) timed_out_ = false;
     }
     accept();
     if (list_.gathering()) add_to_sums(frame);
@@ -373,6 +396,10 @@ class Board {
     if (!sums_.is_nothing()) {
       list_.drop_replacement();
       return WireError::wrong_sums;
+    }
+    if (timed_out_) {
+      list_.drop_replacement();
+      return WireError::silent_host;
     }
     return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
   }
@@ -486,9 +513,13 @@ class Board {
   uint16_t executed_ = 0;  // number of the last item done
   uint8_t sent_ = 0;       // the board's own sequence number
   uint8_t owed_ = 0;       // items executed and other news since the last report
-  bool complained_ = false;
-  ItemSums sums_;  // of the replacement being gathered, so far
-  bool trusted_ = true;
+  ItemSums sums_;          // of the replacement being gathered, so far
+  uint8_t silence_ = 0;    // tenths of a second since the host was heard
+  Silence allowed_;        // as the last session said
+  // Three flags in one byte, because a chip has hardly one to spare.
+  bool complained_ : 1 = false;
+  bool timed_out_ : 1 = false;  // outputs were switched off, and no host has sent outputs since
+  bool trusted_ : 1 = true;
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment

@@ -3,6 +3,8 @@
 //   void outputs(const BoardOutputs&);
 //   void send(uint8_t byte);                          to the host
 //   void enable();                                    optional: lets the motors move again after a stop released them
+//   bool switch_off(uint8_t switches);                optional: switches these outputs (bits of OutputSwitch) off, at
+//                                                     rest; true if one was on
 //   void watch();                                     optional: another input is watched now (Board::watched())
 //   static void breathe();                            optional: called between two pieces of work
 //   uint8_t room();                                   optional: the number of bytes that may be sent now

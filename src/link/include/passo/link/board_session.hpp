@@ -45,6 +45,7 @@ struct Greeting {
   std::uint8_t motors = 0;
   std::uint16_t session = 0;  // identifies the session to the board; 0: none, for a line that loses nothing
   std::uint8_t number = 0;    // the hello's number: where the counting of items begins
+  Silence silence = {};       // goes with the session: after what silence the board switches its outputs off
 };
 
 class BoardSession final : public Link {
@@ -89,6 +90,7 @@ class BoardSession final : public Link {
   int room() const override { return std::min(free_, most_untaken) - later_by(sent_, taken_); }
   int places() const override { return free_ - later_by(sent_, taken_); }
   bool rests() const override { return rests_; }
+  bool outputs_timed_out() const override { return outputs_timed_out_; }
   bool busy() const override { return sent_ != executed_; }
 
   void watch_probe(ProbeUntil until, std::uint8_t limit = 0) override;
@@ -161,6 +163,7 @@ class BoardSession final : public Link {
   bool holds_nothing_of(const Credit& credit) const;
   void doubt(LinkError error, Question again = Question::status);
   void note_inputs(const BoardStatus& status);
+  void note_timeout(const BoardStatus& status);
   void note_probe(ProbeWatch::News news);
   void note_taken(std::uint8_t sequence);
   void repeat();
@@ -181,6 +184,7 @@ class BoardSession final : public Link {
   std::uint8_t motors_ = 0;
   std::uint8_t greeting_ = 0;  // the hello's own number
   std::uint16_t session_ = 0;
+  Silence silence_;
   Seconds greeted_{0};  // when the hello or the session's number was said last
   std::optional<HelloReply> board_;
   std::optional<About> about_;
@@ -205,6 +209,7 @@ class BoardSession final : public Link {
   int doubts_ = 0;                    // statuses in a row that would end the job
   int free_ = 0;                      // the room that the board last told
   bool rests_ = false;
+  bool outputs_timed_out_ = false;  // as the board last told, and no outputs were sent since
   ProbeWatch probe_;
   bool answered_ = true;  // the board has answered since the last frame was sent
   Seconds unanswered_since_{0};
@@ -215,6 +220,7 @@ class BoardSession final : public Link {
   std::vector<Frame> frames_;  // the frames of a replacement while it is put together
   std::deque<Frame> kept_;     // frames sent and, as far as the host knows, not taken
   Seconds heard_{0};           // when the board last said anything
+  Seconds progressed_{0};      // when the board last answered, took or executed something
   Seconds quiet_since_{0};     // when the board did, or was asked again
   Seconds moved_on_{0};        // when the board last took something, or the host asked or sent
   std::uint64_t frames_sent_ = 0;

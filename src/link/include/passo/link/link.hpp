@@ -20,6 +20,7 @@ namespace passo {
 
 enum class LinkError : std::uint8_t {
   no_answer,       // the board is silent, though an answer is due
+  no_progress,     // the board, or what is in its place, talks, and does nothing of what it was told
   wrong_version,   // the board speaks another protocol
   too_few_motors,  // the board has fewer motors than the machine
   refused,         // the board did not take what was sent
@@ -72,6 +73,9 @@ class Link {
   virtual bool rests() const = 0;
   // True: something that was sent is, as far as the host knows, not done.
   virtual bool busy() const = 0;
+  // True: the board did not hear the host for so long that it has switched outputs off. It takes no replacement before
+  // outputs are sent alone.
+  virtual bool outputs_timed_out() const { return false; }
 
   // Questions that must be answered before the host goes on. Only one may be open at a time. settled() tells when the
   // answer has come.

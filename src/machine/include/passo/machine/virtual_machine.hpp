@@ -79,6 +79,7 @@ class VirtualMachine final : public BoardPort {
     void step(std::uint8_t stepped, std::uint8_t directions);
     void outputs(const BoardOutputs& wanted);
     void switch_off();
+    bool switch_off(std::uint8_t switches);
     void send(std::uint8_t byte) { to_host.push_back(byte); }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
@@ -98,6 +99,8 @@ class VirtualMachine final : public BoardPort {
     std::vector<std::uint8_t> to_host;
   };
 
+  // Lets the board count its host's silence up to now.
+  void count_silence();
   void look_at_plant();
   void look_at_inputs();
   void heed(unsigned inputs);
@@ -110,6 +113,8 @@ class VirtualMachine final : public BoardPort {
   std::uint8_t motor_count_;
   std::int64_t look_in_ = Plant::never;  // the number of events until the plant must be asked for its inputs
   std::uint16_t told_ = 0;               // the inputs last told to the board
+  std::int64_t tenth_;                   // ticks in a tenth of a second
+  std::int64_t next_tenth_;
   std::int64_t next_event_ = 0;
   bool waits_ = false;  // for the next event, due at next_event_
   std::int64_t events_ = 0;

@@ -64,7 +64,8 @@ struct BoardDescription {
   Hertz clock{16e6};               // ticks a second
   Hertz highest_event_rate{50e3};  // events a second
   Seconds step_pulse{2.5e-6};
-  int held_items = 240;  // places in the list of the virtual board; a real board tells its own number
+  bool step_pulse_is_given = false;  // true: a board whose pulses are shorter does not suit
+  int held_items = 240;              // places in the list of the virtual board; a real board tells its own number
 
   // An interval is at most 65535 whole ticks, so events never come slower than this. Slower motion is possible: most of
   // its events make no step.
@@ -90,6 +91,14 @@ struct SpindleDescription {
   Hertz ripple_rate{1};
 };
 
+// After what silence of the host a board, at rest, switches its outputs off. Whole tenths of a second; 0: never.
+struct SilenceDescription {
+  Seconds spindle{2};
+  Seconds mist{2};
+  Seconds flood{2};
+  Seconds spindle_wait{5};  // from the spindle's second start to motion, if the line comes back
+};
+
 struct MachineDescription {
   std::string name;
   Mm path_tolerance{0.01};
@@ -97,6 +106,7 @@ struct MachineDescription {
   ToolDescription tool;
   ProbeDescription probe;
   SpindleDescription spindle;
+  SilenceDescription silence;
   std::vector<AxisDescription> axes;  // in the order of the board's motors
   std::vector<Axis> homing = {};      // the axes that are homed, in the order of homing
 };

@@ -24,10 +24,18 @@ struct HelloReply {
   uint32_t clock = 0;    // ticks a second
 };
 
+// How long a host may be silent before the board, at rest, switches an output off: tenths of a second, 0 for ever.
+struct Silence {
+  uint8_t spindle = 0;
+  uint8_t mist = 0;
+  uint8_t flood = 0;
+};
+
 // Host to board, after a hello. By this number the host recognises the board again after the line was broken. A board
 // that was reset meanwhile has the number 0.
 struct Session {
   uint16_t number = 0;
+  Silence silence = {};
 };
 
 // Host to board. The next `count` frames are items. They replace everything that the board holds after item `after`, as
@@ -70,6 +78,7 @@ enum class WireError : uint8_t {
   too_late = 6,         // an item after the one to replace after has begun; the replacement is dropped
   manual = 7,           // a person moves the machine, or did since the hello: say hello again afterwards
   wrong_sums = 8,       // items came that were not sent: the replacement is dropped
+  silent_host = 9,      // the host was silent, and outputs are off: send outputs first. The replacement is dropped
 };
 
 // Board to host: a frame was not taken.
@@ -98,6 +107,8 @@ enum BoardInput : uint16_t {
   input_hold = 0x800,
   input_start = 0x1000,
 };
+// A further bit in the inputs of a status: the host was silent, outputs are off, and no motion is taken before outputs.
+inline constexpr uint16_t outputs_timed_out = 0x2000;
 // Further bits in the input of a captured.
 inline constexpr uint16_t captured_kept = 0x4000;      // this answers a question
 inline constexpr uint16_t captured_released = 0x8000;  // the input has gone off
@@ -160,6 +171,7 @@ struct About {
   uint32_t highest_event_rate = 0;  // events a second
   uint32_t baud = 0;                // the highest baud rate of its line
   char name[16] = {};               // of the board; filled up with zeros
+  uint8_t step_pulse = 0;           // how long a step pulse lasts, in sixteenths of a microsecond; 0: as wanted
 };
 
 // Each of these writes one frame to `frame`, which must have room for largest_frame bytes, and returns its size. Pause
@@ -207,6 +219,9 @@ template <class Pause = NoPause>
 uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::session, sequence);
   encoder.put16(session.number);
+  encoder.put8(session.silence.spindle);
+  encoder.put8(session.silence.mist);
+  encoder.put8(session.silence.flood);
   return encoder.finish();
 }
 
@@ -285,6 +300,7 @@ uint8_t encode(const About& about, uint8_t sequence, uint8_t* frame) {
   encoder.put32(about.highest_event_rate);
   encoder.put32(about.baud);
   for (const char letter : about.name) encoder.put8(static_cast<uint8_t>(letter));
+  encoder.put8(about.step_pulse);
   return encoder.finish();
 }
 
@@ -378,7 +394,8 @@ inline void decode(const WireFrame& frame, Turned& turned) {
 }
 
 inline void decode(const WireFrame& frame, Session& session) {
-  session = {.number = load16(frame.payload)};
+  session = {.number = load16(frame.payload),
+             .silence = {.spindle = frame.payload[2], .mist = frame.payload[3], .flood = frame.payload[4]}};
 }
 
 inline void decode(const WireFrame& frame, Replace& replace) {
@@ -433,6 +450,7 @@ inline void decode(const WireFrame& frame, About& about) {
   about.highest_event_rate = load32(frame.payload + 2);
   about.baud = load32(frame.payload + 6);
   for (uint8_t i = 0; i < sizeof about.name; ++i) about.name[i] = static_cast<char>(frame.payload[10 + i]);
+  about.step_pulse = frame.payload[10 + sizeof about.name];
 }
 
 inline void decode(const WireFrame& frame, ErrorReport& error) {

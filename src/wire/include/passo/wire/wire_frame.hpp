@@ -16,7 +16,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 5;
+inline constexpr uint8_t protocol_version = 6;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
 enum class MessageType : uint8_t {
@@ -59,16 +59,16 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
   };
   switch (static_cast<MessageType>(type)) {
     case MessageType::hello:
-    case MessageType::session:
     case MessageType::error: return 2;
     case MessageType::outputs: return 3;
     case MessageType::ask:
     case MessageType::credit: return 4;
+    case MessageType::session:
     case MessageType::fault: return 5;
     case MessageType::replace:
     case MessageType::hello_reply: return 7;
     case MessageType::turned: return 20;
-    case MessageType::about: return 26;
+    case MessageType::about: return 27;
     case MessageType::segment: return with_motors(segment_size, 2);
     case MessageType::status: return with_motors(status_size, 4);
     case MessageType::captured: return with_motors(captured_size, 4);
