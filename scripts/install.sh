@@ -23,11 +23,28 @@ test_packages=(
   gcc-avr avr-libc binutils-avr  # link for the chip: libgcc, start-up code, linker
   libsimavr-dev simavr       # the chip, emulated
   libelf-dev                 # simavr reads programs with it
+  lld                        # links for the Pico
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style
   git ccache                 # checks of the tracked files; builds again in seconds
   jq                         # the table of scripts/motion_table.sh
 )
+
+# The Pico's emulator, rp2040js, runs on node, 18 or later. A node from elsewhere brings its own npm.
+command -v node >/dev/null || test_packages+=(nodejs)
+command -v npm >/dev/null || test_packages+=(npm)
+pico_emulator=$(dirname "${BASH_SOURCE[0]}")/../src/emulator/pico
+fetch_pico_emulator() {
+  [[ ${1-} != --build ]] || return 0
+  # The lock file names the version and the sum of what it fetches.
+  cmp --silent "$pico_emulator/package-lock.json" "$pico_emulator/node_modules/.passo-lock" && return 0
+  echo "+ npm ci in src/emulator/pico"
+  if ! npm ci --prefix "$pico_emulator" --ignore-scripts --no-audit --no-fund --silent; then
+    echo "The Pico's emulator could not be fetched: its tests are skipped, and sim:pico is refused." >&2
+    return 0
+  fi
+  cp "$pico_emulator/package-lock.json" "$pico_emulator/node_modules/.passo-lock"
+}
 
 packages=("${build_packages[@]}")
 case "${1-}" in
@@ -54,6 +71,7 @@ for package in "${packages[@]}"; do
 done
 if ((${#missing[@]} == 0)); then
   echo "All ${#packages[@]} packages are installed."
+  fetch_pico_emulator "$@"
   exit 0
 fi
 
@@ -76,3 +94,4 @@ run "${as_root[@]}" apt-get update --quiet
 run "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
   apt-get install --yes --quiet --no-install-recommends "${missing[@]}"
 echo "Installed: ${missing[*]}"
+fetch_pico_emulator "$@"

@@ -15,6 +15,7 @@
 #include "passo/chip/uno_windings.hpp"
 #include "passo/emulator/emulated_chip.hpp"
 #include "passo/emulator/emulated_encoder.hpp"
+#include "passo/emulator/emulated_pico.hpp"
 #include "passo/emulator/emulated_ports.hpp"
 #include "passo/emulator/emulated_timer.hpp"
 #include "passo/emulator/emulated_uart.hpp"
@@ -223,6 +224,7 @@ class AvrBoard final : public EmulatedBoard {
 
 Result<std::unique_ptr<EmulatedBoard>, std::string> EmulatedBoard::start(std::string_view kind,
                                                                          const std::string& program) {
+  if (kind == "pico") return start_pico_board(program);
   try {
     return std::unique_ptr<EmulatedBoard>(std::make_unique<AvrBoard>(kind_named(kind), program));
   } catch (const std::runtime_error& error) {

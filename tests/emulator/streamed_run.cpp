@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::uint64_t clock_rate = 16'000'000;
 
+}  // namespace
+
 std::vector<SeenSteps> edges_of_model(const std::vector<BoardSegment>& segments, std::uint8_t motors,
                                       std::uint64_t& events) {
   std::vector<SeenSteps> edges(motors);
@@ -37,8 +39,6 @@ std::vector<SeenSteps> edges_of_model(const std::vector<BoardSegment>& segments,
   }
   return edges;
 }
-
-}  // namespace
 
 BoardUnderTest uno_under_test(const std::string& program) {
   BoardUnderTest board;

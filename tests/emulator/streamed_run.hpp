@@ -64,6 +64,10 @@ struct SeenStep {
 };
 using SeenSteps = std::vector<SeenStep>;  // of one motor
 
+// What the host's Player makes of the segments, for each motor, in ticks from the start. Adds the events to `events`.
+std::vector<SeenSteps> edges_of_model(const std::vector<BoardSegment>& segments, std::uint8_t motors,
+                                      std::uint64_t& events);
+
 class BoardBench {
  public:
   explicit BoardBench(const BoardUnderTest& board);

@@ -20,7 +20,8 @@ std::vector<fs::path> files_below(const std::string& directory, const std::set<s
   if (!fs::exists(start)) return found;
   for (auto it = fs::recursive_directory_iterator(start); it != fs::recursive_directory_iterator(); ++it) {
     const std::string name = it->path().filename().string();
-    if (it->is_directory() && (name.starts_with('.') || (name == "build" && it.depth() == 0) || name == "out")) {
+    if (it->is_directory() &&
+        (name.starts_with('.') || (name == "build" && it.depth() == 0) || name == "out" || name == "node_modules")) {
       it.disable_recursion_pending();
     } else if (it->is_regular_file() && extensions.contains(it->path().extension().string())) {
       found.push_back(fs::relative(it->path(), project_root()));

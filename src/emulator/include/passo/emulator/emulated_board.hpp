@@ -22,7 +22,8 @@ namespace passo {
 
 class EmulatedBoard : public BoardPort {
  public:
-  // `kind`: one of emulated_boards. `program`: the firmware's ELF file. The error is a sentence with the reason.
+  // `kind`: one of emulated_boards. `program`: the firmware, an ELF file, or of the Pico a UF2 file. The error is a
+  // sentence with the reason.
   static Result<std::unique_ptr<EmulatedBoard>, std::string> start(std::string_view kind, const std::string& program);
 
   // The position of each motor, in steps from the start. A step is a rising edge, backwards while the direction pin is
@@ -39,8 +40,8 @@ class EmulatedBoard : public BoardPort {
 };
 
 // All kinds of emulated boards: with drivers for step and direction, and with the windings on the board's own pins.
-inline constexpr std::array<std::string_view, 8> emulated_boards = {
-    "uno", "uno_two_on", "uno_wave", "uno_half_step", "mega", "mega_two_on", "mega_wave", "mega_half_step"};
+inline constexpr std::array<std::string_view, 9> emulated_boards = {
+    "uno", "uno_two_on", "uno_wave", "uno_half_step", "mega", "mega_two_on", "mega_wave", "mega_half_step", "pico"};
 constexpr bool is_emulated_board(std::string_view kind) {
   for (const std::string_view one : emulated_boards) {
     if (one == kind) return true;

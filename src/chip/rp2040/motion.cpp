@@ -1,0 +1,229 @@
+// The firmware `motion` for the RP2040: a Board on the chip. One loop; the state machine plays the steps; interrupts
+// feed it and watch the switches.
+#include "pico_line.hpp"
+#include "pico_player.hpp"
+#include "pico_wiring.hpp"
+
+#include "passo/chip/input_reader.hpp"
+#include "passo/firmware/board.hpp"
+
+namespace passo::chip {
+namespace {
+
+constexpr uint32_t cycles_a_second = 128'000'000;
+constexpr uint32_t clock = cycles_a_second / StepStream::cycles_of_tick;
+constexpr uint32_t baud = 1'000'000;
+constexpr uint8_t queue_capacity = 250;
+constexpr About about = {.firmware = 100, .highest_event_rate = 500'000, .baud = baud, .name = "pico"};
+
+struct Hardware {
+  void step(uint8_t, uint8_t) {}
+  // All motion before is played.
+  void outputs(const BoardOutputs& outputs) { PicoWiring::switch_outputs(outputs); }
+  void send(uint8_t byte) { line.send(byte); }
+  uint8_t room() const { return line.room(); }
+  void enable() { PicoWiring::enable_motors(true); }
+  void watch();
+
+  PicoLine line;
+};
+
+ResetCause cause_of_reset() {
+  if (WatchdogReason::read() != 0) return ResetCause::watchdog;
+  return (ChipReset::read() & 1U << 8) != 0 ? ResetCause::power_on : ResetCause::button;
+}
+
+Hardware hardware;
+Board<Hardware, queue_capacity, PicoPlayer, pins.motors>* board_there = nullptr;
+InputReader reader;
+
+using PicoBoard = Board<Hardware, queue_capacity, PicoPlayer, pins.motors>;
+alignas(8) unsigned char board_memory[sizeof(PicoBoard)];
+
+PicoBoard& board() {
+  return *board_there;
+}
+
+// Waits for a change of the watched pin. A change that came already (a bounce) is found only by looking.
+void watch_input() {
+  const uint16_t watched = board().watched();
+  const bool closed = (reader.inputs() & watched) != 0;
+  PicoPlayer::watch(true);
+  PicoWiring::watch(board().stopping(), watched, closed);
+  if (((PicoWiring::inputs() & watched) != 0) != closed && !PicoPlayer::captured()) PicoPlayer::watch(false);
+}
+
+// Another input is watched; called at rest.
+void Hardware::watch() {
+  PicoPlayer::watch(false);
+  watch_input();
+}
+
+void stop_at_once() {
+  const bool pressed = (PicoWiring::inputs() & input_emergency_stop) != 0;
+  PicoPlayer::halt();
+  PicoWiring::switch_outputs({});
+  if (pressed) PicoWiring::enable_motors(false);
+  board().stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
+  watch_input();
+}
+
+// True once in four milliseconds.
+bool take_tick() {
+  static uint32_t last = 0;
+  const uint32_t now = TimerLow::read();
+  if (now - last < 4096) return false;
+  last = now;
+  return true;
+}
+
+void look_at_inputs() {
+  const bool tick = take_tick();
+  if (PicoPlayer::halted()) return stop_at_once();
+  uint16_t raw = PicoWiring::inputs();
+  const uint16_t watched = board().watched();
+  const bool changed = PicoPlayer::captured();
+  const uint16_t before = reader.inputs();
+  // During motion the interrupt reports changes of the watched input, and where.
+  if (changed || (!board().idle() && PicoPlayer::watches())) {
+    raw &= static_cast<uint16_t>(~watched);
+    raw |= (changed ? ~before : before) & watched;
+  }
+  const uint16_t on = reader.look(raw, tick);
+  // During motion the interrupt has stopped already. At rest nobody else looks.
+  if ((on & board().stopping()) != 0 && !board().idle()) return stop_at_once();
+  if ((on & input_emergency_stop) != 0) return stop_at_once();
+  uint16_t told = on & InputReader::pressed_by_people;
+  told |= (reader.inputs() ^ before) & watched;
+  if (changed) board().settle();  // releases the items finished before that
+  if (told != 0 || tick) board().set_inputs(reader.inputs(), told);
+  if ((told & watched) != 0) PicoPlayer::watch(false);
+  if (!PicoPlayer::watches()) watch_input();
+}
+
+// One turn of the loop.
+void turn() {
+  PicoLine& line = hardware.line;
+  WatchdogLoad::write(2'000'000);  // a second; the chip counts each tick twice (errata RP2040-E1)
+  line.poll();
+  for (uint32_t taken = 0; PicoLine::has_byte() && taken < 16; ++taken) board().receive(PicoLine::take());
+  PicoPlayer::refill();
+  look_at_inputs();
+  board().settle();
+  PicoPlayer::end();
+  PicoPlayer::refill();
+  if (board().owes_report() && line.can_send() && (board().owed() >= 3 || !PicoLine::has_byte())) board().report();
+}
+
+void leave_reset(uint32_t blocks) {
+  Resets::clear(blocks);
+  while ((ResetsDone::read() & blocks) != blocks) {
+  }
+}
+
+// The chip at 128 MHz from its crystal of 12 MHz: 12 MHz * 128 / 6 / 2. So a tick of 16 MHz is eight cycles.
+void start_clocks() {
+  XoscCtrl::write(0xaa0);
+  XoscStartup::write(47);
+  XoscCtrl::write(0xfabaa0);
+  while ((XoscStatus::read() >> 31) == 0) {
+  }
+  ClkRefCtrl::write(2);
+  while ((ClkRefSelected::read() & 4) == 0) {
+  }
+  ClkSysCtrl::write(0);
+  while ((ClkSysSelected::read() & 1) == 0) {
+  }
+  leave_reset(reset_pll_sys);
+  PllSysCs::write(1);
+  PllSysFbdiv::write(128);
+  PllSysPwr::clear(1U << 0 | 1U << 5);
+  while ((PllSysCs::read() >> 31) == 0) {
+  }
+  PllSysPrim::write(6U << 16 | 2U << 12);
+  PllSysPwr::clear(1U << 3);
+  ClkSysCtrl::write(1);
+  while ((ClkSysSelected::read() & 2) == 0) {
+  }
+  ClkPeriCtrl::write(1U << 11);
+  WatchdogTick::write(1U << 9 | 12);  // a microsecond
+}
+
+void start_watchdog() {
+  PsmWdsel::write(0x1fffc);  // resets everything but the oscillators
+  WatchdogLoad::write(2'000'000);
+  WatchdogCtrl::write(1U << 30);
+}
+
+}  // namespace
+}  // namespace passo::chip
+
+inline void* operator new(__SIZE_TYPE__ /*size*/, void* place) noexcept {
+  return place;
+}
+
+extern "C" {
+
+void passo_refill_done() {
+  passo::chip::StepStream::refill_done();
+}
+void passo_switch_moved() {
+  passo::chip::PicoWiring::switch_moved();
+}
+
+[[noreturn]] void passo_main() {
+  using namespace passo::chip;
+  start_clocks();
+  leave_reset(reset_dma | reset_io_bank0 | reset_pads_bank0 | reset_pio0 | reset_pwm | reset_timer | reset_uart0);
+  PicoWiring::prepare();
+  StepStream::prepare(pins.first, pins.motor_pins());
+  board_there = new (board_memory)
+      PicoBoard(hardware, {.motors = pins.motors,
+                           .clock = clock,
+                           .reset = cause_of_reset(),
+                           .shortest_interval = passo::shortest_interval(clock, about.highest_event_rate),
+                           .about = about});
+  PicoPlayer::restart(0);
+  hardware.line.open(cycles_a_second, baud);
+  PicoWiring::enable_motors(true);
+  NvicEnable::write(1U << irq_dma0 | 1U << irq_io_bank0);
+  start_watchdog();
+  interrupts_on();
+  watch_input();
+  for (;;) turn();
+}
+
+// The compiler calls these for large copies.
+void* memcpy(void* to, const void* from, __SIZE_TYPE__ size) {
+  auto* out = static_cast<volatile unsigned char*>(to);
+  const auto* in = static_cast<const unsigned char*>(from);
+  for (; size != 0; --size) *out++ = *in++;
+  return to;
+}
+void* memset(void* to, int value, __SIZE_TYPE__ size) {
+  auto* out = static_cast<volatile unsigned char*>(to);
+  for (; size != 0; --size) *out++ = static_cast<unsigned char>(value);
+  return to;
+}
+void __aeabi_memcpy(void* to, const void* from, __SIZE_TYPE__ size) {
+  memcpy(to, from, size);
+}
+void __aeabi_memcpy4(void* to, const void* from, __SIZE_TYPE__ size) {
+  memcpy(to, from, size);
+}
+void __aeabi_memcpy8(void* to, const void* from, __SIZE_TYPE__ size) {
+  memcpy(to, from, size);
+}
+void __aeabi_memset(void* to, __SIZE_TYPE__ size, int value) {
+  memset(to, value, size);
+}
+void __aeabi_memclr(void* to, __SIZE_TYPE__ size) {
+  memset(to, 0, size);
+}
+void __aeabi_memclr4(void* to, __SIZE_TYPE__ size) {
+  memset(to, 0, size);
+}
+void __aeabi_memclr8(void* to, __SIZE_TYPE__ size) {
+  memset(to, 0, size);
+}
+}

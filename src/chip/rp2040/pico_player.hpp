@@ -1,0 +1,255 @@
+// PicoPlayer: does on the RP2040 what Player does on the host. It makes the events of segments ahead of time, as words
+// for the StepStream.
+//
+// An event is two words: the step pins rise, and fall again. Before the first event of a segment that reverses a motor,
+// a word of its own sets the direction pins. Events are made until two milliseconds are ahead: all that is in the ring
+// will be played, so a slow motion must not have seconds in it.
+//
+// Invariant: from the first event after a rest on, it makes the same steps at the same ticks as Player.
+#pragma once
+
+#include "step_stream.hpp"
+
+#include "passo/chip/pico_pins.hpp"
+#include "passo/wire/board_segment.hpp"
+
+namespace passo::chip {
+
+inline constexpr auto& pins = pico_bare;
+
+// The words' bits for each set of motors.
+struct PicoPinTables {
+  static constexpr uint32_t all = (1U << pins.motors) - 1;
+  uint16_t steps[all + 1] = {};
+  uint16_t directions[all + 1] = {};
+  constexpr PicoPinTables() {
+    for (uint32_t set = 0; set <= all; ++set) {
+      steps[set] = pins.steps_of(static_cast<uint8_t>(set));
+      directions[set] = pins.directions_of(static_cast<uint8_t>(set));
+    }
+  }
+};
+inline constexpr PicoPinTables pin_tables;
+
+class PicoPlayer {
+ public:
+  using Segment = SegmentFor<pins.motors>;
+
+  explicit PicoPlayer(uint8_t /*motors*/) {}
+
+  // Breaks off at once whatever it played.
+  static void restart(uint8_t motors) {
+    StepStream::restart(direction_pins_);
+    motors_ = motors;
+    begun_ = finished_ = left_ = 0;
+    slipped_ = fresh_ = pending_ = false;
+    armed_ = false;
+    captured_ = false;
+    halted_ = false;
+    fell_ = turned_ = 0;
+    fraction_ = 0x8000;
+    for (uint32_t& accumulator : accumulators_) accumulator = uint32_t{0x8000} << 16;
+    for (uint16_t& accumulator : at_start_) accumulator = 0x8000;
+  }
+
+  static bool ready() { return left_ == 0 && begun_ - finished_ < most_begun; }
+  static bool done() { return left_ == 0 && StepStream::dry(); }
+
+  static void load(const Segment& segment) {
+    fresh_ = StepStream::dry();
+    if (pending_) end_pulse(segment.interval >> 17);
+    StepStream::publish();
+    segment_ = segment;
+    left_ = segment.events;
+    for (uint32_t m = 0; m < pins.motors; ++m) {
+      increments_[m] = m < motors_ ? static_cast<uint32_t>(segment.increments[m]) << 16 : 0;
+    }
+    const uint32_t last = segment.interval + static_cast<uint32_t>(segment.change) * (left_ - 1);
+    const uint32_t shortest = (segment.interval < last ? segment.interval : last) >> 16;
+    const uint32_t longest = (segment.interval < last ? last : segment.interval) >> 16;
+    pulse_ = shortest / 2 < longest_pulse ? shortest / 2 : longest_pulse;
+    most_ahead_ = 1;
+    for (uint32_t ticks = longest | 1; ticks < ticks_ahead; ticks <<= 1) most_ahead_ <<= 1;
+    if (most_ahead_ < 2) most_ahead_ = 2;
+    if (most_ahead_ > most_events_ahead) most_ahead_ = most_events_ahead;
+    turned_ = 0;
+    const uint16_t directions = pin_tables.directions[segment.directions & PicoPinTables::all];
+    if (directions != direction_pins_) {
+      direction_pins_ = directions;
+      turned_ = StepStream::ticks_of_word;
+      StepStream::push(turned_, directions);
+    }
+    Item& item = items_[begun_++ % most_begun];
+    item.first = StepStream::pushed();
+    item.events = static_cast<uint8_t>(left_);
+    item.directions = segment.directions;
+    item.flips = segment.flips;
+    for (uint32_t m = 0; m < pins.motors; ++m) item.increments[m] = static_cast<uint16_t>(increments_[m] >> 16);
+  }
+  // Takes outputs: the board switches them when all motion before them is played.
+  static void pass(const BoardOutputs& /*outputs*/) {
+    Item& item = items_[begun_++ % most_begun];
+    item.first = StepStream::pushed() + (pending_ ? 1 : 0);
+    item.events = 0;
+  }
+
+  // Whether the oldest item is done: its last step is made, or, for outputs, the last pulse before them is over.
+  static bool finished() {
+    if (begun_ == finished_) return false;
+    const Item& item = items_[finished_ % most_begun];
+    const uint32_t words = item.events == 0 ? 0 : 2U * item.events - 1;
+    return static_cast<int32_t>(words_played() - item.first - words) >= 0;
+  }
+  static void forget() {
+    const Item& item = items_[finished_++ % most_begun];
+    for (uint32_t m = 0; m < pins.motors; ++m) {
+      at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
+    }
+  }
+  // For the oldest item: the events played, and the steps that a motor has made in them, down or up.
+  static uint8_t played() {
+    if (begun_ == finished_) return 0;
+    const Item& item = items_[finished_ % most_begun];
+    const int32_t words = static_cast<int32_t>(words_played() - item.first);
+    if (words <= 0) return 0;
+    const uint32_t events = (static_cast<uint32_t>(words) + 1) / 2;
+    return events < item.events ? static_cast<uint8_t>(events) : item.events;
+  }
+  static int16_t steps(uint8_t motor) {
+    if (motor >= motors_) return 0;
+    const Item& item = items_[finished_ % most_begun];
+    const uint32_t bit = 1U << motor;
+    const uint32_t events = played();
+    const int32_t carries = static_cast<int32_t>((at_start_[motor] + item.increments[motor] * events) >> 16);
+    const int32_t steps = (item.flips & bit) != 0 ? static_cast<int32_t>(events) - carries : carries;
+    return static_cast<int16_t>((item.directions & bit) != 0 ? -steps : steps);
+  }
+
+  static bool slipped() { return slipped_; }
+
+  // Makes some events.
+  static void refill() {
+    if (halted_) return;
+    if (left_ == 0) return;
+    const uint32_t played = StepStream::played();
+    const uint32_t ahead = (StepStream::pushed() - played) / 2;
+    if (ahead >= most_ahead_) return;
+    if (played == StepStream::published() && !fresh_) slipped_ = true;
+    uint32_t count = most_ahead_ - ahead;
+    if (count > most_at_once) count = most_at_once;
+    if (count > left_) count = left_;
+    make(count);
+    left_ -= count;
+    fresh_ = false;
+    pending_ = left_ == 0;
+    StepStream::publish(pending_ ? 1 : 0);
+  }
+  // Call when the board has given it all that it could take: nothing follows the last event soon.
+  static void end() {
+    if (!pending_ || !ready()) return;
+    end_pulse(longest_pulse);
+    StepStream::publish();
+  }
+
+  // Waits for the first change of the watched pin. Until watch() is called again, everything that is told of the oldest
+  // item is as it was at that change.
+  static void watch(bool on) {
+    captured_ = false;
+    armed_ = on;
+  }
+  static bool captured() { return captured_; }
+  static bool watches() { return armed_ || captured_; }
+
+  // The switches' interrupt: the watched pin has changed, or a switch stops the motors.
+  [[gnu::always_inline]] static void capture() {
+    if (!armed_) return;
+    captured_at_ = StepStream::played();
+    armed_ = false;
+    captured_ = true;
+  }
+  [[gnu::always_inline]] static void halt() {
+    StepStream::halt();
+    halted_ = true;
+  }
+  static bool halted() { return halted_; }
+
+ private:
+  static constexpr uint32_t most_begun = 32;
+  static constexpr uint32_t most_at_once = 48;
+  static constexpr uint32_t ticks_ahead = 32'768;
+  static constexpr uint32_t most_events_ahead = 2'048;
+  static constexpr uint32_t longest_pulse = 32;  // ticks: 2 microseconds, enough for every driver
+
+  // An item that was begun and is not finished.
+  struct Item {
+    uint32_t first;  // the number of its first event's first word
+    uint8_t events;
+    uint8_t directions;
+    uint8_t flips;
+    uint16_t increments[pins.motors];
+  };
+
+  static uint32_t words_played() {
+    const uint32_t played = StepStream::played();
+    return captured_ ? captured_at_ : played;
+  }
+
+  // The pins fall after the last event of a segment. How soon they must depends on the next one.
+  static void end_pulse(uint32_t most) {
+    fell_ = most < longest_pulse ? most : longest_pulse;
+    StepStream::push(fell_, direction_pins_);
+    pending_ = false;
+  }
+
+  [[gnu::noinline]] static void make(uint32_t count) {
+    const bool is_end = count == left_;
+    uint32_t interval = segment_.interval;
+    const uint32_t change = static_cast<uint32_t>(segment_.change);
+    const uint32_t flips = segment_.flips;
+    const uint32_t pulse = pulse_;
+    for (; count != 0; --count) {
+      fraction_ += interval & 0xffff;
+      const uint32_t ticks = (interval >> 16) + (fraction_ >> 16);
+      fraction_ &= 0xffff;
+      interval += change;
+      uint32_t carries = 0;
+      for (uint32_t m = 0; m < pins.motors; ++m) {
+        const uint32_t after = accumulators_[m] + increments_[m];
+        if (after < accumulators_[m]) carries |= 1U << m;
+        accumulators_[m] = after;
+      }
+      const uint32_t stepped = pin_tables.steps[(carries ^ flips) & PicoPinTables::all];
+      // The pins fell `pulse_` ticks after the event before, and a turn took its ticks.
+      StepStream::push(ticks - fell_ - turned_, direction_pins_ | stepped);
+      turned_ = 0;
+      fell_ = pulse;
+      if (count != 1 || !is_end) StepStream::push(pulse, direction_pins_);
+    }
+    segment_.interval = interval;
+  }
+
+  static inline Segment segment_;
+  static inline uint32_t left_ = 0;  // events of the loaded segment that are not made yet
+  static inline uint8_t motors_ = 0;
+  static inline uint32_t accumulators_[pins.motors] = {};  // in the upper half, so that the carry is the processor's
+  static inline uint32_t increments_[pins.motors] = {};
+  static inline uint32_t fraction_ = 0x8000;
+  static inline uint32_t pulse_ = 0;
+  static inline uint32_t fell_ = 0;    // how many ticks after the last event the pins fell
+  static inline uint32_t turned_ = 0;  // ticks of the word that set the directions since
+  static inline uint32_t most_ahead_ = 0;
+  static inline bool pending_ = false;  // the last event's pulse has no end yet
+  static inline uint16_t direction_pins_ = 0;
+  static inline bool fresh_ = false;  // the motion begins from rest
+  static inline bool slipped_ = false;
+  static inline Item items_[most_begun];
+  static inline uint32_t begun_ = 0;  // items ever begun
+  static inline uint32_t finished_ = 0;
+  static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
+  static inline volatile bool armed_ = false;
+  static inline volatile bool captured_ = false;
+  static inline volatile uint32_t captured_at_ = 0;
+  static inline volatile bool halted_ = false;
+};
+
+}  // namespace passo::chip

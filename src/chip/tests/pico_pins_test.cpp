@@ -1,0 +1,33 @@
+#include "passo/chip/pico_pins.hpp"
+
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+TEST(PicoPins, a_pin_with_two_jobs_is_found) {
+  PicoPins<6> twice = pico_bare;
+  twice.probe = twice.limits[0];
+  EXPECT_FALSE(twice.is_sound());
+  twice = pico_bare;
+  twice.flood = twice.motor[5].step;
+  EXPECT_FALSE(twice.is_sound());
+}
+
+TEST(PicoPins, a_motor_too_far_from_the_others_is_found) {
+  PicoPins<6> far = pico_bare;
+  far.motor[5].step = 24;
+  EXPECT_FALSE(far.is_sound());
+  far.motor[5].step = no_gpio;
+  EXPECT_FALSE(far.is_sound());
+}
+
+TEST(PicoPins, bits_of_motors_count_from_the_first_pin) {
+  EXPECT_EQ(pico_bare.steps_of(0b000001), 1U << (2 - 2));
+  EXPECT_EQ(pico_bare.steps_of(0b100000), 1U << (12 - 2));
+  EXPECT_EQ(pico_bare.directions_of(0b000011), (1U << (3 - 2) | 1U << (5 - 2)));
+  EXPECT_EQ(pico_bare.motor_pins(), 0x3ffcU);
+}
+
+}  // namespace
+}  // namespace passo

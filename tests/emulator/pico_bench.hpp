@@ -1,0 +1,77 @@
+// PicoBench: sends board segments over the serial line to the real firmware on the emulated Pico, and compares every
+// edge of its step pins with the host's Player. What BoardBench is for the AVRs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "emulator/streamed_run.hpp"
+
+#include "passo/chip/pico_pins.hpp"
+#include "passo/emulator/emulated_pico.hpp"
+#include "passo/wire/decoder.hpp"
+#include "passo/wire/message.hpp"
+
+namespace passo {
+
+inline constexpr std::uint64_t pico_cycles_of_tick = 8;
+inline constexpr std::uint64_t pico_clock_rate = 128'000'000;
+
+class PicoBench {
+ public:
+  // Why there is no emulator, if there is none; empty: there is.
+  static std::string missing(const std::string& program);
+
+  PicoBench(const std::string& program, std::uint8_t motors);
+
+  using Item = std::variant<BoardSegment, BoardOutputs>;
+  // Plays the items from rest to rest. Times in the result are in cycles.
+  EdgeCheck play(const std::vector<BoardSegment>& segments);
+  // Says hello and sends the items, which begin when all have come: one less than the board takes at once.
+  void start(const std::vector<Item>& items, std::uint8_t limit = 0);
+  // Lets time pass, whatever the board says, or until so many edges of the pins in `watched` have come.
+  void run(std::uint64_t cycles, std::uint32_t watched = 0, std::uint32_t rises = 0);
+  void ask(const Ask& question = {});
+  // What comes after it is no run of its own: the changes are those from here on.
+  void forget_changes() { changes_.clear(); }
+  void send(std::span<const std::uint8_t> bytes) { pico_->send(bytes); }
+
+  // Each motor's steps in the changes, in cycles.
+  std::vector<SeenSteps> seen(EdgeCheck& result) const;
+  const std::vector<PicoChange>& changes() const { return changes_; }
+  EmulatedPico& pico() { return *pico_; }
+  std::uint8_t capacity() const { return capacity_; }
+  const std::optional<BoardStatus>& status() const { return status_; }
+  const std::optional<ErrorReport>& error() const { return error_; }
+  const std::optional<Fault>& fault() const { return fault_; }
+  const std::optional<Captured>& captured() const { return captured_; }
+
+ private:
+  void hear(std::uint8_t byte);
+  bool say_hello();
+  void send_replace(std::span<const Item> items);
+  void send_item(const Item& item);
+  EdgeCheck check(const std::vector<BoardSegment>& segments) const;
+
+  std::uint8_t motors_;
+  std::unique_ptr<EmulatedPico> pico_;
+  std::uint32_t levels_before_ = 0;
+  std::vector<PicoChange> changes_;
+  Decoder decoder_;
+  bool greeted_ = false;
+  std::uint8_t capacity_ = 0;
+  std::uint8_t last_sent_ = 0;
+  std::uint8_t last_executed_ = 0;
+  std::uint64_t complaints_ = 0;
+  std::optional<Fault> fault_;
+  std::optional<Captured> captured_;
+  std::optional<BoardStatus> status_;
+  std::optional<ErrorReport> error_;
+};
+
+}  // namespace passo

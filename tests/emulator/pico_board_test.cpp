@@ -1,0 +1,62 @@
+// The real firmware on the emulated Pico: every edge of its pins against the host's Player.
+#include <algorithm>
+#include <random>
+
+#include "emulator/pico_bench.hpp"
+#include "kit/seed.hpp"
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+class Pico : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    static const std::string why = PicoBench::missing(PASSO_MOTION_PICO);
+    if (!why.empty()) GTEST_SKIP() << why;
+  }
+};
+
+// A driver's data sheet asks for a pulse and a pause of a microsecond, or less.
+constexpr std::uint64_t microsecond = 128;
+
+void expect_every_edge(const EdgeCheck& check) {
+  EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps, " << check.wrong_direction
+                             << " in the wrong direction, finished " << check.finished;
+  EXPECT_EQ(check.error, 0) << "each edge is at its tick, and all motors' of an event are at the same cycle";
+  EXPECT_EQ(check.overruns, 0U);
+  EXPECT_EQ(check.complaints, 0U);
+  EXPECT_GE(check.shortest_pulse, microsecond);
+  EXPECT_LE(check.longest_pulse, 2 * microsecond);
+}
+
+TEST_F(Pico, says_what_it_is) {
+  PicoBench bench(PASSO_MOTION_PICO, 6);
+  bench.start({});
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  EXPECT_EQ(bench.capacity(), 250);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_EQ(bench.status()->motors, 6);
+  EXPECT_EQ(bench.status()->reset, ResetCause::power_on);
+  EXPECT_EQ(bench.status()->inputs, 0);
+}
+
+TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
+  std::mt19937_64 random(test::seed());
+  for (const std::uint8_t motors : std::initializer_list<std::uint8_t>{1, 3, 6}) {
+    PicoBench bench(PASSO_MOTION_PICO, motors);
+    for (const std::uint32_t interval : {30'000U, 1'000U, 100U, 60U}) {
+      const StreamKind kind{.shortest_interval = std::max(interval / 2, 32U),
+                            .longest_interval = interval,
+                            .shortest_segment = interval < 1000 ? std::uint8_t{100} : std::uint8_t{1},
+                            .longest_segment = interval > 10'000 ? std::uint8_t{10} : std::uint8_t{140},
+                            .segments = 8,
+                            .ramp = interval < 1000 ? 2 : 0};
+      expect_every_edge(bench.play(random_stream(random, motors, kind)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace passo
