@@ -61,9 +61,10 @@ bool LineParser::fail_missing_value(const char* owner) {
       return fail("gcode.missing-value", at_, 1, fmt::format("the letter '{}' where a value should be", *at_),
                   "the digit 1");
     }
-    const bool round_bracket = c == '(';
-    return fail("gcode.missing-value", owner, 1, whose,
-                round_bracket ? "square brackets: '(' starts a comment" : a_value);
+    const char* expected = a_value;
+    if (c == '(') expected = "square brackets: '(' starts a comment";
+    if (*owner == '#') expected = "a number or <name> for the parameter; a comment starts with ';'";
+    return fail("gcode.missing-value", owner, 1, whose, expected);
   }
   const NamedCharacter found = name_character(rest(at_));
   std::string cure = found.cure.empty() ? std::string(a_value) : found.cure;
@@ -108,6 +109,9 @@ bool LineParser::fail_unexpected() {
       return fail("gcode.unexpected-text", at_, 1, fmt::format("{} outside brackets", found.name),
                   "square brackets around an expression, as in X[1+2]");
     case '/':
+      if (at_ + 1 != end_ && at_[1] == '/') {
+        return fail("gcode.unexpected-text", at_, 2, "'//' starts no comment", "a comment after ';', or (in brackets)");
+      }
       return fail("gcode.unexpected-text", at_, 1, "'/' that is not at the start of its line",
                   "block delete as the first character, or square brackets around a division, as in X[1/2]");
     case '[':

@@ -40,6 +40,11 @@ WordPlace place_of(Span span) {
   return {span.column, span.length};
 }
 
+// Whether a word stands right behind a digit, as the E of X1E3.
+bool follows_digit(std::string_view text, Span word) {
+  return word.column > 1 && word.column <= text.size() && text[word.column - 2] >= '0' && text[word.column - 2] <= '9';
+}
+
 }  // namespace
 
 // The order of execution is LinuxCNC's (execute_block and convert_g of its interpreter): comments, spindle and feed
@@ -320,9 +325,13 @@ bool BlockExecutor::check_words_used() {
   for (const Word& word : reporter_.block().words) {
     if (!unused.has(word.letter)) continue;
     const std::string users = codes_using(word.letter);
+    std::string expected = users.empty() ? fmt::format("no {}: no code that is supported uses it", word.letter)
+                                         : fmt::format("{} with {}", word.letter, users);
+    if (word.letter == 'E' && follows_digit(reporter_.block().text, word.span)) {
+      expected += "; a number has no exponent: 1000 for 1E3";
+    }
     reporter_.error("gcode.unused-word", word.span, fmt::format("no code of this block uses the word {}", word.letter),
-                    users.empty() ? fmt::format("no {}: no code that is supported uses it", word.letter)
-                                  : fmt::format("{} with {}", word.letter, users));
+                    std::move(expected));
   }
   return false;
 }

@@ -19,6 +19,13 @@ constexpr auto axis_of_letter = [] {
   return axes;
 }();
 
+// Whether a word is like the G4 500 of a line that lacks a letter.
+bool has_blank_between_digits(std::string_view word) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::size_t blank = word.find_first_of(" \t");
+  return blank != std::string_view::npos && blank > 0 && is_digit(word[blank - 1]) && is_digit(word.back());
+}
+
 }  // namespace
 
 void BlockWords::clear() {
@@ -67,8 +74,11 @@ bool BlockWords::read_code(const Word& word, double value, Reporter& reporter) {
   if (entry == nullptr) {
     const std::string written = word.letter + plain_number(value);
     const bool readable = value >= 0 && value < code_limit;
-    reporter.error("gcode.unknown-code", word.span, fmt::format("there is no {}", written),
-                   cure_for_unknown_code(word.letter, readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1}));
+    reporter.error(
+        "gcode.unknown-code", word.span, fmt::format("there is no {}", written),
+        has_blank_between_digits(reporter.quote(word.span))
+            ? "a letter before the second number: a blank does not end a number"
+            : cure_for_unknown_code(word.letter, readable ? static_cast<CodeNumber>(tenths) : CodeNumber{-1}));
     return false;
   }
   const std::size_t group = index_of(entry->group);

@@ -93,6 +93,8 @@ constexpr Case expressions[] = {
     {"X1+2", "gcode.unexpected-text 3 1", "X[1+2]"},
     {"#1=#2*3", "gcode.unexpected-text 6 1", "square brackets"},
     {"X1/2", "gcode.unexpected-text 3 1", "X[1/2]"},
+    {"X1 // a remark", "gcode.unexpected-text 4 2", "';'"},
+    {"X1 # a remark", "gcode.missing-value 4 1", "a comment starts with ';'"},
     {"X1]", "gcode.unexpected-text 3 1", "a letter"},
     {"XSNI[3]", "gcode.unknown-function 2 3", "SIN, perhaps"},
     {"X[1+ROUNT[3]]", "gcode.unknown-function 5 5", "ROUND, perhaps"},

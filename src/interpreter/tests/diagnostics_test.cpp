@@ -423,5 +423,15 @@ TEST(Diagnostics, a_message_that_linuxcnc_would_hide_is_a_warning) {
   EXPECT_EQ(result.diagnostics.all().front().code, "gcode.hidden-comment");
 }
 
+TEST(Diagnostics, a_number_without_its_letter_and_an_exponent_are_told_as_what_they_are) {
+  const std::string dwell = interpret_text("G4 500\nM2\n").rendered();
+  EXPECT_THAT(dwell, testing::HasSubstr(":1:1: error: there is no G4500"));
+  EXPECT_THAT(dwell, testing::HasSubstr("a letter before the second number: a blank does not end a number"));
+  const std::string exponent = interpret_text("G0 X1e3\nM2\n").rendered();
+  EXPECT_THAT(exponent, testing::HasSubstr(":1:6: error: no code of this block uses the word E"));
+  EXPECT_THAT(exponent, testing::HasSubstr("a number has no exponent: 1000 for 1E3"));
+  EXPECT_THAT(interpret_text("G0 X1 E3\nM2\n").rendered(), testing::Not(testing::HasSubstr("exponent")));
+}
+
 }  // namespace
 }  // namespace passo

@@ -132,7 +132,66 @@ class Generator {
                     centers[0], -radius * std::cos(angle), centers[1], -radius * std::sin(angle));
   }
 
+  std::string size(int limit) { return fmt::format("{:.2f}", 0.1 + below(100 * limit) / 100.0); }
+
+  // Cycles in every plane and distance mode, arcs with R, splines, threads, and codes that ask the machine.
+  void machining() {
+    switch (below(5)) {
+      case 0: return drilling();
+      case 1:
+        text_ += fmt::format("G17 G91 {} X{}3 Y{}2 R{}{}\nG90\n", one_of({"G2", "G3"}), one_of({"", "-"}),
+                             one_of({"", "-"}), one_of({"", "-"}), 2 + below(9));
+        return;
+      case 2: return spline();
+      case 3: return thread();
+      default:
+        text_ += one_of({"M62 P1", "M63 P2", "M64 P3", "M65 P0", "M66 P1 L0", "M66 P2 L3 Q1", "M66 E1 L0",
+                         "M67 E1 Q2.5", "M68 E2 Q-1", "M19 R90 Q2", "M66 P0\n(debug,#5399)"}) +
+                 "\n";
+    }
+  }
+  void drilling() {
+    const std::array<const char*, 3> planes[] = {{"G17", "XY", "Z"}, {"G18", "XZ", "Y"}, {"G19", "YZ", "X"}};
+    const auto& [code, across, down] = planes[below(3)];
+    text_ +=
+        fmt::format("G90 G0 {}{}\n{} {} {}\n", down, number(20), code, one_of({"G90", "G91"}), one_of({"G98", "G99"}));
+    text_ += fmt::format("{} {}{} {}{} {}-{} R{}{}\n",
+                         one_of({"G81", "G82 P0.5", "G83 Q1.7", "G73 Q0.9", "G85", "G89 P0.3"}), across[0], number(20),
+                         across[1], number(20), down, size(8), size(5), one_of({"", " L1", " L3"}));
+    for (int i = below(3); i > 0; --i) {
+      text_ += fmt::format("{}{}{}\n", across[below(2)], number(20), one_of({"", " R2.5", " R0.4"}));
+    }
+    text_ += "G80 G90 G17\n";
+  }
+  void spline() {
+    text_ += "G17\n";
+    switch (below(3)) {
+      case 0:
+        text_ += fmt::format("G5 I{} J{} P{} Q{} X{} Y{}\nG5 P1 Q2 X{} Y{}\n", number(9), number(9), number(9),
+                             number(9), number(), number(), number(), number());
+        return;
+      case 1: text_ += fmt::format("G5.1 I{} J{} X{} Y{}\n", number(9), number(9), number(), number()); return;
+      default:
+        text_ += "G5.2" + one_of({"", " L3"});
+        for (int i = 3 + below(4); i > 0; --i) text_ += fmt::format(" X{} Y{} P{}\n", number(), number(), size(3));
+        text_ += "G5.3\n";
+    }
+  }
+  void thread() {
+    text_ += fmt::format("M3 S200\nG18 {}\nG0 X{:.2f} Z{:.2f}\n", one_of({"G7", "G8"}), 15 + below(100) / 10.0,
+                         below(50) / 10.0);
+    if (below(2) == 0) {
+      text_ += fmt::format("G33 Z-{} K{}\nG17 G33.1 Z{} K{}\n", size(20), size(2), number(20), size(2));
+    } else {
+      text_ += fmt::format("G76 P{} Z-{} I-{} J{:.2f} K{:.2f} R{} Q{} H{} E{} L{}\n", size(2), 10 + below(20), size(2),
+                           0.05 + below(35) / 100.0, 0.5 + below(150) / 100.0, one_of({"1", "1.5", "2"}),
+                           one_of({"0", "29.5", "30"}), below(3), one_of({"0", "0.5", "1"}), below(4));
+    }
+    text_ += "G8 G17\n";
+  }
+
   void statement(int depth) {
+    if (below(5) == 0) return machining();
     switch (below(depth < 2 ? 16 : 11)) {
       case 0:
       case 1:

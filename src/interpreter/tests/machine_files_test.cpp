@@ -381,5 +381,20 @@ TEST(Subs, are_found_in_the_folders_of_the_options_in_order) {
               HasSubstr("missing.ngc beside the program or in " + options.sub_folders[0]));
 }
 
+// rs274 ends the program there. Passo looks for more errors, and a program with an error does not run.
+TEST(Subs, an_error_in_a_file_of_its_own_is_told_with_the_file_the_line_and_the_call) {
+  const fs::path folder = fs::temp_directory_path() / "passo_error_in_a_file";
+  fs::create_directories(folder);
+  std::ofstream(folder / "hole.ngc") << "o<hole> sub\nG0 Y#1\nG0 Z[1\no<hole> endsub\n";
+  InterpreterOptions options;
+  options.sub_folders = {folder.string()};
+  const Interpreted result = interpret_text("G21\nG0 X1\no<hole> call [5]\nG0 X2\nM2\n", options);
+  fs::remove_all(folder);
+  ASSERT_EQ(result.diagnostics.errors(), 1U) << result.rendered();
+  EXPECT_THAT(result.rendered(),
+              HasSubstr((folder / "hole.ngc").string() + ":3:5: error: the bracket that opens here"));
+  EXPECT_THAT(result.rendered(), HasSubstr("= in o<hole>, called at test.ngc:3\n"));
+}
+
 }  // namespace
 }  // namespace passo
