@@ -22,6 +22,10 @@ constexpr double turn_a_cell_of_cubic = 0.025;
 constexpr double share_of_slow_turn = 0.5;
 // Turning lowers the speed if at the top speed it would take this many times the acceleration along the path.
 constexpr double slow_turning = 2;
+// Where the axes are uneven, a turn changes the demand of the weak axis as much as the strong axis speeds up along the
+// path. So cells turn less as the limits differ by more than this factor, down to a part.
+constexpr double even_enough = 1.5;
+constexpr double least_part_of_turn = 1.0 / 4;
 // The greatest share of an axis's limit that is taken off for what happens between the ends of a cell.
 constexpr double most_slack = 0.5;
 constexpr double cheap_slack = 0.02;  // for accelerations along the path that few cells need
@@ -32,12 +36,6 @@ constexpr double cheap_slack = 0.02;  // for accelerations along the path that f
 constexpr double braking_share = 1.0 / 64;
 constexpr double length_share = 1.0 / 128;
 constexpr double growth = 2;
-// Where turning lowers the speed on an arc: one axis limits the acceleration along the path, and what it allows changes
-// with its slope. The least of that in a cell counts for all of the cell, so it changes by this share at most. Where a
-// weak axis takes over from a strong one, the change is so steep that cells follow it only down to a part of their
-// size.
-constexpr double change_a_cell = 0.012;
-constexpr double least_part_of_longest = 1.0 / 8;
 // About half a cell is lost where an arc is fastest between two slow ends.
 constexpr double least_cells_of_arc = 32;
 
@@ -104,7 +102,6 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
   const double length = curve.length().value();
   longest_ = shortest_ = length;
   grade_ = 0;
-  evens_ = false;
   const Point steepest = curve.steepest();
   moving_.clear();
   for (const AxisLimits& axis : limited_) {
@@ -125,10 +122,10 @@ void CellCutter::begin(const Segment& segment, double entry_squared) {
   if (line) return;
   const double turning = curve.turning(steepest);
   const bool is_slow = top * top * turning > slow_turning * strongest_here * length;
-  const double share = is_slow ? share_of_slow_turn : 1;
+  const double part = is_slow ? part_of_turn(moving_) : 1;
+  const double share = is_slow ? share_of_slow_turn * part : 1;
   if (curve.shape() == Curve::Shape::arc) {
-    evens_ = is_slow;
-    const double turn = top < segment.speed.value() ? turn_a_cell_of_fast_arc : share * turn_a_cell_of_arc;
+    const double turn = top < segment.speed.value() ? part * turn_a_cell_of_fast_arc : share * turn_a_cell_of_arc;
     const double by_turn = length * turn / turning;
     longest_ =
         std::min({length / least_cells_of_arc, by_turn, std::max(braking * braking_share, length * length_share)});
@@ -153,7 +150,6 @@ void CellCutter::next(const CellPlace& to) {
   } else if (size > left / 2 && longest_ > shortest_) {
     size = left / growth;
   }
-  if (evens_) size = std::min(size, even_size());
   if (grade_ > 0) size = graded(size, left);
   double end = at_.s + size;
   if (length - end < size * 1e-6) end = length;
@@ -170,21 +166,6 @@ void CellCutter::next(const CellPlace& to) {
 void CellCutter::cut(const Segment& segment, double from, double to, bool straight, const CellPlace& place) const {
   if (straight) return cut_straight(segment, limited_, from, to, place);
   cut_curve(segment, limited_, place_at(segment.curve, limited_, from), place_at(segment.curve, limited_, to), place);
-}
-
-// The axis that limits the acceleration along the path has the steepest slope, measured by its limit.
-double CellCutter::even_size() const {
-  double steepest = 0;
-  double change = 0;  // of the slope, measured in the same way, for each millimetre
-  for (const AxisLimits& axis : moving_) {
-    if (!(axis.acceleration > 0)) continue;
-    const double slope = std::abs(at_.slope.values[axis.axis]) / axis.acceleration;
-    if (!(slope > steepest)) continue;
-    steepest = slope;
-    change = std::abs(at_.bend.values[axis.axis]) / axis.acceleration;
-  }
-  const double even = change > 0 ? change_a_cell * steepest / change : longest_;
-  return std::max(even, longest_ * least_part_of_longest);
 }
 
 // From rest the speed grows with the root of s, so the cells grow likewise. Each end of the segment may be a rest. At
@@ -206,6 +187,17 @@ double CellCutter::top_acceleration(const Axes& axes, const Point& slope) {
   double top = strongest;
   for (const AxisLimits& axis : axes) lower(top, axis.acceleration, std::abs(slope.values[axis.axis]));
   return top;
+}
+// Limits of rotary axes are in degrees and cannot be compared with the others.
+double CellCutter::part_of_turn(const Axes& axes) {
+  double weakest = strongest;
+  double most = 0;
+  for (const AxisLimits& axis : axes) {
+    if (!(axis.acceleration > 0) || is_rotary(static_cast<Axis>(axis.axis))) continue;
+    weakest = std::min(weakest, axis.acceleration);
+    most = std::max(most, axis.acceleration);
+  }
+  return most > 0 ? std::clamp(even_enough * weakest / most, least_part_of_turn, 1.0) : 1;
 }
 // The speed up to which every limit is constant.
 double CellCutter::flat_top(const Axes& axes, const Point& slope) {

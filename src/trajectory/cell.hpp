@@ -127,6 +127,7 @@ class CellCutter {
                               double slope_strength);
   static double top_speed(const Axes& axes, const Point& slope);
   static double top_acceleration(const Axes& axes, const Point& slope);
+  static double part_of_turn(const Axes& axes);
   static double flat_top(const Axes& axes, const Point& slope);
   static double top_of_turning(const Axes& axes, const Point& slope, const Point& bend);
   static Place place_at(const Curve& curve, const Axes& axes, double s);
@@ -136,7 +137,6 @@ class CellCutter {
   static void cut_curve(const Segment& segment, const Axes& axes, const Place& in, const Place& out,
                         const CellPlace& place);
   double graded(double size, double left) const;
-  double even_size() const;
 
   Axes limited_;  // all axes that have a limit
   Axes moving_;   // those of them that move on the segment
@@ -145,8 +145,7 @@ class CellCutter {
   double longest_ = 0;   // length of cells in the middle
   double shortest_ = 0;  // length of the cells at the ends; from there they grow
   bool straight_ = false;
-  bool evens_ = false;  // cells are shorter where the acceleration along the path changes much
-  double grade_ = 0;    // where limits fall with the speed: each cell adds this to the root of s, from a rest on
+  double grade_ = 0;  // where limits fall with the speed: each cell adds this to the root of s, from a rest on
 };
 
 }  // namespace passo

@@ -154,6 +154,15 @@ TEST(UnevenAxes, play_a_short_arc_nearly_as_fast_as_can_be) {
   EXPECT_LT(ending.proof.times_bound(), 1.01);
 }
 
+// Chords of a wide bend, where X has a fifth of the acceleration of Y.
+TEST(UnevenAxes, follow_chords_nearly_as_fast_as_can_be) {
+  test::Random random = test::Random::of(811503309);
+  const test::RandomJob job(random);
+  const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+  for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+  EXPECT_LT(ending.proof.times_bound(), 1.012);
+}
+
 // Lines that are one but for rounding, at feeds that change. They are smoothed into long spans, in each of which the
 // motion may speed up and slow down.
 TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {

@@ -1,0 +1,151 @@
+// Programs that ask much of the planner: dust, sharp teeth, rotary axes that turn by thousands of
+// degrees a millimetre, a new feed on each line. Each is planned on machines with limits of jerk on all axes, on some,
+// or on none, and with the torque of motors. The work must be bounded: the number of phases decides. The processor's
+// time is printed. That the limits are kept, the random programs show.
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "kit/meddled_run.hpp"
+#include "kit/random_gcode.hpp"
+
+namespace passo {
+namespace {
+
+constexpr int lines = 100;
+
+struct Kind {
+  const char* name;
+  std::function<std::string(int)> line;
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {"teeth of 0.01 mm", [](int i) { return fmt::format("G1 X{:.4f} Y{:.4f}", 0.01 * i, 0.01 * (i % 2)); }},
+      {"needles", [](int i) { return fmt::format("G1 X{:.4f} Y{:.4f}", 0.001 * i, 5.0 * (i % 2)); }},
+      {"spiral of chords",
+       [](int i) {
+         return fmt::format("G1 X{:.5f} Y{:.5f}", 0.002 * i * std::cos(0.2 * i), 0.002 * i * std::sin(0.2 * i));
+       }},
+      {"tiny arcs and long lines",
+       [](int i) {
+         const double side = i / 2 % 2 == 0 ? 0.0 : 50.0;
+         return i % 2 == 0 ? fmt::format("G1 X{:.4f}", side)
+                           : fmt::format("G3 X{:.4f} Y{:.4f} I0 J0.01", side, 0.01 * (i + 1));
+       }},
+      {"a rotary axis of 40,000 degrees a millimetre",
+       [](int i) { return fmt::format("G1 X{:.5f} A{:.4f}", 0.001 * i, 40.0 * (i % 3)); }},
+      {"a rotary axis that moves alone on each second line",
+       [](int i) {
+         return i % 2 == 0 ? fmt::format("G1 X{:.5f} A{:.4f}", 0.001 * i, 40.0 * i)
+                           : fmt::format("G1 A{:.4f}", 40.0 * i);
+       }},
+      {"a new feed on each line",
+       [](int i) {
+         return fmt::format("G1 X{:.4f} Y{:.4f} F{:.1f}", 0.3 * i, 0.05 * std::sin(0.7 * i),
+                            i % 2 == 0 ? 20'000.0 : 2.0 + i);
+       }},
+      {"creeping",
+       [](int i) { return fmt::format("G1 X{:.4f} Y{:.4f} F{:.1f}", 2.0 * (i % 5), 0.3 * i, 1.0 + i % 7); }},
+      {"dust of all sizes",
+       [](int i) {
+         const double size = std::pow(10, -4 + i % 5);
+         return fmt::format("G1 X{:.5f} Y{:.5f} Z{:.5f}", size * std::sin(1.7 * i), size * std::cos(2.3 * i),
+                            size * std::sin(3.1 * i));
+       }},
+      {"helices",
+       [](int i) { return fmt::format("G2 X0 Y0 I{:.3f} J0 Z{:.4f} P3", 0.01 + 0.02 * (i % 50), 0.01 * i); }},
+      {"splines",
+       [](int i) {
+         return fmt::format("G5 I{:.3f} J{:.3f} P{:.3f} Q{:.3f} X{:.4f} Y{:.4f}", std::sin(1.0 * i), std::cos(2.0 * i),
+                            std::sin(3.0 * i), std::cos(4.0 * i), 0.1 * i, std::sin(0.3 * i));
+       }},
+  };
+  return all;
+}
+
+struct Limits {
+  const char* name;
+  double rise;  // seconds, of the acceleration; 0: no limit of jerk
+  bool some_only;
+  bool torque;
+};
+constexpr std::array all_limits = {
+    Limits{"jerk on no axis", 0, false, false},      Limits{"with torque", 0, false, true},
+    Limits{"jerk on all axes", 0.02, false, false},  Limits{"soft on all axes", 0.15, false, false},
+    Limits{"hard on all axes", 0.001, false, false}, Limits{"jerk on some axes", 0.02, true, false},
+    Limits{"jerk and torque", 0.02, true, true}};
+
+MachineDescription machine_with(const Limits& limits) {
+  test::Random random = test::Random::of(1);
+  MachineDescription machine;
+  machine.name = limits.name;
+  machine.path_tolerance = Mm(0.01);
+  machine.board.highest_event_rate = Hertz(1e6);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z, Axis::a}) {
+    AxisDescription own;
+    own.axis = axis;
+    own.steps_per_unit = 20;
+    own.velocity = MmPerSecond(axis == Axis::a ? 3000 : 200);
+    own.acceleration = MmPerSecond2(axis == Axis::a ? 20'000 : 1500);
+    if (limits.rise > 0 && (!limits.some_only || axis == Axis::x || axis == Axis::a)) {
+      own.jerk = MmPerSecond3(own.acceleration.value() / limits.rise);
+    }
+    own.travel_low = -1e5;
+    own.travel_high = 1e5;
+    if (limits.torque) own.motor = test::random_motor(random, own);
+    machine.axes.push_back(own);
+  }
+  return machine;
+}
+
+struct Planned {
+  double seconds = 0;  // of the processor, from text to phases
+  double time = 0;     // of the motion
+  std::size_t phases = 0;
+};
+
+Planned plan(const std::string& program, const MachineDescription& machine) {
+  const std::clock_t begin = std::clock();
+  Diagnostics diagnostics;
+  Interpreter interpreter(ProgramReader::from_text("t", program), InterpreterOptions(), diagnostics);
+  const PathOptions options = path_options(machine, "t");
+  PathBuilder builder(interpreter, options, diagnostics);
+  PathSmoother smoother(builder, smoothness(machine));
+  Planner planner(smoother, motion_limits(machine));
+  Planned planned;
+  for (MotionItem item; planner.next(item);) {
+    const auto* const move = std::get_if<PlannedMove>(&item);
+    if (move == nullptr) continue;
+    planned.phases += move->phase_count;
+    planned.time += move->duration().value();
+  }
+  planned.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_FALSE(diagnostics.any_error()) << render(diagnostics, false);
+  return planned;
+}
+
+// Of a line of the program. A plan that looks at ever finer cells has more.
+constexpr std::size_t most_phases = 1500;
+
+TEST(HardPrograms, are_planned_in_a_bounded_number_of_phases) {
+  for (const Kind& kind : kinds()) {
+    std::string program = "G21 G90 G17 G64 P0.005 F6000\n";
+    for (int i = 1; i <= lines; ++i) program += kind.line(i) + "\n";
+    for (const Limits& limits : all_limits) {
+      SCOPED_TRACE(fmt::format("{}, {}", kind.name, limits.name));
+      const Planned planned = plan(program + "M2\n", machine_with(limits));
+      EXPECT_GT(planned.phases, 0U);
+      EXPECT_LE(planned.phases, most_phases * lines);
+      std::printf("%6.2f s of the processor, %9.1f s of motion, %8zu phases: %s, %s\n", planned.seconds, planned.time,
+                  planned.phases, kind.name, limits.name);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace passo
