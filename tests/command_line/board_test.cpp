@@ -236,4 +236,43 @@ TEST_F(Boards, are_given_no_image_that_is_damaged_or_too_large) {
   EXPECT_NE(large.err.find("has room for 32256"), std::string::npos) << large.err;
 }
 
+// A UF2 file of one block.
+std::string uf2_block(std::uint32_t family = 0xe48bff56) {
+  std::string block(512, 'x');
+  const auto put = [&block](std::size_t at, std::uint32_t value) {
+    for (unsigned i = 0; i < 4; ++i) block[at + i] = static_cast<char>(value >> 8 * i);
+  };
+  const std::uint32_t head[] = {0x0a324655, 0x9e5d5157, 0x2000, 0x10000000, 256, 0, 1, family};
+  for (std::size_t word = 0; word < 8; ++word) put(4 * word, head[word]);
+  put(508, 0x0ab16f30);
+  return block;
+}
+
+TEST_F(Boards, that_show_themselves_as_a_drive_are_flashed_by_copying) {
+  std::filesystem::create_directories(path("drive"));
+  const std::string flash = "board flash pico -d " + path("drive") + " --image ";
+  const std::string image = write("new.uf2", uf2_block());
+  const Outcome other = passo(flash + image);
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.err.find("is not the drive of a Pico"), std::string::npos) << other.err;
+  EXPECT_FALSE(std::filesystem::exists(path("drive/passo.uf2")));
+
+  write("drive/INFO_UF2.TXT", "UF2 Bootloader v3.0\nModel: Raspberry Pi RP2\nBoard-ID: RPI-RP2\n");
+  EXPECT_EQ(passo(flash + image + " --dry-run").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("drive/passo.uf2")));
+  const Outcome done = passo(flash + image);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_EQ(read(path("drive/passo.uf2")), uf2_block());
+}
+
+TEST_F(Boards, that_show_themselves_as_a_drive_get_no_file_for_another_chip) {
+  const std::string flash = "board flash pico -d " + path("drive") + " --image ";
+  const Outcome other = passo(flash + write("other.uf2", uf2_block(0xe48bff59)));
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("for another chip than the RP2040"), std::string::npos) << other.err;
+  const Outcome cut = passo(flash + write("cut.uf2", uf2_block().substr(0, 500)));
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_NE(cut.err.find("this is no UF2 file, or cut short"), std::string::npos) << cut.err;
+}
+
 }  // namespace

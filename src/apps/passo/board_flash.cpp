@@ -1,5 +1,5 @@
 // passo board flash: checks that the firmware fits the board, saves the old contents, and writes the firmware. avrdude
-// does the writing.
+// does the writing. A Pico takes a copied file instead (board_drive.hpp).
 //
 // avrdude checks by the chip's signature that the chip is the expected one, and reads back what it has written.
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "board_drive.hpp"
 #include "board_opening.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
@@ -112,6 +113,10 @@ int start(const std::vector<std::string>& words) {
 }  // namespace
 
 int board_flash(const BoardFlashArguments& arguments) {
+  if (arguments.board == "pico") return flash_by_copying(arguments);
+  if (arguments.device.empty()) {
+    return fail(exit_bad_program, "which serial line is the board at? As --device /dev/ttyACM0; see passo board list");
+  }
   const Chip& chip = *std::find_if(chips.begin(), chips.end(),
                                    [&](const Chip& one) { return arguments.board.starts_with(one.board); });
   const std::string image = arguments.image.empty() ? built_image(arguments.board, ".hex").string() : arguments.image;

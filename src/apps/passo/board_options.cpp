@@ -7,11 +7,12 @@
 namespace passo {
 namespace {
 
-constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:uno or sim:mega";
+constexpr const char* address = "serial:DEVICE, serial:DEVICE@BAUD, tcp:HOST:PORT, sim:uno, sim:mega or sim:pico";
 
 constexpr const char* examples = R"(Examples:
   passo board list                                        what is on this computer's serial lines
   passo board flash uno --device /dev/ttyACM0             puts Passo's firmware on it, and keeps what was there
+  passo board flash pico                                  onto a Pico plugged in with BOOTSEL held: finds its drive
   passo board info serial:/dev/ttyACM0                    what it is, and how it is
   passo board monitor serial:/dev/ttyACM0                 its switches and counters, live
   passo board info sim:uno                                the firmware itself, on an emulated chip
@@ -53,10 +54,12 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   monitor.callback([&arguments] { arguments.chosen = [&arguments] { return board_monitor(arguments.monitor); }; });
 
   const std::vector<std::string> names(emulated_boards.begin(), emulated_boards.end());
-  CLI::App& flash = *board.add_subcommand("flash", "put Passo's firmware on a board, by avrdude");
+  CLI::App& flash = *board.add_subcommand("flash", "put Passo's firmware on a board: by avrdude, on a Pico by copying");
   flash.add_option("BOARD", arguments.flash.board, "what it is")->required()->check(CLI::IsMember(names));
-  flash.add_option("-d,--device", arguments.flash.device, "its serial line, as /dev/ttyACM0")->required();
-  flash.add_option("--image", arguments.flash.image, "Intel hex; without it what was built with this program");
+  flash.add_option("-d,--device", arguments.flash.device,
+                   "its serial line, as /dev/ttyACM0; a Pico's drive, if there are several");
+  flash.add_option("--image", arguments.flash.image,
+                   "Intel hex, or of a Pico UF2; without it what was built with this program");
   flash.add_option("--backup", arguments.flash.backup,
                    "where what it holds now is kept; without it passo-backup-BOARD.hex");
   flash.add_option("--programmer", arguments.flash.programmer, "avrdude's -c; without it the board's boot loader");

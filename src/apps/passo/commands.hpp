@@ -132,8 +132,8 @@ struct BoardMonitorArguments {
 int board_monitor(const BoardMonitorArguments& arguments);
 
 struct BoardFlashArguments {
-  std::string board;  // uno or mega
-  std::string device;
+  std::string board;   // uno, mega, or one of their ways with windings; pico
+  std::string device;  // the serial line; a Pico's drive, or empty: it is found
   std::string image;   // empty: the image that was built with this program
   std::string backup;  // file for the old contents; empty: passo-backup-BOARD.hex
   std::string programmer;

@@ -115,6 +115,20 @@ void turn() {
   if (board().owes_report() && line.can_send() && (board().owed() >= 3 || !PicoLine::has_byte())) board().report();
 }
 
+// Sleeps until something happens, at most a quarter of a millisecond: at that rate the UART holds every byte.
+constexpr uint32_t cycles_of_sleep = 32'000;
+void sleep_if_idle() {
+  if (!PicoPlayer::is_ahead() || PicoPlayer::halted() || PicoPlayer::captured() || board().owes_report()) return;
+  UartImsc::write(uart_received);
+  if (PicoLine::has_byte()) return;
+  asm volatile("wfi");
+}
+void start_sleep_timer() {
+  SysTickReload::write(cycles_of_sleep - 1);
+  SysTickCount::write(0);
+  SysTickControl::write(7);
+}
+
 void leave_reset(uint32_t blocks) {
   Resets::clear(blocks);
   while ((ResetsDone::read() & blocks) != blocks) {
@@ -167,6 +181,11 @@ extern "C" {
 void passo_refill_done() {
   passo::chip::StepStream::refill_done();
 }
+void passo_wake() {}
+// The loop takes the byte.
+void passo_byte_came() {
+  passo::chip::UartImsc::write(0);
+}
 void passo_switch_moved() {
   passo::chip::PicoWiring::switch_moved();
 }
@@ -186,11 +205,15 @@ void passo_switch_moved() {
   PicoPlayer::restart(0);
   hardware.line.open(cycles_a_second, baud);
   PicoWiring::enable_motors(true);
-  NvicEnable::write(1U << irq_dma0 | 1U << irq_io_bank0);
+  NvicEnable::write(1U << irq_dma0 | 1U << irq_io_bank0 | 1U << irq_uart0);
+  start_sleep_timer();
   start_watchdog();
   interrupts_on();
   watch_input();
-  for (;;) turn();
+  for (;;) {
+    turn();
+    sleep_if_idle();
+  }
 }
 
 // The compiler calls these for large copies.

@@ -127,6 +127,11 @@ class PicoPlayer {
 
   static bool slipped() { return slipped_; }
 
+  // Whether there is nothing to make for a while: all is played, or as much is made as may be.
+  static bool is_ahead() {
+    if (left_ == 0) return begun_ == finished_ && StepStream::dry();
+    return (StepStream::pushed() - StepStream::played()) / 2 >= most_ahead_;
+  }
   // Makes some events.
   static void refill() {
     if (halted_) return;

@@ -113,6 +113,8 @@ using UartIbrd = Register<0x40034024>;
 using UartFbrd = Register<0x40034028>;
 using UartLcr = Register<0x4003402c>;
 using UartCr = Register<0x40034030>;
+using UartImsc = Register<0x40034038>;
+inline constexpr uint32_t uart_received = 1U << 4 | 1U << 6;  // some bytes, or one that nothing followed
 inline constexpr uint32_t uart_nothing_received = 1U << 4;
 inline constexpr uint32_t uart_full = 1U << 5;
 
@@ -126,6 +128,10 @@ enum PwmRegister : uint32_t { pwm_csr, pwm_div, pwm_ctr, pwm_cc, pwm_top };
 using NvicEnable = Register<0xe000e100>;
 inline constexpr uint32_t irq_dma0 = 11;
 inline constexpr uint32_t irq_io_bank0 = 13;
+inline constexpr uint32_t irq_uart0 = 20;
+using SysTickControl = Register<0xe000e010>;
+using SysTickReload = Register<0xe000e014>;
+using SysTickCount = Register<0xe000e018>;
 
 [[gnu::always_inline]] inline void interrupts_off() {
   asm volatile("cpsid i" ::: "memory");

@@ -7,16 +7,21 @@
 .section .vectors, "a", %progbits
   .word __stack
   .word passo_reset
-  .rept 14
+  .rept 13
   .word passo_crash
   .endr
+  .word passo_wake          // SysTick
   .rept 11
   .word passo_crash
   .endr
   .word passo_refill_done   // 11: DMA_IRQ_0
   .word passo_crash
   .word passo_switch_moved  // 13: IO_IRQ_BANK0
-  .rept 12
+  .rept 6
+  .word passo_crash
+  .endr
+  .word passo_byte_came     // 20: UART0_IRQ
+  .rept 5
   .word passo_crash
   .endr
 

@@ -123,23 +123,48 @@ class Board {
     this.stopped = false;
     while (this.cycle < end && !this.stopped) {
       this.now = this.cycle;
-      const cycles = core.executeInstruction();
+      if (core.waiting && core.interruptsUpdated && core.checkForInterrupts()) core.waiting = false;
+      const cycles = core.waiting ? this.cyclesOfSleep(end, stopsAtByte, machine) : core.executeInstruction();
       clock.tick(cycles * nanosOfCycle);
       this.cycle += cycles;
-      while (this.tick + cyclesOfTick <= this.cycle) {
-        this.tick += cyclesOfTick;
-        if (!machine.enabled) continue;
-        // The same as a step, but faster: most of its life the machine counts a delay.
-        if (machine.pc === 2 && machine.x > 0 && !machine.waiting) {
-          --machine.x;
-          continue;
-        }
-        this.now = this.tick;
-        machine.step();
-        if (pio.pinValues !== pio.oldPinValues || pio.pinDirections !== pio.oldPinDirections) pio.checkChangedPins();
-      }
+      this.stepPio(pio, machine);
       if (this.coming.length !== 0) this.feed();
       if (stopsAtByte && this.said.length !== 0 && this.said[0].at <= this.cycle) break;
+    }
+  }
+
+  // While the program sleeps, nothing happens before one of these does.
+  cyclesOfSleep(end, stopsAtByte, machine) {
+    const { clock } = this.chip;
+    let until = end;
+    if (clock.nextAlarm) until = Math.min(until, this.cycle + Math.ceil(clock.nanosToNextAlarm / nanosOfCycle));
+    if (this.coming.length !== 0) until = Math.min(until, this.nextByte);
+    if (stopsAtByte && this.said.length !== 0) until = Math.min(until, this.said[0].at);
+    if (machine.enabled && !machine.waiting) {
+      const counted = machine.pc === 2 ? machine.x : 0;
+      until = Math.min(until, this.tick + (counted + 1) * cyclesOfTick);
+    }
+    return Math.max(1, until - this.cycle);
+  }
+
+  stepPio(pio, machine) {
+    while (this.tick + cyclesOfTick <= this.cycle) {
+      const due = Math.floor((this.cycle - this.tick) / cyclesOfTick);
+      if (!machine.enabled || machine.waiting) {
+        this.tick += due * cyclesOfTick;
+        continue;
+      }
+      // The same as so many steps, but faster: most of its life the machine counts a delay.
+      if (machine.pc === 2 && machine.x > 0) {
+        const counted = Math.min(due, machine.x);
+        machine.x -= counted;
+        this.tick += counted * cyclesOfTick;
+        continue;
+      }
+      this.tick += cyclesOfTick;
+      this.now = this.tick;
+      machine.step();
+      if (pio.pinValues !== pio.oldPinValues || pio.pinDirections !== pio.oldPinDirections) pio.checkChangedPins();
     }
   }
 
