@@ -137,21 +137,22 @@ class AccelerationLaw final : public SpeedLaw {
       if (!cells_.empty()) end_cap_ = rests_.at_end(end_direction(next_segment_ - 1));
       return;
     }
-    next_rest_ = rest_before(*segment);
-    if (next_rest_) reached_squared_ = next_rest_->start;
+    const bool is_first = next_segment_ == path_.first();
+    at_rest_ = is_first || rests_between(*path_.at(next_segment_ - 1), *segment);
+    if (at_rest_) {
+      if (rests_.any()) rest_ = rest_before(*segment, is_first);
+      reached_squared_ = rest_.start;
+    }
     cutter_.begin(*segment, reached_squared_);
     cutting_ = true;
     cut_feed_squared_ = feed_squared(*segment);
     ++next_segment_;
   }
 
-  // The speeds at the start of the next segment, if the path rests there.
-  std::optional<RestSpeeds::Pair> rest_before(const Segment& segment) {
-    const bool is_first = next_segment_ == path_.first();
-    if (!is_first && !rests_between(*path_.at(next_segment_ - 1), segment)) return std::nullopt;
-    if (!rests_.any()) return RestSpeeds::Pair{};
+  // The limits at the start of the next segment, where the path rests.
+  RestSpeeds::Pair rest_before(const Segment& segment, bool is_first) {
     const Point direction = segment.curve.tangent(Mm(0));
-    if (is_first) return RestSpeeds::Pair{.start = rests_.at_start(direction, stopped_)};
+    if (is_first) return {.start = rests_.at_start(direction, stopped_)};
     return rests_.between(end_direction(next_segment_ - 1), direction);
   }
   Point end_direction(std::uint64_t number) {
@@ -162,8 +163,7 @@ class AccelerationLaw final : public SpeedLaw {
   void append() {
     cutter_.next(cells_.push());
     cutting_ = !cutter_.at_end();
-    if (next_rest_) cells_.back().rest_at(next_rest_->end, next_rest_->start);
-    next_rest_.reset();
+    if (std::exchange(at_rest_, false)) cells_.back().rest_at(rest_.end, rest_.start);
     const Cell& cell = cells_.back().cell;
     reached_squared_ = std::min(cell.top_squared, reached_squared_ + 2 * cell.acceleration * cell.length);
     set_caps(cells_.size() - 1, cut_feed_squared_);
@@ -211,7 +211,7 @@ class AccelerationLaw final : public SpeedLaw {
       if_rest = cells_[i].entry_if_rest = entry_to(i, if_rest);  // after if_open: its choice of lines is the one kept
       if (equal) if_open = if_rest;
       cells_[i].entry_if_open = if_open;
-      if (i > 0 && cells_[i].begins_at_rest()) if_rest = if_open = exit_before(i, 0);
+      if (rests_.any() && i > 0 && cells_[i].begins_at_rest()) if_rest = if_open = exit_before(i);
     }
   }
 
@@ -220,17 +220,14 @@ class AccelerationLaw final : public SpeedLaw {
     // A full queue may hold hardly more than the braking distance. Its first half is then played as if the path came to
     // rest at its end: slower, but safe and still linear.
     const std::size_t at_least = cells_.full() ? cells_.size() / 2 : 0;
+    const bool jumps = rests_.any();
     double entry = speed_squared_;
     for (decided_ = 0; decided_ < cells_.size(); ++decided_) {
-      if (rests_.any() && (decided_ > 0 ? cells_[decided_].begins_at_rest() : stands_)) {
-        const double most = decided_ > 0 ? CellQueue::no_rest : cap_from_rest();
-        entry = std::min(most, cells_[decided_].entry_if_rest);
-        if (decided_ >= at_least && entry != std::min(most, cells_[decided_].entry_if_open)) break;
-      }
+      if (jumps && !begins(decided_, decided_ < at_least, entry)) break;
       const bool last = decided_ + 1 == cells_.size();
-      const double if_rest = last ? exit_if_rest() : exit_before(decided_ + 1, cells_[decided_ + 1].entry_if_rest);
-      const double if_open = last ? (closed_ ? if_rest : cells_[decided_].top_squared)
-                                  : exit_before(decided_ + 1, cells_[decided_ + 1].entry_if_open);
+      double if_rest = last ? exit_if_rest() : cells_[decided_ + 1].entry_if_rest;
+      double if_open = last ? (closed_ ? if_rest : cells_[decided_].top_squared) : cells_[decided_ + 1].entry_if_open;
+      if (jumps && !last && cells_[decided_ + 1].begins_at_rest()) if_rest = if_open = exit_before(decided_ + 1);
       const double exit = exit_from(decided_, entry, if_rest);
       if (decided_ >= at_least && if_rest != if_open && exit != exit_from(decided_, entry, if_open)) break;
       cells_[decided_].decided_entry = std::exchange(entry, exit);
@@ -238,10 +235,16 @@ class AccelerationLaw final : public SpeedLaw {
     }
   }
 
-  // The limit at the end of the cell before cell i, which may be entered with this speed.
-  double exit_before(std::size_t i, double entry) const {
-    return cells_[i].begins_at_rest() ? std::min(cells_[i].rest_exit, cells_[i - 1].top_squared) : entry;
+  // From rest a cell may be entered with some speed of its own. False: a later cell could still change this speed, and
+  // `at_once` is false.
+  bool begins(std::size_t i, bool at_once, double& entry) {
+    if (i > 0 ? !cells_[i].begins_at_rest() : !stands_) return true;
+    const double most = i > 0 ? CellQueue::no_rest : cap_from_rest();
+    entry = std::min(most, cells_[i].entry_if_rest);
+    return at_once || entry == std::min(most, cells_[i].entry_if_open);
   }
+  // The limit at the end of the cell before cell i, which begins at rest.
+  double exit_before(std::size_t i) const { return std::min(cells_[i].rest_exit, cells_[i - 1].top_squared); }
   // The square of the speed at the end of the queue if the path comes to rest there.
   double exit_if_rest() const {
     return closed_ && !cells_.empty() ? std::min(end_cap_, cells_[cells_.size() - 1].top_squared) : 0;
@@ -299,8 +302,9 @@ class AccelerationLaw final : public SpeedLaw {
   }
   // The exit of cell i, entered with this speed.
   double planned_exit(std::size_t i, double entry) const {
-    const bool last = i + 1 == cells_.size();
-    return exit_from(i, entry, last ? exit_if_rest() : exit_before(i + 1, cells_[i + 1].entry_if_rest));
+    if (i + 1 == cells_.size()) return exit_from(i, entry, exit_if_rest());
+    const CellQueue::Entry& next = cells_[i + 1];
+    return exit_from(i, entry, rests_.any() && next.begins_at_rest() ? exit_before(i + 1) : next.entry_if_rest);
   }
 
   // To rest within cell i if possible, else through it as slowly as possible. Never faster than without the hold: where
@@ -384,13 +388,14 @@ class AccelerationLaw final : public SpeedLaw {
   CellQueue cells_;
   std::uint64_t next_segment_ = 0;  // the first segment of which no cell is cut
   bool cutting_ = false;
-  std::optional<RestSpeeds::Pair> next_rest_;  // at the start of the next cell
-  double cut_feed_squared_ = 0;                // of the segment that is being cut
-  double reached_squared_ = 0;                 // the square of the highest speed at which it may begin
-  std::size_t decided_ = 0;                    // cells at the head whose exit speed no later cell can change
-  double speed_squared_ = 0;                   // at the start of the head
-  bool closed_ = false;                        // an action or the program's end follows the queue, which ends at rest
-  double end_cap_ = 0;                         // then: the limit of the square of the speed at its end
+  bool at_rest_ = true;          // the next cell begins at rest
+  RestSpeeds::Pair rest_;        // then: the limits there
+  double cut_feed_squared_ = 0;  // of the segment that is being cut
+  double reached_squared_ = 0;   // the square of the highest speed at which it may begin
+  std::size_t decided_ = 0;      // cells at the head whose exit speed no later cell can change
+  double speed_squared_ = 0;     // at the start of the head
+  bool closed_ = false;          // an action or the program's end follows the queue, which ends at rest
+  double end_cap_ = 0;           // then: the limit of the square of the speed at its end
   bool braking_ = false;
   bool stands_ = true;  // at rest, which the motion may leave with some speed
   Point stopped_;       // how fast the axes were when the machine last came to rest
