@@ -29,13 +29,15 @@ constexpr std::array knots_for_least_bending = {0.5, 1.0, 1.5};
 constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
 // A node swings if the axis that limits the speed goes back by less than this in it.
 constexpr double most_reversal = 0.7;
+// With limits of jerk it swings then too, up to this change of the tangent. By trial.
+constexpr double too_sharp = 1.8;
 // Knots for swinging are too far apart if none has room and the nodes are this share of a width apart.
 constexpr double too_far = 0.7;
 // How soon the weight of the bend falls, for no reversal; how it depends on the reversal; and the most. By trial.
 constexpr double weight_fall = 1.2;
 constexpr double weight_fall_less = 2.2;
 constexpr double most_weight_fall = 0.9;
-constexpr std::array knots_for_slow_bending = {0.5, 1.0, 1.6, 2.2};
+constexpr std::array knots_for_slow_bending = {0.48, 1.0, 1.55, 2.3};
 constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.4, 5.0, 7.5};
 constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot
 constexpr double share_of_room = 0.9;       // knots beyond this share of the room are left out
@@ -54,9 +56,12 @@ constexpr double unlimited = 1e9;
 // Widths for swinging are found by trial: the spline then also uses the outer side of the tube, before and after a
 // corner. A swing is passed at more even speed than a corner that is rounded inside, so that s quickens less.
 const KnotPlacer::Spacing KnotPlacer::slow_bending = {
-    .corner_width = 5, .knots = knots_for_slow_bending, .quickening = 0.6};
-const KnotPlacer::Spacing KnotPlacer::swinging_slowly = {
-    .corner_width = 7, .knots = knots_for_swinging_slowly, .quickening = 0.33, .closer = &slow_bending};
+    .corner_width = 4.8, .knots = knots_for_slow_bending, .quickening = 0.54};
+const KnotPlacer::Spacing KnotPlacer::swinging_slowly = {.corner_width = 7,
+                                                         .knots = knots_for_swinging_slowly,
+                                                         .quickening = 0.3,
+                                                         .sharp_from = 0.35,
+                                                         .closer = &slow_bending};
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
 const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .closer = &inside};
 
@@ -89,8 +94,9 @@ bool KnotPlacer::follows_spindle(const Piece& before, const Piece& after) {
 const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const {
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
-  const bool swings =
-      before.is_line() && after.is_line() && !follows_spindle(before, after) && reversal(before, after) < most_reversal;
+  const bool goes_to_and_fro = reversal(before, after) >= most_reversal &&
+                               (!bends_slowly_ || distance(before.last_tangent, after.first_tangent) >= too_sharp);
+  const bool swings = before.is_line() && after.is_line() && !follows_spindle(before, after) && !goes_to_and_fro;
   if (bends_slowly_) return swings ? swinging_slowly : slow_bending;
   return swings ? swinging : inside;
 }
@@ -295,7 +301,8 @@ double KnotPlacer::rate_at(const Node& node, const Places& places, std::size_t k
   constexpr std::size_t at_rate_of_s = 2;
   const std::size_t knots = places.count + 1;  // with the node
   if (knot + at_rate_of_s >= knots) return 1;
-  const double quickening = places.spacing->quickening * node.turn;
+  const double share = std::min(1.0, node.turn / places.spacing->sharp_from);
+  const double quickening = places.spacing->quickening * share * node.turn;
   const auto distance = [&](std::size_t i) { return i == 0 ? 0 : places.spacing->knots[i - 1]; };
   return (1 + quickening * distance(knot)) / (1 + quickening * distance(knots - at_rate_of_s));
 }

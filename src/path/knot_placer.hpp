@@ -7,11 +7,11 @@
 // A node is a junction, or several junctions close to each other. Its width w says how far around the node the path is
 // rounded. A corner that is rounded on its inner side within the tolerance e needs w = 4 e / |change of the tangent|. A
 // change of curvature needs w = sqrt(10 e / |change|). A corner that may swing to its outer side too has a larger width
-// and knots farther out; it may not where the axis that limits the speed goes back. Knots that are at most 0.4 radii
-// apart follow an arc well. Where the knots of two nodes would meet, the nodes share the room. If the rest between two
-// nodes is long compared with the knots' distance, it stays as programmed: an exact piece. (A curve that was fitted to
-// chords never does; knots at most 0.08 radii apart follow it.) The knots between two exact pieces make one smoothed
-// stretch.
+// and knots farther out; it may not where the axis that limits the speed goes back (for slow bending: in a sharp corner
+// only). Knots that are at most 0.4 radii apart follow an arc well. Where the knots of two nodes would meet, the nodes
+// share the room. If the rest between two nodes is long compared with the knots' distance, it stays as programmed: an
+// exact piece. (A curve that was fitted to chords never does; knots at most 0.08 radii apart follow it.) The knots
+// between two exact pieces make one smoothed stretch.
 //
 // For slow bending, s advances more slowly than the spline's parameter around a corner (Pace). The sharper the corner,
 // the slower s advances.
@@ -66,6 +66,7 @@ class KnotPlacer {
     std::span<const double> knots;  // in widths from the node
     // How much faster s goes on w times the change of the tangent away from a corner than at it.
     double quickening = 0;
+    double sharp_from = 1e-9;         // for a lesser change of the tangent s quickens less
     const Spacing* closer = nullptr;  // for nodes that have no room for the first knot
   };
   static const Spacing slow_bending;

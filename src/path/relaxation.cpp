@@ -63,7 +63,7 @@ void Relaxation::move(std::int64_t k, const Point& step) {
 // The largest allowed share of the step. After the step no place is farther off than its reach, or than it was before.
 // Usually the whole step is allowed. That is found for four places at once.
 template <std::size_t axes>
-double Relaxation::allowed_share(std::size_t at, const std::array<double, axes>& step, double square) const {
+Relaxation::Stop Relaxation::stop_of(std::size_t at, const std::array<double, axes>& step, double square) const {
   FourLanes off;  // squares of the deviations
   FourLanes along;
   FourLanes middle;
@@ -85,16 +85,18 @@ double Relaxation::allowed_share(std::size_t at, const std::array<double, axes>&
   const auto middle_reach = FourLanes::load(&middle_reach_[at - 2]);
   const bool beyond = any_above(moved(off, along, factors.off), off, reach);
   const bool middle_beyond = any_above(moved(middle, middle_along, factors.middle), middle, middle_reach);
-  double share = 1;
-  if (beyond) share = shorten(share, square, factors.off, off, along, reach);
-  if (middle_beyond) share = shorten(share, square, factors.middle, middle, middle_along, middle_reach);
-  return share;
+  Stop stop;
+  if (beyond) shorten(stop, &AxisLanes::off, at - 1, square, factors.off, off, along, reach);
+  if (middle_beyond) {
+    shorten(stop, &AxisLanes::middle, at - 2, square, factors.middle, middle, middle_along, middle_reach);
+  }
+  return stop;
 }
 
 // Shortens the share of a step so that |off + share factor step|² is at most the square of the reach, or does not grow
 // if it is above that.
-double Relaxation::shorten(double share, double square, const Four& factors, FourLanes off, FourLanes along,
-                           FourLanes reach) {
+void Relaxation::shorten(Stop& stop, Lanes AxisLanes::*lanes, std::size_t first, double square, const Four& factors,
+                         FourLanes off, FourLanes along, FourLanes reach) {
   Four now{};
   Four toward{};
   Four most{};
@@ -105,22 +107,52 @@ double Relaxation::shorten(double share, double square, const Four& factors, Fou
     const double a = factors[lane] * factors[lane] * square;
     const double b = factors[lane] * toward[lane];
     const double room = std::max(most[lane] - now[lane], 0.0);
-    if (share * (2 * b + share * a) <= room) continue;
-    share = std::max(0.0, (std::sqrt(b * b + a * room) - b) / a);
+    if (stop.share * (2 * b + stop.share * a) <= room) continue;
+    stop = {.share = std::max(0.0, (std::sqrt(b * b + a * room) - b) / a),
+            .factor = factors[lane],
+            .off = lanes,
+            .place = first + lane,
+            .reach = std::max(most[lane], now[lane])};
   }
-  return share;
+}
+
+// A step that the tube stops goes to the place on the tube that is nearest to its end. So the control slides along the
+// tube and does not stick to it. False: as much of the straight step as is allowed comes nearer to the end.
+template <std::size_t axes>
+bool Relaxation::slide(std::size_t at, const std::array<double, axes>& step, double square, const Stop& stop) {
+  constexpr double just_inside = 1 - 1e-12;
+  const auto off = [&](std::size_t i) { return (axes_[i].*stop.off)[stop.place]; };
+  double beyond = 0;
+  for (std::size_t i = 0; i < axes; ++i) beyond += (off(i) + stop.factor * step[i]) * (off(i) + stop.factor * step[i]);
+  const double onto_tube = just_inside * std::sqrt(stop.reach / beyond);
+  std::array<double, axes> aside;
+  double aside_square = 0;
+  double common = 0;
+  for (std::size_t i = 0; i < axes; ++i) {
+    aside[i] = ((off(i) + stop.factor * step[i]) * onto_tube - off(i)) / stop.factor;
+    aside_square += aside[i] * aside[i];
+    common += aside[i] * step[i];
+  }
+  if (aside_square < no_step * no_step) return false;
+  const double share = stop_of<axes>(at, aside, aside_square).share;
+  const double gain = share * (2 * common - share * aside_square);
+  if (gain <= stop.share * (2 - stop.share) * square) return false;
+  for (double& value : aside) value *= share;
+  move<axes>(at, aside);
+  return true;
 }
 
 // Makes as much of the step as is allowed.
 template <std::size_t axes>
-void Relaxation::take_step(std::size_t at, std::array<double, axes>& step) {
+void Relaxation::take_step(std::size_t at, std::array<double, axes>& step, bool slides) {
   double square = 0;
   for (const double value : step) square += value * value;
   if (square < no_step * no_step) return;
-  const double share = allowed_share<axes>(at, step, square);
-  if (share == 0) return;
-  if (share < 1) {
-    for (double& value : step) value *= share;
+  const Stop stop = stop_of<axes>(at, step, square);
+  if (stop.share < 1) {
+    if (slides && slide<axes>(at, step, square, stop)) return;
+    if (stop.share == 0) return;
+    for (double& value : step) value *= stop.share;
   }
   move<axes>(at, step);
 }
@@ -135,11 +167,11 @@ template <std::size_t axes>
     const double* const bend = &axes_[i].bend[at - 1];
     step[i] = -(pull[0] * bend[0] + pull[1] * bend[1] + pull[2] * bend[2]);
   }
-  take_step<axes>(at, step);
+  take_step<axes>(at, step, false);
 }
 
 template <std::size_t axes>
-[[gnu::flatten]] void Relaxation::relax_change(std::int64_t k) {
+[[gnu::flatten]] void Relaxation::relax_change(std::int64_t k, bool slides) {
   const std::size_t at = slot(k);
   const std::array<double, 5>& pull = factors_[at].change_pull;
   std::array<double, axes> step;
@@ -147,12 +179,12 @@ template <std::size_t axes>
     const double* const bend = &axes_[i].bend[at - 2];
     step[i] = -(pull[0] * bend[0] + pull[1] * bend[1] + pull[2] * bend[2] + pull[3] * bend[3] + pull[4] * bend[4]);
   }
-  take_step<axes>(at, step);
+  take_step<axes>(at, step, slides);
 }
 
 template void Relaxation::relax_bending<3>(std::int64_t k);
 template void Relaxation::relax_bending<axis_count>(std::int64_t k);
-template void Relaxation::relax_change<3>(std::int64_t k);
-template void Relaxation::relax_change<axis_count>(std::int64_t k);
+template void Relaxation::relax_change<3>(std::int64_t k, bool slides);
+template void Relaxation::relax_change<axis_count>(std::int64_t k, bool slides);
 
 }  // namespace passo

@@ -1,5 +1,6 @@
 // Relaxation: the arithmetic of the sweeps. A step moves a control of the spline to where the bending is least, as far
-// as the tube allows.
+// as the tube allows. A step that the tube stops may slide along the tube instead: to the place on the tube that is
+// nearest to the end of the step. Without that, controls stick to the tube where they first meet it.
 //
 // A control k acts on the spline at three knots, k-1 to k+1, and in the middles of four spans, k-2 to k+1, by known
 // factors. Each move updates the deviations from the path and the second derivatives at these places. The values of one
@@ -49,13 +50,14 @@ class Relaxation {
   // Makes a step of control k. `axes`: the number of axes that move, from the first on. The others must be at rest.
   template <std::size_t axes>
   void relax_bending(std::int64_t k);
+  // `slides`: a step that the tube stops slides along the tube. That takes longer.
   template <std::size_t axes>
-  void relax_change(std::int64_t k);
+  void relax_change(std::int64_t k, bool slides);
   void move(std::int64_t k, const Point& step);
 
  private:
   // Not a power of two, because then the lanes would share the same lines of the processor's cache.
-  static constexpr std::size_t capacity = 811;
+  static constexpr std::size_t capacity = 9001;
   using Lanes = std::array<double, capacity>;
   struct AxisLanes {
     Lanes control{};
@@ -64,18 +66,28 @@ class Relaxation {
     Lanes middle{};  // off, in the middles
   };
 
+  // How far a step may go, and the place that stops it.
+  struct Stop {
+    double share = 1;
+    double factor = 0;  // of the control, at the place
+    Lanes AxisLanes::*off = nullptr;
+    std::size_t place = 0;
+    double reach = 0;  // a square
+  };
+
   template <std::size_t axes>
-  void take_step(std::size_t at, std::array<double, axes>& step);
+  void take_step(std::size_t at, std::array<double, axes>& step, bool slides);
   std::size_t slot(std::int64_t k) const { return static_cast<std::size_t>(k - base_); }
   Point gather(Lanes AxisLanes::*lanes, std::int64_t k) const;
   void scatter(Lanes AxisLanes::*lanes, std::int64_t k, const Point& value);
   template <std::size_t axes>
   void move(std::size_t at, const std::array<double, axes>& step);
   template <std::size_t axes>
-  double allowed_share(std::size_t at, const std::array<double, axes>& step, double square) const;
-
-  static double shorten(double share, double square, const Four& factors, FourLanes off, FourLanes along,
-                        FourLanes reach);
+  Stop stop_of(std::size_t at, const std::array<double, axes>& step, double square) const;
+  template <std::size_t axes>
+  bool slide(std::size_t at, const std::array<double, axes>& step, double square, const Stop& stop);
+  static void shorten(Stop& stop, Lanes AxisLanes::*lanes, std::size_t first, double square, const Four& factors,
+                      FourLanes off, FourLanes along, FourLanes reach);
 
   std::int64_t base_ = -1;  // the number in slot 0
   std::array<AxisLanes, axis_count> axes_{};

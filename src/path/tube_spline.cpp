@@ -302,7 +302,8 @@ void TubeSpline::measure_middle(std::int64_t k) {
 
 void TubeSpline::relax(std::int64_t k, int sweep) {
   if (sweep >= bending_sweeps) {
-    wide_ ? relaxation_.relax_change<axis_count>(k) : relaxation_.relax_change<3>(k);
+    const bool slides = (sweep - bending_sweeps) % slides_each == slides_each - 1;
+    wide_ ? relaxation_.relax_change<axis_count>(k, slides) : relaxation_.relax_change<3>(k, slides);
   } else {
     wide_ ? relaxation_.relax_bending<axis_count>(k) : relaxation_.relax_bending<3>(k);
   }

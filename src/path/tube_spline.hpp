@@ -9,7 +9,8 @@
 // and second derivative are continuous with the exact pieces beside. 12 sweeps move the other controls, one after the
 // other, to where the sum of |p''|² times the knots' weight and distance is least (a step of Gauss and Seidel). A
 // control moves only as far as the deviation from the path stays within the tube, at the knots and in the middles
-// between them. For slow bending, 9 more sweeps do the same for |p'''|².
+// between them. For slow bending, 9 more sweeps do the same for |p'''|². Every third of these sweeps slides along the
+// tube where the tube stops a control.
 //
 // Each sweep works four controls behind the sweep before, because nearer controls would influence each other. So the
 // result is the same as of sweeps over the whole stretch. Only a window of `window` knots is kept, however long the
@@ -33,6 +34,7 @@ class TubeSpline {
  public:
   static constexpr int bending_sweeps = 12;
   static constexpr int change_sweeps = 9;
+  static constexpr int slides_each = 3;        // every third of these sweeps slides
   static constexpr int checks = 12;            // rounds: a span that is pushed back pushes its neighbours out
   static constexpr std::int64_t window = 256;  // knots; a power of two
 

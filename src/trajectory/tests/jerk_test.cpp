@@ -119,6 +119,29 @@ TEST(JerkLimitedPlanner, right_angles_are_passed_much_faster_than_stops) {
   EXPECT_LT(leg, 0.2755);
 }
 
+// Eight legs to and fro across the X axis.
+std::vector<PathItem> zigzag(double x, double y) {
+  std::vector<PathItem> legs;
+  for (int i = 0; i < 8; ++i) {
+    legs.emplace_back(line(xyz(x * i, i % 2 == 0 ? 0 : y), xyz(x * (i + 1), i % 2 == 0 ? y : 0), 1000));
+  }
+  return legs;
+}
+
+// Where Y goes back with all its speed, the corner swings to the outer side too. Where the corner is gentle, the spline
+// slides along the tube. The optima are those of bench/tube_optimum.hpp.
+TEST(JerkLimitedPlanner, corners_to_and_fro_are_nearly_the_fastest) {
+  const MotionLimits limits = jerk_limits(100, 500, 25'000);
+  const auto time_of = [&](const std::vector<PathItem>& legs) {
+    const auto motion = plan(smoothed(legs, Smoothness::slow_bending), limits);
+    expect_within_limits(motion, limits);
+    return total_time(motion);
+  };
+  const double half = std::sqrt(0.5);
+  EXPECT_LT(time_of(zigzag(half, half)), 0.64123 * 1.04);
+  EXPECT_LT(time_of(zigzag(5, 0.5)), 0.91426 * 1.085);
+}
+
 TEST(JerkLimitedPlanner, the_acceleration_goes_on_across_joints) {
   std::vector<PathItem> whole{line(xyz(0, 0), xyz(20, 0), 80)};
   std::vector<PathItem> pieces;
