@@ -20,15 +20,15 @@ enum ExitCode : int {
 };
 
 struct ProgramArguments {
-  std::string program;                     // "-": standard input
-  bool block_delete = false;               // skip lines that start with '/'
-  bool inches = false;                     // lengths are inches until the program says G20 or G21
-  bool user_codes = false;                 // M100 to M199 are allowed
-  std::uint64_t loop_limit = 1'000'000;    // most passes of a loop, and most calls, in which the machine does nothing
+  std::string program;                    // "-": standard input
+  bool block_delete = false;              // skip lines that start with '/'
+  bool inches = false;                    // lengths are inches until the program says G20 or G21
+  bool user_codes = false;                // M100 to M199 are allowed
+  std::uint64_t loop_limit = 1'000'000;   // most passes of a loop, and most calls, in which the machine does nothing
   std::uint64_t step_limit = 20'000'000;  // most passes, calls and operations of an outermost loop or call
-  std::string tools;                       // tool table; empty: none
-  std::string parameters;                  // parameter file; empty: none
-  std::string settings;                    // ini file; empty: none
+  std::string tools;                      // tool table; empty: none
+  std::string parameters;                 // parameter file; empty: none
+  std::string settings;                   // ini file; empty: none
   std::vector<std::string> sub_folders;
   std::string machine_units;  // "mm" or "inch"; empty: as the settings say, else `default_units`
   const char* default_units = "mm";

@@ -25,8 +25,8 @@ ProvenAxis axis_with(Axis axis, double own_acceleration, double own_jerk) {
 const std::vector<ProvenAxis> both_limited = {axis_with(Axis::x, strongest, sharpest),
                                               axis_with(Axis::y, strongest, sharpest)};
 
-double bound_of(const std::vector<Point>& places, const std::vector<ProvenAxis>& axes = both_limited,
-                double feed = 1000) {
+double bound_through(const std::vector<Point>& places, const std::vector<ProvenAxis>& axes = both_limited,
+                     double feed = 1000) {
   ProofOptions options;
   options.axes = axes;
   options.tick_rate = Hertz(1e6);
@@ -50,28 +50,29 @@ double from_rest_to_rest(double length) {
 
 TEST(JerkBound, of_a_line_is_that_of_its_seven_phases) {
   for (const double length : {0.001, 0.1, 0.4, 8.0}) {
-    EXPECT_NEAR(bound_of({xyz(0, 0), xyz(length, 0)}), from_rest_to_rest(length), 1e-9) << length;
+    EXPECT_NEAR(bound_through({xyz(0, 0), xyz(length, 0)}), from_rest_to_rest(length), 1e-9) << length;
   }
   // At the feed of 20 mm/s the acceleration reaches its limit only just.
-  EXPECT_NEAR(bound_of({xyz(0, 0), xyz(60, 0)}, both_limited, 20), 60.0 / 20 + 20 / strongest + rise, 1e-9);
-  EXPECT_NEAR(bound_of({xyz(0, 0), xyz(60, 0)}, both_limited, 5), 60.0 / 5 + 2 * std::sqrt(5 / sharpest), 1e-9);
+  EXPECT_NEAR(bound_through({xyz(0, 0), xyz(60, 0)}, both_limited, 20), 60.0 / 20 + 20 / strongest + rise, 1e-9);
+  EXPECT_NEAR(bound_through({xyz(0, 0), xyz(60, 0)}, both_limited, 5), 60.0 / 5 + 2 * std::sqrt(5 / sharpest), 1e-9);
 }
 
 TEST(JerkBound, of_a_line_in_pieces_is_that_of_the_line) {
   std::vector<Point> places;
   for (int i = 0; i <= 100; ++i) places.push_back(xyz(0.03 * i, 0.04 * i));
   // Y makes 4 parts of 5, and its limits count.
-  EXPECT_NEAR(bound_of(places), from_rest_to_rest(4), 1e-6);
+  EXPECT_NEAR(bound_through(places), from_rest_to_rest(4), 1e-6);
 }
 
 TEST(JerkBound, of_a_line_takes_each_limit_from_the_axis_that_sets_it) {
   const std::vector<ProvenAxis> axes = {axis_with(Axis::x, 1e6, sharpest * 3 / 5),
                                         axis_with(Axis::y, strongest * 4 / 5, 0)};
-  EXPECT_NEAR(bound_of({xyz(0, 0), xyz(3, 4)}, axes), from_rest_to_rest(5), 1e-9);
+  EXPECT_NEAR(bound_through({xyz(0, 0), xyz(3, 4)}, axes), from_rest_to_rest(5), 1e-9);
 }
 
 TEST(JerkBound, knows_that_a_corner_is_a_stop_without_acceleration) {
-  EXPECT_NEAR(bound_of({xyz(0, 0), xyz(0.1, 0), xyz(0.1, 0.2)}), from_rest_to_rest(0.1) + from_rest_to_rest(0.2), 1e-9);
+  EXPECT_NEAR(bound_through({xyz(0, 0), xyz(0.1, 0), xyz(0.1, 0.2)}), from_rest_to_rest(0.1) + from_rest_to_rest(0.2),
+              1e-9);
 }
 
 // The acceleration stays what it is while the axis turns back. Neither way is so long that it reaches its limit
@@ -81,7 +82,7 @@ TEST(JerkBound, lets_the_acceleration_go_on_where_the_path_turns_back) {
   const double length = 0.1;
   const double top = std::cbrt(sharpest * std::pow(length / (1 + std::sqrt(8.0) / 3), 2));
   const double one_way = (2 + std::sqrt(2.0)) * std::sqrt(top / sharpest);
-  EXPECT_NEAR(bound_of({xyz(0, 0), xyz(length, 0), xyz(0, 0)}), 2 * one_way, 1e-9);
+  EXPECT_NEAR(bound_through({xyz(0, 0), xyz(length, 0), xyz(0, 0)}), 2 * one_way, 1e-9);
   EXPECT_LT(one_way, from_rest_to_rest(length));
 }
 
