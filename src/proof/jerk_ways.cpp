@@ -7,19 +7,19 @@ namespace passo::proof {
 
 JerkWays::JerkWays(const std::vector<ProvenAxis>& axes) {
   for (const ProvenAxis& axis : axes) {
-    axes_.emplace_back(JerkRamp(axis.acceleration.value(), axis.jerk.value()));
+    axes_.emplace_back(RampBound(axis.acceleration.value(), axis.jerk.value()));
     any_ |= axes_.back().ramp.limits();
   }
 }
 
-double JerkWays::until(const Axis& axis, const Way& way, const JerkRamp::End& end) {
+double JerkWays::until(const Axis& axis, const Way& way, const RampBound::End& end) {
   return way.began + axis.ramp.least_time(way.start, end, way.length, std::sqrt(way.top));
 }
 
 // The axis stands, or is about to turn back.
 double JerkWays::stop(Axis& axis, double time, bool steady) {
   if (axis.direction != 0) {
-    const JerkRamp::End end{.steady = steady};
+    const RampBound::End end{.steady = steady};
     time = std::max({time, until(axis, axis.whole, end), until(axis, axis.part, end)});
   }
   axis.direction = 0;

@@ -1,15 +1,15 @@
 // JerkWays: what limits of jerk add to a bound of the time that is found cell by cell (TimeBound).
 //
 // Each axis with a limit of jerk goes back and forth. On each way between two places where it rests or turns back, it
-// takes at least the time of a JerkRamp. So the time up to the end of the way is at least the time up to its start, and
-// this time more. The same holds between two places where the axis is slowest, from and to the speeds that it has
+// takes at least the time of a RampBound. So the time up to the end of the way is at least the time up to its start,
+// and this time more. The same holds between two places where the axis is slowest, from and to the speeds that it has
 // there at most.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "jerk_ramp.hpp"
+#include "ramp_bound.hpp"
 
 #include "passo/proof/motion_proof.hpp"
 
@@ -37,20 +37,20 @@ class JerkWays {
  private:
   struct Way {
     double began = 0;  // bound of the time up to its start
-    JerkRamp::End start;
+    RampBound::End start;
     double length = 0;
     double top = 0;  // square
   };
   struct Axis {
-    explicit Axis(const JerkRamp& of_axis) : ramp(of_axis) {}
-    JerkRamp ramp;
+    explicit Axis(const RampBound& of_axis) : ramp(of_axis) {}
+    RampBound ramp;
     double direction = 0;  // 0: stands
     bool falls = false;    // the greatest speed falls along the last cell
     bool steady = true;    // the last end was without acceleration
     Way whole;             // since the axis stood
     Way part;              // since it was slowest
   };
-  static double until(const Axis& axis, const Way& way, const JerkRamp::End& end);
+  static double until(const Axis& axis, const Way& way, const RampBound::End& end);
   static double stop(Axis& axis, double time, bool steady);
 
   std::vector<Axis> axes_;

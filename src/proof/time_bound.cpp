@@ -371,7 +371,7 @@ void TimeBound::add_to_line(const Segment& segment, const Place& place) {
 // On a straight line from rest to rest several axes may set limits: one the jerk, another the acceleration.
 void TimeBound::raise_by_line(bool steady) {
   if (!line_ || line_->curves == 0) return;
-  const JerkRamp ramp(line_->acceleration, line_->jerk);
+  const RampBound ramp(line_->acceleration, line_->jerk);
   if (!ramp.limits()) return;
   const double time = ramp.least_time({.steady = line_->steady}, {.steady = steady}, line_->length, line_->top);
   time_ = std::max(time_, line_->began + time);

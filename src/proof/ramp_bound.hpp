@@ -1,4 +1,4 @@
-// JerkRamp: the least time in which a single axis, or a straight line, covers a way with limits of acceleration and
+// RampBound: the least time in which a single axis, or a straight line, covers a way with limits of acceleration and
 // jerk.
 //
 //   acceleration  __                       It speeds up to the highest speed P, goes on at P, and brakes. At an end it
@@ -17,10 +17,10 @@
 
 namespace passo::proof {
 
-class JerkRamp {
+class RampBound {
  public:
   // A limit of 0 or less does not limit.
-  JerkRamp(double acceleration, double jerk);
+  RampBound(double acceleration, double jerk);
 
   bool limits() const { return limits_; }
 

@@ -1,4 +1,4 @@
-#include "jerk_ramp.hpp"
+#include "ramp_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ constexpr double precise = 1e-13;
 
 }  // namespace
 
-JerkRamp::JerkRamp(double acceleration, double jerk)
+RampBound::RampBound(double acceleration, double jerk)
     : acceleration_(acceleration > 0 ? acceleration : infinity), jerk_(jerk), limits_(jerk > 0) {}
 
-JerkRamp::Ramp JerkRamp::ramp(const End& end, double peak) const {
+RampBound::Ramp RampBound::ramp(const End& end, double peak) const {
   const double rise = peak - end.speed;
   if (end.steady) {
     const bool is_full = rise * jerk_ >= acceleration_ * acceleration_;
@@ -32,7 +32,7 @@ JerkRamp::Ramp JerkRamp::ramp(const End& end, double peak) const {
   return {.time = full + fall, .way = way};
 }
 
-double JerkRamp::least_time(const End& start, const End& end, double way, double top) const {
+double RampBound::least_time(const End& start, const End& end, double way, double top) const {
   double low = std::max(start.speed, end.speed);
   double high = std::max(top, low);
   const auto room = [&](double peak) { return way - ramp(start, peak).way - ramp(end, peak).way; };
