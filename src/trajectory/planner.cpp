@@ -4,7 +4,8 @@
 
 namespace passo {
 
-struct Planner::Implementation {
+class Planner::Implementation {
+ public:
   Implementation(Source<PathItem>& source, const MotionLimits& limits_of_axes, std::size_t most_queued)
       : path(source), limits(limits_of_axes) {
     const LawInputs inputs{.path = path, .limits = limits, .wishes = wishes, .most_queued = most_queued};

@@ -19,6 +19,8 @@
 
 #include "passo/firmware/board_hardware.hpp"
 #include "passo/firmware/board_identity.hpp"
+#include "passo/firmware/board_voice.hpp"
+#include "passo/firmware/host_silence.hpp"
 #include "passo/firmware/input_watch.hpp"
 #include "passo/firmware/play_list.hpp"
 #include "passo/firmware/player.hpp"
@@ -29,9 +31,14 @@ namespace passo {
 
 // `most_motors` is the number of motors that a place for an item has room for.
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
-class Board {
+class Board : private BoardVoice<Hardware> {
+  using BoardVoice<Hardware>::hardware_;
+  using BoardVoice<Hardware>::has_room;
+  using BoardVoice<Hardware>::send;
+  using BoardVoice<Hardware>::send_for_motors;
+
  public:
-  Board(Hardware& hardware, const BoardIdentity& identity) : hardware_(hardware), identity_(identity) {
+  Board(Hardware& hardware, const BoardIdentity& identity) : BoardVoice<Hardware>(hardware), identity_(identity) {
     list_.clear(places());
   }
 
@@ -77,18 +84,12 @@ class Board {
     send(fault);
   }
 
-  // Call ten times a second. A board whose host is silent for too long, killed perhaps or cut off, ends its motion and
-  // then switches the outputs off. What comes after may not move with a spindle that stands: no replacement is taken
-  // until the host has sent outputs or a hello.
+  // Call ten times a second: counts the host's silence (HostSilence). What is late is switched off at rest.
   void count_silence() {
-    if (silence_ != 0xFF) ++silence_;
-    if (manual_ != Manual::off || !rests()) return;
-    uint8_t late = 0;
-    if (is_too_long(allowed_.spindle)) late |= spindle_on;
-    if (is_too_long(allowed_.mist)) late |= mist_on;
-    if (is_too_long(allowed_.flood)) late |= flood_on;
+    silence_.count();
+    const uint8_t late = manual_ == Manual::off && rests() ? silence_.late() : uint8_t{0};
     if constexpr (requires { hardware_.switch_off(late); }) {
-      if (late != 0 && hardware_.switch_off(late)) timed_out_ = true;
+      if (late != 0 && hardware_.switch_off(late)) silence_.note_off();
     }
   }
 
@@ -160,7 +161,7 @@ class Board {
   // A function of its own, so that a byte inside a frame need not save all the registers that a whole frame needs.
   [[gnu::noinline]] void take(const WireFrame& frame) {
     // Whoever only asks, with other motors in mind, is not the host.
-    if (frame.type != MessageType::ask || frame.payload[1] == motors_) silence_ = 0;
+    if (frame.type != MessageType::ask || frame.payload[1] == motors_) silence_.end();
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::session: return name_session(frame);
@@ -205,13 +206,12 @@ class Board {
     executed_ = frame.sequence;
     owed_ = 0;
     trusted_ = true;
-    timed_out_ = false;
+    silence_.forget_off();
     manual_ = Manual::off;
     send_hello_reply();
     // Not while the button is still pressed.
     if (is_pressed()) stop_at_once(FaultReason::emergency_stop);
   }
-  bool is_too_long(uint8_t allowed) const { return allowed != 0 && silence_ >= allowed; }
   bool is_pressed() const { return (inputs_ & input_emergency_stop) != 0; }
   void enable() {
     breathe();
@@ -229,7 +229,7 @@ class Board {
     decode(frame, session);
     if (motors_ == 0 || manual_ != Manual::off) return;
     session_ = session.number;
-    allowed_ = session.silence;
+    silence_.allow(session.silence);
   }
 
   // Rare and large work, so functions of their own: all in one function would need more registers than a chip has.
@@ -276,17 +276,16 @@ class Board {
     if (manual()) state |= board_manual;
     if (watch_.limit() != 0) state |= board_homes;
     if (has_encoder(hardware_)) state |= board_encodes;
-    BoardStatusFor<most_motors> status{
-        .session = session_,
-        .executed = executed_,
-        .taken = taken(),
-        .free = list_.free(),
-        .event = played(),
-        .state = static_cast<uint8_t>(state),
-        .reset = identity_.reset,
-        .motors = motors_,
-        .inputs = timed_out_ ? static_cast<uint16_t>(inputs_ | outputs_timed_out) : inputs_,
-        .answers = question};
+    BoardStatusFor<most_motors> status{.session = session_,
+                                       .executed = executed_,
+                                       .taken = taken(),
+                                       .free = list_.free(),
+                                       .event = played(),
+                                       .state = static_cast<uint8_t>(state),
+                                       .reset = identity_.reset,
+                                       .motors = motors_,
+                                       .inputs = static_cast<uint16_t>(inputs_ | silence_.bit()),
+                                       .answers = question};
     for (uint8_t motor = 0; motor < motors && motor < most_motors; ++motor) {
       breathe();
       status.positions[motor] = position(motor);
@@ -369,7 +368,7 @@ class Board {
       BoardOutputs outputs;
       decode(frame, outputs);
       item.keep(outputs);
-      if (!list_.gathering()) timed_out_ = false;
+      if (!list_.gathering()) silence_.forget_off();
     }
     accept();
     if (list_.gathering()) add_to_sums(frame);
@@ -393,13 +392,11 @@ class Board {
   static constexpr WireError no_error = WireError{};
   // Puts the gathered items in place, if they are what was sent and come in time.
   WireError complete() {
-    if (!sums_.is_nothing()) {
+    WireError wrong = silence_.bit() != 0 ? WireError::silent_host : no_error;
+    if (!sums_.is_nothing()) wrong = WireError::wrong_sums;
+    if (wrong != no_error) {
       list_.drop_replacement();
-      return WireError::wrong_sums;
-    }
-    if (timed_out_) {
-      list_.drop_replacement();
-      return WireError::silent_host;
+      return wrong;
     }
     return list_.template complete<Breath>(executed_, begun_) ? no_error : WireError::too_late;
   }
@@ -478,27 +475,6 @@ class Board {
     send(ErrorReport{.reason = reason, .expected = static_cast<uint8_t>(expected_)});
   }
 
-  bool has_room(MessageType type, uint8_t motors = 0) {
-    return passo::has_room(hardware_,
-                           static_cast<uint8_t>(frame_overhead + payload_size(static_cast<uint8_t>(type), motors)));
-  }
-
-  // Two functions of their own: a frame is large for a chip's stack, and two must never be there at once.
-  template <class Message>
-  [[gnu::noinline]] void send(const Message& message) {
-    uint8_t frame[largest_frame];
-    put_on_line(frame, encode<Breath>(message, sent_++, frame));
-  }
-  template <class Message>
-  [[gnu::noinline]] void send_for_motors(const Message& message, uint8_t motors) {
-    uint8_t frame[largest_frame];
-    put_on_line(frame, encode<Breath>(message, motors, sent_++, frame));
-  }
-  void put_on_line(const uint8_t* frame, uint8_t size) {
-    for (uint8_t i = 0; i < size; ++i) hardware_.send(frame[i]);
-  }
-
-  Hardware& hardware_;
   BoardIdentity identity_;
   Decoder decoder_;
   SegmentPlayer player_{0};
@@ -511,15 +487,10 @@ class Board {
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
   uint16_t executed_ = 0;  // number of the last item done
-  uint8_t sent_ = 0;       // the board's own sequence number
   uint8_t owed_ = 0;       // items executed and other news since the last report
   ItemSums sums_;          // of the replacement being gathered, so far
-  uint8_t silence_ = 0;    // tenths of a second since the host was heard
-  Silence allowed_;        // as the last session said
-  // Three flags in one byte, because a chip has hardly one to spare.
-  bool complained_ : 1 = false;
-  bool timed_out_ : 1 = false;  // outputs were switched off, and no host has sent outputs since
-  bool trusted_ : 1 = true;
+  HostSilence silence_;
+  bool complained_ : 1 = false, trusted_ : 1 = true;  // in one byte: a chip has hardly one to spare
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment
