@@ -151,18 +151,19 @@ std::size_t first_below(std::size_t from, std::size_t count, const Margin& margi
 //
 // Products test whether a quotient is beyond a bound, so that few quotients have to be computed.
 SegmentFitter::Advance SegmentFitter::within_bounds(std::int32_t place, std::int32_t count) const {
+  const std::int32_t* const ideal = ideal_.data();
   std::int32_t low = 0;
   std::int32_t high = whole_step;
-  Advance pushed{.increment = std::clamp<std::int32_t>(ideal_[1] - place, 0, whole_step), .events = 1};
+  Advance pushed{.increment = std::clamp<std::int32_t>(ideal[1] - place, 0, whole_step), .events = 1};
   std::int32_t straight = 0;  // number of events
   for (std::int32_t k = 1; k <= count; ++k) {
-    const std::int32_t due = step_of(ideal_[k]) * whole_step - place;  // not late
+    const std::int32_t due = step_of(ideal[k]) * whole_step - place;  // not late
     const std::int32_t early =
-        step_of(ideal_[k + 1]) * whole_step + whole_step - 1 - place;  // not more than one event early
+        step_of(ideal[k + 1]) * whole_step + whole_step - 1 - place;  // not more than one event early
     if (due > low * k) low = ceil_divide(due, k);
     if (early < high * k) high = floor_divide(early, k);
     if (low > high) break;
-    const std::int32_t way = ideal_[k] - place;
+    const std::int32_t way = ideal[k] - place;
     const bool is_low = way <= (low - 1) * k;
     const bool is_high = way > high * k;
     pushed = {.increment = is_low ? low : high, .events = static_cast<unsigned>(k)};
@@ -170,7 +171,7 @@ SegmentFitter::Advance SegmentFitter::within_bounds(std::int32_t place, std::int
   }
   // If the motor is far behind or ahead of its place, no increment fits. Then the best possible one is used.
   if (straight == 0) return pushed;
-  return {.increment = ceil_divide(ideal_[straight] - place, straight), .events = static_cast<unsigned>(straight)};
+  return {.increment = ceil_divide(ideal[straight] - place, straight), .events = static_cast<unsigned>(straight)};
 }
 
 SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,
