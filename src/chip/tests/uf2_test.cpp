@@ -100,7 +100,7 @@ TEST(Uf2, what_is_no_file_for_the_chip_is_refused) {
   const Bytes good = uf2_of_flash(counting(512));
   EXPECT_FALSE(flash_of_uf2({}));
   EXPECT_FALSE(flash_of_uf2(Bytes(good.begin(), good.end() - 1)));
-  for (const std::size_t at : {0, 4, 8, 28, 508, 512, 512 + 28}) {
+  for (const std::size_t at : {0U, 4U, 8U, 28U, 508U, 512U, 512U + 28U}) {
     Bytes other = good;
     other[at] ^= 1;
     EXPECT_FALSE(flash_of_uf2(other)) << at;
