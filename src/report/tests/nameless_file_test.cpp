@@ -3,9 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <stdexcept>
 
+#include "folder_test.hpp"
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,23 +15,8 @@ namespace fs = std::filesystem;
 using FileKind = NamelessFile::Kind;
 constexpr mode_t usual_mode = 0644;
 
-class NamelessFileTest : public testing::Test {
+class NamelessFileTest : public test::FolderTest {
  protected:
-  NamelessFileTest() {
-    std::string name = (fs::temp_directory_path() / "passo-nameless-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    directory_ = name;
-  }
-  ~NamelessFileTest() override { fs::remove_all(directory_); }
-
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
-  }
-  static std::string content(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   static void put(const NamelessFile& file, std::string_view text) {
     ASSERT_EQ(::write(file.descriptor(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
@@ -49,8 +33,6 @@ class NamelessFileTest : public testing::Test {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_EQ(WTERMSIG(status), SIGKILL);
   }
-
-  fs::path directory_;
 };
 
 class NamelessFileOfKind : public NamelessFileTest, public testing::WithParamInterface<FileKind> {};

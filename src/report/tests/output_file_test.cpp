@@ -3,9 +3,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <stdexcept>
 
+#include "folder_test.hpp"
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,30 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A directory for each test that is removed afterwards.
-class OutputFileTest : public testing::Test {
+class OutputFileTest : public test::FolderTest {
  protected:
-  OutputFileTest() {
-    std::string name = (fs::temp_directory_path() / "passo-output-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary directory");
-    directory_ = name;
-  }
-  ~OutputFileTest() override {
-    fs::permissions(directory_, fs::perms::owner_all);
-    fs::remove_all(directory_);
-  }
-
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
-  }
-  static std::string content(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   static void create(const std::string& path, std::string_view text) { std::ofstream(path) << text; }
-
-  fs::path directory_;
 };
 
 TEST_F(OutputFileTest, appears_under_its_name_at_commit_only) {
