@@ -33,7 +33,7 @@ void expect_no_step_lost(const AvrBoard& board, Nanoseconds shortest) {
   for (const Edges edges : {Edges::together, Edges::apart}) {
     FollowerVector vector = random_steps(seed, 3'000, shortest, edges);
     add_fidgeting(vector, seed);
-    const ChipRun run = run_on_avr(board, vector);
+    const FollowerRun run = run_on_avr(board, vector);
     EXPECT_EQ(difference(vector, run.changes, moved_outputs()), "") << board.name << " PASSO_SEED=" << seed;
     EXPECT_LT(run.longest_turn, static_cast<std::uint64_t>(shortest) * 16 / 1000) << board.name;
   }
