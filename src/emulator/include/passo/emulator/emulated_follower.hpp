@@ -52,6 +52,17 @@ KeyPlace key_place(std::string_view line);
 // The text for a pattern of windings, bit 0 is F1.
 std::string winding_text(unsigned pattern);
 
+// All followers by name: "first_board", and board and drive as "pic_two_on" or "uno_half_step".
+std::vector<std::string> emulated_followers();
+// The name of the file that the build makes for it.
+std::filesystem::path follower_image(std::string_view follower);
+// The outputs that the follower's board has.
+std::vector<std::string> outputs_of_follower(std::string_view follower);
+// Runs `image` on the follower's board until `end`, in the emulator of its chip, a program of its own. `lines`: in
+// order of time. What the board has not (keys on an Uno) does nothing. The error is a sentence with the reason.
+Result<FollowerRun, std::string> run_follower(std::string_view follower, const std::filesystem::path& image,
+                                              std::span<const LineChange> lines, Nanoseconds end);
+
 // Whether gpsim, which emulates PICs, is installed.
 bool gpsim_is_here();
 
