@@ -230,6 +230,21 @@ struct WindingsArguments {
 };
 int windings(const WindingsArguments& arguments);
 
+struct FollowerArguments {
+  std::string follower;  // a name of emulated_followers()
+  std::string image;     // a file; empty: the one that the build made
+  double clock = 0;      // pulses a second; 0: none
+  std::string axes = "X";
+  std::string down;                 // axes whose direction line is high
+  double from = 0.2;                // s: the first pulse
+  double time = 1;                  // s
+  std::vector<std::string> keys;    // KEY@FROM[:TO]
+  std::vector<std::string> lines;   // LINE@FROM[:TO]
+  std::vector<std::string> traces;  // .vcd or .csv
+  std::string picture;              // .svg or .png
+};
+int follower_sim(const FollowerArguments& arguments);
+
 struct ChordsArguments {
   std::string curve;   // line, arc, helix, ellipse, parabola, bezier or nurbs
   std::string from;    // "X,Y" or "X,Y,Z" in mm, like all places

@@ -245,6 +245,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
   WindingsArguments windings_arguments;
   CLI::App& windings_command = add_windings_command(app, windings_arguments);
+  FollowerArguments follower_arguments;
+  CLI::App& follower_command = add_follower_command(app, follower_arguments);
   ChordsArguments chords_arguments;
   CLI::App& chords_command = add_chords_command(app, chords_arguments);
 
@@ -267,6 +269,7 @@ int parse_and_run(int argc, char** argv) {
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
   if (windings_command.parsed()) return windings(windings_arguments);
+  if (follower_command.parsed()) return follower_sim(follower_arguments);
   if (chords_command.parsed()) return chords(chords_arguments);
   return machine(machine_arguments);
 }
