@@ -87,7 +87,8 @@ Lines lines_of(const FollowerArguments& arguments) {
   const bool waits = arguments.follower == "first_board";
   if (waits && arguments.keys.empty()) hold(lines, {.name = "*", .from = 0.05, .to = 0.05 + shortest_press}, "key.*");
   for (const std::string& text : arguments.lines) {
-    const auto held = held_of(text);
+    auto held = held_of(text);
+    if (held && held->name == "reset") held->to.reset();  // over at once
     if (!held || !is_line(held->name)) {
       return Failure{text +
                      ": expected LINE@FROM or LINE@FROM:TO in seconds; lines are clock.x, direction.x (also y, "
@@ -184,7 +185,11 @@ Signals signals_of(const std::vector<std::string>& outputs, const std::vector<Li
     if (is_new) signals.signals.push_back({name});
     return signals.signals[place->second];
   };
-  for (const LineChange& change : lines) signal(wave_name(change.line)).changes.push_back({change.at, change.high});
+  for (const LineChange& change : lines) {
+    std::vector<SignalChange>& known = signal(wave_name(change.line)).changes;
+    known.push_back({change.at, change.high});
+    if (change.line == "reset") known.push_back({change.at + 1'000'000, false});  // over at once, but to be seen
+  }
   const auto winding = [](const std::string& output, std::size_t f) {
     return fmt::format("{}_F{}", output.back(), f + 1);
   };
