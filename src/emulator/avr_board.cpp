@@ -87,7 +87,6 @@ class AvrBoard final : public EmulatedBoard {
     spindle_turns_back_ = numbers.bit_of(kind.spindle_direction);
     for (const auto& [which, pin] : kind.switches) switches_.emplace_back(which, numbers.bit_of(pin));
     words_ = {std::move(emulator), kind.mcu, std::move(program), numbers.text()};
-    if (windings_ != 0) words_.emplace_back("any-edge");
     start();
   }
 

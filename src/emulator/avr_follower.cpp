@@ -48,7 +48,7 @@ class AvrFollower {
       columns_[column] = numbers_.bit_of_drawn_low(pins.columns[column]);
       all_columns_ |= columns_[column];
     }
-    words_.insert(words_.end(), {numbers_.text(), "any-edge"});
+    words_.push_back(numbers_.text());
   }
 
   Result<FollowerRun, std::string> run(std::span<const LineChange> lines, Nanoseconds end) {

@@ -15,6 +15,7 @@
 namespace passo {
 namespace {
 
+constexpr std::size_t request_head = 41;
 constexpr std::size_t change_size = 12;
 constexpr std::size_t answer_head = 12;
 constexpr std::size_t answer_tail = 12;
@@ -92,12 +93,15 @@ EmulatorProcess::~EmulatorProcess() {
 
 bool EmulatorProcess::run(std::uint64_t cycle, const Stops& stops) {
   std::vector<std::uint8_t> request;
-  put(request, static_cast<std::uint32_t>(21 + to_send_.size()));
+  put(request, static_cast<std::uint32_t>(request_head + to_send_.size()));
   put(request, static_cast<double>(cycle));
   put(request, drawn_low_);
   put(request, stops.watched);
   put(request, stops.rises);
   request.push_back(stops.at_byte ? 1 : 0);
+  put(request, encoder_.from);
+  put(request, encoder_.to);
+  put(request, encoder_.pulses_per_turn);
   request.insert(request.end(), to_send_.begin(), to_send_.end());
   to_send_.clear();
   if (write_all(to_, request) && read_answer()) return true;

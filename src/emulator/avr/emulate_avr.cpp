@@ -1,14 +1,17 @@
-// passo-emulate-avr MCU FIRMWARE.elf PINS [OPTION...]: an emulated ATmega in lock-step with the program that started
-// it. The protocol is that of src/emulator/pico/emulated_pico.js; cycles are the chip's, of 16 MHz.
+// passo-emulate-avr MCU FIRMWARE.elf PINS [encoder=N,S,D,R,F,BIT]: an emulated ATmega in lock-step with the program
+// that started it. The protocol is that of src/emulator/pico/emulated_pico.js; cycles are the chip's, of 16 MHz. A
+// watched pin counts when it falls, too: windings do, and drivers whose pulses are low. The request's words about the
+// encoder are not needed.
 //
 // This program is linked with libsimavr, which is under the GPL, version 3. So whoever gives it away does so under
 // these terms. Passo's own program starts it, and is not linked with it.
 //
-//   PINS              the protocol's pins, bit 0 first, as B0,B1,!L3: what the chip drives high; of a pin with a ! what
-//                     the chip draws low
-//   any-edge          the watched pins count when they fall, too
-//   encoder=N,S,D,R,F,BIT   on a Mega: the spindle has an encoder of N counts a turn. A SpindleModel's numbers, and the
-//                     protocol's pin that is high while the spindle turns back
+//   PINS       the protocol's pins, bit 0 first, as B0,B1,!L3: what the chip drives high; of a pin with a ! what the
+//   chip
+//              draws low
+//   encoder=   on a Mega: the spindle has an encoder of N counts a turn. A SpindleModel's numbers, and the protocol's
+//   pin
+//              that is high while the spindle turns back
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -46,6 +49,8 @@ constexpr std::size_t most_pins = 32;
 constexpr std::uint16_t tccr4a = 0xa0;
 constexpr std::uint16_t ocr4cl = 0xac;
 constexpr std::uint8_t connected = 1 << 3;
+constexpr std::uint8_t inverting = 1 << 2;
+constexpr Pin output_c = {'H', 5};
 constexpr double full_duty = 255;
 
 struct Wire {
@@ -135,7 +140,6 @@ class Board {
     if (is_mega_) watch_spindle();
   }
 
-  void count_any_edge() { any_edge_ = true; }
   void fit_encoder(const Shaft& shaft) {
     shaft_ = shaft;
     encoder_.emplace(chip_, shaft.spindle.counts_per_turn(),
@@ -159,7 +163,7 @@ class Board {
   }
 
  private:
-  static constexpr std::size_t request_head = 21;
+  static constexpr std::size_t request_head = 41;
 
   static Seconds time_of(std::uint64_t cycle) { return Seconds(static_cast<double>(cycle) / clock_rate); }
 
@@ -181,10 +185,10 @@ class Board {
       if (on) levels |= std::uint32_t{1} << i;
     }
     if (levels == levels_) return;
-    const std::uint32_t counted = any_edge_ ? levels ^ levels_ : levels & ~levels_;
+    const std::uint32_t turned = levels ^ levels_;
     levels_ = levels;
     changes_.push_back({cycle, levels});
-    if ((counted & watched_) != 0 && rises_ != 0 && --rises_ == 0) stop();
+    if ((turned & watched_) != 0 && rises_ != 0 && --rises_ == 0) stop();
   }
 
   void draw_low(std::uint32_t pins) {
@@ -202,13 +206,16 @@ class Board {
       command_spindle();
     });
     chip_.on_write(tccr4a, [this](std::uint8_t value) {
-      turns_ = (value & connected) != 0;
+      is_connected_ = (value & connected) != 0;
+      is_inverting_ = (value & inverting) != 0;
       command_spindle();
     });
   }
   // The run ends here, so that the other program hears of it in time.
   void command_spindle() {
-    duty_ = turns_ ? compare_ / full_duty : 0;
+    const bool high = (ports_.outputs(output_c.port) & output_c.mask()) != 0;
+    duty_ = is_connected_ ? compare_ / full_duty : high ? 1 : 0;
+    if (is_connected_ && is_inverting_) duty_ = 1 - duty_;
     stop();
     if (!shaft_) return;
     const bool back = (levels_ & shaft_->turns_back) != 0;
@@ -251,11 +258,11 @@ class Board {
   std::uint32_t drawn_low_ = 0;
   std::uint32_t watched_ = 0;
   std::uint32_t rises_ = 0;
-  bool any_edge_ = false;
   bool stops_at_byte_ = false;
   bool stopped_ = false;
   std::uint8_t compare_ = 0;
-  bool turns_ = false;
+  bool is_connected_ = false;
+  bool is_inverting_ = false;
   double duty_ = 0;
   std::vector<PinChange> changes_;
   std::vector<std::uint8_t> said_;
@@ -269,9 +276,7 @@ int serve(const std::vector<std::string>& words) {
   }
   Board board(words[1], words[2], wires_of(words[3]));
   for (std::size_t at = 4; at < words.size(); ++at) {
-    if (words[at] == "any-edge") {
-      board.count_any_edge();
-    } else if (words[at].starts_with("encoder=")) {
+    if (words[at].starts_with("encoder=")) {
       board.fit_encoder(shaft_of(std::string_view(words[at]).substr(8)));
     } else {
       throw std::runtime_error("no such option: " + words[at]);

@@ -35,8 +35,16 @@ class EmulatorProcess {
   struct Stops {
     bool at_byte = false;       // when the board has said one
     std::uint32_t watched = 0;  // bits of pins
-    std::uint32_t rises = 0;    // after so many moments in which some of these rose; 0: never
+    std::uint32_t rises = 0;    // after so many moments in which some of these rose (AVR: or fell); 0: never
   };
+  // What the encoder at the spindle does in the next run(): it turns evenly to so many pulses in all, of so many a
+  // turn.
+  struct EncoderWay {
+    double from = 0;
+    double to = 0;
+    std::uint32_t pulses_per_turn = 0;  // 0: there is none, or the emulator works out the spindle by itself
+  };
+  void turn_encoder(const EncoderWay& way) { encoder_ = way; }
   // Runs until `cycle`. False if the emulator has died; then error() tells it. run(1, {}) shows whether it has started.
   bool run(std::uint64_t cycle, const Stops& stops);
   const std::string& error() const { return error_; }
@@ -66,6 +74,7 @@ class EmulatorProcess {
   std::uint64_t cycle_ = 0;
   std::uint32_t levels_ = 0;
   std::uint32_t drawn_low_ = 0;
+  EncoderWay encoder_;
   std::uint64_t lost_bytes_ = 0;
   double duty_ = 0;
   std::vector<std::uint8_t> to_send_;
