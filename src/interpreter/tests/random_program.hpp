@@ -20,6 +20,8 @@
 //   lines over 255 characters     it does not read them
 //   contours of G70 to G72        U, W, A and C are of 2.10. With D, 2.10 leads out of the stock before the contour is
 //                                 set off, and brings arcs of opposite turns together. G71.2 goes on where G71.1 ended.
+//                                 Of the two places where arcs cross, rs274 may take the farther one. Lines in one
+//                                 direction, or along the cuts, end somewhere on the same way
 #pragma once
 
 #include <algorithm>
@@ -272,18 +274,23 @@ class RandomProgram {
     const bool pockets = below(2) == 0;
     const std::string arc = one_of({"G2", "G3"});
     text_ += fmt::format("o200 sub\nG0 X{:.2f} Z{:.2f}\n", x, z);
+    double old_along = 0;
+    double old_across = 1;
+    bool after_arc = true;
     for (int i = 2 + below(7); i > 0; --i) {
       const double along = 0.5 + below(40) / 10.0;
-      const double across = (below(pockets ? 60 : 40) - (pockets ? 20 : 0)) / 10.0;
+      const double across = (below(pockets ? 60 : 40) - (pockets ? 20 : 0)) / 10.0 + 0.03;
+      if (std::abs(along * old_across - across * old_along) < 0.1) continue;
+      old_along = along;
+      old_across = across;
       const double old_x = x;
       const double old_z = z;
       x = facing_ ? x + along : std::max(x + across, 1.0);
       z = facing_ ? z + across : z - along;
       const double chord = std::hypot(x - old_x, z - old_z);
-      switch (below(6)) {
-        case 0: text_ += fmt::format("{} X{:.2f} Z{:.2f} R{:.2f}\n", arc, x, z, chord * 2); break;
-        default: text_ += fmt::format("G1 X{:.2f} Z{:.2f}\n", x, z);
-      }
+      after_arc = !after_arc && below(4) == 0;
+      text_ += after_arc ? fmt::format("{} X{:.2f} Z{:.2f} R{:.2f}\n", arc, x, z, chord * 2)
+                         : fmt::format("G1 X{:.2f} Z{:.2f}\n", x, z);
     }
     text_ += facing_ ? "G1 Z4\n" : "G1 X55\n";
     text_ += "o200 endsub\n";
