@@ -1,7 +1,8 @@
 // RandomProgram: random programs that Passo and LinuxCNC's rs274 both accept.
 //
 // What it leaves out, because rs274 (2.9, as Debian 12 has it) is known to do it wrong or in another way:
-//   LE and GE                     they are exact there; in LinuxCNC 2.9.0 and here they hold within 1e-6
+//   EQ, NE, LE and GE             EQ and NE hold within 1e-4 there, LE and GE are exact; in LinuxCNC 2.9.0 and here all
+//                                 four hold within 1e-6
 //   G93 with slow feeds           no feed there is below 0.1 a minute
 //   G10 L2 R, G28.1 when turned   the tool's place is lost
 //   units that change under G43.1 the tool's place is lost
@@ -100,8 +101,10 @@ class RandomProgram {
       case 2: return fmt::format("#{}", 1 + below(6));
       case 3: return fmt::format("[{} {} {}]", value(depth + 1), one_of({"+", "-", "*"}), value(depth + 1));
       case 4:
-        return fmt::format("[{} {} {}]", value(depth + 1), one_of({"EQ", "NE", "GT", "LT", "AND", "OR", "XOR"}),
-                           value(depth + 1));
+        if (below(3) == 0) {
+          return fmt::format("[FIX[{}] {} FUP[{}]]", value(depth + 1), one_of({"EQ", "NE"}), value(depth + 1));
+        }
+        return fmt::format("[{} {} {}]", value(depth + 1), one_of({"GT", "LT", "AND", "OR", "XOR"}), value(depth + 1));
       case 5: return fmt::format("{}[{}]", one_of({"ABS", "FIX", "FUP", "ROUND"}), value(depth + 1));
       case 8: return fmt::format("{}[{} + 0.3719]", one_of({"SIN", "COS"}), value(depth + 1));
       case 6: return fmt::format("[{} MOD {}]", value(depth + 1), 2 + below(9));
@@ -257,7 +260,7 @@ class RandomProgram {
   void feed_modes() {
     if (below(2) == 0) {
       text_ += "G93\n";
-      for (int i = 1 + below(3); i > 0; --i) text_ += fmt::format("G1{} F{}\n", axes(), 1 + below(300) / 10.0);
+      for (int i = 1 + below(3); i > 0; --i) text_ += fmt::format("G1{} F{}\n", axes(), 40 + below(300) / 10.0);
       if (below(2) == 0) text_ += fmt::format("G17 G91 G3 X2 Y2 I2 J0 F{}\nG90\n", size(20));
     } else {
       text_ += fmt::format("{} S{}\nG95 F{}\n", one_of({"M3", "M4"}), 100 + below(900), size(1));
