@@ -23,6 +23,7 @@ test_packages=(
   gcc-avr avr-libc binutils-avr  # link for the chip: libgcc, start-up code, linker
   libsimavr-dev simavr       # the chip, emulated
   libelf-dev                 # simavr reads programs with it
+  avrdude arduino-core-avr   # writes to a chip; the Uno's boot loader, which the tests put on the emulated chip
   lld                        # links for the Pico
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style
