@@ -30,9 +30,9 @@ constexpr std::string_view name_of(Mischief mischief) {
 
 class ManInTheMiddle {
  public:
-  // One frame in `one_in` gets a fault.
-  ManInTheMiddle(Mischief mischief, std::uint64_t seed, unsigned one_in = 25)
-      : mischief_(mischief), one_in_(one_in), random_(seed) {}
+  // One frame in `every` gets a fault.
+  ManInTheMiddle(Mischief mischief, std::uint64_t seed, unsigned every = 25)
+      : mischief_(mischief), every_(every), random_(seed) {}
 
   Bytes operator()(bool to_board, const Bytes& bytes) {
     Late& late = late_[to_board ? 0 : 1];
@@ -41,7 +41,7 @@ class ManInTheMiddle {
       late.bytes.insert(late.bytes.end(), bytes.begin(), bytes.end());
       return --late.frames > 0 ? Bytes() : release(late, Bytes());
     }
-    if (bytes.empty() || below(one_in_) != 0) return bytes;
+    if (bytes.empty() || below(every_) != 0) return bytes;
     ++faults;
     return spoil(late, bytes);
   }
@@ -87,7 +87,7 @@ class ManInTheMiddle {
   }
 
   Mischief mischief_;
-  unsigned one_in_;
+  unsigned every_;
   std::mt19937_64 random_;
   std::array<Late, 2> late_;  // one for each direction
 };
