@@ -325,7 +325,8 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
             LengthUnits machine_units) {
   MachineSession& session = run.opened.session();
   if (session.status().trouble == LinkError::stopped) {
-    return fail(exit_failed, "the board: " + stop_words(run.opened, run.machine, run.arguments, run.motion));
+    return fail(exit_failed,
+                "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion));
   }
   if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
   if (answered.fault && answered.fault->code.starts_with("board.")) {

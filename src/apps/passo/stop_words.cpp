@@ -92,7 +92,7 @@ std::uint32_t LatestMotion::line_at(const Point& place) const {
   return line;
 }
 
-std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const RunArguments& arguments,
+std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
                        const LatestMotion& motion) {
   const std::string closed = closed_switches(opened.session().board());
   const auto& status = opened.session().board().status();
@@ -102,11 +102,11 @@ std::string stop_words(OpenedMachine& opened, const MachineDescription& machine,
   const ClosedSwitch what = closed_switch(*status, machine);
   const bool homes = !machine.homing.empty();
   return fmt::format(
-      "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}, and run the "
-      "program from its beginning [board.stopped]{}",
-      what.words, line == 0 ? "" : fmt::format(" in line {} of {}", line, arguments.program.program),
-      place_words(machine, place), what.remedy,
-      homes ? "home the machine (passo home)" : "put the machine where --from-here is true", closed);
+      "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}{} "
+      "[board.stopped]{}",
+      what.words, line == 0 ? "" : fmt::format(" in line {} of {}", line, program), place_words(machine, place),
+      what.remedy, homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
+      program.empty() ? "" : ", and run the program from its beginning", closed);
 }
 
 }  // namespace passo

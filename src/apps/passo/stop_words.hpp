@@ -6,7 +6,6 @@
 #include <deque>
 #include <string>
 
-#include "commands.hpp"
 #include "opened_machine.hpp"
 
 #include "passo/geometry/axes.hpp"
@@ -32,8 +31,8 @@ class LatestMotion {
 };
 
 // For a board that has stopped its motors at once: a sentence without a full stop, with a code. Ends the conversation
-// with the board, because it asks which switches are closed.
-std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const RunArguments& arguments,
-                       const LatestMotion& motion);
+// with the board, because it asks which switches are closed. `program`: its name; empty: no program moved the machine.
+std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program = {},
+                       const LatestMotion& motion = {});
 
 }  // namespace passo
