@@ -114,15 +114,16 @@ void make_faults_of_each_kind(int wanted) {
     int recoveries = 0;
     for (std::uint64_t i = 0; faults < wanted && !testing::Test::HasFailure(); ++i) {
       SCOPED_TRACE(std::string(test::name_of(mischief)) + ", run " + std::to_string(i));
-      test::ManInTheMiddle man(mischief, seed + i);
+      test::ManInTheMiddle man(mischief, seed + i, 12, 400);
       recoveries +=
           run_on_uno([&](BadLine& line) {
             line.set_trouble([&man](bool to_board, const test::Bytes& bytes) { return man(to_board, bytes); });
           }).recoveries;
-      ASSERT_GT(man.faults, 0);
-      faults += man.faults;
+      ASSERT_GT(man.faults_to_board, 0);
+      faults += man.faults_to_board;
     }
-    std::printf("%s: %d faults, %d rests\n", std::string(test::name_of(mischief)).c_str(), faults, recoveries);
+    std::printf("%s: %d faults in frames to the board, %d rests\n", std::string(test::name_of(mischief)).c_str(),
+                faults, recoveries);
   }
 }
 

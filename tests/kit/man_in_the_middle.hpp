@@ -30,22 +30,26 @@ constexpr std::string_view name_of(Mischief mischief) {
 
 class ManInTheMiddle {
  public:
-  // One frame in `every` gets a fault.
-  ManInTheMiddle(Mischief mischief, std::uint64_t seed, unsigned every = 25)
-      : mischief_(mischief), every_(every), random_(seed) {}
+  // Of the frames to the board one in `to_board` gets a fault, of the pieces that come from it one in `to_host`. Off a
+  // chip come bytes one by one, so there a piece is less than a frame.
+  ManInTheMiddle(Mischief mischief, std::uint64_t seed, unsigned to_board = 25, unsigned to_host = 25)
+      : mischief_(mischief), every_{to_board, to_host}, random_(seed) {}
 
   Bytes operator()(bool to_board, const Bytes& bytes) {
-    Late& late = late_[to_board ? 0 : 1];
+    const std::size_t way = to_board ? 0 : 1;
+    Late& late = late_[way];
     if (late.frames > 0) {
       if (mischief_ == Mischief::swap) return release(late, bytes);
       late.bytes.insert(late.bytes.end(), bytes.begin(), bytes.end());
       return --late.frames > 0 ? Bytes() : release(late, Bytes());
     }
-    if (bytes.empty() || below(every_) != 0) return bytes;
+    if (bytes.empty() || below(every_[way]) != 0) return bytes;
     ++faults;
+    if (to_board) ++faults_to_board;
     return spoil(late, bytes);
   }
-  int faults = 0;
+  int faults = 0;  // in both directions
+  int faults_to_board = 0;
 
  private:
   struct Late {
@@ -87,7 +91,7 @@ class ManInTheMiddle {
   }
 
   Mischief mischief_;
-  unsigned every_;
+  std::array<unsigned, 2> every_;
   std::mt19937_64 random_;
   std::array<Late, 2> late_;  // one for each direction
 };
