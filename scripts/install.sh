@@ -22,6 +22,7 @@ test_packages=(
   libgtest-dev libgmock-dev  # tests
   libbenchmark-dev           # benchmarks
   libclang-rt-14-dev         # sanitizers and fuzzers of clang
+  avrdude arduino-core-avr   # writes to a chip; the Uno's boot loader, which the tests put on the emulated chip
   lld                        # links for the Pico
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style

@@ -9,12 +9,13 @@ using passo::test::read;
 
 class Boards : public passo::test::ServedBoard {
  protected:
-  // An avrdude that notes how it was called, and writes the backup.
-  std::string fake_avrdude(int code = 0) const {
+  // An avrdude that notes how it was called, and writes the backup. `code`: how reading ends, `write_code`: writing.
+  std::string fake_avrdude(int code = 0, int write_code = 0) const {
     std::filesystem::create_directories(path("bin"));
-    const std::string file = write("bin/avrdude", "#!/bin/sh\necho \"$@\" >> " + path("calls") +
-                                                      "\nfor last; do :; done\ncase $last in flash:r:*) : > " +
-                                                      path("old.hex") + ";; esac\nexit " + std::to_string(code) + "\n");
+    const std::string file =
+        write("bin/avrdude", "#!/bin/sh\necho \"$@\" >> " + path("calls") +
+                                 "\nfor last; do :; done\ncase $last in flash:r:*) : > " + path("old.hex") + "; exit " +
+                                 std::to_string(code) + ";; esac\nexit " + std::to_string(write_code) + "\n");
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     return "PATH=" + path("bin") + ":$PATH";
   }
@@ -226,10 +227,33 @@ TEST_F(Boards, are_not_touched_when_the_first_look_fails_or_when_it_is_only_trie
   const Outcome failed = passo(flash + image(), fake_avrdude(1));
   EXPECT_EQ(failed.code, 1);
   EXPECT_NE(failed.err.find("is as it was"), std::string::npos) << failed.err;
-  std::filesystem::remove(path("old.hex"));
+  EXPECT_FALSE(std::filesystem::exists(path("old.hex"))) << "what failed is no way back";
   std::filesystem::remove(path("calls"));
   EXPECT_EQ(passo(flash + image() + " --dry-run", fake_avrdude()).code, 0);
   EXPECT_FALSE(std::filesystem::exists(path("calls")));
+}
+
+// What was kept before the write that failed stays, and is not read again: the board may hold half a program by now.
+TEST_F(Boards, are_flashed_again_after_a_write_that_failed) {
+  const std::string flash = "board flash uno -d /dev/x --backup " + path("old.hex") + " --image " + image();
+  for (int i = 0; i < 2; ++i) {
+    const Outcome failed = passo(flash, fake_avrdude(0, 1));
+    EXPECT_EQ(failed.code, 1);
+    EXPECT_NE(failed.err.find("may hold half a program. The same command tries again"), std::string::npos)
+        << failed.err;
+    EXPECT_NE(failed.err.find("stays in " + path("old.hex")), std::string::npos) << failed.err;
+    write("old.hex", "what it held");
+  }
+  std::filesystem::remove(path("calls"));
+  const Outcome again = passo(flash, fake_avrdude());
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(read(path("old.hex")), "what it held");
+  EXPECT_EQ(read(path("calls")).find("flash:r"), std::string::npos);
+  EXPECT_NE(again.out.find("The way back: avrdude"), std::string::npos);
+  // Done is done: from now on the file is the way back, and another flash may not overwrite it.
+  const Outcome later = passo(flash, fake_avrdude());
+  EXPECT_EQ(later.code, 2);
+  EXPECT_NE(later.err.find("is there already"), std::string::npos) << later.err;
 }
 
 TEST_F(Boards, are_given_no_image_that_is_damaged_or_too_large) {

@@ -143,12 +143,11 @@ struct BoardFlashArguments {
 int board_flash(const BoardFlashArguments& arguments);
 
 struct BoardServeArguments {
-  std::string name = "virtual";
-  unsigned motors = 4;
-  double clock = 16e6;
+  std::optional<unsigned> motors;  // empty: as many as the machine has axes, and four at least
+  std::optional<double> clock;     // ticks a second; empty: that of the machine file, or 16 MHz
   unsigned port = 7070;
-  std::string machine;  // a machine file: the board has its switches and begins at machine zero; empty: no switches
-  bool once = false;    // ends after one host
+  std::string machine;  // a machine file: the board is that machine's, and stands at machine zero; empty: no switches
+  bool once = false;    // ends when everybody has left
 };
 int board_serve(const BoardServeArguments& arguments);
 

@@ -9,6 +9,7 @@
 #include "board_opening.hpp"
 #include "board_words.hpp"
 #include "commands.hpp"
+#include "line_watch.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include <fmt/format.h>
@@ -195,10 +196,14 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
   return false;
 }
 
-bool OpenedMachine::wait_for_rest() {
-  const auto status = ask_status_at_rest(session_->board(), answer);
-  if (status) before_ = *status;
-  return status.has_value();
+std::optional<std::string> OpenedMachine::wait_for_rest() {
+  if (const auto status = ask_status_at_rest(session_->board(), answer)) {
+    before_ = *status;
+    return {};
+  }
+  if (!session_->board().status()) return "it does not answer any more";
+  return fmt::format("it still moves after {:g} s, and what a board holds ends sooner: another program drives it",
+                     longest_way_to_rest.value());
 }
 
 bool OpenedMachine::greet(const Greeting& greeting, int& code) {
@@ -271,23 +276,20 @@ std::string words_of(const Refusal& refusal) {
   return fmt::format("{} [{}]", refusal.message, code_of(refusal.code));
 }
 
-std::string trouble_words(MachineSession& session) {
-  std::string words = session.trouble_words();
-  if (session.status().trouble == LinkError::stopped) words += closed_switches(session.board());
-  return words;
-}
-
 void try_request(MachineSession& session, Request wanted) {
   static_cast<void>(session.request(std::move(wanted)).has_value());
 }
 
-void turn_to_the_end(MachineSession& session, const std::function<void()>& look) {
+void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look) {
+  MachineSession& session = machine.session();
+  LineWatch line = line_watch();
   bool asked_to_stop = false;
   while (session.busy()) {
     if (interrupted_by() != 0 && !std::exchange(asked_to_stop, true)) {
       try_request(session, request::Stop{});
     }
-    session.turn(endless);
+    session.turn(machine.is_on_a_line() ? LineWatch::between_looks : endless);
+    if (machine.is_on_a_line()) line.look(session.board());
     if (look) look();
   }
 }

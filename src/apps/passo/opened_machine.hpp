@@ -47,8 +47,10 @@ class OpenedMachine {
   bool has_board() const { return port_ != nullptr; }
   // The board's status before the hello.
   const BoardStatus& before() const { return before_; }
-  // Asks until the board rests. False: the board does not answer. Call before the hello.
-  [[nodiscard]] bool wait_for_rest();
+  // True: the board outlives this program, at the end of a line that may break.
+  bool is_on_a_line() const { return claim_.has_value(); }
+  // Asks until the board rests. Otherwise says why it does not, as a sentence. Call before the hello.
+  std::optional<std::string> wait_for_rest();
   // Where the machine stands before the hello, or why nobody knows. Virtual and emulated machines stand at machine
   // zero. A real board is known by what an earlier command has written down, and by its counts.
   Result<KnownPosition, PlaceDoubt> place() const;
@@ -101,12 +103,10 @@ class OpenedMachine {
 std::string place_words(const MachineDescription& machine, const Point& place);
 // "the machine is busy [machine.busy]".
 std::string words_of(const Refusal& refusal);
-// Why a board cannot go on, with the switches that are closed if it has stopped its motors at once.
-std::string trouble_words(MachineSession& session);
 // Makes a request that may be refused. A refusal means that the machine is already where the request would lead.
 void try_request(MachineSession& session, Request wanted);
 // Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.
-void turn_to_the_end(MachineSession& session, const std::function<void()>& look = {});
+void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look = {});
 // The result of a request that has been answered, and the reason.
 struct Answered {
   Outcome outcome = Outcome::done;

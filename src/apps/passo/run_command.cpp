@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "homing_run.hpp"
+#include "line_watch.hpp"
 #include "mid_run_changes.hpp"
 #include "opened_machine.hpp"
 #include "operator_prompt.hpp"
@@ -17,6 +18,7 @@
 #include "resumable_run.hpp"
 #include "run_outputs.hpp"
 #include "run_signals.hpp"
+#include "stop_words.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
@@ -164,6 +166,7 @@ struct Run {
   OpenedMachine& opened;
   MidRunChanges& changes;
   RunOutputs& outputs;
+  LatestMotion& motion;
 };
 
 // Runs the program to its end and returns the summary. `answered` is set to the outcome.
@@ -181,6 +184,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   start.watchers.path = [&](const PathItem& item) { builder.watch_path(item); };
   start.watchers.motion = [&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
+    run.motion.watch(item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
   };
   start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };
@@ -189,6 +193,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   const Before before = before_program(run.opened);
   TailWatch tails;
   LineLoad load;
+  LineWatch line = line_watch();
+  const Seconds longest_turn = run.opened.is_on_a_line() ? LineWatch::between_looks : endless;
   OperatorPrompt prompt(run.arguments.program.program);
   run.changes.begin(session.now());
   const auto ticket = session.request(std::move(start));
@@ -199,7 +205,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     for (unsigned turns = 0; session.busy(); ++turns) {
       if ((interrupted_by() != 0 || run.outputs.failed()) && !std::exchange(brakes, true)) stop(session);
       const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
-      session.turn(std::min(most, prompt.look(session)));
+      session.turn(std::min({most, longest_turn, prompt.look(session)}));
+      if (run.opened.is_on_a_line()) line.look(session.board());
       if (!run.opened.has_board()) tails.look(session, run.opened.machine(), machine);
       load.look(session.now(), run.opened.bytes_sent());
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
@@ -317,7 +324,11 @@ bool suits_the_board(const RunArguments& arguments) {
 int end_run(const Run& run, const Answered& answered, const RunSummary& summary, const Diagnostics& late,
             LengthUnits machine_units) {
   MachineSession& session = run.opened.session();
-  if (session.status().trouble) return fail(exit_failed, "the board: " + trouble_words(session));
+  if (session.status().trouble == LinkError::stopped) {
+    return fail(exit_failed,
+                "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion));
+  }
+  if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
   if (answered.fault && answered.fault->code.starts_with("board.")) {
     return fail(exit_failed, "the board: " + answered.fault->message);
   }
@@ -358,7 +369,8 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
   if (resumable != nullptr) resumable->add_to(start);
   if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
   Answered answered;
-  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs};
+  LatestMotion motion;
+  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion};
   const RunSummary summary = play(run, std::move(start), answered);
   if (resumable != nullptr) resumable->end(opened.session(), answered);
   return end_run(run, answered, summary, late, subject.options.machine_units);
