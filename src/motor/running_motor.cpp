@@ -21,6 +21,19 @@ NewtonMetreSeconds damping_of(const MotorData& motor, double share_of_critical) 
   return {2 * share_of_critical * std::sqrt(stiffness * motor.rotor.inertia.value)};
 }
 
+MotorSetup measured_setup(const TorqueCurve& curve, const Excitation& excitation) {
+  MotorSetup setup{.motor = {.rotor = curve.rotor(),
+                             .holding_torque = curve.pull_out({0}),
+                             .rated_current = {1},
+                             .resistance = {1},
+                             .inductance = {1e-3}},
+                   .drive = {.supply = {1}},
+                   .excitation = excitation};
+  setup.measured = curve;
+  setup.damping = damping_of(setup.motor);
+  return setup;
+}
+
 // One step of the integration, and what the trapezoidal rule for R·i + L·di/dt = u makes of it:
 //   i' = (keep·i + push·u)
 struct RunningMotor::StepSize {
@@ -50,6 +63,7 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
       viscous_(setup.damping.value + setup.load.friction_per_speed.value),
       dry_(setup.load.friction.value),
       weight_(setup.weight.value),
+      measured_(setup.measured),
       excitation_(setup.excitation),
       steps_(setup.excitation.steps_per_full_step()),
       places_per_radian_(2 * steps_ / std::numbers::pi) {
@@ -110,14 +124,8 @@ void RunningMotor::integrate(const StepSize& size) {
   const double electrical = teeth_ * size.h / 2;
   turn(electrical * speed_);
 
-  // The speed in the middle of the step, as far as the last step tells.
-  const double emf = constant_ * (speed_ + gain_ * size.h / 2);
-  const double a = next_current(current_a_, share_a_, -emf * sine_, size);
-  const double b = next_current(current_b_, share_b_, emf * cosine_, size);
-  const double made = constant_ / 2 * ((current_b_ + b) * cosine_ - (current_a_ + a) * sine_);
+  const double made = measured_ ? measured_torque() : driven_torque(size);
   torque_ = made - detent_ * 4 * sine_ * cosine_ * (cosine_ * cosine_ - sine_ * sine_);
-  current_a_ = a;
-  current_b_ = b;
 
   const double free = (speed_ * (1 - size.fade) + (torque_ - weight_) * size.kick) / (1 + size.fade);
   const double dry = (dry_ + resisting_) * size.kick;
@@ -125,6 +133,22 @@ void RunningMotor::integrate(const StepSize& size) {
   gain_ = (speed - speed_) / size.h;
   speed_ = speed;
   turn(electrical * speed_);
+}
+
+double RunningMotor::driven_torque(const StepSize& size) {
+  // The speed in the middle of the step, as far as the last step tells.
+  const double emf = constant_ * (speed_ + gain_ * size.h / 2);
+  const double a = next_current(current_a_, share_a_, -emf * sine_, size);
+  const double b = next_current(current_b_, share_b_, emf * cosine_, size);
+  const double made = constant_ / 2 * ((current_b_ + b) * cosine_ - (current_a_ + a) * sine_);
+  current_a_ = a;
+  current_b_ = b;
+  return made;
+}
+
+double RunningMotor::measured_torque() const {
+  const double across = share_b_ * cosine_ - share_a_ * sine_;
+  return measured_->pull_out({std::abs(speed_)}).value * across / std::hypot(share_a_, share_b_);
 }
 
 // The current of a phase after a step. `share`: of the rated current or of the supply.
@@ -180,7 +204,9 @@ void RunningMotor::look_for_rest(const StepSize& size) {
     return std::abs(next_current(current, share, emf, size) - current) <= at_rest * rated_;
   };
   const double emf = constant_ * speed_;
-  if (!steady(current_a_, share_a_, -emf * sine_) || !steady(current_b_, share_b_, emf * cosine_)) return;
+  const bool currents_move =
+      !measured_ && !(steady(current_a_, share_a_, -emf * sine_) && steady(current_b_, share_b_, emf * cosine_));
+  if (currents_move) return;
   speed_ = 0;
   gain_ = 0;
   rests_ = true;

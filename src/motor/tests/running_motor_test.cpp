@@ -168,6 +168,16 @@ TEST(RunningMotor, falls_out_of_step_where_the_textbook_says) {
   }
 }
 
+TEST(RunningMotor, follows_a_measured_curve) {
+  const auto curve = TorqueCurve::from_points(test::small_motor().rotor, {{Hertz(0), {0.4}}, {Hertz(2000), {0.1}}});
+  MotorSetup setup = measured_setup(*curve, *Excitation::named("microsteps:8"));
+  setup.load.inertia = setup.motor.rotor.inertia;
+  for (const double rate : {300.0, 1000.0, 1500.0}) {
+    const double expected = curve->pull_out(curve->speed_at(Hertz(rate))).value;
+    EXPECT_NEAR(pull_out_by_trial(setup, rate, expected), expected, 0.03 * expected) << rate;
+  }
+}
+
 TEST(RunningMotor, loses_whole_periods_of_its_teeth_in_too_steep_a_ramp) {
   MotorSetup setup = setup_of(test::small_motor(), "half-step");
   setup.damping = damping_of(setup.motor);

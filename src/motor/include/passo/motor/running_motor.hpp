@@ -16,6 +16,9 @@
 //   resistive  switches the supply, less the transistor's drop, to R with a series resistor. The current of a phase
 //              that is switched off goes back into the supply until the current is zero.
 //
+//   measured   a motor of which only a pull-out curve is known: the currents are at once where the field points, and as
+//              strong as that curve says for the rotor's speed
+//
 // Left out: saturation, and the coupling of the two phases.
 //
 // Method: half a drift of the angle, currents by the trapezoidal rule with the back-EMF in the middle of the step, the
@@ -29,6 +32,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "passo/motor/excitation.hpp"
 #include "passo/motor/motor_data.hpp"
@@ -46,7 +50,12 @@ struct MotorSetup {
   NewtonMetres weight = {};         // a torque that always pulls down, as a vertical axis does; from the screw's side
   NewtonMetres detent = {};         // the greatest torque of the unpowered motor
   NewtonMetreSeconds damping = {};  // of the motor itself: iron losses and its bearings
+  // Pull-out torque as measured. Then the drive and the motor's electrical data do not count.
+  std::optional<TorqueCurve> measured = {};
 };
+
+// The setup of a motor that is known by its measured curve.
+MotorSetup measured_setup(const TorqueCurve& curve, const Excitation& excitation);
 
 // The damping of a motor whose own is not known: the unloaded rotor's ringing fades by that share of critical damping.
 // Two to ten hundredths are usual.
@@ -84,6 +93,8 @@ class RunningMotor {
 
   void excite();
   void integrate(const StepSize& size);
+  double driven_torque(const StepSize& size);
+  double measured_torque() const;
   double next_current(double current, double share, double emf, const StepSize& size) const;
   void turn(double electrical);
   void look_for_slip();
@@ -105,6 +116,7 @@ class RunningMotor {
   double dry_;
   double weight_;
   double resisting_ = 0;
+  std::optional<TorqueCurve> measured_;
   Excitation excitation_;
   int steps_;  // of the driver to a full step
   double places_per_radian_;
