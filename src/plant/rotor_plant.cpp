@@ -16,6 +16,10 @@ void RotorPlant::set_resistance(std::size_t motor, NewtonMetres torque) {
   if (motors_[motor].rotor) motors_[motor].rotor->set_resistance(torque);
 }
 
+int RotorPlant::steps_per_full_step(std::size_t motor) const {
+  return motors_[motor].rotor ? motors_[motor].rotor->steps_per_full_step() : 0;
+}
+
 // The rotors move also between pulses, so every event counts.
 std::int64_t RotorPlant::events_to_next_change() const {
   return any_ ? 1 : switches().steps_to_next_change(positions());

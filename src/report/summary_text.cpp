@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -165,6 +167,26 @@ class Text {
     }
   }
 
+  void physics(const PhysicsSummary& physics) {
+    heading("Motors",
+            fmt::format("{}; lag in full steps: at 1 the torque is used up, from 2 on steps are lost", unit()));
+    out_ += fmt::format("  {:4}{:>12}{:>12}{:>10}{:>10}{:>14}{:>8}{:>12}\n", "", "steps lost", "off by", "lag",
+                        "margin", "following", "line", "truly at");
+    for (const PhysicsSummary::Motor& motor : physics.motors) {
+      out_ +=
+          fmt::format("  {:4}{:>12}{:>12}{:>10.2f}{:>8.0f} %{:>14}{:>8}{:>12}\n", letter_of(motor.axis),
+                      grouped(motor.lost_steps), place(motor.lost, motor.axis), motor.most_lag, 100 * motor.margin(),
+                      place(motor.farthest, motor.axis), motor.line, place(motor.position, motor.axis));
+    }
+    constexpr std::size_t shown = 10;
+    for (std::size_t i = 0; i < std::min(shown, physics.losses.size()); ++i) {
+      const PhysicsSummary::Loss& loss = physics.losses[i];
+      out_ += fmt::format("  at {:.3f} s, line {}: {} lost {} steps\n", loss.time.value(), loss.line,
+                          letter_of(loss.axis), loss.steps);
+    }
+    if (physics.losses.size() > shown) out_ += fmt::format("  and {} more times\n", physics.losses.size() - shown);
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -247,6 +269,15 @@ std::string name_of_system(std::uint8_t system) {
   return system <= last_whole ? fmt::format("G{}", first + system) : fmt::format("G59.{}", system - last_whole);
 }
 
+// The torque goes with the sine of the lag.
+double PhysicsSummary::Motor::margin() const {
+  return 1 - std::sin(std::min(most_lag, 1.0) * std::numbers::pi / 2);
+}
+
+bool PhysicsSummary::lost() const {
+  return !losses.empty();
+}
+
 std::string to_text(const RunSummary& summary, bool colour) {
   Text text(colour, summary.units);
   text.title(summary);
@@ -259,6 +290,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   if (!summary.holds.empty()) text.holds(summary);
   if (summary.probes) text.probes(summary, *summary.probes);
   if (!summary.tails.empty()) text.tails(summary);
+  if (summary.physics) text.physics(*summary.physics);
   return text.take();
 }
 

@@ -76,6 +76,7 @@ class RunningMotor {
   // Where the rotor is, in steps of the driver. A resting rotor without load stands at commanded().
   double place() const { return angle_ * places_per_radian_ - first_; }
   std::int64_t commanded() const { return commanded_; }
+  int steps_per_full_step() const { return steps_; }
   // How far the field is ahead of the rotor, in full steps. At one full step the torque is greatest; at two the rotor
   // falls back.
   double lag() const { return (static_cast<double>(commanded_ - slipped()) - place()) / steps_; }

@@ -49,6 +49,8 @@ class RotorPlant final : public FittedPlant {
 
   // Lets the rotors come to rest after the last pulse. Returns false if one still moves after `most`.
   bool settle(Seconds most);
+  // Of the motor's driver. 0: the motor has no physics.
+  int steps_per_full_step(std::size_t motor) const;
   const RotorRecord& record(std::size_t motor) const { return motors_[motor].record; }
   // The first losses, in the order of time.
   const std::vector<StepLoss>& losses() const { return losses_; }

@@ -98,6 +98,32 @@ struct TailSummary {
   Seconds resumed{0};
 };
 
+// What the motors truly did, where physics was asked for.
+struct PhysicsSummary {
+  struct Motor {
+    Axis axis = Axis::x;
+    std::int64_t lost_steps = 0;  // of the driver; positive: the axis stands too low
+    double lost = 0;              // the same in millimetres or degrees
+    double most_lag = 0;          // full steps between the field and the rotor; from 2 on steps are lost
+    double farthest = 0;          // the same in millimetres or degrees: the following error
+    Seconds farthest_at{0};
+    std::uint32_t line = 0;  // of the program, then; 0: none
+    double position = 0;     // machine coordinates at the end: the true place
+
+    // The share of the motor's torque that was left at the worst moment, 0 to 1.
+    double margin() const;
+  };
+  struct Loss {
+    Seconds time{0};
+    Axis axis = Axis::x;
+    std::int64_t steps = 0;
+    std::uint32_t line = 0;
+  };
+  std::vector<Motor> motors;
+  std::vector<Loss> losses;  // the first of them, in the order of time
+  bool lost() const;
+};
+
 struct RunSummary {
   std::string program;
   std::string machine;
@@ -125,6 +151,7 @@ struct RunSummary {
   std::vector<HoldSummary> holds;
   std::optional<ProbeSummary> probes;  // empty: no probe move
   std::vector<TailSummary> tails;
+  std::optional<PhysicsSummary> physics;  // empty: the motors did what they were told
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };
