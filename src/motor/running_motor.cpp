@@ -12,6 +12,9 @@ constexpr double radians_of_ringing = 0.05;  // the most of a ringing's angle in
 constexpr double part_of_time_constant = 0.05;
 constexpr int steps_between_looks = 64;
 constexpr int steps_between_exact_angles = 256;
+constexpr double averaging = 3e-3;  // seconds
+constexpr double in_motion = 3;     // full steps from the field to a rotor that is in step
+constexpr double at_rest_in_step = 2;
 constexpr double at_rest = 1e-9;  // of the energy that holds a rotor, and of the rated current
 
 }  // namespace
@@ -90,7 +93,7 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
 void RunningMotor::step(int way) {
   commanded_ += way;
   excite();
-  look_for_slip();
+  look_for_slip(in_motion);
   rests_ = false;
 }
 
@@ -113,11 +116,11 @@ void RunningMotor::run(Seconds time) {
   for (std::int64_t i = 1; i <= steps; ++i) {
     integrate(size);
     if (i % steps_between_looks != 0) continue;
-    look_for_slip();
+    look_for_slip(in_motion);
     look_for_rest(size);
     if (rests_) return;
   }
-  look_for_slip();
+  look_for_slip(in_motion);
 }
 
 void RunningMotor::integrate(const StepSize& size) {
@@ -126,6 +129,7 @@ void RunningMotor::integrate(const StepSize& size) {
 
   const double made = measured_ ? measured_torque() : driven_torque(size);
   torque_ = made - detent_ * 4 * sine_ * cosine_ * (cosine_ * cosine_ - sine_ * sine_);
+  mean_torque_ += (torque_ - mean_torque_) * std::min(size.h / averaging, 1.0);
 
   const double free = (speed_ * (1 - size.fade) + (torque_ - weight_) * size.kick) / (1 + size.fade);
   const double dry = (dry_ + resisting_) * size.kick;
@@ -187,10 +191,11 @@ void RunningMotor::turn(double electrical) {
   sine_ = sine;
 }
 
-// Beyond two full steps behind or ahead of the field, the rotor is drawn to the next place where it can rest.
-void RunningMotor::look_for_slip() {
+// At rest a rotor that is more than two full steps away from the field is drawn to another place. At speed the currents
+// lag too, so that a rotor in step may be that far away; three full steps are more than a rotor in step can be.
+void RunningMotor::look_for_slip(double allowed) {
   const double periods = (static_cast<double>(commanded_) - place()) / (4 * steps_);
-  if (std::abs(periods - static_cast<double>(slips_)) <= 0.5) return;
+  if (std::abs(periods - static_cast<double>(slips_)) <= allowed / 4) return;
   slips_ = std::llround(periods);
 }
 
@@ -210,6 +215,7 @@ void RunningMotor::look_for_rest(const StepSize& size) {
   speed_ = 0;
   gain_ = 0;
   rests_ = true;
+  look_for_slip(at_rest_in_step);
 }
 
 }  // namespace passo

@@ -9,6 +9,10 @@ namespace passo {
 void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
   motors_[motor].rotor.emplace(setup);
   motors_[motor].origin = positions()[motor];
+  motors_[motor].pull_out = setup.measured;
+  if (!setup.measured) {
+    if (auto curve = TorqueCurve::from_motor(setup.motor, setup.drive)) motors_[motor].pull_out = std::move(*curve);
+  }
   any_ = true;
 }
 
@@ -60,6 +64,16 @@ void RotorPlant::look_at(std::size_t motor) {
   if (lag > one.record.most_lag) {
     one.record.most_lag = lag;
     one.record.most_lag_at = now_;
+  }
+  if (one.pull_out) {
+    const RadiansPerSecond speed{std::abs(one.rotor->speed().value)};
+    const double torque = std::abs(one.rotor->mean_torque().value);
+    const double most = one.pull_out->pull_out(speed).value;
+    const double margin = torque < 2 * most ? 1 - torque / most : -1;
+    if (margin < one.record.least_margin) {
+      one.record.least_margin = margin;
+      one.record.least_margin_at = now_;
+    }
   }
   const std::int64_t lost = one.rotor->slipped() - one.record.lost;
   if (lost == 0) return;

@@ -126,10 +126,9 @@ void add_physics(const PhysicsSummary& physics, Json& json) {
     out["motors"].push_back({{"axis", letter(motor.axis)},
                              {"lost_steps", motor.lost_steps},
                              {"lost_mm", motor.lost},
-                             {"most_lag_full_steps", motor.most_lag},
-                             {"margin", motor.margin()},
-                             {"following_error_mm", motor.farthest},
-                             {"at_s", motor.farthest_at.value()},
+                             {"following_error_mm", motor.following_error},
+                             {"margin", motor.least_margin},
+                             {"at_s", motor.least_margin_at.value()},
                              {"line", motor.line},
                              {"position_mm", motor.position}});
   }

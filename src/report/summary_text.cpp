@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -168,15 +167,14 @@ class Text {
   }
 
   void physics(const PhysicsSummary& physics) {
-    heading("Motors",
-            fmt::format("{}; lag in full steps: at 1 the torque is used up, from 2 on steps are lost", unit()));
-    out_ += fmt::format("  {:4}{:>12}{:>12}{:>10}{:>10}{:>14}{:>8}{:>12}\n", "", "steps lost", "off by", "lag",
-                        "margin", "following", "line", "truly at");
+    heading("Motors", fmt::format("{}; margin is the share of the torque that was left, at the worst", unit()));
+    out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>10}{:>8}{:>12}\n", "", "steps lost", "off by", "following",
+                        "margin", "line", "truly at");
     for (const PhysicsSummary::Motor& motor : physics.motors) {
-      out_ +=
-          fmt::format("  {:4}{:>12}{:>12}{:>10.2f}{:>8.0f} %{:>14}{:>8}{:>12}\n", letter_of(motor.axis),
-                      grouped(motor.lost_steps), place(motor.lost, motor.axis), motor.most_lag, 100 * motor.margin(),
-                      place(motor.farthest, motor.axis), motor.line, place(motor.position, motor.axis));
+      out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>8.0f} %{:>8}{:>12}\n", letter_of(motor.axis),
+                          grouped(motor.lost_steps), place(motor.lost, motor.axis),
+                          place(motor.following_error, motor.axis), 100 * motor.least_margin, motor.line,
+                          place(motor.position, motor.axis));
     }
     constexpr std::size_t shown = 10;
     for (std::size_t i = 0; i < std::min(shown, physics.losses.size()); ++i) {
@@ -267,11 +265,6 @@ std::string name_of_system(std::uint8_t system) {
   constexpr int first = 53;
   constexpr int last_whole = 6;  // G59
   return system <= last_whole ? fmt::format("G{}", first + system) : fmt::format("G59.{}", system - last_whole);
-}
-
-// The torque goes with the sine of the lag.
-double PhysicsSummary::Motor::margin() const {
-  return 1 - std::sin(std::min(most_lag, 1.0) * std::numbers::pi / 2);
 }
 
 bool PhysicsSummary::lost() const {

@@ -195,7 +195,7 @@ struct MotorArguments {
   std::string trial;                        // torque, step, stop or resonance; empty: no trial
   std::string excitation = "microsteps:8";  // as Excitation::named() has it
   double detent = 0;                        // N·m
-  double damping = 0.03;                    // share of the rotor's critical damping
+  double damping = 0.002;                   // share of the rotor's critical damping
   double trial_rate = 500;                  // full steps/s
   int trial_steps = 200;                    // of the driver, before a stop without a ramp
   double trial_after = 0.1;                 // s after the last step

@@ -29,9 +29,9 @@ std::uint32_t MotorWatch::line_at(Seconds time) const {
 }
 
 void MotorWatch::look(Seconds now) {
-  for (std::size_t m = 0; m < lines_at_lag_.size(); ++m) {
+  for (std::size_t m = 0; m < worst_lines_.size(); ++m) {
     const RotorRecord& record = plant_.record(m);
-    if (record.most_lag > 0 && record.most_lag_at > looked_) lines_at_lag_[m] = line_at(record.most_lag_at);
+    if (record.least_margin_at > looked_) worst_lines_[m] = line_at(record.least_margin_at);
   }
   while (lines_of_losses_.size() < plant_.losses().size()) {
     lines_of_losses_.push_back(line_at(plant_.losses()[lines_of_losses_.size()].time));
@@ -54,10 +54,10 @@ PhysicsSummary MotorWatch::finish(Seconds now) {
     summary.motors.push_back({.axis = axis.axis,
                               .lost_steps = axis.inverted ? -record.lost : record.lost,
                               .lost = lost / scale,
-                              .most_lag = record.most_lag,
-                              .farthest = plant_.steps_per_full_step(m) * record.most_lag / axis.steps_per_unit,
-                              .farthest_at = record.most_lag_at - begins_,
-                              .line = lines_at_lag_[m],
+                              .following_error = plant_.steps_per_full_step(m) * record.most_lag / axis.steps_per_unit,
+                              .least_margin = record.least_margin,
+                              .line = worst_lines_[m],
+                              .least_margin_at = record.least_margin_at - begins_,
                               .position = truth.positions[m] / scale});
   }
   for (std::size_t i = 0; i < plant_.losses().size(); ++i) {

@@ -18,7 +18,7 @@ class MotorWatch {
  public:
   // `begins`: the board's time when the program begins. `plant` and `machine` outlive the watch.
   MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins)
-      : plant_(plant), machine_(machine), begins_(begins), planned_(begins), lines_at_lag_(machine.axes.size()) {}
+      : plant_(plant), machine_(machine), begins_(begins), planned_(begins), worst_lines_(machine.axes.size()) {}
 
   // What is planned, in order.
   void plan(const MotionItem& item);
@@ -40,7 +40,7 @@ class MotorWatch {
   Seconds planned_;
   Seconds looked_{-1};
   std::deque<Planned> ahead_;
-  std::vector<std::uint32_t> lines_at_lag_;
+  std::vector<std::uint32_t> worst_lines_;  // of each motor's least margin
   std::vector<std::uint32_t> lines_of_losses_;
 };
 

@@ -28,9 +28,10 @@ struct StepLoss {
 // What one motor did in a run.
 struct RotorRecord {
   std::int64_t lost = 0;  // steps of the driver; positive: the rotor stands too low
-  double most_lag = 0;    // full steps between field and rotor, either way. At 1 the torque is greatest, from 2 on
-                          // steps are lost.
+  double most_lag = 0;    // full steps from the rotor to the commanded place, either way
   Seconds most_lag_at{0};
+  double least_margin = 1;  // the share of the pull-out torque that was left; below 0: none
+  Seconds least_margin_at{0};
 };
 
 class RotorPlant final : public FittedPlant {
@@ -59,6 +60,7 @@ class RotorPlant final : public FittedPlant {
   struct Fitted {
     std::optional<RunningMotor> rotor;
     double origin = 0;  // of the rotor's place 0
+    std::optional<TorqueCurve> pull_out;
     RotorRecord record;
   };
 

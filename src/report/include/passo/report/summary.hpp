@@ -104,14 +104,11 @@ struct PhysicsSummary {
     Axis axis = Axis::x;
     std::int64_t lost_steps = 0;  // of the driver; positive: the axis stands too low
     double lost = 0;              // the same in millimetres or degrees
-    double most_lag = 0;          // full steps between the field and the rotor; from 2 on steps are lost
-    double farthest = 0;          // the same in millimetres or degrees: the following error
-    Seconds farthest_at{0};
-    std::uint32_t line = 0;  // of the program, then; 0: none
-    double position = 0;     // machine coordinates at the end: the true place
-
-    // The share of the motor's torque that was left at the worst moment, 0 to 1.
-    double margin() const;
+    double following_error = 0;   // the farthest that the axis was from where it was told to be
+    double least_margin = 1;      // the share of the motor's pull-out torque that was left at the worst moment
+    std::uint32_t line = 0;       // of the program, then; 0: none
+    Seconds least_margin_at{0};
+    double position = 0;  // machine coordinates at the end: the true place
   };
   struct Loss {
     Seconds time{0};
