@@ -53,6 +53,7 @@ struct RunArguments {
   std::vector<std::string> overrides;  // PERCENT@SECONDS
   std::vector<std::string> touches;    // ranges LOW:HIGH of axes: "X10:60,Z:-2"
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
+  bool physics = false;                // the motors of a virtual or emulated machine obey physics
   std::string board = "virtual";       // an address for parse_board_address()
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was interrupted
@@ -190,7 +191,14 @@ struct MotorArguments {
   double friction = 0;                   // N·m
   double friction_per_speed = 0;         // N·m·s/rad
   double margin = 1;
-  std::optional<double> max_rate;  // full steps/s at which tables and pictures end
+  std::string trial;                        // torque, step, stop or resonance; empty: no trial
+  std::string excitation = "microsteps:8";  // as Excitation::named() has it
+  double detent = 0;                        // N·m
+  double damping = 0.002;                   // share of the rotor's critical damping
+  double trial_rate = 500;                  // full steps/s
+  int trial_steps = 200;                    // of the driver, before a stop without a ramp
+  double trial_after = 0.1;                 // s after the last step
+  std::optional<double> max_rate;           // full steps/s at which tables and pictures end
   int rows = 101;
   std::vector<std::string> pictures;  // .svg or .png
   bool json = false;

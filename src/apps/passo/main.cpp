@@ -168,6 +168,8 @@ int parse_and_run(int argc, char** argv) {
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
   run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
+  run_command.add_flag("--physics", run_arguments.physics,
+                       "the motors obey physics, from the machine file's [axis.X.torque], and may lose steps");
   run_command.add_flag("-y,--yes", run_arguments.yes, "go on at M0, M1 and M6 without asking");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");

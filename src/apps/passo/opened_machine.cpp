@@ -66,15 +66,24 @@ MotorSteps zero_counts_of(const MachineDescription& machine, const BoardStatus& 
 
 OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWish& wish)
     : description_(machine),
-      plant_(plant_of(machine, Point(), wish.boxes)),
       machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
-               static_cast<std::size_t>(machine.board.held_items)) {}
+               static_cast<std::size_t>(machine.board.held_items)) {
+  if (wish.physics) {
+    auto rotors = std::make_unique<RotorPlant>();
+    rotors_ = rotors.get();
+    plant_ = std::move(rotors);
+  } else {
+    plant_ = std::make_unique<IdealPlant>();
+  }
+  fit(*plant_, machine, Point(), wish.boxes);
+  if (rotors_ != nullptr) fit_rotors(*rotors_, machine);
+}
 
 std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& machine, const MachineWish& wish,
                                                    int& code) {
   std::unique_ptr<OpenedMachine> opened(new OpenedMachine(machine, wish));
   if (wish.board == "virtual") {
-    opened->machine_.connect(opened->plant_);
+    opened->machine_.connect(*opened->plant_);
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.cut) {
       opened->session_ = std::make_unique<MachineSession>(machine, opened->machine_, SessionOptions{.start = at_zero});
@@ -105,7 +114,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     opened->place_file_.emplace(wish.board);
     opened->record_ = opened->place_file_->read();
   }
-  auto port = open_addressed(*address, &opened->plant_);
+  auto port = open_addressed(*address, opened->plant_.get());
   if (!port) {
     code = fail(exit_failed, port.error());
     return nullptr;
@@ -252,9 +261,9 @@ std::optional<std::string> OpenedMachine::compare() {
     return fmt::format("motor {} stands {} steps from machine zero, and {} were planned", mismatch->motor + 1,
                        mismatch->counted, mismatch->commanded);
   }
-  if (!has_board() || !plant_is_behind_) return {};
+  if (!has_board() || !plant_is_behind_ || rotors_ != nullptr) return {};
   const MachineCounts planned = machine_.counts();
-  const Truth truth = plant_.truth_at(session_->now());
+  const Truth truth = plant_->truth_at(session_->now());
   for (std::size_t motor = 0; motor < description_.axes.size(); ++motor) {
     const auto steps = std::llround(truth.positions[motor]);
     if (steps == planned.motors[motor].position) continue;

@@ -16,7 +16,8 @@
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
-#include "passo/plant/ideal_plant.hpp"
+#include "passo/plant/fitted_plant.hpp"
+#include "passo/plant/rotor_plant.hpp"
 #include "passo/session/machine_session.hpp"
 
 namespace passo {
@@ -25,6 +26,7 @@ struct MachineWish {
   std::string board = "virtual";     // as parse_board_address() has it
   std::optional<CableCut> cut = {};  // the virtual machine is at the end of a line that is cut
   std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
+  bool physics = false;              // the motors of a virtual or emulated machine obey physics
   bool may_move = false;             // another host may have left the board in motion
 };
 
@@ -43,6 +45,8 @@ class OpenedMachine {
   const MachineSession& session() const { return *session_; }
   // The board itself, or the virtual machine that repeats what the board has done.
   VirtualMachine& machine() { return machine_; }
+  // The motors, where they obey physics. Null: they do what they are told.
+  RotorPlant* rotors() { return rotors_; }
   // True: the board is not in this process, or is emulated.
   bool has_board() const { return port_ != nullptr; }
   // The board's status before the hello.
@@ -82,7 +86,8 @@ class OpenedMachine {
   void write_down(const KnownPosition& position, const MotorSteps& zero_counts, const SessionNumbers& numbers);
 
   const MachineDescription& description_;
-  IdealPlant plant_;
+  std::unique_ptr<FittedPlant> plant_;
+  RotorPlant* rotors_ = nullptr;  // plant_, if its motors obey physics
   VirtualMachine machine_;
   std::optional<VirtualLine> line_;
   std::unique_ptr<BoardPort> port_;

@@ -10,6 +10,7 @@
 #include "homing_run.hpp"
 #include "line_watch.hpp"
 #include "mid_run_changes.hpp"
+#include "motor_watch.hpp"
 #include "opened_machine.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
@@ -23,6 +24,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/journal/path_fingerprint.hpp"
@@ -177,6 +179,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   ProbeSummary probes;
   ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
   ProgramMessages messages(run.arguments.program.program, !run.arguments.quiet);
+  std::optional<MotorWatch> motors;
+  if (run.opened.rotors() != nullptr) motors.emplace(*run.opened.rotors(), machine, session.now());
   start.watchers.operations = [&](const Operation& operation) {
     builder.watch_operation(operation);
     messages.show(operation, [&] { progress.clear(); });
@@ -186,6 +190,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     const auto* move = std::get_if<PlannedMove>(&item);
     run.motion.watch(item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
+    if (motors) motors->plan(item);
   };
   start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };
   run.outputs.watch(run.opened.machine(), start.watchers);
@@ -209,6 +214,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
       if (run.opened.is_on_a_line()) line.look(session.board());
       if (!run.opened.has_board()) tails.look(session, run.opened.machine(), machine);
       load.look(session.now(), run.opened.bytes_sent());
+      if (motors) motors->look(session.now());
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
     answered = answer_of(session.take_changes(), *ticket);
@@ -223,6 +229,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
+  if (motors) summary.physics = motors->finish(session.now());
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   return summary;
 }
@@ -313,6 +320,8 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
   } else if (!arguments.touches.empty() && keeps_journal(arguments)) {
     words = "--touch is for the virtual machine and emulated boards";
+  } else if (arguments.physics && keeps_journal(arguments)) {
+    words = "--physics is for the virtual machine and emulated boards; a real machine has its own";
   } else if (arguments.from_here && arguments.resume) {
     words = "--resume knows where the job began, so --from-here has no place beside it";
   }
@@ -344,7 +353,8 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
       run.outputs.commit(summary, session.program()->saved_parameters(), session.program()->tools(), machine_units);
   if (!written) return fail(exit_failed, written.error().message);
   print(summary, run.arguments);
-  return exit_done;
+  if (!summary.physics || !summary.physics->lost()) return exit_done;
+  return fail(exit_failed, "the motors lost steps: this part would be scrap [run.steps-lost]");
 }
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
@@ -441,9 +451,18 @@ int run(const RunArguments& arguments) {
   }
   if (!suits_the_board(arguments) || !files_are_apart(arguments, *options)) return exit_bad_program;
 
+  const auto has_physics = [](const AxisDescription& axis) { return motor_setup(axis).has_value(); };
+  if (arguments.physics && std::ranges::none_of(machine->axes, has_physics)) {
+    return fail(exit_bad_machine,
+                arguments.machine + ": --physics needs the motors: a table [axis.X.torque] of an axis");
+  }
   end_on_signals();
   return run_program(arguments, *machine,
-                     {.board = arguments.board, .cut = cut, .boxes = *boxes, .may_move = arguments.resume},
+                     {.board = arguments.board,
+                      .cut = cut,
+                      .boxes = *boxes,
+                      .physics = arguments.physics,
+                      .may_move = arguments.resume},
                      std::move(*program), std::move(*options), *changes);
 }
 

@@ -222,6 +222,26 @@ CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
       ->capture_default_str()
       ->group("Load");
 
+  option("--trial", arguments.trial, "KIND",
+         "tries the motor out with its physics: torque (pull-out and pull-in over the rate), step (the response to one "
+         "step), stop (steps at an even rate, without any ramp), resonance (the lag over the rate)")
+      ->check(CLI::IsMember({"torque", "step", "stop", "resonance"}))
+      ->group("Trials");
+  option("--excitation", arguments.excitation, "KIND", "two-on, wave, half-step or microsteps:N")
+      ->capture_default_str()
+      ->group("Trials");
+  option("--detent", arguments.detent, "NM", "torque of the motor without current, N·m")->group("Trials");
+  option("--damping", arguments.damping, "0...1", "of the rotor's ringing; 1 is critical")
+      ->capture_default_str()
+      ->group("Trials");
+  option("--rate", arguments.trial_rate, "HZ", "of step and stop, full steps/s")
+      ->capture_default_str()
+      ->group("Trials");
+  option("--steps", arguments.trial_steps, "N", "of stop, steps of the driver")->capture_default_str()->group("Trials");
+  option("--after", arguments.trial_after, "S", "how long step and stop go on after the last step")
+      ->capture_default_str()
+      ->group("Trials");
+
   option("--max-rate", arguments.max_rate, "HZ", "where table and picture end, full steps/s")->group("Output");
   option("--rows", arguments.rows, "N", "of the table")->capture_default_str()->group("Output");
   option("-p,--picture", arguments.pictures, "FILE", "draw the curves (FILE.svg or FILE.png), print no table")
