@@ -13,11 +13,11 @@ std::string PicoBench::missing(const std::string& program) {
   return pico ? std::string() : pico.error();
 }
 
-PicoBench::PicoBench(const std::string& program, std::uint8_t motors) : motors_(motors) {
-  auto pico = EmulatedPico::start(program);
+PicoBench::PicoBench(const std::string& program, std::uint8_t motors, PicoSocket socket) : motors_(motors) {
+  auto pico = EmulatedPico::start(program, socket);
   if (!pico) throw std::runtime_error(pico.error());
   pico_ = std::move(*pico);
-  run(pico_clock_rate / 1000);  // it starts
+  run(socket == PicoSocket::usb ? pico_clock_rate / 20 : pico_clock_rate / 1000);  // it starts, and USB is greeted
 }
 
 void PicoBench::run(std::uint64_t cycles, std::uint32_t watched, std::uint32_t rises) {

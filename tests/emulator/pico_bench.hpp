@@ -27,7 +27,7 @@ class PicoBench {
   // Why there is no emulator, if there is none; empty: there is.
   static std::string missing(const std::string& program);
 
-  PicoBench(const std::string& program, std::uint8_t motors);
+  PicoBench(const std::string& program, std::uint8_t motors, PicoSocket socket = PicoSocket::uart);
 
   using Item = std::variant<BoardSegment, BoardOutputs>;
   // Plays the items from rest to rest. Times in the result are in cycles.

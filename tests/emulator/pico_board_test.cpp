@@ -42,6 +42,19 @@ TEST_F(Pico, says_what_it_is) {
   EXPECT_EQ(bench.status()->inputs, 0);
 }
 
+// The host of src/emulator/pico/usb_host.js greets the device as Linux does, and looks at each packet's number.
+TEST_F(Pico, speaks_by_usb_as_by_its_uart) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, 3, PicoSocket::usb);
+  bench.start({});
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_EQ(bench.status()->motors, 3);
+  const StreamKind kind{.shortest_interval = 60, .longest_interval = 90, .shortest_segment = 100, .segments = 300};
+  expect_every_edge(bench.play(random_stream(random, 3, kind)));
+}
+
 TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
   std::mt19937_64 random(test::seed());
   for (const std::uint8_t motors : std::initializer_list<std::uint8_t>{1, 3, 6}) {

@@ -20,8 +20,12 @@ class PicoWiring {
       }
       if ((pins.switched() & bit) != 0) gpio_ctrl(gpio) = function_sio;
     }
-    gpio_ctrl(pins.line_out) = function_uart;
-    gpio_ctrl(pins.line_in) = function_uart;
+    if (pins.line_in != no_gpio) {
+      // A line that is not connected must not look like one that says something.
+      gpio_pad(pins.line_in) = pad_input | pad_4_ma | pad_pull_up | pad_schmitt;
+      gpio_ctrl(pins.line_out) = function_uart;
+      gpio_ctrl(pins.line_in) = function_uart;
+    }
     enable_motors(false);
     GpioEnableSet::write(pins.switched());
     // PWM of 7.8 kHz: 128 MHz / 64 / 256.

@@ -1,4 +1,5 @@
-// node emulated_pico.js FIRMWARE.uf2: an emulated Raspberry Pi Pico in lock-step with the program that started it.
+// node emulated_pico.js FIRMWARE.uf2 usb|uart: an emulated Raspberry Pi Pico in lock-step with the program that started
+// it, which speaks to it by its USB socket (usb_host.js) or by its UART.
 //
 // Time passes only while a request is answered. Requests come on the standard input, answers go to the standard output,
 // all numbers little-endian:
@@ -11,11 +12,12 @@
 //             then the bytes that the board said
 //
 // A cycle is one of the chip's 128 MHz. rp2040js runs the state machines of the PIO beside the program's time; here they
-// are stepped in it, a tick every eight cycles, as the firmware sets their clock. Bytes take ten bits at the line's rate
-// of 1 Mbaud.
+// are stepped in it, a tick every eight cycles, as the firmware sets their clock. Bytes of the UART take ten bits at the
+// line's rate of 1 Mbaud.
 'use strict';
 const fs = require('fs');
 const { RP2040 } = require('rp2040js');
+const { UsbHost } = require('./usb_host.js');
 
 const cyclesOfTick = 8;
 const cyclesOfByte = 10 * 128;
@@ -44,7 +46,7 @@ function boot(chip) {
 }
 
 class Board {
-  constructor(path) {
+  constructor(path, line) {
     const quiet = () => {};
     this.chip = new RP2040();
     this.chip.logger = { debug: quiet, info: quiet, warn: quiet, error: quiet };
@@ -73,8 +75,9 @@ class Board {
     }
     chip.uart[0].onByte = (byte) => {
       this.lineFree = Math.max(this.lineFree, this.cycle) + cyclesOfByte;
-      this.said.push({ byte, at: this.lineFree });
+      if (!this.usb) this.said.push({ byte, at: this.lineFree });
     };
+    this.usb = line === 'usb' ? new UsbHost(this) : null;
   }
 
   // Notes what the outputs are now.
@@ -128,7 +131,7 @@ class Board {
       clock.tick(cycles * nanosOfCycle);
       this.cycle += cycles;
       this.stepPio(pio, machine);
-      if (this.coming.length !== 0) this.feed();
+      if (this.coming.length !== 0 && !this.usb) this.feed();
       if (stopsAtByte && this.said.length !== 0 && this.said[0].at <= this.cycle) break;
     }
   }
@@ -138,7 +141,7 @@ class Board {
     const { clock } = this.chip;
     let until = end;
     if (clock.nextAlarm) until = Math.min(until, this.cycle + Math.ceil(clock.nanosToNextAlarm / nanosOfCycle));
-    if (this.coming.length !== 0) until = Math.min(until, this.nextByte);
+    if (this.coming.length !== 0 && !this.usb) until = Math.min(until, this.nextByte);
     if (stopsAtByte && this.said.length !== 0) until = Math.min(until, this.said[0].at);
     if (machine.enabled && !machine.waiting) {
       const counted = machine.pc === 2 ? machine.x : 0;
@@ -215,11 +218,12 @@ function answer(board) {
   writeFully(buffer);
 }
 
-const board = new Board(process.argv[2]);
+const board = new Board(process.argv[2], process.argv[3]);
 for (;;) {
   const request = readFully(readFully(4).readUInt32LE(0));
   if (board.coming.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);
   for (const byte of request.subarray(21)) board.coming.push(byte);
+  if (board.usb) board.usb.feed();
   board.setInputs(request.readUInt32LE(8));
   board.watched = request.readUInt32LE(12);
   board.rises = request.readUInt32LE(16);

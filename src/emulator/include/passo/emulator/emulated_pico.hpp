@@ -23,10 +23,14 @@ struct PicoChange {
   std::uint32_t levels = 0;
 };
 
+// Where the line is plugged in.
+enum class PicoSocket { usb, uart };
+
 class EmulatedPico {
  public:
   // `program`: a UF2 file. The error is a sentence with the reason.
-  static Result<std::unique_ptr<EmulatedPico>, std::string> start(const std::string& program);
+  static Result<std::unique_ptr<EmulatedPico>, std::string> start(const std::string& program,
+                                                                  PicoSocket socket = PicoSocket::usb);
   EmulatedPico(const EmulatedPico&) = delete;
   ~EmulatedPico();
 
