@@ -20,6 +20,7 @@ struct Hardware {
   void step(uint8_t, uint8_t) {}
   // All motion before is played.
   void outputs(const BoardOutputs& outputs) { PicoWiring::switch_outputs(outputs); }
+  static bool switch_off(uint8_t switches) { return PicoWiring::switch_off(switches); }
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() const { return line.room(); }
   void enable() { PicoWiring::enable_motors(true); }
@@ -68,18 +69,21 @@ void stop_at_once() {
   watch_input();
 }
 
-// True once in four milliseconds.
+// True once in so many microseconds.
+template <uint32_t microseconds>
 bool take_tick() {
   static uint32_t last = 0;
   const uint32_t now = TimerLow::read();
-  if (now - last < 4096) return false;
+  if (now - last < microseconds) return false;
   last = now;
   return true;
 }
 
 void look_at_inputs() {
-  const bool tick = take_tick();
+  const bool tick = take_tick<4'096>();
   if (PicoPlayer::halted()) return stop_at_once();
+  // A switch that was closed before the motion began has no edge that would tell the interrupt.
+  if (!board().idle() && PicoWiring::stops()) return stop_at_once();
   uint16_t raw = PicoWiring::inputs();
   const uint16_t watched = board().watched();
   const bool changed = PicoPlayer::captured();
@@ -107,8 +111,9 @@ void turn() {
   WatchdogLoad::write(2'000'000);  // a second; the chip counts each tick twice (errata RP2040-E1)
   line.poll();
   for (uint32_t taken = 0; line.has_byte() && taken < 16; ++taken) board().receive(line.take());
-  PicoPlayer::refill();
+  // Before the first events of a motion are on their way.
   look_at_inputs();
+  if (take_tick<100'000>()) board().count_silence();
   board().settle();
   PicoPlayer::end();
   PicoPlayer::refill();
@@ -120,7 +125,7 @@ constexpr uint32_t cycles_of_sleep = 32'000;
 void sleep_if_idle() {
   if (!PicoPlayer::is_ahead() || PicoPlayer::halted() || PicoPlayer::captured() || board().owes_report()) return;
   PicoLine::wake_on_news();
-  if (hardware.line.has_byte()) return;
+  if (hardware.line.has_byte() || UsbSerial::has_news()) return;
   asm volatile("wfi");
 }
 void start_sleep_timer() {

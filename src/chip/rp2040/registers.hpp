@@ -87,6 +87,7 @@ inline constexpr uint32_t pad_input = 1U << 6;
 inline constexpr uint32_t pad_schmitt = 1U << 1;
 inline constexpr uint32_t pad_4_ma = 1U << 4;
 using GpioIn = Register<0xd0000004>;
+using GpioOut = Register<0xd0000010>;
 using GpioOutSet = Register<0xd0000014>;
 using GpioOutClear = Register<0xd0000018>;
 using GpioEnableSet = Register<0xd0000024>;

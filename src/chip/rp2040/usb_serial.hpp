@@ -41,6 +41,9 @@ class UsbSerial {
   }
   // Lets the interrupt wake the loop.
   static void wake_on_news() { NvicEnable::write(1U << irq_usb); }
+  static bool has_news() {
+    return UsbBuffers::read() != 0 || (UsbSieStatus::read() & (usb_bus_reset | usb_setup_received)) != 0;
+  }
   static void interrupt() { NvicDisable::write(1U << irq_usb); }
 
   bool has_byte() const { return read_ < received_; }
