@@ -224,7 +224,7 @@ class AvrBoard final : public EmulatedBoard {
 
 Result<std::unique_ptr<EmulatedBoard>, std::string> EmulatedBoard::start(std::string_view kind,
                                                                          const std::string& program) {
-  if (kind == "pico") return start_pico_board(program);
+  if (is_pico(kind)) return start_pico_board(kind, program);
   try {
     return std::unique_ptr<EmulatedBoard>(std::make_unique<AvrBoard>(kind_named(kind), program));
   } catch (const std::runtime_error& error) {

@@ -56,19 +56,21 @@ bool read_all(int from, std::vector<std::uint8_t>& bytes) {
   return true;
 }
 
-[[noreturn]] void become_node(int in, int out, const std::string& program, PicoSocket socket) {
+[[noreturn]] void become_node(int in, int out, const std::string& program, const PicoPins& pins, PicoSocket socket) {
   ::dup2(in, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   // Ctrl-C in the terminal is for Passo, which brakes; the board must go on meanwhile.
   std::signal(SIGINT, SIG_IGN);
   const char* const line = socket == PicoSocket::usb ? "usb" : "uart";
-  ::execlp("node", "node", script, program.c_str(), line, static_cast<char*>(nullptr));
+  const std::string spindle = std::to_string(pins.spindle_pwm);
+  ::execlp("node", "node", script, program.c_str(), line, spindle.c_str(), static_cast<char*>(nullptr));
   ::_exit(127);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std::string& program, PicoSocket socket) {
+Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std::string& program, const PicoPins& pins,
+                                                                       PicoSocket socket) {
   if (!std::filesystem::exists(packages)) {
     return Failure<std::string>{
         std::string("the Pico's emulator is not installed: scripts/install.sh, or `npm ci` in ") + PASSO_EMULATED_PICO};
@@ -83,7 +85,7 @@ Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std
     return Failure<std::string>{reason};
   }
   const pid_t child = ::fork();
-  if (child == 0) become_node(to[1], from[1], program, socket);
+  if (child == 0) become_node(to[1], from[1], program, pins, socket);
   ::close(to[1]);
   ::close(from[1]);
   std::unique_ptr<EmulatedPico> pico(new EmulatedPico(child, to[0], from[0]));

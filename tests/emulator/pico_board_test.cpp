@@ -45,7 +45,7 @@ TEST_F(Pico, says_what_it_is) {
 // The host of src/emulator/pico/usb_host.js greets the device as Linux does, and looks at each packet's number.
 TEST_F(Pico, speaks_by_usb_as_by_its_uart) {
   std::mt19937_64 random(test::seed());
-  PicoBench bench(PASSO_MOTION_PICO, 3, PicoSocket::usb);
+  PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);
   bench.start({});
   bench.ask();
   bench.run(pico_clock_rate / 500);
@@ -69,6 +69,23 @@ TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
       expect_every_edge(bench.play(random_stream(random, motors, kind)));
     }
   }
+}
+
+// Eight motors take the pins of the UART.
+TEST_F(Pico, turns_eight_motors_at_a_million_events_a_second) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO_EIGHT, 8, pico_eight, PicoSocket::usb);
+  StreamKind kind{
+      .shortest_interval = 16, .longest_interval = 20, .shortest_segment = 200, .segments = 160, .ramp = 12};
+  const EdgeCheck check = bench.play(random_stream(random, 8, kind));
+  EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps, finished " << check.finished;
+  EXPECT_EQ(check.error, 0);
+  EXPECT_EQ(check.complaints, 0U);
+  EXPECT_GE(check.shortest_pulse, microsecond / 2 - pico_cycles_of_tick);
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_EQ(bench.status()->state & board_slipped, 0);
 }
 
 }  // namespace

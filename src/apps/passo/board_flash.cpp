@@ -113,7 +113,7 @@ int start(const std::vector<std::string>& words) {
 }  // namespace
 
 int board_flash(const BoardFlashArguments& arguments) {
-  if (arguments.board == "pico") return flash_by_copying(arguments);
+  if (is_pico(arguments.board)) return flash_by_copying(arguments);
   if (arguments.device.empty()) {
     return fail(exit_bad_program, "which serial line is the board at? As --device /dev/ttyACM0; see passo board list");
   }

@@ -15,16 +15,20 @@
 
 namespace passo::chip {
 
-inline constexpr auto& pins = pico_bare;
+// The image is for this board.
+#ifndef PASSO_PICO_PINS
+#error "PASSO_PICO_PINS: a pin map of pico_pins.hpp"
+#endif
+inline constexpr const PicoPins& pins = PASSO_PICO_PINS;
 
 // The words' bits for each set of motors.
 struct PicoPinTables {
   static constexpr uint32_t all = (1U << pins.motors) - 1;
-  uint16_t steps[all + 1] = {};
+  uint32_t steps[all + 1] = {};  // as they lie in a word
   uint16_t directions[all + 1] = {};
   constexpr PicoPinTables() {
     for (uint32_t set = 0; set <= all; ++set) {
-      steps[set] = pins.steps_of(static_cast<uint8_t>(set));
+      steps[set] = static_cast<uint32_t>(pins.steps_of(static_cast<uint8_t>(set))) << 16;
       directions[set] = pins.directions_of(static_cast<uint8_t>(set));
     }
   }
@@ -206,38 +210,70 @@ class PicoPlayer {
     pending_ = false;
   }
 
+  // All carries first, then the words: a million events a second leave 128 cycles for each.
   [[gnu::noinline]] static void make(uint32_t count) {
+    for (uint32_t i = 0; i < count; i += 4) carries_[i / 4] = 0;
+    // The last motors first: each carry goes in at the lowest bit.
+    for (uint32_t pair = (motors_ + 1U) / 2; pair-- > 0;) carry(2 * pair, count);
     const bool is_end = count == left_;
+    uint32_t fraction = fraction_;
     uint32_t interval = segment_.interval;
     const uint32_t change = static_cast<uint32_t>(segment_.change);
-    const uint32_t flips = segment_.flips;
-    const uint32_t pulse = pulse_;
-    for (; count != 0; --count) {
-      fraction_ += interval & 0xffff;
-      const uint32_t ticks = (interval >> 16) + (fraction_ >> 16);
-      fraction_ &= 0xffff;
+    const uint32_t flips = segment_.flips & PicoPinTables::all;
+    const uint32_t directions = static_cast<uint32_t>(direction_pins_) << 16;
+    const uint32_t fall = StepStream::word(pulse_, direction_pins_);
+    // The pins fell so many ticks after the event before, and a turn took its ticks.
+    uint32_t gone = fell_ + turned_ + StepStream::ticks_of_word;
+    const uint32_t gone_next = pulse_ + StepStream::ticks_of_word;
+    const uint8_t* carries = reinterpret_cast<const uint8_t*>(carries_);
+    const uint8_t* const end = carries + count;
+    StepStream::Cursor cursor;
+    while (carries != end) {
+      const uint32_t stepped = pin_tables.steps[(*carries++ ^ flips) & PicoPinTables::all];
+      fraction += interval & 0xffff;
+      const uint32_t ticks = (interval >> 16) + (fraction >> 16);
+      fraction &= 0xffff;
       interval += change;
-      uint32_t carries = 0;
-      for (uint32_t m = 0; m < pins.motors; ++m) {
-        const uint32_t after = accumulators_[m] + increments_[m];
-        if (after < accumulators_[m]) carries |= 1U << m;
-        accumulators_[m] = after;
-      }
-      const uint32_t stepped = pin_tables.steps[(carries ^ flips) & PicoPinTables::all];
-      // The pins fell `pulse_` ticks after the event before, and a turn took its ticks.
-      StepStream::push(ticks - fell_ - turned_, direction_pins_ | stepped);
-      turned_ = 0;
-      fell_ = pulse;
-      if (count != 1 || !is_end) StepStream::push(pulse, direction_pins_);
+      cursor.put((ticks - gone) | directions | stepped);
+      cursor.put(fall);
+      gone = gone_next;
     }
+    if (is_end) cursor.drop();
+    cursor.keep();
+    fraction_ = fraction;
     segment_.interval = interval;
+    turned_ = 0;
+    fell_ = pulse_;
+  }
+
+  // Adds the increments of two motors, `count` times, and shifts their carries into `carries_`.
+  static void carry(uint32_t motor, uint32_t count) {
+    uint32_t first = accumulators_[motor];
+    uint32_t second = accumulators_[motor + 1];
+    const uint32_t by_first = increments_[motor];
+    const uint32_t by_second = increments_[motor + 1];
+    uint8_t* at = reinterpret_cast<uint8_t*>(carries_);
+    uint8_t* const end = at + count;
+#pragma clang loop unroll_count(4)
+    for (; at != end; ++at) {
+      uint32_t bits = *at;
+      asm("adds %[second], %[by_second]\n adcs %[bits], %[bits]\n adds %[first], %[by_first]\n adcs %[bits], %[bits]"
+          : [first] "+l"(first), [second] "+l"(second), [bits] "+l"(bits)
+          : [by_first] "l"(by_first), [by_second] "l"(by_second)
+          : "cc");
+      *at = static_cast<uint8_t>(bits);
+    }
+    accumulators_[motor] = first;
+    accumulators_[motor + 1] = second;
   }
 
   static inline Segment segment_;
   static inline uint32_t left_ = 0;  // events of the loaded segment that are not made yet
   static inline uint8_t motors_ = 0;
-  static inline uint32_t accumulators_[pins.motors] = {};  // in the upper half, so that the carry is the processor's
-  static inline uint32_t increments_[pins.motors] = {};
+  // In the upper half, so that the carry is the processor's. One more, so that they are pairs.
+  static inline uint32_t accumulators_[pins.motors + 1] = {};
+  static inline uint32_t increments_[pins.motors + 1] = {};
+  static inline uint32_t carries_[most_at_once / 4] = {};  // bytes, of the events that are being made
   static inline uint32_t fraction_ = 0x8000;
   static inline uint32_t pulse_ = 0;
   static inline uint32_t fell_ = 0;    // how many ticks after the last event the pins fell

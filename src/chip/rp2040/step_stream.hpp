@@ -84,10 +84,26 @@ class StepStream {
   static uint32_t room() { return words - 1 - (head_ - played()); }
 
   // `ticks`: since the word before, four at least.
+  static constexpr uint32_t word(uint32_t ticks, uint32_t pins) { return (ticks - ticks_of_word) | pins << 16; }
   [[gnu::always_inline]] static void push(uint32_t ticks, uint32_t pins) {
-    ring_[head_ & (words - 1)] = (ticks - ticks_of_word) | pins << 16;
+    ring_[head_ & (words - 1)] = word(ticks, pins);
     head_ = head_ + 1;
   }
+  // Pushes many words. They count as pushed when they are kept.
+  class Cursor {
+   public:
+    [[gnu::always_inline]] void put(uint32_t word) {
+      ring_[place_] = word;
+      place_ = (place_ + 1) & (words - 1);
+      ++count_;
+    }
+    void drop() { --count_; }
+    void keep() { head_ = head_ + count_; }
+
+   private:
+    uint32_t place_ = head_ & (words - 1);
+    uint32_t count_ = 0;
+  };
   // Words that the pins will follow: all that were pushed, except for the last `kept_back` ones.
   static uint32_t published() { return published_; }
   static void publish(uint32_t kept_back = 0) {

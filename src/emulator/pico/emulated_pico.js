@@ -1,4 +1,4 @@
-// node emulated_pico.js FIRMWARE.uf2 usb|uart: an emulated Raspberry Pi Pico in lock-step with the program that started
+// node emulated_pico.js FIRMWARE.uf2 usb|uart SPINDLE_GPIO: an emulated Raspberry Pi Pico in lock-step with the program that started
 // it, which speaks to it by its USB socket (usb_host.js) or by its UART.
 //
 // Time passes only while a request is answered. Requests come on the standard input, answers go to the standard output,
@@ -46,7 +46,8 @@ function boot(chip) {
 }
 
 class Board {
-  constructor(path, line) {
+  constructor(path, line, spindle) {
+    this.spindle = spindle;
     const quiet = () => {};
     this.chip = new RP2040();
     this.chip.logger = { debug: quiet, info: quiet, warn: quiet, error: quiet };
@@ -178,8 +179,8 @@ class Board {
   }
 
   duty() {
-    const channel = this.chip.pwm.channels[7];
-    return (channel.cc >>> 16) / (channel.top + 1);
+    const channel = this.chip.pwm.channels[(this.spindle >> 1) & 7];
+    return ((this.spindle & 1 ? channel.cc >>> 16 : channel.cc) & 0xffff) / (channel.top + 1);
   }
 }
 
@@ -218,7 +219,7 @@ function answer(board) {
   writeFully(buffer);
 }
 
-const board = new Board(process.argv[2], process.argv[3]);
+const board = new Board(process.argv[2], process.argv[3], Number(process.argv[4]));
 for (;;) {
   const request = readFully(readFully(4).readUInt32LE(0));
   if (board.coming.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);

@@ -9,9 +9,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "passo/base/result.hpp"
+#include "passo/chip/pico_pins.hpp"
 
 namespace passo {
 
@@ -29,7 +31,7 @@ enum class PicoSocket { usb, uart };
 class EmulatedPico {
  public:
   // `program`: a UF2 file. The error is a sentence with the reason.
-  static Result<std::unique_ptr<EmulatedPico>, std::string> start(const std::string& program,
+  static Result<std::unique_ptr<EmulatedPico>, std::string> start(const std::string& program, const PicoPins& pins,
                                                                   PicoSocket socket = PicoSocket::usb);
   EmulatedPico(const EmulatedPico&) = delete;
   ~EmulatedPico();
@@ -77,7 +79,7 @@ class EmulatedPico {
   std::vector<std::uint8_t> said_;
 };
 
-// As EmulatedBoard::start() for the kind "pico".
-Result<std::unique_ptr<EmulatedBoard>, std::string> start_pico_board(const std::string& program);
+// As EmulatedBoard::start() for a kind that is one of pico_boards.
+Result<std::unique_ptr<EmulatedBoard>, std::string> start_pico_board(std::string_view kind, const std::string& program);
 
 }  // namespace passo
