@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* script = PASSO_EMULATED_PICO "/emulated_pico.js";
 constexpr const char* packages = PASSO_EMULATED_PICO "/node_modules/rp2040js";
+constexpr std::size_t request_head = 41;
 constexpr std::size_t change_size = 12;
 constexpr std::size_t answer_head = 12;
 constexpr std::size_t answer_tail = 12;
@@ -63,7 +64,10 @@ bool read_all(int from, std::vector<std::uint8_t>& bytes) {
   std::signal(SIGINT, SIG_IGN);
   const char* const line = socket == PicoSocket::usb ? "usb" : "uart";
   const std::string spindle = std::to_string(pins.spindle_pwm);
-  ::execlp("node", "node", script, program.c_str(), line, spindle.c_str(), static_cast<char*>(nullptr));
+  const std::string pulses = std::to_string(pins.encoder_pulses);
+  const std::string index = std::to_string(pins.encoder_index);
+  ::execlp("node", "node", script, program.c_str(), line, spindle.c_str(), pulses.c_str(), index.c_str(),
+           static_cast<char*>(nullptr));
   ::_exit(127);
 }
 
@@ -107,12 +111,15 @@ bool EmulatedPico::fail() {
 
 bool EmulatedPico::run(std::uint64_t cycle, const Stops& stops) {
   std::vector<std::uint8_t> request;
-  put(request, static_cast<std::uint32_t>(21 + to_send_.size()));
+  put(request, static_cast<std::uint32_t>(request_head + to_send_.size()));
   put(request, static_cast<double>(cycle));
   put(request, drawn_low_);
   put(request, stops.watched);
   put(request, stops.rises);
   request.push_back(stops.at_byte ? 1 : 0);
+  put(request, encoder_.from);
+  put(request, encoder_.to);
+  put(request, encoder_.pulses_per_turn);
   request.insert(request.end(), to_send_.begin(), to_send_.end());
   to_send_.clear();
   return (write_all(to_, request) && read_answer()) || fail();

@@ -1,6 +1,7 @@
 // The emulated Pico at the end of a serial line: EmulatedBoard for the kind "pico".
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -47,10 +48,11 @@ class PicoBoard final : public EmulatedBoard {
     const std::uint64_t end = pico_->cycle() + static_cast<std::uint64_t>(seconds * clock_rate);
     look_at_plant(elapsed());
     do {
+      const std::uint64_t until = turn_encoder(end);
       const std::int64_t events = plant_->events_to_next_change();
       const auto rises = static_cast<std::uint32_t>(
           events == Plant::never ? 0 : std::min<std::int64_t>(events, std::numeric_limits<std::int32_t>::max()));
-      if (!pico_->run(end, {.at_byte = said_.empty(), .watched = step_pins_, .rises = rises})) {
+      if (!pico_->run(until, {.at_byte = said_.empty(), .watched = step_pins_, .rises = rises})) {
         throw std::runtime_error(pico_->error());
       }
       follow();
@@ -72,6 +74,20 @@ class PicoBoard final : public EmulatedBoard {
   }
 
  private:
+  // The spindle's turns in a short time are even.
+  std::uint64_t turn_encoder(std::uint64_t end) {
+    const VirtualSpindle& spindle = plant_->spindle();
+    if (!pins_.has_encoder() || !spindle.has_encoder()) return end;
+    constexpr std::uint64_t short_time = 25'600;
+    const std::uint64_t until = std::min(end, pico_->cycle() + short_time);
+    const auto pulses_at = [&](std::uint64_t cycle) {
+      return std::abs(spindle.turns_at(time_of(cycle))) * spindle.counts_per_turn();
+    };
+    pico_->turn_encoder({.from = pulses_at(pico_->cycle()),
+                         .to = pulses_at(until),
+                         .pulses_per_turn = static_cast<std::uint32_t>(spindle.counts_per_turn())});
+    return until;
+  }
   static Seconds time_of(std::uint64_t cycle) { return Seconds(static_cast<double>(cycle) / clock_rate); }
 
   // Counts the steps of the last run, and looks how the spindle is commanded.

@@ -24,6 +24,8 @@ struct Hardware {
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() const { return line.room(); }
   void enable() { PicoWiring::enable_motors(true); }
+  static bool has_encoder() { return SpindleCounter::exists(); }
+  static SpindleCount spindle() { return SpindleCounter::count(); }
   void watch();
 
   PicoLine line;
@@ -114,6 +116,7 @@ void turn() {
   // Before the first events of a motion are on their way.
   look_at_inputs();
   if (take_tick<100'000>()) board().count_silence();
+  SpindleCounter::look();
   board().settle();
   PicoPlayer::end();
   PicoPlayer::refill();

@@ -3,6 +3,7 @@
 
 #include "pico_player.hpp"
 #include "registers.hpp"
+#include "spindle_counter.hpp"
 
 #include "passo/wire/message.hpp"
 
@@ -34,6 +35,7 @@ class PicoWiring {
     pwm(slice, pwm_cc) = 0;
     pwm(slice, pwm_csr) = 1;
     gpio_ctrl(pins.spindle_pwm) = function_pwm;
+    SpindleCounter::prepare();
   }
 
   static void enable_motors(bool on) { set(pins.enable, !on); }
@@ -80,6 +82,7 @@ class PicoWiring {
     for (uint32_t i = 0; i < pico_limits; ++i) listen(pins.limits[i], input_limit << i, stopping, watched, closed);
     listen(pins.emergency_stop, input_emergency_stop, stopping, watched, closed);
     listen(pins.probe, input_probe, stopping, watched, closed);
+    SpindleCounter::listen();
     interrupts_on();
   }
   // Whether a pin that stops is closed, since whenever.
@@ -89,6 +92,7 @@ class PicoWiring {
     const uint32_t low = ~GpioIn::read();
     if ((low & stops_) != 0 && !StepStream::dry()) PicoPlayer::halt();
     if (watched_ != 0 && ((low & watched_) != 0) != was_closed_) PicoPlayer::capture();
+    SpindleCounter::index_moved();
     forget_edges();
   }
 

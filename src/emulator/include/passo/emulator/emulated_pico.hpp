@@ -42,6 +42,14 @@ class EmulatedPico {
     std::uint32_t watched = 0;  // bits of GPIOs
     std::uint32_t rises = 0;    // after so many moments in which some of these rose; 0: never
   };
+  // What the encoder at the spindle does in the next run(): it turns evenly to so many pulses in all, of so many a
+  // turn.
+  struct EncoderWay {
+    double from = 0;
+    double to = 0;
+    std::uint32_t pulses_per_turn = 0;  // 0: there is none
+  };
+  void turn_encoder(const EncoderWay& way) { encoder_ = way; }
   // Runs until `cycle`. False if the emulator has died; then error() tells it.
   bool run(std::uint64_t cycle, const Stops& stops);
   const std::string& error() const { return error_; }
@@ -72,6 +80,7 @@ class EmulatedPico {
   std::uint64_t cycle_ = 0;
   std::uint32_t levels_ = 0;
   std::uint32_t drawn_low_ = 0;
+  EncoderWay encoder_;
   std::uint64_t lost_bytes_ = 0;
   double duty_ = 0;
   std::vector<std::uint8_t> to_send_;
