@@ -55,6 +55,29 @@ TEST_F(Pico, speaks_by_usb_as_by_its_uart) {
   expect_every_edge(bench.play(random_stream(random, 3, kind)));
 }
 
+// Segments of five events a million times a second: no step is lost, but the board cannot make them in time.
+TEST_F(Pico, tells_when_its_events_come_too_late) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);
+  const auto slipped_after = [&](std::uint8_t events) {
+    const EdgeCheck check = bench.play(random_stream(random, 3,
+                                                     {.shortest_interval = 16,
+                                                      .longest_interval = 16,
+                                                      .shortest_segment = events,
+                                                      .longest_segment = events,
+                                                      .segments = 240,
+                                                      .ramp = 12}));
+    EXPECT_TRUE(check.finished);
+    EXPECT_EQ(check.wrong_count, 0U);
+    EXPECT_EQ(check.wrong_direction, 0U);
+    bench.ask();
+    bench.run(pico_clock_rate / 500);
+    return bench.status() && (bench.status()->state & board_slipped) != 0;
+  };
+  EXPECT_TRUE(slipped_after(5));
+  EXPECT_FALSE(slipped_after(200)) << "a hello begins anew";
+}
+
 TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
   std::mt19937_64 random(test::seed());
   for (const std::uint8_t motors : std::initializer_list<std::uint8_t>{1, 3, 6}) {
@@ -71,12 +94,12 @@ TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
   }
 }
 
-// Eight motors take the pins of the UART.
+// More segments than the list holds, so that the line must keep up, too. Eight motors take the pins of the UART.
 TEST_F(Pico, turns_eight_motors_at_a_million_events_a_second) {
   std::mt19937_64 random(test::seed());
   PicoBench bench(PASSO_MOTION_PICO_EIGHT, 8, pico_eight, PicoSocket::usb);
   StreamKind kind{
-      .shortest_interval = 16, .longest_interval = 20, .shortest_segment = 200, .segments = 160, .ramp = 12};
+      .shortest_interval = 16, .longest_interval = 20, .shortest_segment = 120, .segments = 400, .ramp = 12};
   const EdgeCheck check = bench.play(random_stream(random, 8, kind));
   EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps, finished " << check.finished;
   EXPECT_EQ(check.error, 0);

@@ -35,6 +35,21 @@ struct PicoPinTables {
 };
 inline constexpr PicoPinTables pin_tables;
 
+// What put_words.S does: so many events, from `carries` to `end`. It changes fraction and interval.
+struct WordJob {
+  uint32_t change;
+  uint32_t offset;
+  uint32_t fall;
+  const uint8_t* end;
+  uint32_t* to;
+  uint32_t fraction;
+  uint32_t interval;
+  const uint32_t* table;
+  uint32_t flips;
+  const uint8_t* carries;
+};
+extern "C" void passo_put_words(WordJob* job);
+
 class PicoPlayer {
  public:
   using Segment = SegmentFor<pins.motors>;
@@ -46,7 +61,8 @@ class PicoPlayer {
     StepStream::restart(direction_pins_);
     motors_ = motors;
     begun_ = finished_ = left_ = 0;
-    slipped_ = fresh_ = pending_ = false;
+    slipped_ = pending_ = whole_ = false;
+    rest_ = 0;
     armed_ = false;
     captured_ = false;
     halted_ = false;
@@ -60,9 +76,10 @@ class PicoPlayer {
   static bool done() { return left_ == 0 && StepStream::dry(); }
 
   static void load(const Segment& segment) {
-    fresh_ = StepStream::dry();
     if (pending_) end_pulse(segment.interval >> 17);
+    const bool rests = StepStream::dry();
     StepStream::publish();
+    if (rests) rest_ = StepStream::published();
     segment_ = segment;
     left_ = segment.events;
     for (uint32_t m = 0; m < pins.motors; ++m) {
@@ -102,9 +119,11 @@ class PicoPlayer {
     if (begun_ == finished_) return false;
     const Item& item = items_[finished_ % most_begun];
     const uint32_t words = item.events == 0 ? 0 : 2U * item.events - 1;
-    return static_cast<int32_t>(words_played() - item.first - words) >= 0;
+    whole_ = static_cast<int32_t>(words_played() - item.first - words) >= 0;
+    return whole_;
   }
   static void forget() {
+    whole_ = false;
     const Item& item = items_[finished_++ % most_begun];
     for (uint32_t m = 0; m < pins.motors; ++m) {
       at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
@@ -123,7 +142,7 @@ class PicoPlayer {
     if (motor >= motors_) return 0;
     const Item& item = items_[finished_ % most_begun];
     const uint32_t bit = 1U << motor;
-    const uint32_t events = played();
+    const uint32_t events = whole_ ? item.events : played();
     const int32_t carries = static_cast<int32_t>((at_start_[motor] + item.increments[motor] * events) >> 16);
     const int32_t steps = (item.flips & bit) != 0 ? static_cast<int32_t>(events) - carries : carries;
     return static_cast<int16_t>((item.directions & bit) != 0 ? -steps : steps);
@@ -143,13 +162,12 @@ class PicoPlayer {
     const uint32_t played = StepStream::played();
     const uint32_t ahead = (StepStream::pushed() - played) / 2;
     if (ahead >= most_ahead_) return;
-    if (played == StepStream::published() && !fresh_) slipped_ = true;
+    look_for_slip(played);
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
     make(count);
     left_ -= count;
-    fresh_ = false;
     pending_ = left_ == 0;
     StepStream::publish(pending_ ? 1 : 0);
   }
@@ -184,7 +202,7 @@ class PicoPlayer {
 
  private:
   static constexpr uint32_t most_begun = 32;
-  static constexpr uint32_t most_at_once = 48;
+  static constexpr uint32_t most_at_once = 128;
   static constexpr uint32_t ticks_ahead = 32'768;
   static constexpr uint32_t most_events_ahead = 2'048;
   static constexpr uint32_t longest_pulse = 32;  // ticks: 2 microseconds, enough for every driver
@@ -203,8 +221,15 @@ class PicoPlayer {
     return captured_ ? captured_at_ : played;
   }
 
-  // The pins fall after the last event of a segment. How soon they must depends on the next one.
+  // All that was published is played, and more belongs to the same motion: it comes too late.
+  static void look_for_slip(uint32_t played) {
+    if (played == StepStream::published() && played != rest_) slipped_ = true;
+  }
+
+  // The pins fall after the last event of a segment. How soon they must depends on the next one. Until then the event
+  // itself is kept back.
   static void end_pulse(uint32_t most) {
+    look_for_slip(StepStream::played());
     fell_ = most < longest_pulse ? most : longest_pulse;
     StepStream::push(fell_, direction_pins_);
     pending_ = false;
@@ -215,33 +240,33 @@ class PicoPlayer {
     for (uint32_t i = 0; i < count; i += 4) carries_[i / 4] = 0;
     // The last motors first: each carry goes in at the lowest bit.
     for (uint32_t pair = (motors_ + 1U) / 2; pair-- > 0;) carry(2 * pair, count);
-    const bool is_end = count == left_;
-    uint32_t fraction = fraction_;
-    uint32_t interval = segment_.interval;
-    const uint32_t change = static_cast<uint32_t>(segment_.change);
-    const uint32_t flips = segment_.flips & PicoPinTables::all;
+    const uint8_t* carries = reinterpret_cast<const uint8_t*>(carries_);
     const uint32_t directions = static_cast<uint32_t>(direction_pins_) << 16;
     const uint32_t fall = StepStream::word(pulse_, direction_pins_);
     // The pins fell so many ticks after the event before, and a turn took its ticks.
-    uint32_t gone = fell_ + turned_ + StepStream::ticks_of_word;
-    const uint32_t gone_next = pulse_ + StepStream::ticks_of_word;
-    const uint8_t* carries = reinterpret_cast<const uint8_t*>(carries_);
-    const uint8_t* const end = carries + count;
-    StepStream::Cursor cursor;
-    while (carries != end) {
-      const uint32_t stepped = pin_tables.steps[(*carries++ ^ flips) & PicoPinTables::all];
-      fraction += interval & 0xffff;
-      const uint32_t ticks = (interval >> 16) + (fraction >> 16);
-      fraction &= 0xffff;
-      interval += change;
-      cursor.put((ticks - gone) | directions | stepped);
-      cursor.put(fall);
-      gone = gone_next;
+    uint32_t gone = fell_ + turned_;
+    for (uint32_t done = 0; done < count;) {
+      // A run ends where the ring does. The first event is a run of its own.
+      uint32_t run = done == 0 ? 1 : count - done;
+      uint32_t* const to = StepStream::space(run);
+      WordJob job{.change = static_cast<uint32_t>(segment_.change),
+                  .offset = directions - gone - StepStream::ticks_of_word,
+                  .fall = fall,
+                  .end = carries + done + run,
+                  .to = to,
+                  .fraction = fraction_,
+                  .interval = segment_.interval,
+                  .table = pin_tables.steps,
+                  .flips = segment_.flips & PicoPinTables::all,
+                  .carries = carries + done};
+      passo_put_words(&job);
+      fraction_ = job.fraction;
+      segment_.interval = job.interval;
+      StepStream::keep(run);
+      done += run;
+      gone = pulse_;
     }
-    if (is_end) cursor.drop();
-    cursor.keep();
-    fraction_ = fraction;
-    segment_.interval = interval;
+    if (count == left_) StepStream::drop();
     turned_ = 0;
     fell_ = pulse_;
   }
@@ -281,11 +306,12 @@ class PicoPlayer {
   static inline uint32_t most_ahead_ = 0;
   static inline bool pending_ = false;  // the last event's pulse has no end yet
   static inline uint16_t direction_pins_ = 0;
-  static inline bool fresh_ = false;  // the motion begins from rest
+  static inline uint32_t rest_ = 0;  // words that were published when the motors last stood
   static inline bool slipped_ = false;
   static inline Item items_[most_begun];
   static inline uint32_t begun_ = 0;  // items ever begun
   static inline uint32_t finished_ = 0;
+  static inline bool whole_ = false;                   // the oldest item is done, and not forgotten yet
   static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
   static inline volatile bool armed_ = false;
   static inline volatile bool captured_ = false;

@@ -205,7 +205,9 @@ class UsbSerial {
     switch (request_) {
       case Request::set_line_coding: return give(0, false, second | usb_packet);
       case Request::get_line_coding: return answer(line_coding_, line_coding_size);
-      case Request::set_line_state: return acknowledge();
+      case Request::set_line_state:
+        tail_ = head_;  // whoever opens the line wants nothing that was said to somebody else
+        return acknowledge();
       default: refuse();
     }
   }
