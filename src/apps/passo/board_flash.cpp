@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "passo/base/result.hpp"
+#include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
 namespace {
