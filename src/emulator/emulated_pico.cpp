@@ -19,6 +19,8 @@ namespace {
 constexpr const char* script = PASSO_EMULATED_PICO "/emulated_pico.js";
 constexpr const char* packages = PASSO_EMULATED_PICO "/node_modules/rp2040js";
 constexpr std::size_t request_head = 41;
+constexpr std::uint8_t stop_at_byte = 1;
+constexpr std::uint8_t to_uart = 2;
 constexpr std::size_t change_size = 12;
 constexpr std::size_t answer_head = 12;
 constexpr std::size_t answer_tail = 12;
@@ -110,18 +112,27 @@ bool EmulatedPico::fail() {
 }
 
 bool EmulatedPico::run(std::uint64_t cycle, const Stops& stops) {
+  const std::vector<std::uint8_t> bytes = std::exchange(to_send_, {});
+  return request(cycle, stops, stops.at_byte ? stop_at_byte : std::uint8_t{0}, bytes);
+}
+
+bool EmulatedPico::send_by_uart(std::span<const std::uint8_t> bytes) {
+  return request(cycle_, {}, to_uart, bytes);
+}
+
+bool EmulatedPico::request(std::uint64_t cycle, const Stops& stops, std::uint8_t flags,
+                           std::span<const std::uint8_t> bytes) {
   std::vector<std::uint8_t> request;
-  put(request, static_cast<std::uint32_t>(request_head + to_send_.size()));
+  put(request, static_cast<std::uint32_t>(request_head + bytes.size()));
   put(request, static_cast<double>(cycle));
   put(request, drawn_low_);
   put(request, stops.watched);
   put(request, stops.rises);
-  request.push_back(stops.at_byte ? 1 : 0);
+  request.push_back(flags);
   put(request, encoder_.from);
   put(request, encoder_.to);
   put(request, encoder_.pulses_per_turn);
-  request.insert(request.end(), to_send_.begin(), to_send_.end());
-  to_send_.clear();
+  request.insert(request.end(), bytes.begin(), bytes.end());
   return (write_all(to_, request) && read_answer()) || fail();
 }
 

@@ -55,6 +55,24 @@ TEST_F(Pico, speaks_by_usb_as_by_its_uart) {
   expect_every_edge(bench.play(random_stream(random, 3, kind)));
 }
 
+TEST_F(Pico, leaves_the_line_to_who_spoke_first_until_he_is_silent) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);
+  const StreamKind kind{.shortest_interval = 60, .longest_interval = 90, .shortest_segment = 100, .segments = 20};
+  expect_every_edge(bench.play(random_stream(random, 3, kind)));
+  std::uint8_t question[largest_frame];
+  const std::uint8_t size = encode(Ask{.motors = 3}, 0, question);
+  const auto is_answered = [&] {
+    EXPECT_TRUE(bench.pico().send_by_uart({question, size}));
+    bench.run(pico_clock_rate / 100);
+    return bench.status().has_value();
+  };
+  EXPECT_FALSE(is_answered());
+  expect_every_edge(bench.play(random_stream(random, 3, kind)));
+  bench.run(2 * pico_clock_rate);
+  EXPECT_TRUE(is_answered());
+}
+
 // Segments of five events a million times a second: no step is lost, but the board cannot make them in time.
 TEST_F(Pico, tells_when_its_events_come_too_late) {
   std::mt19937_64 random(test::seed());

@@ -5,7 +5,8 @@
 // all numbers little-endian:
 //
 //   request   u32 size of what follows; f64 the cycle until which to run; u32 pins that are drawn low; u32 pins to watch;
-//             u32 after how many rises of these to stop, or 0; u8 1: stop when the board has said a byte; f64
+//             u32 after how many rises of these to stop, or 0; u8 1: stop when the board has said a byte, 2: the
+//             bytes are for the UART, whatever is plugged in; f64
 //             pulses of the spindle's encoder now and f64 at that cycle, u32 pulses a turn, or 0; the bytes for the line
 //   answer    u32 size of what follows; f64 the cycle reached; u32 number of changes, for each f64 cycle, u32 levels
 //             of the outputs; f64 length of the spindle's pulse as a part of its period; u32 bytes lost in the UART;
@@ -63,7 +64,8 @@ class Board {
     this.tick = 0;
     this.levels = 0;
     this.changes = [];
-    this.coming = [];
+    this.coming = []; // by USB
+    this.comingByUart = [];
     this.nextByte = 0;
     this.said = [];
     this.lineFree = 0;
@@ -80,7 +82,7 @@ class Board {
     }
     chip.uart[0].onByte = (byte) => {
       this.lineFree = Math.max(this.lineFree, this.cycle) + cyclesOfByte;
-      if (!this.usb) this.said.push({ byte, at: this.lineFree });
+      this.said.push({ byte, at: this.lineFree });
     };
     // rp2040js lets no pin count, and takes the pins of other functions for the slice's.
     const { pwm } = chip;
@@ -142,9 +144,9 @@ class Board {
     const uart = this.chip.uart[0];
     if (uart.rxFIFO.full) {
       ++this.lost;
-      this.coming.shift();
+      this.comingByUart.shift();
     } else {
-      uart.feedByte(this.coming.shift());
+      uart.feedByte(this.comingByUart.shift());
     }
     this.nextByte = this.cycle + cyclesOfByte;
   }
@@ -162,7 +164,7 @@ class Board {
       clock.tick(cycles * nanosOfCycle);
       this.cycle += cycles;
       this.stepPio(pio, machine);
-      if (this.coming.length !== 0 && !this.usb) this.feed();
+      if (this.comingByUart.length !== 0) this.feed();
       while (this.encoder.next <= this.cycle) this.turnEncoder();
       if (stopsAtByte && this.said.length !== 0 && this.said[0].at <= this.cycle) break;
     }
@@ -173,7 +175,7 @@ class Board {
     const { clock } = this.chip;
     let until = end;
     if (clock.nextAlarm) until = Math.min(until, this.cycle + Math.ceil(clock.nanosToNextAlarm / nanosOfCycle));
-    if (this.coming.length !== 0 && !this.usb) until = Math.min(until, this.nextByte);
+    if (this.comingByUart.length !== 0) until = Math.min(until, this.nextByte);
     until = Math.min(until, Math.ceil(this.encoder.next));
     if (stopsAtByte && this.said.length !== 0) until = Math.min(until, this.said[0].at);
     if (machine.enabled && !machine.waiting) {
@@ -254,14 +256,15 @@ function answer(board) {
 const board = new Board(process.argv[2], process.argv[3], ...process.argv.slice(4).map(Number));
 for (;;) {
   const request = readFully(readFully(4).readUInt32LE(0));
-  if (board.coming.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);
-  for (const byte of request.subarray(41)) board.coming.push(byte);
+  const byUart = !board.usb || (request[20] & 2) !== 0;
+  if (board.comingByUart.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);
+  for (const byte of request.subarray(41)) (byUart ? board.comingByUart : board.coming).push(byte);
   if (board.usb) board.usb.feed();
   board.setInputs(request.readUInt32LE(8));
   board.watched = request.readUInt32LE(12);
   board.rises = request.readUInt32LE(16);
   const end = request.readDoubleLE(0);
   board.turnEvenly(request.readDoubleLE(21), request.readDoubleLE(29), request.readUInt32LE(37), end);
-  board.run(end, request[20] !== 0);
+  board.run(end, (request[20] & 1) !== 0);
   answer(board);
 }

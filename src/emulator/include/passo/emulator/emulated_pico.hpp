@@ -56,6 +56,8 @@ class EmulatedPico {
 
   // Puts bytes on the line; they arrive one after the other while it runs.
   void send(std::span<const std::uint8_t> bytes);
+  // Puts them on the UART, even if the line is USB.
+  bool send_by_uart(std::span<const std::uint8_t> bytes);
   // Connects these pins to ground, and no others. A bit for each GPIO.
   void draw_low(std::uint32_t inputs) { drawn_low_ = inputs; }
 
@@ -71,6 +73,7 @@ class EmulatedPico {
  private:
   EmulatedPico(int process, int to, int from) : process_(process), to_(to), from_(from) {}
   bool fail();
+  bool request(std::uint64_t cycle, const Stops& stops, std::uint8_t flags, std::span<const std::uint8_t> bytes);
   bool read_answer();
 
   int process_;
