@@ -79,7 +79,10 @@ class PicoPlayer {
     if (pending_) end_pulse(segment.interval >> 17);
     const bool rests = StepStream::dry();
     StepStream::publish();
-    if (rests) rest_ = StepStream::published();
+    if (rests) {
+      rest_ = StepStream::published();
+      fell_ = 0;  // long ago
+    }
     segment_ = segment;
     left_ = segment.events;
     for (uint32_t m = 0; m < pins.motors; ++m) {
@@ -245,6 +248,9 @@ class PicoPlayer {
     const uint32_t fall = StepStream::word(pulse_, direction_pins_);
     // The pins fell so many ticks after the event before, and a turn took its ticks.
     uint32_t gone = fell_ + turned_;
+    // A new motion may begin sooner than the long pulse at the end of the one before allows. Then it begins later.
+    const uint32_t first = (segment_.interval >> 16) + (((segment_.interval & 0xffff) + fraction_) >> 16);
+    if (gone + StepStream::ticks_of_word > first) gone = first - StepStream::ticks_of_word;
     for (uint32_t done = 0; done < count;) {
       // A run ends where the ring does. The first event is a run of its own.
       uint32_t run = done == 0 ? 1 : count - done;
