@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -165,6 +166,25 @@ class Text {
     }
   }
 
+  void physics(const PhysicsSummary& physics) {
+    heading("Motors", fmt::format("{}; margin is the share of the torque that was left, at the worst", unit()));
+    out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>10}{:>8}{:>12}\n", "", "steps lost", "off by", "following",
+                        "margin", "line", "truly at");
+    for (const PhysicsSummary::Motor& motor : physics.motors) {
+      out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>8.0f} %{:>8}{:>12}\n", letter_of(motor.axis),
+                          grouped(motor.lost_steps), place(motor.lost, motor.axis),
+                          place(motor.following_error, motor.axis), 100 * motor.least_margin, motor.line,
+                          place(motor.position, motor.axis));
+    }
+    constexpr std::size_t shown = 10;
+    for (std::size_t i = 0; i < std::min(shown, physics.losses.size()); ++i) {
+      const PhysicsSummary::Loss& loss = physics.losses[i];
+      out_ += fmt::format("  at {:.3f} s, line {}: {} lost {} steps\n", loss.time.value(), loss.line,
+                          letter_of(loss.axis), loss.steps);
+    }
+    if (physics.losses.size() > shown) out_ += fmt::format("  and {} more times\n", physics.losses.size() - shown);
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -246,6 +266,10 @@ std::string name_of_system(std::uint8_t system) {
   return system <= last_whole ? fmt::format("G{}", first + system) : fmt::format("G59.{}", system - last_whole);
 }
 
+bool PhysicsSummary::lost() const {
+  return !losses.empty();
+}
+
 std::string to_text(const RunSummary& summary, bool colour) {
   Text text(colour, summary.units);
   text.title(summary);
@@ -258,6 +282,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   if (!summary.holds.empty()) text.holds(summary);
   if (summary.probes) text.probes(summary, *summary.probes);
   if (!summary.tails.empty()) text.tails(summary);
+  if (summary.physics) text.physics(*summary.physics);
   return text.take();
 }
 

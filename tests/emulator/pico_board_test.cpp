@@ -63,7 +63,7 @@ TEST_F(Pico, leaves_the_line_to_who_spoke_first_until_he_is_silent) {
   std::uint8_t question[largest_frame];
   const std::uint8_t size = encode(Ask{.motors = 3}, 0, question);
   const auto is_answered = [&] {
-    EXPECT_TRUE(bench.pico().send_by_uart({question, size}));
+    EXPECT_TRUE(bench.pico().send_by_other_line({question, size}));
     bench.run(pico_clock_rate / 100);
     return bench.status().has_value();
   };
