@@ -213,7 +213,7 @@ class AvrBoard final : public EmulatedBoard {
 
 Result<std::unique_ptr<EmulatedBoard>, std::string> EmulatedBoard::start(std::string_view kind,
                                                                          const std::string& program) {
-  if (kind == "pico") return start_pico_board(program);
+  if (is_pico(kind)) return start_pico_board(kind, program);
   auto emulator = avr_emulator();
   if (!emulator) return Failure{emulator.error()};
   try {

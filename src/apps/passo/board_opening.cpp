@@ -41,7 +41,7 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
   if (!is_emulated_board(address.place)) {
     return Failure{fmt::format("sim:{}: there is an emulator of {}", address.place, fmt::join(emulated_boards, ", "))};
   }
-  const fs::path image = built_image(address.place, address.place == "pico" ? ".uf2" : ".elf");
+  const fs::path image = built_image(address.place, is_pico(address.place) ? ".uf2" : ".elf");
   if (!fs::exists(image)) return Failure{message_of_missing(image)};
   auto board = EmulatedBoard::start(address.place, image);
   if (!board) return Failure{board.error()};

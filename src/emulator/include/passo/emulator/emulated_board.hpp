@@ -40,8 +40,13 @@ class EmulatedBoard : public BoardPort {
 };
 
 // All kinds of emulated boards: with drivers for step and direction, and with the windings on the board's own pins.
-inline constexpr std::array<std::string_view, 9> emulated_boards = {
-    "uno", "uno_two_on", "uno_wave", "uno_half_step", "mega", "mega_two_on", "mega_wave", "mega_half_step", "pico"};
+inline constexpr std::array<std::string_view, 12> emulated_boards = {
+    "uno",       "uno_two_on",     "uno_wave", "uno_half_step", "mega",       "mega_two_on",
+    "mega_wave", "mega_half_step", "pico",     "pico_lathe",    "pico_eight", "picobob"};
+// Whether it is a Pico, whose image is a UF2 file.
+constexpr bool is_pico(std::string_view kind) {
+  return kind.starts_with("pico");
+}
 constexpr bool is_emulated_board(std::string_view kind) {
   for (const std::string_view one : emulated_boards) {
     if (one == kind) return true;
