@@ -31,9 +31,11 @@ constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
 constexpr double most_reversal = 0.7;
 // With limits of jerk it swings then too, up to this change of the tangent. By trial.
 constexpr double too_sharp = 1.8;
-// It does not where the feeds before and after differ by more than this factor: the slower feed is the speed there, and
-// a swing would only be a way more at that speed.
+// A sharp corner to or from a slow feed (mm/s), where the feeds differ by more than this factor, does not swing: the
+// slow feed is the speed there, and a swing would only be a way more at that speed. By trial.
 constexpr double most_change_of_feed = 1.5;
+constexpr MmPerSecond slow_feed{10};
+constexpr double sharp_from = 1;
 // Knots for swinging are too far apart if none has room and the nodes are this share of a width apart.
 constexpr double too_far = 0.7;
 // How soon the weight of the bend falls, for no reversal; how it depends on the reversal; and the most. By trial.
@@ -113,9 +115,9 @@ const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const 
   const double turn = distance(before.last_tangent, after.first_tangent);
   const bool goes_to_and_fro = reversal(before, after) >= most_reversal && (!bends_slowly_ || turn >= too_sharp);
   const auto [slower, faster] = std::minmax(before.segment.speed, after.segment.speed);
-  const bool changes_feed = faster > slower * most_change_of_feed;
+  const bool meets_slow_feed = turn >= sharp_from && slower <= slow_feed && faster > slower * most_change_of_feed;
   const bool swings =
-      before.is_line() && after.is_line() && !follows_spindle(before, after) && !goes_to_and_fro && !changes_feed;
+      before.is_line() && after.is_line() && !follows_spindle(before, after) && !goes_to_and_fro && !meets_slow_feed;
   if (bends_slowly_ && swings) return turn < gentle_below ? swinging_gently : swinging_slowly;
   if (bends_slowly_) return slow_bending;
   return swings ? swinging : inside;

@@ -103,8 +103,8 @@ TEST_F(PathSmootherTest, a_corner_swings_to_the_outer_side_unless_an_axis_goes_b
   EXPECT_LT(above, 10);
 }
 
-// The corner is passed at the slower feed, where a swing would only be a way more.
-TEST_F(PathSmootherTest, a_corner_where_the_feed_changes_much_does_not_swing) {
+// The corner is passed at the slow feed, where a swing would only be a way more.
+TEST_F(PathSmootherTest, a_corner_to_a_slow_feed_does_not_swing) {
   go(10, 0);
   go(10, 10).speed = MmPerSecond(5);
   for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
