@@ -1,6 +1,9 @@
 #include "passo/activity/machine_plant.hpp"
 
 #include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
 
 #include "passo/activity/stage_options.hpp"
 
@@ -32,13 +35,56 @@ SpindleModel spindle_model(const SpindleDescription& spindle) {
           .ripple_rate = spindle.ripple_rate.value()};
 }
 
-IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at, const std::vector<TouchBox>& boxes) {
-  IdealPlant plant;
+void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
+         const std::vector<TouchBox>& boxes) {
   plant.stand_at(steps_at(machine, stands_at));
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
   for (const TouchBox& box : boxes) plant.add(touch_body(box, machine));
+}
+
+IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at, const std::vector<TouchBox>& boxes) {
+  IdealPlant plant;
+  fit(plant, machine, stands_at, boxes);
   return plant;
+}
+
+namespace {
+
+// Two phases on for full steps, and sines for all others.
+Result<Excitation, std::string> excitation_of(const AxisDescription& axis) {
+  const Rotor& rotor = axis.motor->curve.rotor();
+  const double steps_per_turn = axis.steps_per_unit * 2 * std::numbers::pi / axis.motor->radians_per_unit;
+  const double parts = steps_per_turn / rotor.steps_per_revolution;
+  const long whole = std::lround(parts);
+  if (whole < 1 || std::abs(parts - static_cast<double>(whole)) > 1e-6 * parts) {
+    return Failure{fmt::format("{:g} steps of the driver to a full step", parts)};
+  }
+  return Excitation::named(whole == 1 ? "two-on" : fmt::format("microsteps:{}", whole));
+}
+
+}  // namespace
+
+std::optional<MotorSetup> motor_setup(const AxisDescription& axis) {
+  if (!axis.motor) return std::nullopt;
+  const AxisMotor& motor = *axis.motor;
+  const auto excitation = excitation_of(axis);
+  if (!excitation) return std::nullopt;
+  MotorSetup setup = measured_setup(motor.curve, *excitation);
+  if (motor.driven) {
+    setup = {.motor = motor.driven->data, .drive = motor.driven->drive, .excitation = *excitation};
+    setup.damping = damping_of(motor.driven->data);
+  }
+  setup.load = motor.load;
+  setup.detent = motor.detent;
+  setup.weight = {axis.inverted ? -motor.weight.value : motor.weight.value};
+  return setup;
+}
+
+void fit_rotors(RotorPlant& plant, const MachineDescription& machine) {
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    if (const auto setup = motor_setup(machine.axes[m])) plant.fit_motor(m, *setup);
+  }
 }
 
 }  // namespace passo

@@ -15,7 +15,6 @@ namespace passo {
 namespace {
 
 constexpr double clock_rate = 128e6;
-constexpr double full_rpm = 24'000;
 // How long, in seconds, an endless run() waits for a silent board.
 constexpr double longest_silence = 10;
 constexpr const auto& pins = pico_bare;

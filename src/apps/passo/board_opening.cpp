@@ -5,16 +5,27 @@
 #include <fmt/ranges.h>
 
 #include "passo/emulator/emulated_board.hpp"
+#include "passo/emulator/emulated_follower.hpp"
 #include "passo/transport/stream_port.hpp"
 
 namespace passo {
 
 namespace fs = std::filesystem;
 
-fs::path built_image(std::string_view board, std::string_view extension) {
+namespace {
+
+fs::path built_file(const fs::path& name) {
   std::error_code none;
-  return fs::read_symlink("/proc/self/exe", none).parent_path() / "src" / "chip" /
-         ("motion_" + std::string(board) + std::string(extension));
+  return fs::read_symlink("/proc/self/exe", none).parent_path() / "src" / "chip" / name;
+}
+
+}  // namespace
+
+fs::path built_image(std::string_view board, std::string_view extension) {
+  return built_file("motion_" + std::string(board) + std::string(extension));
+}
+fs::path built_follower(std::string_view follower) {
+  return built_file(follower_image(follower));
 }
 
 std::string message_of_missing(const fs::path& image) {

@@ -16,6 +16,8 @@ namespace passo {
 // The path at which the build puts the firmware `motion` for `board`, found from the place of this program.
 // `extension`: ".hex" or ".elf".
 std::filesystem::path built_image(std::string_view board, std::string_view extension);
+// The same for the follower of this name.
+std::filesystem::path built_follower(std::string_view follower);
 std::string message_of_missing(const std::filesystem::path& image);
 
 // Opens a board over a line or in an emulator, but not the virtual machine. `plant`: the plant behind an emulated

@@ -87,7 +87,7 @@ HomingReport home_machine(OpenedMachine& machine, bool shows) {
   }
   {
     StageLine line(shows);
-    turn_to_the_end(session, [&] { line.look(*session.homing()); });
+    turn_to_the_end(machine, [&] { line.look(*session.homing()); });
   }
   report.time = session.now() - from;
   note_end(session, answer_of(session.take_changes(), *ticket), report);

@@ -168,6 +168,8 @@ int parse_and_run(int argc, char** argv) {
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
   run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
+  run_command.add_flag("--physics", run_arguments.physics,
+                       "the motors obey physics, from the machine file's [axis.X.torque], and may lose steps");
   run_command.add_flag("-y,--yes", run_arguments.yes, "go on at M0, M1 and M6 without asking");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
@@ -245,6 +247,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
   WindingsArguments windings_arguments;
   CLI::App& windings_command = add_windings_command(app, windings_arguments);
+  FollowerArguments follower_arguments;
+  CLI::App& follower_command = add_follower_command(app, follower_arguments);
   ChordsArguments chords_arguments;
   CLI::App& chords_command = add_chords_command(app, chords_arguments);
 
@@ -267,6 +271,7 @@ int parse_and_run(int argc, char** argv) {
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
   if (windings_command.parsed()) return windings(windings_arguments);
+  if (follower_command.parsed()) return follower_sim(follower_arguments);
   if (chords_command.parsed()) return chords(chords_arguments);
   return machine(machine_arguments);
 }

@@ -4,8 +4,8 @@
 // all numbers little-endian:
 //
 //   request   u32 size of what follows; f64 the cycle until which to run; u32 pins that are drawn low; u32 pins to watch;
-//             u32 after how many rises of these to stop, or 0; u8 1: stop when the board has said a byte; the bytes for
-//             the line
+//             u32 after how many rises of these to stop, or 0; u8 1: stop when the board has said a byte; f64
+//             pulses of the spindle's encoder now and f64 at that cycle, u32 pulses a turn, or 0; the bytes for the line
 //   answer    u32 size of what follows; f64 the cycle reached; u32 number of changes, for each f64 cycle, u32 levels
 //             of the outputs; f64 length of the spindle's pulse as a part of its period; u32 bytes lost in the UART;
 //             then the bytes that the board said
@@ -219,7 +219,7 @@ const board = new Board(process.argv[2]);
 for (;;) {
   const request = readFully(readFully(4).readUInt32LE(0));
   if (board.coming.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);
-  for (const byte of request.subarray(21)) board.coming.push(byte);
+  for (const byte of request.subarray(41)) board.coming.push(byte);
   board.setInputs(request.readUInt32LE(8));
   board.watched = request.readUInt32LE(12);
   board.rises = request.readUInt32LE(16);

@@ -1,12 +1,14 @@
 // The plant that a machine file describes: the world behind a virtual or an emulated board.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "passo/activity/touch_box.hpp"
 #include "passo/geometry/axes.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/ideal_plant.hpp"
+#include "passo/plant/rotor_plant.hpp"
 #include "passo/plant/travel_switch.hpp"
 
 namespace passo {
@@ -17,9 +19,20 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hy
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
-// A plant with the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
+// Gives a plant the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
 // coordinates. `boxes`: what its probe can touch.
+void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at = {},
+         const std::vector<TouchBox>& boxes = {});
+
+// An ideal plant that was fitted so.
 IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at = {},
                     const std::vector<TouchBox>& boxes = {});
+
+// The physics of an axis's motor. Empty: the machine file does not describe the motor, or a full step is not a whole
+// number of the driver's steps.
+std::optional<MotorSetup> motor_setup(const AxisDescription& axis);
+
+// Gives a plant the physics of all motors that the machine file describes. Call after fit().
+void fit_rotors(RotorPlant& plant, const MachineDescription& machine);
 
 }  // namespace passo

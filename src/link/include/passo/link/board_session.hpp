@@ -122,6 +122,9 @@ class BoardSession final : public Link {
   const std::optional<HelloReply>& board() const { return board_; }
   // True: the other side of the line has closed it.
   bool hung_up() const { return port_.hung_up(); }
+  // For how long nothing was heard of the board, while it had something to say. After patience() that is an error.
+  Seconds silent_for() const { return expects() ? now() - heard_ : Seconds(0); }
+  Seconds patience() const { return care_.patience; }
   // The board's last status, and when it was heard.
   const std::optional<BoardStatus>& status() const { return status_; }
   Seconds status_time() const { return status_time_; }
