@@ -45,6 +45,7 @@ constexpr Pin output_c = {'H', 5};
 constexpr std::uint16_t tccr4a = 0xa0;
 constexpr std::uint16_t ocr4cl = 0xac;
 constexpr std::uint8_t connected = 1 << 3;
+constexpr std::uint8_t inverting = 1 << 2;
 constexpr double full_duty = 255;
 constexpr double full_rpm = 24'000;
 
@@ -56,6 +57,9 @@ Kind kind_of(const char* mcu, const char* ports, const Map& pins, DriveMode driv
             .switches = {{input_limit, pins.limits[0]},
                          {static_cast<BoardInput>(input_limit << 1U), pins.limits[1]},
                          {static_cast<BoardInput>(input_limit << 2U), pins.limits[2]},
+                         {static_cast<BoardInput>(input_limit << 3U), pins.limits[3]},
+                         {static_cast<BoardInput>(input_limit << 4U), pins.limits[4]},
+                         {static_cast<BoardInput>(input_limit << 5U), pins.limits[5]},
                          {input_probe, pins.probe},
                          {input_emergency_stop, pins.emergency_stop},
                          {input_hold, pins.feed_hold},
@@ -127,6 +131,10 @@ class AvrBoard final : public EmulatedBoard {
     if (spindle_speed_ == output_c) watch_spindle();
     look_at_plant(elapsed());
   }
+  void wire(const PinSetup& wiring) override {
+    wiring_ = wiring;
+    set_pins(plant_->inputs_at(elapsed()));
+  }
 
  private:
   static constexpr std::uint64_t look_cycles = 1'000'000;
@@ -144,25 +152,28 @@ class AvrBoard final : public EmulatedBoard {
     });
     chip_.on_write(tccr4a, [this](std::uint8_t value) {
       turns_ = (value & connected) != 0;
+      inverts_ = (value & inverting) != 0;
       command_spindle();
     });
   }
   void command_spindle() {
-    const bool back = (levels_of(spindle_direction_) & spindle_direction_.mask()) != 0;
-    const double rpm = turns_ ? duty_ / full_duty * full_rpm : 0;
+    const bool back = is_high(spindle_direction_) != ((wiring_.outputs & spindle_reverse) != 0);
+    const bool low_is_on = (wiring_.outputs & spindle_on) != 0;
+    const double high = turns_ ? duty_ / full_duty : is_high(spindle_speed_) ? 1 : 0;
+    const double rpm = (inverts_ != low_is_on ? 1 - high : high) * full_rpm;
     plant_->command_spindle(elapsed(), back ? -rpm : rpm);
   }
   void count_steps(const PortChange& change) {
-    const unsigned rose = change.now & ~unsigned{change.before};
     const unsigned turned_over = change.now ^ unsigned { change.before };
     levels_[static_cast<std::size_t>(change.port - 'A')] = change.now;
     pulses_ = {};
     bool stepped = false;
     for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
       const MotorPins& pins = motors_[motor];
-      if (change.port == pins.step.port && (rose & pins.step.mask()) != 0) {
-        count(change.cycle, motor, (levels_of(pins.direction) & pins.direction.mask()) != 0);
-      }
+      const bool low_steps = (wiring_.steps >> motor & 1U) != 0;
+      const bool edge = change.port == pins.step.port && (turned_over & pins.step.mask()) != 0;
+      if (edge && is_high(pins.step) != low_steps && is_enabled(pins))
+        count(change.cycle, motor, is_high(pins.direction));
       if ((turned_over & pins.winding_bits(change.port)) != 0) follow_windings(change.cycle, motor);
     }
     for (const std::int64_t pulses : pulses_) stepped = stepped || pulses != 0;
@@ -172,11 +183,17 @@ class AvrBoard final : public EmulatedBoard {
   }
   void look_at_plant(Seconds time) {
     const std::uint16_t inputs = plant_->inputs_at(time);
-    if (inputs == inputs_) return;
+    if (inputs != inputs_) set_pins(inputs);
+  }
+  void set_pins(std::uint16_t inputs) {
     inputs_ = inputs;
     for (const auto& [which, pin] : switches_) {
-      if (pin.exists()) ports_.set_input(pin.port, pin.bit, (inputs & which) == 0);
+      if (pin.exists()) ports_.set_input(pin.port, pin.bit, ((inputs ^ wiring_.inputs) & which) == 0);
     }
+  }
+  bool is_high(Pin pin) const { return (levels_of(pin) & pin.mask()) != 0; }
+  bool is_enabled(const MotorPins& pins) const {
+    return !pins.enable.exists() || is_high(pins.enable) == ((wiring_.outputs & inverted_enable) != 0);
   }
   void count(std::uint64_t cycle, std::size_t motor, bool down) {
     positions_[motor] += down ? -1 : 1;
@@ -206,8 +223,10 @@ class AvrBoard final : public EmulatedBoard {
   IdealPlant own_plant_;
   Plant* plant_ = &own_plant_;
   std::uint16_t inputs_ = 0;  // the inputs that the plant told last
+  PinSetup wiring_;           // how the plant is connected to the pins
   double duty_ = 0;
   bool turns_ = false;
+  bool inverts_ = false;
   std::vector<std::int64_t> positions_;
   MotorSteps pulses_{};                       // the pulses of the current change
   std::array<std::uint8_t, 12> levels_ = {};  // each port's levels at the last count, A first

@@ -99,12 +99,14 @@ int wait_for_host(int listening, RealTime& time) {
 
 int board_serve(const BoardServeArguments& arguments) {
   IdealPlant plant;
+  PinSetup wiring;
   if (!arguments.machine.empty()) {
     Diagnostics diagnostics;
     const std::optional<MachineDescription> description = load_machine_file(arguments.machine, diagnostics);
     show(diagnostics);
     if (!description) return exit_bad_machine;
     plant = plant_of(*description);
+    wiring = pin_setup(*description);
   }
   unsigned port = 0;
   const int listening = listen_on_loopback(arguments.port, port);
@@ -113,6 +115,7 @@ int board_serve(const BoardServeArguments& arguments) {
   std::fflush(stdout);
   VirtualMachine machine(static_cast<std::uint8_t>(arguments.motors), Hertz(arguments.clock));
   machine.connect(plant);
+  machine.wire(wiring);
   RealTime time(machine);
   outlive_readers();
   do {
