@@ -442,7 +442,7 @@ void MachineReader::order_motors() {
 }
 
 void MachineReader::number_second_motors() {
-  if (machine_.motor_count() > most_motors) {
+  if (machine_.axes.size() <= most_motors && machine_.motor_count() > most_motors) {
     reporter_.error("machine.motor", axes_.back().place,
                     fmt::format("the machine has {} motors", machine_.motor_count()),
                     fmt::format("at most {}, second motors counted", most_motors));

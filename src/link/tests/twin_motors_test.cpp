@@ -38,7 +38,7 @@ TEST(TwinMotors, step_alone_while_one_switch_of_theirs_is_watched) {
   EXPECT_EQ(all.for_board(planned).increments[1], 0);
   EXPECT_EQ(all.for_board(planned).flips, 8);
   EXPECT_EQ(all.for_board(planned).increments[2], 3000);
-  for (const std::uint8_t both : {0, 1, first_switch | second_switch}) {
+  for (const std::uint8_t both : {std::uint8_t{0}, std::uint8_t{1}, std::uint8_t{first_switch | second_switch}}) {
     all.watch(both);
     EXPECT_EQ(all.for_board(planned).flips, 2 | 8);
   }
