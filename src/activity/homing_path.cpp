@@ -147,6 +147,7 @@ void HomingPath::begin_axis(const AxisDescription& axis) {
   together_ = false;
   turns_ = 0;
   knows_switch_ = false;
+  lag_ = lag_of(axis);
   until_closed_ = true;
   goes_ = {stands(), stands()};
   begin(HomingStage::seek, stands() + direction() * travels_to_seek * (axis_->travel_high - axis_->travel_low));
@@ -226,7 +227,7 @@ void HomingPath::judge_approach() {
   if (!outcome().refused && !outcome().touched) return fail(HomingFault::not_met);
   if (stage_ == HomingStage::latch) {
     if (!is_pair()) return retreat(HomingStage::pull_off, off(found_[first_motor]));
-    return begin_alone(Alone::find_second, direction() * (lag_of(*axis_) + axis_->second->most_skew));
+    return begin_alone(Alone::find_second, direction() * (lag_ + axis_->second->most_skew));
   }
   if (is_pair()) return begin_alone(Alone::close_first, direction() * axis_->second->most_skew);
   // A switch that is closed from the beginning.
@@ -240,7 +241,7 @@ void HomingPath::judge_alone() {
   const bool met = outcome().refused || outcome().touched;
   const bool is_free = alone_ == Alone::lag || alone_ == Alone::adjust;
   if (!settles_ && met == is_free) return fail(is_free ? HomingFault::still_closed : HomingFault::not_met);
-  if (!settles_ && alone_ == Alone::find_second && outcome().refused) return fail(HomingFault::unsteady);
+  if (!settles_ && alone_ == Alone::find_second && outcome().refused) return fall_further_behind();
   const double apart = goes_[first_motor] - goes_[second_motor];
   const double steps = (alone_ == Alone::close_first ? apart : -apart) * axis_->steps_per_unit * direction();
   const double left = std::ceil(steps - hardly_a_step) - steps;
@@ -248,6 +249,13 @@ void HomingPath::judge_alone() {
   if (!settles_) return go_on_alone();
   until_closed_ = false;
   move_alone(direction() * left / axis_->steps_per_unit);
+}
+
+// The second motor's switch has closed before the first one's: after the fast seek their places were not known well.
+void HomingPath::fall_further_behind() {
+  if (++turns_ > most_turns) return fail(HomingFault::unsteady);
+  lag_ *= 2;
+  retreat(HomingStage::back_off, off(stands()));
 }
 
 void HomingPath::go_on_alone() {
@@ -281,7 +289,7 @@ void HomingPath::judge_retreat() {
   }
   if (!until_closed_) return fail(HomingFault::still_closed);
   if (stage_ == HomingStage::back_off) {
-    if (is_pair()) return begin_alone(Alone::lag, -direction() * lag_of(*axis_));
+    if (is_pair()) return begin_alone(Alone::lag, apart_from_switches() - direction() * lag_);
     begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
   } else if (is_pair()) {
     const double square = in_steps(*axis_, axis_->second->square) / axis_->steps_per_unit;
@@ -289,6 +297,11 @@ void HomingPath::judge_retreat() {
   } else {
     end_axis();
   }
+}
+
+// By how much the second motor has to move to be as far from its switch as the first one, as far as that is known.
+double HomingPath::apart_from_switches() const {
+  return (goes_[first_motor] - found_[first_motor]) - (goes_[second_motor] - found_[second_motor]);
 }
 
 void HomingPath::turn_watch() {

@@ -55,7 +55,8 @@ class HomedMachine {
     return session_.homing() == nullptr ? std::vector<HomedAxis>{} : session_.homing()->homed();
   }
   void jog(Axis axis, double way) {
-    request::Jog jog{.way = {.speed = MmPerSecond(10), .distance = Mm(std::abs(way))}, .lease = Seconds(10)};
+    request::Jog jog{.way = {.direction = Point(), .speed = MmPerSecond(10), .distance = Mm(std::abs(way))},
+                     .lease = Seconds(10)};
     jog.way.direction[axis] = way;
     EXPECT_TRUE(session_.request(jog));
     while (session_.busy()) session_.turn(endless);

@@ -109,6 +109,8 @@ class HomingPath final : public Activity {
   void judge_look();
   void judge_alone();
   void go_on_alone();
+  void fall_further_behind();
+  double apart_from_switches() const;
   void judge_approach();
   void judge_retreat();
   void retreat(HomingStage stage, double target);
@@ -134,6 +136,7 @@ class HomingPath final : public Activity {
   bool knows_switch_ = false;      // knows roughly where the switch closes
   std::array<double, 2> goes_{};   // where the axis's motors are; with one motor, both are the axis
   std::array<double, 2> found_{};  // where each of them was when its switch closed
+  double lag_ = 0;                 // how far the second motor falls behind before the latch
   int turns_ = 0;
   Point position_;  // where the machine rests
   std::vector<HomedAxis> homed_;
