@@ -125,7 +125,7 @@ class Text {
 
   void board(const RunSummary& summary, const BoardSummary& board) {
     heading("Board", "");
-    line("end", duration(board.end), difference(summary, board));
+    line("end", duration(board.end), waiting(summary, board));
     line("pulses", grouped(board.pulses), "  in " + counted(board.events, "event"));
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
     if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
@@ -171,13 +171,12 @@ class Text {
   std::string strong(std::string_view text) const {
     return colour_ ? fmt::format("\x1b[1m{}\x1b[0m", text) : std::string(text);
   }
-  // Over a line, motion is sent ahead. Of what was sent before a contact, or before the board braked by itself, a part
-  // is not played but planned anew, so the motion's times hold it twice. Waiting makes the board's end later.
-  static std::string difference(const RunSummary& summary, const BoardSummary& board) {
-    const Seconds less = summary.time() - board.end;
-    if (board.held_items == 0 || std::llround(less.value() * 1000) == 0) return {};
-    return less > Seconds(0) ? fmt::format("  {} less than the total: motion that was planned twice", duration(less))
-                             : fmt::format("  {} more than the total: waiting", duration(board.end - summary.time()));
+  // Over a line the board waits where the program does: at rest, for more motion or for answers. The motion's times do
+  // not hold that.
+  static std::string waiting(const RunSummary& summary, const BoardSummary& board) {
+    const Seconds more = board.end - summary.time();
+    if (board.held_items == 0 || std::llround(more.value() * 1000) <= 0) return {};
+    return fmt::format("  {} more than the total: waiting", duration(more));
   }
   void heading(std::string_view name, std::string_view unit) {
     out_ += "\n" + strong(name);

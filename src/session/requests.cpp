@@ -183,13 +183,14 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
   if (work.program != nullptr && watchers.path) work.program->path().watch(watchers.path);
-  if (watchers.motion) drive.motion().watch(watchers.motion);
+  if (watchers.motion && drive.refiller() == nullptr) drive.motion().watch(watchers.motion);
   if (watchers.items) drive.items().watch(watchers.items);
   drive.probe().watch([this, &work](const ProbeOutcome& outcome) {
     if (work.watchers.probe) work.watchers.probe(outcome);
     note({.kind = MachineChange::Kind::probed, .probe = outcome});
   });
   if (Refiller* const refiller = drive.refiller()) {
+    if (watchers.motion) refiller->watch_motion(watchers.motion);
     if (watchers.executed) refiller->watch_executed(watchers.executed);
     if (watchers.rests) refiller->watch_rests(watchers.rests);
   }

@@ -157,6 +157,18 @@ TEST_F(Boards, probe_by_their_firmware_what_stands_on_an_emulated_machine) {
   // Free again a step above the plate.
   EXPECT_DOUBLE_EQ(json["probes"]["last_contact_mm"]["Z"], -1.5 + 1.0 / 640);
   EXPECT_EQ(json["steps"]["X"]["net"], 640 * 1.5 - 1);
+  // What was sent and not executed, after the contact, is in no total.
+  EXPECT_NEAR(json["time_s"], json["board"]["end_s"], 0.001);
+  const auto ways = [](const nlohmann::json& of) {
+    const double total = of["steps"]["X"]["total"].get<double>() + of["steps"]["Z"]["total"].get<double>();
+    return std::pair{of["distance_mm"]["cutting"].get<double>() + of["distance_mm"]["rapid"].get<double>(),
+                     total / 640};
+  };
+  const std::string alone = passo("run " + program + " --json -m " + uno + " --touch Z:-1.5").out;
+  const auto [way, stepped] = ways(json);
+  const auto [way_alone, stepped_alone] = ways(nlohmann::json::parse(alone));
+  EXPECT_GT(way, way_alone) << "a line goes on farther past each contact";
+  EXPECT_NEAR(way - way_alone, stepped - stepped_alone, 0.01);
 }
 
 TEST_F(Boards, run_a_program_as_the_virtual_machine_does) {

@@ -181,6 +181,25 @@ TEST_F(HomeCommand, goes_before_a_run_that_is_resumed) {
   EXPECT_EQ(info["status"]["positions"][2], std::lround(4.6 * 640));
 }
 
+// A switch that stands inside the travel is a limit for the program, whatever homed by it before.
+TEST_F(HomeCommand, leaves_a_switch_inside_the_travel_a_limit) {
+  const std::string inward = write("low.ngc", "G21 G90 G1 F600 X-4.9\nX0\nM2\n");
+  const std::string outward = write("high.ngc", "G21 G90 G1 F600 X4.9\nX0\nM2\n");
+  const std::string emulated = " --board sim:uno";
+  const bool has_emulator = passo("board info sim:uno").code == 0;
+  for (const std::string board : {"", " --cut-cable-at 9999:1", emulated.c_str()}) {
+    if (board == emulated && !has_emulator) continue;
+    for (const auto& [program, home] : {std::pair{inward, "direction = 'low'\nswitch_at_mm = -3\n"},
+                                        std::pair{outward, "direction = 'high'\nswitch_at_mm = 3\n"}}) {
+      for (const char* const homes : {" --home", ""}) {
+        const Outcome outcome = passo("run " + program + homes + near_machine(home) + board);
+        EXPECT_EQ(outcome.code, 1) << program << homes << board;
+        EXPECT_THAT(outcome.err, HasSubstr("stopped its motors at once")) << program << homes << board;
+      }
+    }
+  }
+}
+
 TEST_F(HomeCommand, help_shows_examples) {
   const Outcome outcome = passo("home --help");
   EXPECT_EQ(outcome.code, 0);

@@ -132,7 +132,7 @@ int check(const CheckArguments& arguments) {
 
   Diagnostics findings;
   ProgramStops stops;
-  const ProgramMessages messages(arguments.program.program, !arguments.json);
+  ProgramMessages messages(arguments.program.program, !arguments.json);
   FindingsDisplay display(findings);
   const auto watch_path = [&](const PathItem& item) {
     stops.watch(item);
