@@ -150,6 +150,7 @@ void HomingPath::begin_axis(const AxisDescription& axis) {
   lag_ = lag_of(axis);
   until_closed_ = true;
   goes_ = {stands(), stands()};
+  found_ = goes_;
   begin(HomingStage::seek, stands() + direction() * travels_to_seek * (axis_->travel_high - axis_->travel_low));
 }
 
@@ -208,6 +209,7 @@ void HomingPath::note_way(const Point& before) {
 void HomingPath::judge_together() {
   if (!outcome().refused && !outcome().touched) return fail(HomingFault::not_met);
   together_ = false;
+  if (outcome().touched && !outcome().refused) met_ = outcome().contact;
   look_at(0);
 }
 
@@ -231,7 +233,7 @@ void HomingPath::judge_approach() {
   }
   if (is_pair()) return begin_alone(Alone::close_first, direction() * axis_->second->most_skew);
   // A switch that is closed from the beginning.
-  if (outcome().refused) return retreat(HomingStage::back_off, off(stands()));
+  if (outcome().refused) return retreat(HomingStage::back_off, off(met_ ? (*met_)[axis_->axis] : stands()));
   knows_switch_ = true;
   retreat(HomingStage::back_off, off(found_[first_motor]));
 }
@@ -261,7 +263,9 @@ void HomingPath::fall_further_behind() {
 void HomingPath::go_on_alone() {
   switch (alone_) {
     case Alone::close_first: return begin_alone(Alone::close_second, direction() * axis_->second->most_skew);
-    case Alone::close_second: knows_switch_ = true; return retreat(HomingStage::back_off, off(stands()));
+    case Alone::close_second:
+      knows_switch_ = true;
+      return retreat(HomingStage::back_off, off(stands()) - direction() * farthest_beyond());
     case Alone::lag:
       until_closed_ = true;
       return begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
@@ -299,6 +303,13 @@ void HomingPath::judge_retreat() {
   }
 }
 
+// How far the motors have gone on after their switches closed, the farther of the two.
+double HomingPath::farthest_beyond() const {
+  const double first = direction() * (goes_[first_motor] - found_[first_motor]);
+  const double second = direction() * (goes_[second_motor] - found_[second_motor]);
+  return std::max({first, second, 0.0});
+}
+
 // By how much the second motor has to move to be as far from its switch as the first one, as far as that is known.
 double HomingPath::apart_from_switches() const {
   return (goes_[first_motor] - found_[first_motor]) - (goes_[second_motor] - found_[second_motor]);
@@ -320,6 +331,7 @@ void HomingPath::end_axis() {
   }
   homed_.push_back(homed);
   std::erase(turn_, axis_);
+  met_.reset();
   begin_turn();
 }
 

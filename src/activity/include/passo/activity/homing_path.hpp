@@ -110,6 +110,7 @@ class HomingPath final : public Activity {
   void judge_alone();
   void go_on_alone();
   void fall_further_behind();
+  double farthest_beyond() const;
   double apart_from_switches() const;
   void judge_approach();
   void judge_retreat();
@@ -124,6 +125,7 @@ class HomingPath final : public Activity {
   std::vector<const AxisDescription*> turn_;  // the axes of this turn that are not homed yet
   std::size_t looked_at_ = 0;                 // of these
   bool together_ = false;                     // all of them seek at once
+  std::optional<Point> met_;                  // where they were when the first of them met its switch
   const AxisDescription* axis_ = nullptr;
   HomingStage stage_ = HomingStage::seek;
   Alone alone_ = Alone::close_first;
