@@ -331,7 +331,7 @@ void HomingPath::end_axis() {
   }
   homed_.push_back(homed);
   std::erase(turn_, axis_);
-  met_.reset();
+  if (turn_.empty()) met_.reset();
   begin_turn();
 }
 
