@@ -388,8 +388,7 @@ void BoardSession::take(const ErrorReport& error) {
       refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;
       refused_ = error.expected;
       if (refusals_ == most_refusals) error_ = LinkError::refused;
-      if (error.reason == WireError::bad_value && awaited_ == Question::watch && probe_.watches_several() &&
-          (refusals_ == sure_of_status || !may_lose())) {
+      if (error.reason == WireError::bad_value && awaited_ == Question::watch && probe_.watches_several()) {
         error_ = LinkError::cannot_watch;
         return;
       }
