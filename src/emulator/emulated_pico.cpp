@@ -19,9 +19,10 @@ Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std
     return Failure<std::string>{
         std::string("the Pico's emulator is not installed: scripts/install.sh, or `npm ci` in ") + PASSO_EMULATED_PICO};
   }
-  std::unique_ptr<EmulatedPico> pico(new EmulatedPico({"node", script, program, socket == PicoSocket::usb ? "usb" : "uart", std::to_string(pins.spindle_pwm),
-                        std::to_string(pins.encoder_pulses), std::to_string(pins.encoder_index)},
-                       died));
+  std::unique_ptr<EmulatedPico> pico(new EmulatedPico(
+      {"node", script, program, socket == PicoSocket::usb ? "usb" : "uart", std::to_string(pins.spindle_pwm),
+       std::to_string(pins.encoder_pulses), std::to_string(pins.encoder_index)},
+      died));
   // The first answer shows that the program is there and boots.
   if (!pico->run(1, {})) return Failure<std::string>{pico->error()};
   return pico;
