@@ -152,6 +152,18 @@ TEST_F(PathSmootherTest, lines_merge_within_the_merge_tolerance_only) {
   EXPECT_GT(count_with(0.015), 20U);
 }
 
+// A corner under a wide tolerance does not reach over the joint of two lines in one direction, whose own is narrow.
+TEST_F(PathSmootherTest, a_corner_keeps_to_the_narrow_tolerance_of_the_lines_after_it) {
+  tolerance_ = 0.2471;
+  go(-3.5393, -0.9461);
+  go(-3.6113, -0.9461);
+  tolerance_ = 0.0162;
+  go(-3.6113, -1.1475);
+  go(-3.6113, -1.6551);
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending})
+    expect_good(path_, smoothness);
+}
+
 TEST_F(PathSmootherTest, lines_of_different_feed_or_kind_do_not_merge) {
   go(10, 0);
   go(20, 0).speed = MmPerSecond(80);
