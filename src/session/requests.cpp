@@ -183,6 +183,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
   if (work.program != nullptr && watchers.path) work.program->path().watch(watchers.path);
+  if (watchers.planned) drive.motion().watch(watchers.planned);
   if (watchers.motion && drive.refiller() == nullptr) drive.motion().watch(watchers.motion);
   if (watchers.items) drive.items().watch(watchers.items);
   drive.probe().watch([this, &work](const ProbeOutcome& outcome) {
