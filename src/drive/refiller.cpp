@@ -7,6 +7,8 @@
 
 #include "host_actions.hpp"
 
+#include "passo/wire/segment_parts.hpp"
+
 namespace passo {
 namespace {
 
@@ -441,9 +443,7 @@ bool Refiller::settled() {
 Seconds Refiller::time_of(const LinkItem& item, int of_events) const {
   const auto* segment = std::get_if<BoardSegment>(&item);
   if (segment == nullptr) return Seconds(0);
-  const double events = std::min(of_events, int{segment->events});
-  const double time = events * segment->interval + events * (events - 1) / 2 * segment->change;
-  return Seconds(time / static_cast<double>(whole_tick) / steps_.clock.tick_rate.value());
+  return Seconds(static_cast<double>(duration(*segment, of_events)) / whole_tick / steps_.clock.tick_rate.value());
 }
 
 }  // namespace passo

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/stepgen/step_generator.hpp"
+#include "passo/wire/segment_parts.hpp"
 
 namespace passo::oracle {
 
@@ -210,6 +211,15 @@ inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   return flip ? raw - 65536 : 0;
 }
 
+// In 1/65536 tick.
+inline std::vector<std::int64_t> intervals_of(const BoardSegment& segment) {
+  std::vector<std::int64_t> intervals;
+  for_each_part(segment, [&](const PartTimes& part, unsigned events, unsigned /*before*/) {
+    for (unsigned k = 0; k < events; ++k) intervals.push_back(part.interval + k * std::int64_t{part.change});
+  });
+  return intervals;
+}
+
 inline Playback play(const std::vector<BoardItem>& items, const StepOptions& options) {
   Playback result;
   result.steps.resize(options.motor_count);
@@ -250,11 +260,9 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       most = std::max(most, increment);
     }
     const bool has_master = alike == 1 && (most & (most - 1)) == 0 && segment->events > 2;
-    std::int64_t interval = segment->interval;
-    for (unsigned k = 0; k < segment->events; ++k) {
+    for (const std::int64_t interval : intervals_of(*segment)) {
       const std::int64_t before = time >> 16;
       time += interval;
-      interval += segment->change;
       const std::int64_t tick = time >> 16;
       const bool was_held_back = held_back;
       held_back = static_cast<double>(tick - before) <= shortest + 1;

@@ -41,6 +41,8 @@ class RandomMessages {
     segment.change = static_cast<std::int32_t>(below(2 * fine_change + 1)) - fine_change;
     if (below(4) == 0) segment.change *= coarse_change;
     for (unsigned m = 0; m < motors; ++m) segment.increments[m] = word();
+    segment.form = static_cast<std::uint8_t>(below(16));
+    segment.bend = static_cast<std::uint8_t>(below(8) | below(8) << 4);
     return segment;
   }
 

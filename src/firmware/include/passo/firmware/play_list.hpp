@@ -31,7 +31,7 @@ struct BoardItemSlot {
   bool is_segment() const { return segment.events != 0; }
   void keep(const BoardOutputs& outputs) {
     segment.events = 0;
-    segment.directions = outputs.switches;
+    segment.directions = outputs.switches & 0x0F;
     segment.interval = outputs.spindle_rpm;
   }
   BoardOutputs outputs() const {

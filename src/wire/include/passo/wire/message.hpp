@@ -188,9 +188,11 @@ template <class Pause = NoPause>
 uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::segment, sequence);
   const bool fine = is_fine(segment.change);
-  encoder.put16(fine ? segment.events : static_cast<uint16_t>(segment.events | coarse_bit));
+  const uint16_t events = static_cast<uint16_t>(segment.events | segment.form << form_place);
+  encoder.put16(fine ? events : static_cast<uint16_t>(events | coarse_bit));
   encoder.put8(segment.directions);
   encoder.put8(segment.flips);
+  encoder.put8(segment.bend);
   encoder.put32(segment.interval);
   encoder.put24(static_cast<uint32_t>(fine ? segment.change : segment.change / coarse_change));
   for (uint8_t motor = 0; motor < motors; ++motor) encoder.put16(segment.increments[motor]);
@@ -362,10 +364,17 @@ template <uint8_t room>
 void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
   const uint8_t* bytes = frame.payload;
   const uint16_t events = load16(bytes);
-  segment.events = events & most_events;
-  segment.directions = bytes[2];
-  segment.flips = bytes[3];
-  load_times(bytes + 4, (events & coarse_bit) != 0, segment);
+  constexpr uint8_t known = static_cast<uint8_t>((1U << SegmentFor<room>::half) - 1);
+  const uint8_t bent = bytes[4] & 0x0F;
+  const uint8_t lender = bytes[4] >> 4;
+  // What has no room is of motors that are not there. A segment without events is refused.
+  const bool fits = ((bytes[2] | bytes[3]) & ~known) == 0 && bent < room && lender < room;
+  segment.events = fits ? events & most_events : uint16_t{0};
+  segment.form = static_cast<uint8_t>(events >> 8) >> (form_place - 8) & 0x0F;
+  segment.directions = bytes[2] & known;
+  segment.flips = bytes[3] & known;
+  segment.bend = static_cast<uint8_t>(bent | lender << bend_shift<room>) & known;
+  load_times(bytes + 5, (events & coarse_bit) != 0, segment);
   load_increments(bytes + segment_size, motors, segment);
 }
 

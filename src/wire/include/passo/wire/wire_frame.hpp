@@ -16,7 +16,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 6;
+inline constexpr uint8_t protocol_version = 7;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
 enum class MessageType : uint8_t {
@@ -39,7 +39,7 @@ enum class MessageType : uint8_t {
 };
 
 inline constexpr uint8_t frame_overhead = 6;
-inline constexpr uint8_t segment_size = 11;  // without the part that repeats for each motor
+inline constexpr uint8_t segment_size = 12;  // without the part that repeats for each motor
 inline constexpr uint8_t status_size = 14;
 inline constexpr uint8_t captured_size = 5;
 inline constexpr uint8_t largest_payload = status_size + 4 * max_motors;
