@@ -17,7 +17,7 @@ namespace {
 constexpr Seconds between_tails{0.0025};
 constexpr std::size_t items_between_tails = 3;
 // While there is time, a refill has at least this many items, and leaves as many places for the next refill.
-constexpr std::size_t worth_sending = 8;
+constexpr std::size_t worth_sending = 4;
 
 // Waiting for answers between refills. `behind_a_refill`: an answer takes this many times longer when a refill goes
 // before the question. `patience`: the rate at which slow answers are forgotten. `made_ahead`: how far ahead a chip

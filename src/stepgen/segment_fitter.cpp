@@ -19,7 +19,7 @@ constexpr double first_node = 0.464;
 constexpr double second_node = 0.928;
 // Of a root: the shortest part, in the board's shortest intervals; the longest part has two to the power of this many
 // events; and at least so many parts are left to the rest, because the board takes a series for the root.
-constexpr double shortest_part = 64;
+constexpr double shortest_part = 80;
 constexpr unsigned longest_root_part = 7;
 constexpr double parts_to_rest = 3;
 // A motor that moves less than this in one event stands still. In 1/65536 step.
@@ -115,26 +115,44 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
   return root.events > quadratic.events ? root : quadratic;
 }
 
-// Finds the longest root of more than `least` events, if there is one.
+// Finds a long root of more than `least` events, if there is one.
 SegmentFitter::Timing SegmentFitter::fit_root(const EventBuffer& events, std::int64_t now, unsigned most,
                                               unsigned least) const {
+  Timing longest;
+  unsigned too_many = most + 1;
   for (unsigned n = most; n > least; n = n * 3 / 4) {
     const std::optional<Timing> root = root_of(events, now, n);
-    if (!root) continue;
-    const BoardSegment segment{.events = static_cast<std::uint16_t>(root->events),
-                               .form = root->form,
-                               .interval = root->interval,
-                               .change = root->change};
-    std::int64_t time = now;
-    bool holds = true;
-    for_each_part(segment, [&](const PartTimes& part, unsigned count, unsigned first) {
-      const Timing timing{.interval = part.interval, .change = part.change, .events = count};
-      holds = holds && part_holds(events, time, timing, first);
-      time += std::int64_t{count} * part.interval + std::int64_t{part.change} * (count * (count - 1) / 2);
-    });
-    if (holds) return *root;
+    if (root && root_holds(events, now, *root)) {
+      longest = *root;
+      break;
+    }
+    too_many = n;
   }
-  return {};
+  // Between what holds and what does not.
+  for (int round = 0; round < 2 && longest.events > 0 && too_many - longest.events > 1; ++round) {
+    const unsigned n = (longest.events + too_many) / 2;
+    const std::optional<Timing> root = root_of(events, now, n);
+    if (root && root_holds(events, now, *root)) {
+      longest = *root;
+    } else {
+      too_many = n;
+    }
+  }
+  return longest;
+}
+
+bool SegmentFitter::root_holds(const EventBuffer& events, std::int64_t now, const Timing& root) const {
+  const BoardSegment segment{.events = static_cast<std::uint16_t>(root.events),
+                             .form = root.form,
+                             .interval = root.interval,
+                             .change = root.change};
+  bool holds = true;
+  for_each_part(segment, [&](const PartTimes& part, unsigned count, unsigned first) {
+    const Timing timing{.interval = part.interval, .change = part.change, .events = count};
+    holds = holds && part_holds(events, now, timing, first);
+    now += std::int64_t{count} * part.interval + std::int64_t{part.change} * (count * (count - 1) / 2);
+  });
+  return holds;
 }
 
 // The root that meets the events at two nodes. Event k of an even acceleration comes at a time t with k = v t - a t²/2,
@@ -182,8 +200,11 @@ std::optional<SegmentFitter::Timing> SegmentFitter::root_of(const EventBuffer& e
 SegmentFitter::Timing SegmentFitter::fit_quadratic(const EventBuffer& events, std::int64_t now, unsigned most) {
   // A segment of one event always meets the event exactly, unless the event is too near or too far.
   const std::int64_t first = events.time(0) - now;
-  if (first > longest_interval) return {};
-  const Timing single{.interval = static_cast<std::uint32_t>(std::max(first, shortest_interval_)), .events = 1};
+  // An event may come early by a share of its interval.
+  const std::int64_t early = share_ == 0 ? 0 : longest_interval / share_;
+  if (first > longest_interval + early) return {};
+  const Timing single{.interval = static_cast<std::uint32_t>(std::clamp(first, shortest_interval_, longest_interval)),
+                      .events = 1};
 
   unsigned n = std::min(most, guess_ + guess_ / 4 + 4);
   for (; n > 1; n = std::min(n - 1, n * 3 / 4)) {

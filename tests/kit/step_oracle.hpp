@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/stepgen/step_generator.hpp"
-#include "passo/wire/segment_parts.hpp"
+#include "passo/wire/plain_parts.hpp"
 
 namespace passo::oracle {
 
@@ -220,6 +220,20 @@ inline std::vector<std::int64_t> intervals_of(const BoardSegment& segment) {
   return intervals;
 }
 
+// Roots and bends resolved, as the board plays them.
+inline std::vector<BoardItem> plain(const std::vector<BoardItem>& items) {
+  std::vector<BoardItem> parts;
+  for (const BoardItem& item : items) {
+    const auto* segment = std::get_if<BoardSegment>(&item);
+    if (segment == nullptr) {
+      parts.push_back(item);
+    } else {
+      for_each_plain_part(*segment, [&](const BoardSegment& part) { parts.emplace_back(part); });
+    }
+  }
+  return parts;
+}
+
 inline Playback play(const std::vector<BoardItem>& items, const StepOptions& options) {
   Playback result;
   result.steps.resize(options.motor_count);
@@ -243,7 +257,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
   };
   bool held_back = false;
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
-  for (const BoardItem& item : items) {
+  for (const BoardItem& item : plain(items)) {
     const auto* segment = std::get_if<BoardSegment>(&item);
     if (segment == nullptr) {
       end_interval(time >> 16);

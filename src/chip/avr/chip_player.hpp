@@ -51,7 +51,7 @@ class ChipPlayer {
     OutputActions::clear();
     turns_head_ = turns_tail;
     turns_ = left_ = 0;
-    flags_.turning = flags_.fresh = flags_.slipped = over_ = false;
+    turning_ = fresh_ = slipped_ = over_ = false;
     made_ = 0;
     begun_ = finished_ = 0;
     for (uint16_t& accumulator : expansion.accumulators) accumulator = 0x8000;
@@ -198,17 +198,17 @@ class ChipPlayer {
   static bool is_short() { return running != 0 && waiting() < most_ahead_ / 4; }
   // True if the watched input has changed, at an event at which the interrupt looked. Until watch() is called again,
   // everything reported of the oldest item is as it was at that event.
-  static bool captured() { return flags_.watching && armed == 0; }
-  static bool watches() { return flags_.watching; }
+  static bool captured() { return watching_ && armed == 0; }
+  static bool watches() { return watching_; }
   // Waits for the next change of the watched pins.
   static void watch(bool on) {
     armed = on ? 1 : 0;
-    flags_.watching = on;
-    flags_.noted = false;
+    watching_ = on;
+    noted_ = false;
   }
 
   // Whether the ring ran dry while there was something to play, so that the machine stood still for a moment.
-  static bool slipped() { return flags_.slipped; }
+  static bool slipped() { return slipped_; }
 
  private:
   static constexpr uint8_t items_mask = 3;
@@ -240,17 +240,17 @@ class ChipPlayer {
   static int16_t left_of_oldest() {
     uint16_t played = static_cast<uint16_t>(made_ - waiting());
     if (captured()) note_capture();  // after the look at waiting(), because a capture may come at any time
-    if (flags_.noted) played = captured_at_;
+    if (noted_) played = captured_at_;
     return static_cast<int16_t>(items_[finished_ & items_mask].end - played);
   }
   // Notes the event of a capture, which follows from the ring's entry. This must be done before the interrupt has gone
   // round the ring once more.
   [[gnu::noinline]] static void note_capture() {
-    if (flags_.noted) return;
+    if (noted_) return;
     const uint8_t now = fetched_entry();
     const uint8_t since = static_cast<uint8_t>((now - entry_of(captured_entry)) & ring_mask);
     captured_at_ = static_cast<uint16_t>(made_ - ((head_ - now) & ring_mask) - since);
-    flags_.noted = true;
+    noted_ = true;
   }
   static bool rests() { return running == 0 && waiting() == 0; }
   static uint8_t waiting() { return static_cast<uint8_t>((head_ - fetched_entry()) & ring_mask); }
@@ -279,7 +279,7 @@ class ChipPlayer {
     made_ = static_cast<uint16_t>(made_ + blank_events);
     expansion.time = static_cast<uint32_t>(time) << 16 | fraction;
     gap_ = start_ticks + blank_ticks;
-    flags_.fresh = true;
+    fresh_ = true;
     start();
   }
 
@@ -337,9 +337,9 @@ class ChipPlayer {
     head_ = behind;
     const uint8_t plain = static_cast<uint8_t>(flagged_byte(first) & ~(flag_special | flag_stop));
     // From here on the interrupt may reach this entry.
-    flagged_byte(first) = flags_.turning ? static_cast<uint8_t>(plain | flag_special) : plain;
-    if (flags_.turning) OutputActions::taken();
-    flags_.turning = false;
+    flagged_byte(first) = turning_ ? static_cast<uint8_t>(plain | flag_special) : plain;
+    if (turning_) OutputActions::taken();
+    turning_ = false;
     return true;
   }
 
@@ -355,14 +355,14 @@ class ChipPlayer {
     turn[0] = static_cast<uint8_t>(turn[0] | OutputActions::riding());
     turns_head_ = head;
     turns_ = 0;
-    flags_.turning = true;
+    turning_ = true;
     return true;
   }
 
   static void start() {
     const uint8_t first = fetched_entry();
     catch_up(first);
-    flags_.fresh = false;
+    fresh_ = false;
     fetch_entry(first);
     const uint8_t toggles = flagged_byte(first);
     if ((toggles & flag_special) != 0) turn_now(toggles);
@@ -387,7 +387,7 @@ class ChipPlayer {
     const uint16_t ahead = static_cast<uint16_t>(due - now());
     // A fraction may have made the interval one tick longer.
     if (ahead > least_lead && static_cast<uint16_t>(ahead - 1) <= gap_) return;  // still in time
-    if (!flags_.fresh) flags_.slipped = true;
+    if (!fresh_) slipped_ = true;
     // Nobody reads the line until the motion goes on.
     if (static_cast<int16_t>(made_ - slow_end_) > 0) slow_end_ = made_;
     const uint16_t later = static_cast<uint16_t>(now() + least_lead * 2 + 64 * waiting() - due);  // 64: the loop
@@ -398,24 +398,20 @@ class ChipPlayer {
     expansion.time += static_cast<uint32_t>(later) << 16;
   }
 
-  // In one byte: a chip has hardly one to spare.
-  struct Flags {
-    bool turning : 1;   // the reversals are in the queue of turns, but the event is not flagged yet
-    bool fresh : 1;     // the clock was set for the events in the ring
-    bool noted : 1;     // a capture was noted, with its event in `captured_at_`
-    bool watching : 1;  // for the next change of the watched pins
-    bool slipped : 1;   // slipped()
-  };
-  static inline Flags flags_ = {};
   static inline uint8_t head_ = 0;        // the entry after the last event
   static inline uint8_t most_ahead_ = 0;  // how many events may be in the ring, at the rate of the loaded segment
   static inline uint8_t least_room_ = 0;  // room in the ring for which it is worth making some
   static inline uint8_t left_ = 0;        // events of the loaded segment that are not made yet
   static inline uint8_t turns_ = 0;       // motors that reverse before its first event
+  static inline bool turning_ = false;    // the reversals are in the queue of turns, but the event is not flagged yet
   static inline uint8_t directions_ = 0;
   static inline uint8_t turns_head_ = turns_address & 0xff;
-  static inline uint16_t gap_ = 0;  // whole ticks before the event at which the interrupt stopped
+  static inline bool fresh_ = false;  // the clock was set for the events in the ring
+  static inline uint16_t gap_ = 0;    // whole ticks before the event at which the interrupt stopped
+  static inline bool noted_ = false;  // a capture was noted, with its event in `captured_at_`
   static inline uint16_t captured_at_ = 0;
+  static inline bool watching_ = false;
+  static inline bool slipped_ = false;
   static inline uint16_t slow_end_ = 0;  // `made_` after the last slow events
   static inline uint16_t made_ = 0;      // events ever made
   static inline uint8_t begun_ = 0;      // items ever begun

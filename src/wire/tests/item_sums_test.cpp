@@ -79,8 +79,8 @@ TEST(ItemSums, are_the_sum_of_words_and_the_sum_of_sums) {
   std::uint8_t frame[largest_frame];
   const std::uint8_t size = encode(segment, motors, 0, frame);
   const Replace replace = announce(7, 300, {Bytes(frame, frame + size)});
-  // The announcement, then type and payload two bytes at a time, and the last byte alone.
-  const unsigned words[] = {7, 300, 1, 0x0233, 0x0403, 0x2105, 0x0706, 0x0908, 0x0B0A, 0x0D0C, 0x0F0E, 0x1110, 0x12};
+  // The announcement, then type and payload two bytes at a time.
+  const unsigned words[] = {7, 300, 1, 0x0233, 0x0403, 0x0695, 0x0807, 0x0A09, 0x0C0B, 0x0E0D, 0x100F, 0x1211};
   unsigned first = replace.sums.first;
   unsigned second = replace.sums.second;
   for (const unsigned word : words) {

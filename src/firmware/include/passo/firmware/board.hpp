@@ -411,28 +411,31 @@ class Board : private BoardVoice<Hardware> {
   [[gnu::noinline]] void load() {
     const bool begins = to_load_ == 0;
     if (begins) ++begun_;
-    const auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
+    auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
     if (events == 0) return player_.pass(item.outputs());
     if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
     load_part(item.segment, begins);
   }
-  [[gnu::noinline]] void load_part(const Segment& segment, bool begins) {
+  [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     if (begins) {
       part_ = segment;
       part_.form = 0;
       to_load_ = segment.events;
     } else {
-      part_.interval += static_cast<uint32_t>(part_.change) * part_.events;
+      pass_part();
     }
+    breathe();
     const uint8_t length = part_length(segment.form);
     part_.events = to_load_ < length ? to_load_ : length;
     to_load_ = static_cast<uint16_t>(to_load_ - part_.events);
     breathe();
     if (segment.bend != 0) bend(segment, begins);
-    if (is_root(segment.form)) grow(segment.form, begins);
+    if (is_root(segment.form)) grow(segment, begins);
+    breathe();
     player_.load(part_);
   }
+  [[gnu::noinline]] void pass_part() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
   // Gives the part the increment that a bent motor has there.
   [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
     breathe();
@@ -441,11 +444,14 @@ class Board : private BoardVoice<Hardware> {
     if (begins) return;
     part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
   }
-  // Gives the part the change that a root has there.
-  [[gnu::noinline]] void grow(uint8_t form, bool begins) {
-    growth_ = begins ? part_.change : next_growth(growth_);
+  // Gives the part the change that a root has there. The item keeps the growth of the part.
+  [[gnu::noinline]] void grow(Segment& segment, bool begins) {
     breathe();
-    part_.change = root_change(part_.interval, growth_, form & ~root_form);
+    if (!begins) segment.change = next_growth<Breath>(segment.change);
+    breathe();
+    const int32_t twice = twice_factor<Breath>(segment.change);
+    breathe();
+    part_.change = root_change<Breath>(part_.interval, twice, segment.form & ~root_form);
     breathe();
     // A part that is too fast, which only a wrong host makes, is played as fast as may be.
     if (identity_.template can_play<Breath>(part_, motors_)) return;
@@ -509,7 +515,6 @@ class Board : private BoardVoice<Hardware> {
   uint16_t to_load_ = 0;        // events of that last item that the player has not got yet
   uint16_t done_of_front_ = 0;  // events of the front item in parts that are done
   Segment part_;                // the part that is being loaded; too large for a chip's stack
-  int32_t growth_ = 0;          // of the part, if the item's form is a root
   uint8_t motors_ = 0;          // as agreed with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte

@@ -68,7 +68,7 @@ class PlayList {
   bool empty() const { return front_ == none; }
   const Slot& front() const { return slots_[front_]; }
   // The item at `place`, counted from the front, without gathered ones. A walk.
-  const Slot& at(uint8_t place) const {
+  Slot& at(uint8_t place) {
     uint8_t slot = front_;
     for (; place != 0; --place) slot = slots_[slot].next;
     return slots_[slot];

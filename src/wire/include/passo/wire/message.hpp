@@ -191,8 +191,13 @@ uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, ui
   const uint16_t events = static_cast<uint16_t>(segment.events | segment.form << form_place);
   encoder.put16(fine ? events : static_cast<uint16_t>(events | coarse_bit));
   encoder.put8(segment.directions);
-  encoder.put8(segment.flips);
-  encoder.put8(segment.bend);
+  const Bend bend = bend_of(segment);
+  if (motors > most_motors_beside_bend) {
+    encoder.put8(segment.flips);
+    encoder.put8(segment.bend);
+  } else {
+    encoder.put8(static_cast<uint8_t>(segment.flips | bend.bent << 4 | bend.lender << 6));
+  }
   encoder.put32(segment.interval);
   encoder.put24(static_cast<uint32_t>(fine ? segment.change : segment.change / coarse_change));
   for (uint8_t motor = 0; motor < motors; ++motor) encoder.put16(segment.increments[motor]);
@@ -359,22 +364,36 @@ template <uint8_t room>
   if (!coarse) segment.change >>= 8;
 }
 
+template <uint8_t room>
+[[gnu::noinline]] void load_bend(uint8_t bent, uint8_t lender, uint8_t motors, SegmentFor<room>& segment) {
+  constexpr uint8_t known = static_cast<uint8_t>((1U << SegmentFor<room>::half) - 1);
+  segment.bend = static_cast<uint8_t>(bent | lender << bend_shift<room>) & known;
+  // A segment without events is refused.
+  if (bent >= motors || lender >= motors) segment.events = 0;
+}
+
 // `motors` is at most `room`.
 template <uint8_t room>
 void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
+  constexpr uint8_t known = static_cast<uint8_t>((1U << SegmentFor<room>::half) - 1);
   const uint8_t* bytes = frame.payload;
   const uint16_t events = load16(bytes);
-  constexpr uint8_t known = static_cast<uint8_t>((1U << SegmentFor<room>::half) - 1);
-  const uint8_t bent = bytes[4] & 0x0F;
-  const uint8_t lender = bytes[4] >> 4;
-  // What has no room is of motors that are not there. A segment without events is refused.
-  const bool fits = ((bytes[2] | bytes[3]) & ~known) == 0 && bent < room && lender < room;
-  segment.events = fits ? events & most_events : uint16_t{0};
+  segment.events = events & most_events;
   segment.form = static_cast<uint8_t>(events >> 8) >> (form_place - 8) & 0x0F;
   segment.directions = bytes[2] & known;
-  segment.flips = bytes[3] & known;
-  segment.bend = static_cast<uint8_t>(bent | lender << bend_shift<room>) & known;
-  load_times(bytes + 5, (events & coarse_bit) != 0, segment);
+  // Directions that have no room are of motors that are not there.
+  if ((bytes[2] & static_cast<uint8_t>(~known)) != 0) segment.events = 0;
+  segment.bend = 0;
+  const uint8_t flips = bytes[3];
+  if (motors > most_motors_beside_bend) {
+    segment.flips = flips & known;
+    ++bytes;
+    if (bytes[3] != 0) load_bend(bytes[3] & 0x0F, bytes[3] >> 4, motors, segment);
+  } else {
+    segment.flips = flips & 0x0F;
+    if (flips > 0x0F) load_bend(flips >> 4 & 3, flips >> 6, motors, segment);
+  }
+  load_times(bytes + 4, (events & coarse_bit) != 0, segment);
   load_increments(bytes + segment_size, motors, segment);
 }
 

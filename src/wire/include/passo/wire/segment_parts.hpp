@@ -20,6 +20,7 @@
 #include <stdint.h>
 
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/encoder.hpp"
 
 namespace passo {
 
@@ -45,26 +46,36 @@ constexpr uint8_t part_length(uint8_t form) {
 [[gnu::noinline]] constexpr int32_t product_of(int16_t a, int16_t b) {
   return int32_t{a} * int32_t{b};
 }
+// Pause{}() is called between the products, here and below.
+template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t high_product(int32_t a, int32_t b) {
   const int32_t sides = sides_of(a, b);
+  Pause{}();
   return sides + product_of(static_cast<int16_t>(a >> 16), static_cast<int16_t>(b >> 16));
 }
 // a b / 2^31: the product with a fraction.
+template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t times_fraction(int32_t a, int32_t b) {
-  return static_cast<int32_t>(static_cast<uint32_t>(high_product(a, b)) << 1);
+  return static_cast<int32_t>(static_cast<uint32_t>(high_product<Pause>(a, b)) << 1);
 }
 
+// Twice the factor less one, in 1/2^31.
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t twice_factor(int32_t growth) {
+  const int32_t squared = times_fraction<Pause>(growth, growth);
+  return growth + (squared >> 1) + (squared >> 2);
+}
 // The change at each event of a part of 2^k events that begins with that interval.
-[[gnu::noinline]] constexpr int32_t root_change(uint32_t interval, int32_t growth, uint8_t k) {
-  const int32_t squared = times_fraction(growth, growth);
-  const int32_t twice = growth + (squared >> 1) + (squared >> 2);  // of the factor less one
-  // At most 2^31 if v is at most 1/2; a board plays anything beyond that, too.
-  const uint32_t longer = static_cast<uint32_t>(high_product(static_cast<int32_t>(interval >> 1), twice)) << 1;
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t root_change(uint32_t interval, int32_t twice, uint8_t k) {
+  const uint32_t longer = static_cast<uint32_t>(high_product<Pause>(static_cast<int32_t>(interval >> 1), twice)) << 1;
   return static_cast<int32_t>(longer) >> k;
 }
+template <class Pause = NoPause>
 [[gnu::noinline]] constexpr int32_t next_growth(int32_t growth) {
-  const uint32_t squared = static_cast<uint32_t>(times_fraction(growth, growth));
-  const uint32_t cubed = static_cast<uint32_t>(times_fraction(static_cast<int32_t>(squared), growth));
+  const uint32_t squared = static_cast<uint32_t>(times_fraction<Pause>(growth, growth));
+  Pause{}();
+  const uint32_t cubed = static_cast<uint32_t>(times_fraction<Pause>(static_cast<int32_t>(squared), growth));
   return static_cast<int32_t>(static_cast<uint32_t>(growth) + squared + cubed);
 }
 
@@ -78,14 +89,15 @@ struct PartTimes {
   constexpr void begin(const SegmentFor<motors>& segment) {
     interval = segment.interval;
     growth = segment.change;
-    change = is_root(segment.form) ? root_change(interval, growth, segment.form & ~root_form) : segment.change;
+    change =
+        is_root(segment.form) ? root_change(interval, twice_factor(growth), segment.form & ~root_form) : segment.change;
   }
   // Goes on to the part after this one.
   constexpr void go_on(uint8_t form) {
     interval += static_cast<uint32_t>(change) * part_length(form);
     if (!is_root(form)) return;
     growth = next_growth(growth);
-    change = root_change(interval, growth, form & ~root_form);
+    change = root_change(interval, twice_factor(growth), form & ~root_form);
   }
 };
 
