@@ -2,7 +2,7 @@
 //
 //   language_benchmark
 //
-// Five kinds of programs of 200,000 executed lines: lines a second of CPU time, interpreted with operations dropped,
+// Six kinds of programs of 200,000 executed lines: lines a second of CPU time, interpreted with operations dropped,
 // checked by `passo check`, and printed as canonical calls by `passo canon` and by `rs274 -g`, both to /dev/null. Then
 // the highest memory of `passo canon` for two million lines of each kind. The benchmark prints figures and decides
 // nothing.
@@ -56,6 +56,19 @@ void write_arcs(std::FILE* file, int lines) {
     const double next = angle + 0.3 + 0.01 * (i % 150);
     fmt::print(file, "G3 X{:.5f} Y{:.5f} I{:.5f} J{:.5f}\n", 10 * std::cos(next), 10 * std::sin(next),
                -10 * std::cos(angle), -10 * std::sin(angle));
+    angle = std::fmod(next, 2 * std::numbers::pi);
+  }
+  fmt::print(file, "M2\n");
+}
+
+// Lines with as many words and digits as those of write_arcs(), and without a bend: what of an arc's cost is reading.
+void write_long_moves(std::FILE* file, int lines) {
+  fmt::print(file, "G21 G17 G90 F1000\nG0 X10 Y0\n");
+  double angle = 0;
+  for (int i = 0; i < lines; ++i) {
+    const double next = angle + 0.3 + 0.01 * (i % 150);
+    fmt::print(file, "G1 X{:.5f} Y{:.5f} Z{:.5f} F{:.5f}\n", 10 * std::cos(next), 10 * std::sin(next),
+               -10 * std::cos(angle), 15 + 10 * std::sin(angle));
     angle = std::fmod(next, 2 * std::numbers::pi);
   }
   fmt::print(file, "M2\n");
@@ -123,6 +136,7 @@ std::string thousands(double rate) {
 int main() {
   const Kind kinds[] = {{"G1 X Y Z", write_moves},
                         {"modal X Y", write_modal},
+                        {"G1 as long as a G3", write_long_moves},
                         {"G3 with I J", write_arcs},
                         {"while with trigonometry", write_loop},
                         {"subs, named parameters", write_subs}};

@@ -15,14 +15,14 @@ build_packages=(
   libcairo2-dev libpng-dev   # pictures
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
+  clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
+  libsimavr-dev libelf-dev   # passo-emulate-avr runs it on emulated chips: sim:uno, sim:mega
 )
 test_packages=(
   libgtest-dev libgmock-dev  # tests
   libbenchmark-dev           # benchmarks
-  clang libclang-rt-14-dev   # a second opinion on warnings; compiles for the chip
-  gcc-avr avr-libc binutils-avr  # link for the chip: libgcc, start-up code, linker
-  libsimavr-dev simavr       # the chip, emulated
-  libelf-dev                 # simavr reads programs with it
+  libclang-rt-14-dev         # sanitizers and fuzzers of clang
+  avrdude arduino-core-avr   # writes to a chip; the Uno's boot loader, which the tests put on the emulated chip
   lld                        # links for the Pico
   gputils gpsim              # assembler and emulator for the PIC
   clang-format clang-tidy    # style

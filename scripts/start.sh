@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# scripts/start.sh: from a fresh clone to a first job. Installs what is missing, builds Passo, engraves an example on a
-# virtual machine, and names the picture and the report that it wrote.
+# scripts/start.sh: from a fresh clone to a first job. Installs what is missing, builds Passo with its emulated boards,
+# engraves an example on a virtual machine, and names the picture and the report that it wrote.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,7 +10,7 @@ scripts/install.sh --build
 tests_off=(-DPASSO_BUILD_TESTS=OFF -DPASSO_BUILD_BENCHMARKS=OFF)
 [[ -f build/release/CMakeCache.txt ]] && tests_off=()
 cmake --preset release "${tests_off[@]}"
-cmake --build build/release --target passo --parallel "$(nproc)"
+cmake --build build/release --target passo emulated_boards --parallel "$(nproc)"
 
 mkdir -p out
 first_job=(build/release/passo run --yes examples/engrave.ngc
@@ -23,3 +23,4 @@ echo "+ ${first_job[*]}"
 echo
 echo "Picture: $PWD/out/engrave.png"
 echo "Report:  $PWD/out/report.json"
+echo "The same on an emulated Uno: build/release/passo run --yes examples/engrave.ngc -m examples/machines/uno.toml --board sim:uno"

@@ -68,6 +68,7 @@ Refiller::Refiller(const Stages& stages, const StepOptions& steps, const TailOpt
 }
 
 void Refiller::watch(const MotionItem& motion) {
+  motion_played_.note_given(motion);
   given_ = stages_.path.behind(given_, motion);
   const auto* move = std::get_if<PlannedMove>(&motion);
   given_time_ += move != nullptr ? move->duration() : std::get<Action>(motion).dwell;
@@ -85,6 +86,7 @@ Refiller::Turn Refiller::advance() {
     brakes_ = false;
     if (pulled_.empty()) {
       rested_ = tail_of_nothing().rest;
+      motion_played_.show(motion_played_.given());
       given_time_ = sent_time_ = Seconds(0);
       began_.reset();
       told_ahead_.reset();
@@ -217,7 +219,9 @@ void Refiller::note_executed() {
     ahead_ -= motion_.front().time;
   }
   auto& under_way = refills_under_way_;
-  while (under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0) under_way.pop_front();
+  for (; under_way.size() > 1 && later_by(executed, under_way[1].first) >= 0; under_way.pop_front()) {
+    motion_played_.show(under_way.front().tail.from);
+  }
   if (under_way.empty()) return;
   if (later_by(executed, under_way.front().first) < 0) {
     // From the rest on, the board has begun nothing of the refill. If the board dropped the refill, it never will.
@@ -231,6 +235,8 @@ void Refiller::note_executed() {
   on_tail_ = later_by(executed, under_way.front().last_of_motion) > 0;
   if (executed != under_way.front().last) return;
   rested_ = std::move(under_way.front().rest);
+  motion_played_.show(under_way.front().tail.from);
+  if (on_tail_) motion_played_.show_tail(under_way.front().tail.moves);
   under_way.pop_front();
   if (!on_tail_) return;
   behind_ = executed;
@@ -242,6 +248,7 @@ void Refiller::note_executed() {
 void Refiller::take_up() {
   refills_under_way_.clear();
   played_.forget();
+  motion_played_.forget();
   motion_.clear();
   pulled_.clear();
   ahead_ = pulled_time_ = Seconds(0);
@@ -319,6 +326,8 @@ Refiller::Tail Refiller::find_tail() {
   stages_.planner.braking_plan(plan_);
   Tail tail{.from = given_, .rest = {.place = given_, .outputs = stages_.outputs}};
   for (const PlannedMove& move : plan_) tail.rest.place = stages_.path.behind(tail.rest.place, move);
+  tail.motion.from = motion_played_.given();
+  if (motion_played_.is_watched()) tail.motion.moves = plan_;
   Braking braking(plan_);
   StepGenerator& rested = *(tail.rest.generator = std::make_unique<StepGenerator>(braking, steps_));
   rested.assume(stages_.generator);
@@ -328,7 +337,10 @@ Refiller::Tail Refiller::find_tail() {
 }
 
 Refiller::Tail Refiller::tail_of_nothing() {
-  return {.from = given_, .rest = {.place = given_, .generator = fork(), .outputs = stages_.outputs}};
+  return {.from = given_,
+          .rest = {.place = given_, .generator = fork(), .outputs = stages_.outputs},
+          .items = {},
+          .motion = {.from = motion_played_.given()}};
 }
 
 // A copy of the generator's state. The copy has no motion to read.
@@ -404,6 +416,7 @@ void Refiller::send(std::size_t items) {
   ++refills_;
   refill.from = tail.from;
   refill.rest = std::move(pulled_[items - 1].tail->rest);
+  refill.tail = std::move(pulled_[items - 1].tail->motion);
   refills_under_way_.push_back(std::move(refill));
   pulled_.erase(pulled_.begin(), pulled_.begin() + static_cast<std::ptrdiff_t>(items));
   if (attention_ != Attention::none) ask();

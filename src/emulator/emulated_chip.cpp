@@ -83,6 +83,11 @@ void EmulatedChip::step() {
                              std::to_string(avr_->cycle));
 }
 
+void EmulatedChip::stop() {
+  stopped_ = true;
+  avr_->run_cycle_count = 0;
+}
+
 void EmulatedChip::run_for(std::uint64_t cycles) {
   const std::uint64_t end = avr_->cycle + cycles;
   // simavr runs on until something is due, so something is made due here.

@@ -43,9 +43,12 @@ EmulatedPorts::EmulatedPorts(EmulatedChip& chip, const std::string& ports) : avr
                                         auto& toggled = *static_cast<Port*>(which);
                                         toggled.all->write(toggled, avr->data[address + 2] ^ value);
                                       }};
-    avr_.io[AVR_DATA_TO_IO(pin + 1)].w = {
-        .param = nullptr,
-        .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void*) { avr->data[address] = value; }};
+    avr_.io[AVR_DATA_TO_IO(pin + 1)].w = {.param = &port,
+                                          .c = [](avr_t* avr, avr_io_addr_t address, std::uint8_t value, void* which) {
+                                            avr->data[address] = value;
+                                            const auto& all = *static_cast<Port*>(which)->all;
+                                            if (all.on_direction) all.on_direction();
+                                          }};
     avr_.io[AVR_DATA_TO_IO(pin + 2)].w = {.param = &port,
                                           .c = [](avr_t*, avr_io_addr_t, std::uint8_t value, void* which) {
                                             auto& written = *static_cast<Port*>(which);
@@ -75,6 +78,10 @@ void EmulatedPorts::write(Port& port, std::uint8_t value) {
 
 std::uint8_t EmulatedPorts::outputs(char port) const {
   return avr_.data[pin_address(port) + 2];
+}
+
+std::uint8_t EmulatedPorts::directions(char port) const {
+  return avr_.data[pin_address(port) + 1];
 }
 
 void EmulatedPorts::connect(Pin row, Pin column, bool closed) {

@@ -67,6 +67,14 @@ constexpr Unfollowed unfollowed[] = {
     {"EMCIO", "TOOL_CHANGE_QUILL_UP", Severity::error, " 0 ", "M6 moves Z up"},
     {"EMCIO", "TOOL_CHANGE_AT_G30", Severity::error, " 0 ", "M6 moves to the place of G30"},
     {"EMCIO", "TOOL_CHANGE_POSITION", Severity::warning, "", "M6 moves to this place"},
+    {"AXIS_A", "WRAPPED_ROTARY", Severity::error, " 0 no false off ", "the sign of A in G90 is the way round"},
+    {"AXIS_B", "WRAPPED_ROTARY", Severity::error, " 0 no false off ", "the sign of B in G90 is the way round"},
+    {"AXIS_C", "WRAPPED_ROTARY", Severity::error, " 0 no false off ", "the sign of C in G90 is the way round"},
+    {"AXIS_A", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "A moves alone, unlocked, by G0"},
+    {"AXIS_B", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "B moves alone, unlocked, by G0"},
+    {"AXIS_C", "LOCKING_INDEXER_JOINT", Severity::error, " -1 ", "C moves alone, unlocked, by G0"},
+    {"PYTHON", "TOPLEVEL", Severity::warning, "", "subs may be functions of Python"},
+    {"WIZARD", "WIZARD_ROOT", Severity::warning, "", "subs are looked for in this folder too"},
     {"TRAJ", "ANGULAR_UNITS", Severity::error, " deg degree 1 1.0 ", "angles are not in degrees"},
 };
 

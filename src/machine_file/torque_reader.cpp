@@ -27,6 +27,10 @@ constexpr NumberKey inertia_key{"load_inertia_g_cm2", 0, 1e9, "150"};
 constexpr NumberKey mass_key{"load_mass_kg", 0, 1e5, "12"};
 constexpr NumberKey shaft_friction_key{"friction_nm", 0, 1e4, "0.05"};
 constexpr NumberKey slide_friction_key{"friction_n", 0, 1e6, "20"};
+constexpr NumberKey drop_key{"transistor_drop_v", 0, 100, "1.2"};
+constexpr NumberKey decay_key{"fast_decay_share", 0, 1, "0.5"};
+constexpr NumberKey detent_key{"detent_torque_nm", 0, 1e4, "0.02"};
+constexpr NumberKey weight_key{"weight_n", -1e6, 1e6, "30"};
 constexpr NumberKey share_key{"share_of_pull_out", 0.05, 1, "0.7"};
 
 const char* const torque_code = "machine.torque";
@@ -40,6 +44,7 @@ std::optional<TorqueCurve> from(TableReader& reader, std::string_view key, Resul
 std::optional<TorqueCurve> read_points(TableReader& reader, const Rotor& rotor) {
   reader.know(pull_out_key.name);
   for (const NumberKey* key : electrical_keys) reader.know(key->name);
+  for (const NumberKey* key : {&drop_key, &decay_key}) reader.know(key->name);
   for (const NumberKey* key : electrical_keys) {
     if (!reader.has(key->name)) continue;
     reader.error(torque_code, key->name,
@@ -54,7 +59,7 @@ std::optional<TorqueCurve> read_points(TableReader& reader, const Rotor& rotor) 
   return from(reader, pull_out_key.name, TorqueCurve::from_points(rotor, points));
 }
 
-std::optional<TorqueCurve> read_motor(TableReader& reader, const Rotor& rotor) {
+std::optional<TorqueCurve> read_motor(TableReader& reader, const Rotor& rotor, std::optional<DrivenMotor>& driven) {
   const auto holding = reader.number(holding_key, Need::required);
   const auto current = reader.number(current_key, Need::required);
   const auto resistance = reader.number(resistance_key, Need::required);
@@ -62,18 +67,22 @@ std::optional<TorqueCurve> read_motor(TableReader& reader, const Rotor& rotor) {
   const auto supply = reader.number(supply_key, Need::required);
   const auto unipolar = reader.is_second_of(torque_code, "winding", "bipolar", "unipolar", Need::optional);
   const auto resistive = reader.is_second_of(torque_code, "drive", "chopper", "resistive", Need::optional);
+  const auto drop = reader.number(drop_key, Need::optional);
+  const auto decay = reader.number(decay_key, Need::optional);
   if (!holding || !current || !resistance || !inductance || !supply || !unipolar || !resistive) return std::nullopt;
   const Winding winding = *unipolar ? Winding::half_coil : Winding::whole_coil;
-  return from(reader, holding_key.name,
-              TorqueCurve::from_motor({.rotor = rotor,
-                                       .holding_torque = {*holding},
-                                       .rated_current = {*current},
-                                       .resistance = {*resistance},
-                                       .inductance = {*inductance * henries_per_millihenry},
-                                       .winding = winding},
-                                      {.supply = {*supply},
-                                       .winding = winding,
-                                       .regulation = *resistive ? Regulation::resistive : Regulation::chopper}));
+  driven = DrivenMotor{.data = {.rotor = rotor,
+                                .holding_torque = {*holding},
+                                .rated_current = {*current},
+                                .resistance = {*resistance},
+                                .inductance = {*inductance * henries_per_millihenry},
+                                .winding = winding},
+                       .drive = {.supply = {*supply},
+                                 .winding = winding,
+                                 .regulation = *resistive ? Regulation::resistive : Regulation::chopper,
+                                 .drop = {drop.value_or(0)},
+                                 .fast_decay = decay.value_or(1)}};
+  return from(reader, holding_key.name, TorqueCurve::from_motor(driven->data, driven->drive));
 }
 
 }  // namespace
@@ -84,7 +93,8 @@ std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::opti
   const Rotor rotor{.steps_per_revolution = static_cast<int>(full_steps.value_or(200)),
                     .inertia = {rotor_inertia.value_or(1) * kg_m2_per_g_cm2}};
   const bool measured = reader.has(pull_out_key.name);
-  auto curve = measured ? read_points(reader, rotor) : read_motor(reader, rotor);
+  std::optional<DrivenMotor> driven;
+  auto curve = measured ? read_points(reader, rotor) : read_motor(reader, rotor, driven);
   if (!measured) reader.know(pull_out_key.name);
 
   const double radians_per_unit = 2 * std::numbers::pi / unit_per_turn.value_or(1);
@@ -96,10 +106,18 @@ std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::opti
     load.inertia.value += reader.number(mass_key, Need::optional).value_or(0) * way * way;
     load.friction.value += reader.number(slide_friction_key, Need::optional).value_or(0) * way;
   }
+  const auto detent = reader.number(detent_key, Need::optional);
+  NewtonMetres weight;
+  if (!rotary) weight.value = reader.number(weight_key, Need::optional).value_or(0) * metres_per_mm / radians_per_unit;
   const auto share = reader.number(share_key, Need::optional);
   if (!curve || !rotor_inertia || !unit_per_turn) return std::nullopt;
-  return AxisMotor{
-      .curve = std::move(*curve), .load = load, .share = share.value_or(0.7), .radians_per_unit = radians_per_unit};
+  return AxisMotor{.curve = std::move(*curve),
+                   .load = load,
+                   .share = share.value_or(0.7),
+                   .radians_per_unit = radians_per_unit,
+                   .driven = driven,
+                   .detent = {detent.value_or(0)},
+                   .weight = weight};
 }
 
 }  // namespace passo

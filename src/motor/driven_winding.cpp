@@ -8,7 +8,7 @@ namespace passo {
 
 DrivenWinding::DrivenWinding(const MotorData& data, const MotorDrive& drive)
     : teeth_(data.rotor.teeth()),
-      voltage_(drive.supply.value),
+      voltage_(drive.supply.value - drive.drop.value),
       limits_current_(drive.regulation == Regulation::chopper) {
   const MotorData winding = as_wound(data, drive.winding);
   current_ = winding.rated_current.value;

@@ -42,7 +42,13 @@ Status<MotorError> check(const MotorData& data) {
 }
 
 Status<MotorError> check(const MotorDrive& drive) {
-  return check_positive({{"the supply voltage", drive.supply.value, "V"}});
+  Status<MotorError> supply =
+      check_positive({{"the supply voltage", drive.supply.value, "V"},
+                      {"the supply voltage without the drop", drive.supply.value - drive.drop.value, "V"}});
+  if (!supply) return supply;
+  if (drive.drop.value >= 0 && drive.fast_decay >= 0 && drive.fast_decay <= 1) return Unit{};
+  return Failure{MotorError{fmt::format("the drop must be 0 V or more, not {:g}, and the decay from 0 to 1, not {:g}",
+                                        drive.drop.value, drive.fast_decay)}};
 }
 
 MotorData as_wound(const MotorData& data, Winding winding) {

@@ -47,10 +47,12 @@ concept OfOthers =
               operation::Reset, operation::SetFeedReference>;
 
 bool turns_only_rotary_axes(const Curve& curve) {
+  if (curve.shape() != Curve::Shape::line) return false;
+  const Point direction = curve.tangent(Mm(0));
   for (const Axis axis : all_axes) {
-    if (!is_rotary(axis) && curve.tangent(Mm(0))[axis] != 0) return false;
+    if (!is_rotary(axis) && direction[axis] != 0) return false;
   }
-  return curve.shape() == Curve::Shape::line;
+  return true;
 }
 
 template <class... Handlers>

@@ -119,6 +119,26 @@ void add_holds(const RunSummary& summary, Json& json) {
   }
 }
 
+void add_physics(const PhysicsSummary& physics, Json& json) {
+  const auto letter = [](Axis axis) { return std::string(1, letter_of(axis)); };
+  Json& out = json["physics"];
+  for (const PhysicsSummary::Motor& motor : physics.motors) {
+    out["motors"].push_back({{"axis", letter(motor.axis)},
+                             {"lost_steps", motor.lost_steps},
+                             {"lost_mm", motor.lost},
+                             {"following_error_mm", motor.following_error},
+                             {"margin", motor.least_margin},
+                             {"at_s", motor.least_margin_at.value()},
+                             {"line", motor.line},
+                             {"position_mm", motor.position}});
+  }
+  out["losses"] = Json::array();
+  for (const PhysicsSummary::Loss& loss : physics.losses) {
+    out["losses"].push_back(
+        {{"time_s", loss.time.value()}, {"axis", letter(loss.axis)}, {"steps", loss.steps}, {"line", loss.line}});
+  }
+}
+
 }  // namespace
 
 std::string to_json(const RunSummary& summary) {
@@ -131,6 +151,7 @@ std::string to_json(const RunSummary& summary) {
   add_holds(summary, json);
   if (summary.probes) add_probes(summary, *summary.probes, json);
   add_tails(summary, json);
+  if (summary.physics) add_physics(*summary.physics, json);
   // The name of a program may not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -125,7 +126,7 @@ class Text {
 
   void board(const RunSummary& summary, const BoardSummary& board) {
     heading("Board", "");
-    line("end", duration(board.end), difference(summary, board));
+    line("end", duration(board.end), waiting(summary, board));
     line("pulses", grouped(board.pulses), "  in " + counted(board.events, "event"));
     line("sent", sizes(board.bytes), "  in " + counted(board.frames, "frame"));
     if (board.busiest_second > 0) line("at most", sizes(board.busiest_second), "  in a second");
@@ -165,19 +166,37 @@ class Text {
     }
   }
 
+  void physics(const PhysicsSummary& physics) {
+    heading("Motors", fmt::format("{}; margin is the share of the torque that was left, at the worst", unit()));
+    out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>10}{:>8}{:>12}\n", "", "steps lost", "off by", "following",
+                        "margin", "line", "truly at");
+    for (const PhysicsSummary::Motor& motor : physics.motors) {
+      out_ += fmt::format("  {:4}{:>12}{:>12}{:>12}{:>8.0f} %{:>8}{:>12}\n", letter_of(motor.axis),
+                          grouped(motor.lost_steps), place(motor.lost, motor.axis),
+                          place(motor.following_error, motor.axis), 100 * motor.least_margin, motor.line,
+                          place(motor.position, motor.axis));
+    }
+    constexpr std::size_t shown = 10;
+    for (std::size_t i = 0; i < std::min(shown, physics.losses.size()); ++i) {
+      const PhysicsSummary::Loss& loss = physics.losses[i];
+      out_ += fmt::format("  at {:.3f} s, line {}: {} lost {} steps\n", loss.time.value(), loss.line,
+                          letter_of(loss.axis), loss.steps);
+    }
+    if (physics.losses.size() > shown) out_ += fmt::format("  and {} more times\n", physics.losses.size() - shown);
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
   std::string strong(std::string_view text) const {
     return colour_ ? fmt::format("\x1b[1m{}\x1b[0m", text) : std::string(text);
   }
-  // Over a line, motion is sent ahead. Of what was sent before a contact, or before the board braked by itself, a part
-  // is not played but planned anew, so the motion's times hold it twice. Waiting makes the board's end later.
-  static std::string difference(const RunSummary& summary, const BoardSummary& board) {
-    const Seconds less = summary.time() - board.end;
-    if (board.held_items == 0 || std::llround(less.value() * 1000) == 0) return {};
-    return less > Seconds(0) ? fmt::format("  {} less than the total: motion that was planned twice", duration(less))
-                             : fmt::format("  {} more than the total: waiting", duration(board.end - summary.time()));
+  // Over a line the board waits where the program does: at rest, for more motion or for answers. The motion's times do
+  // not hold that.
+  static std::string waiting(const RunSummary& summary, const BoardSummary& board) {
+    const Seconds more = board.end - summary.time();
+    if (board.held_items == 0 || std::llround(more.value() * 1000) <= 0) return {};
+    return fmt::format("  {} more than the total: waiting", duration(more));
   }
   void heading(std::string_view name, std::string_view unit) {
     out_ += "\n" + strong(name);
@@ -247,6 +266,10 @@ std::string name_of_system(std::uint8_t system) {
   return system <= last_whole ? fmt::format("G{}", first + system) : fmt::format("G59.{}", system - last_whole);
 }
 
+bool PhysicsSummary::lost() const {
+  return !losses.empty();
+}
+
 std::string to_text(const RunSummary& summary, bool colour) {
   Text text(colour, summary.units);
   text.title(summary);
@@ -259,6 +282,7 @@ std::string to_text(const RunSummary& summary, bool colour) {
   if (!summary.holds.empty()) text.holds(summary);
   if (summary.probes) text.probes(summary, *summary.probes);
   if (!summary.tails.empty()) text.tails(summary);
+  if (summary.physics) text.physics(*summary.physics);
   return text.take();
 }
 

@@ -447,7 +447,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
   }
 
   std::optional<Bent> bent;
-  if (share_ != 0 && count < timing.events && advances[stretch.master].events == timing.events) {
+  if (bends_ && share_ != 0 && count < timing.events && advances[stretch.master].events == timing.events) {
     bent = fit_bend(events, stretch, board, timing, advances);
     if (bent) count = bent->advance.events;
   }

@@ -25,8 +25,8 @@ namespace passo {
 
 class SegmentFitter {
  public:
-  SegmentFitter(std::uint8_t motors, std::int64_t shortest_interval)
-      : motors_(motors), shortest_interval_(shortest_interval) {}
+  SegmentFitter(std::uint8_t motors, std::int64_t shortest_interval, bool bends)
+      : motors_(motors), shortest_interval_(shortest_interval), bends_(bends) {}
 
   // The greatest distance of an event from its exact time, in 1/65536 tick. Rounding to whole ticks adds half a tick.
   static constexpr std::int64_t exact = whole_tick * 9 / 20;
@@ -87,6 +87,7 @@ class SegmentFitter {
 
   std::uint8_t motors_;
   std::int64_t shortest_interval_;
+  bool bends_;
   std::int64_t share_ = 0;
   unsigned longest_ = 255;
   unsigned guess_ = 255;  // the number of events in the last segment; the next number will be similar

@@ -20,7 +20,7 @@ class StepGenerator::Implementation {
         tick_rate_(options.clock.tick_rate),
         stream_(options),
         board_(options.motor_count),
-        fitter_(options.motor_count, stream_.shortest_interval()) {
+        fitter_(options.motor_count, stream_.shortest_interval(), options.bends) {
     for (unsigned m = 0; m < motors_; ++m) {
       board_.set_steps(m, std::llround(options.start[options.motors[m].axis] * options.motors[m].steps_per_unit));
     }

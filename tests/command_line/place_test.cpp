@@ -126,6 +126,10 @@ TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_no_start) {
   const Outcome stopped = run("G21 G90 G1 F3000 X-4.9", "--from-here");
   EXPECT_EQ(stopped.code, 1);
   EXPECT_THAT(stopped.err, HasSubstr("closed now: limit 1"));
+  EXPECT_THAT(stopped.err, HasSubstr("the board: the limit switch of X closed in line 1 of " + path("p.ngc")));
+  EXPECT_THAT(stopped.err, HasSubstr("near X-3.000 Y0.000 Z0.000"));
+  EXPECT_THAT(stopped.err, HasSubstr("jog off it (passo jog X+2), home the machine (passo home)"));
+  EXPECT_THAT(stopped.err, HasSubstr("[board.stopped]"));
   EXPECT_THAT(stopped.err, Not(HasSubstr("--resume")));
   const double closed_at = x();
   EXPECT_EQ(closed_at, -3);
@@ -149,6 +153,33 @@ TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_no_start) {
   const Outcome moved = run("G21 G90 G0 X1", "--from-here");
   EXPECT_EQ(moved.code, 0) << moved.err;
   EXPECT_THAT(moved.err, Not(HasSubstr("was not finished")));
+}
+
+// Each way off it that the words name, on one board, which is never started anew.
+TEST_F(PlaceOfAMachine, at_a_closed_limit_switch_is_not_the_end) {
+  begin("-3");
+  const auto run_onto_it = [&](const std::string& more) {
+    const Outcome stopped = run("G21 G90 F3000\nG1 Y1\nX1 Y0\nX-4.9\nX0", more);
+    EXPECT_EQ(stopped.code, 1);
+    EXPECT_THAT(stopped.err, HasSubstr("the limit switch of X closed in line 4 of "));
+    EXPECT_EQ(x(), -3);
+  };
+  run_onto_it("--from-here");
+  EXPECT_EQ(passo("home" + on_board()).code, 0);
+  EXPECT_EQ(x(), -2.5);
+  EXPECT_EQ(run("G21 G90 G0 X1").code, 0);
+  run_onto_it("");
+  EXPECT_EQ(run("G21 G90 G0 X1", "--home").code, 0);
+  EXPECT_EQ(x(), 1);
+  run_onto_it("");
+  EXPECT_EQ(passo("jog X+1 -F 3000" + on_board()).code, 0);
+  const Outcome jogged = passo("jog X-2 -F 3000" + on_board());
+  EXPECT_EQ(jogged.code, 1);
+  EXPECT_THAT(jogged.err, HasSubstr("the limit switch of X closed: the motors stopped at once near X"));
+  EXPECT_THAT(jogged.err, HasSubstr("jog off it (passo jog X+2), home the machine (passo home) [board.stopped]"));
+  EXPECT_EQ(passo("home" + on_board()).code, 0);
+  EXPECT_EQ(run("G21 G90 G0 X1").code, 0);
+  EXPECT_EQ(x(), 1);
 }
 
 // A program that is homed first is stopped by the same switch.

@@ -1,5 +1,6 @@
 // What a user is told: about the command line, about files that are no programs, about mistakes that programs often
 // make, and about the program itself.
+#include <algorithm>
 #include <array>
 
 #include "kit/command_line.hpp"
@@ -272,6 +273,15 @@ TEST_F(Words, texts_for_the_operator_are_shown) {
   const auto messages = summary(text)["messages"];
   ASSERT_EQ(messages.size(), 3U);
   EXPECT_EQ(messages[2]["kind"], "print");
+}
+
+TEST_F(Words, a_program_that_talks_without_end_is_not_shown_to_its_last_text) {
+  const std::string text = "o1 repeat [5000]\n(msg,again)\no1 endrepeat\nM2\n";
+  for (const Outcome& outcome : {run(text), check(text)}) {
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1001);
+    EXPECT_TRUE(contains(outcome.err, "p.ngc: note: the program says more than 1000 texts; the others are not shown"));
+  }
 }
 
 // --- pictures, explain, ramp

@@ -78,10 +78,14 @@ TEST(Uno, plays_roots_and_bends_in_parts_as_the_host_says) {
       unavoidable);
 }
 
-// At its deepest: amid motion, asked for all it knows, and stopped by a switch.
+// At its deepest: told of its pins, amid motion, asked for all it knows, and stopped by a switch.
 TEST(Uno, leaves_room_on_its_stack) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  for (const PinSetup& setup : {PinSetup{.inputs = 7, .steps = 7, .outputs = 0x1f, .drivers_rest = 20}, PinSetup{}}) {
+    bench.set_up(setup);
+    bench.run(200'000);
+  }
   static_cast<void>(bench.play(random_stream(random, 3, {.shortest_interval = 114, .longest_interval = 300})));
   bench.start(random_stream(random, 3, {.shortest_interval = 200, .longest_interval = 900, .segments = 10}));
   for (int i = 0; i < 40; ++i) {

@@ -191,6 +191,11 @@ void BoardBench::name_session(const Session& session) {
   put_on_line({frame, encode(session, 0, frame)});
 }
 
+void BoardBench::set_up(const PinSetup& setup) {
+  std::uint8_t frame[largest_frame];
+  put_on_line({frame, encode(setup, 0, frame)});
+}
+
 void BoardBench::run(std::uint64_t cycles) {
   const std::uint64_t end = chip_->cycles() + cycles;
   while (chip_->cycles() < end) chip_->run_for(end - chip_->cycles());

@@ -93,6 +93,7 @@ class BoardBench {
   // Finds where the motors stand in their winding tables after motion that play() did not play.
   void follow_windings();
   void name_session(const Session& session);
+  void set_up(const PinSetup& setup);
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
   // Asks the board for its status or something else. The answer comes while the board runs.

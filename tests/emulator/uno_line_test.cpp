@@ -10,6 +10,7 @@
 #include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
+#include "kit/man_in_the_middle.hpp"
 #include "kit/seed.hpp"
 #include "kit/step_log.hpp"
 #include <gtest/gtest.h>
@@ -105,6 +106,27 @@ void random_faults(int trials) {
   EXPECT_GT(faults, trials);
 }
 
+// The faults that a run gets depend on how the program is read ahead, and so on nothing but the seed.
+void make_faults_of_each_kind(int wanted) {
+  const std::uint64_t seed = test::seed();
+  for (const test::Mischief mischief : test::every_mischief) {
+    int faults = 0;
+    int recoveries = 0;
+    for (std::uint64_t i = 0; faults < wanted && !testing::Test::HasFailure(); ++i) {
+      SCOPED_TRACE(std::string(test::name_of(mischief)) + ", run " + std::to_string(i));
+      test::ManInTheMiddle man(mischief, seed + i, 12, 400);
+      recoveries +=
+          run_on_uno([&](BadLine& line) {
+            line.set_trouble([&man](bool to_board, const test::Bytes& bytes) { return man(to_board, bytes); });
+          }).recoveries;
+      ASSERT_GT(man.faults_to_board, 0);
+      faults += man.faults_to_board;
+    }
+    std::printf("%s: %d faults in frames to the board, %d rests\n", std::string(test::name_of(mischief)).c_str(),
+                faults, recoveries);
+  }
+}
+
 class UnoOnABadLineInFull : public test::InFull<testing::Test> {};
 
 TEST(UnoOnABadLine, goes_on_from_where_it_rests_when_the_line_was_cut) {
@@ -113,6 +135,14 @@ TEST(UnoOnABadLine, goes_on_from_where_it_rests_when_the_line_was_cut) {
 
 TEST(UnoOnABadLine, makes_no_wrong_step_of_random_faults) {
   random_faults(5);
+}
+
+TEST(UnoOnABadLine, makes_no_wrong_step_of_a_man_in_the_middle) {
+  make_faults_of_each_kind(15);
+}
+
+TEST_F(UnoOnABadLineInFull, a_thousand_faults_of_each_kind) {
+  make_faults_of_each_kind(static_cast<int>(1000 / test::in_full()));
 }
 
 TEST_F(UnoOnABadLineInFull, cut_before_every_frame) {

@@ -37,7 +37,7 @@ class Run {
     avr_cycle_timer_register(&chip_.avr(), 1, on_time, this);
   }
 
-  ChipRun play() {
+  FollowerRun play() {
     const std::uint64_t end = cycles_of_ns(vector_.end);
     while (chip_.cycles() < end) {
       if (const int state = avr_run(&chip_.avr()); state == cpu_Done || state == cpu_Crashed) {
@@ -166,7 +166,7 @@ class Run {
 
 }  // namespace
 
-ChipRun run_on_avr(const AvrBoard& board, const FollowerVector& vector) {
+FollowerRun run_on_avr(const AvrBoard& board, const FollowerVector& vector) {
   return Run(board, vector).play();
 }
 

@@ -18,6 +18,6 @@ struct AvrBoard {
   std::string images;
 };
 
-ChipRun run_on_avr(const AvrBoard& board, const FollowerVector& vector);
+FollowerRun run_on_avr(const AvrBoard& board, const FollowerVector& vector);
 
 }  // namespace passo

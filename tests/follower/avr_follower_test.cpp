@@ -28,12 +28,28 @@ TEST(FollowerOnAvr, does_what_every_vector_without_keys_says_on_the_uno) {
   EXPECT_GE(played, 5);
 }
 
+// The same in a program of its own, as `passo follower sim` starts it.
+TEST(FollowerOnAvr, does_the_same_in_lock_step_with_another_program) {
+  const std::filesystem::path images = PASSO_IMAGES;
+  for (const FollowerVector& vector : follower_vectors(vectors)) {
+    const std::string mega_name = "mega_" + vector.drive;
+    const auto run = run_follower(mega_name, images / follower_image(mega_name), vector.lines, vector.end);
+    ASSERT_TRUE(run) << run.error();
+    EXPECT_EQ(difference(vector, run->changes, outputs_of_follower(mega_name)), "");
+    if (vector.needs_keypad()) continue;
+    const std::string uno_name = "uno_" + vector.drive;
+    const auto small = run_follower(uno_name, images / follower_image(uno_name), vector.lines, vector.end);
+    ASSERT_TRUE(small) << small.error();
+    EXPECT_EQ(difference(vector, small->changes, outputs_of_follower(uno_name)), "");
+  }
+}
+
 void expect_no_step_lost(const AvrBoard& board, Nanoseconds shortest) {
   const std::uint64_t seed = test::seed();
   for (const Edges edges : {Edges::together, Edges::apart}) {
     FollowerVector vector = random_steps(seed, 3'000, shortest, edges);
     add_fidgeting(vector, seed);
-    const ChipRun run = run_on_avr(board, vector);
+    const FollowerRun run = run_on_avr(board, vector);
     EXPECT_EQ(difference(vector, run.changes, moved_outputs()), "") << board.name << " PASSO_SEED=" << seed;
     EXPECT_LT(run.longest_turn, static_cast<std::uint64_t>(shortest) * 16 / 1000) << board.name;
   }

@@ -6,12 +6,12 @@
 #include <functional>
 
 #include "follower/avr_follower.hpp"
-#include "follower/pic_follower.hpp"
+#include "follower/pic_run.hpp"
 
 namespace passo {
 namespace {
 
-using Play = std::function<ChipRun(const FollowerVector&)>;
+using Play = std::function<FollowerRun(const FollowerVector&)>;
 
 void print_rate(const char* board, double cycles_a_microsecond, const Play& play) {
   std::uint64_t longest = 0;
@@ -37,7 +37,12 @@ int main() {
   print_rate("uno", 16, [&](const FollowerVector& vector) { return run_on_avr(uno, vector); });
   print_rate("mega", 16, [&](const FollowerVector& vector) { return run_on_avr(mega, vector); });
   if (!gpsim_is_here()) return 0;
-  print_rate("pic", 5, [](const FollowerVector& vector) {
-    return run_on_pic(PASSO_IMAGES "/follower_pic", vector, PASSO_IMAGES "/gpsim_rates", Turns::watched);
+  const std::string images = PASSO_IMAGES;
+  print_rate("pic", 5, [&](const FollowerVector& vector) {
+    return run_on_pic(PicFollower::at_20_mhz, images, vector, images + "/gpsim_rates", Turns::watched);
+  });
+  print_rate("first", 1, [&](const FollowerVector& vector) {
+    const FollowerVector later = after_automatic_key(vector, 5);
+    return run_on_pic(PicFollower::first_board, images, later, images + "/gpsim_rates", Turns::watched);
   });
 }

@@ -155,11 +155,17 @@ void add_fidgeting(FollowerVector& vector, std::uint64_t seed) {
   vector.end = std::max(vector.end, vector.lines.back().at + 1'000'000);
 }
 
-KeyPlace key_place(const std::string& line) {
-  const std::string names = "123456789*0#";
-  const std::size_t index = names.find(line.back());
-  if (!line.starts_with("key.") || index == std::string::npos) throw std::runtime_error("no such key: " + line);
-  return {static_cast<int>(index / 3), static_cast<int>(index % 3)};
+FollowerVector after_automatic_key(const FollowerVector& vector, int factor) {
+  constexpr Nanoseconds begin = 100'000'000;
+  FollowerVector later = vector;
+  for (LineChange& change : later.lines) change.at = begin + change.at * factor;
+  for (ExpectedChange& expected : later.expected) {
+    expected.change.at = begin + expected.change.at * factor;
+    expected.within *= factor;
+  }
+  later.end = begin + vector.end * factor;
+  later.lines.insert(later.lines.begin(), {{10'000'000, "key.*", true}, {60'000'000, "key.*", false}});
+  return later;
 }
 
 std::vector<std::string> moved_outputs() {
@@ -169,6 +175,12 @@ std::vector<std::string> moved_outputs() {
 std::vector<std::string> follower_outputs() {
   std::vector<std::string> all = moved_outputs();
   for (const char* indicator : {"relay", "automatic", "manual"}) all.push_back(std::string("indicator.") + indicator);
+  return all;
+}
+
+std::vector<std::string> first_board_outputs() {
+  std::vector<std::string> all = moved_outputs();
+  for (const char* shown : {"indicator.relay", "led.0", "led.1", "led.2", "led.3"}) all.emplace_back(shown);
   return all;
 }
 
@@ -201,12 +213,6 @@ std::string difference(const FollowerVector& vector, const std::vector<OutputCha
 std::string text_of_file(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string winding_text(unsigned pattern) {
-  std::string text;
-  for (unsigned f = 0; f < 4; ++f) text += (pattern >> f & 1) != 0 ? '1' : '0';
-  return text;
 }
 
 }  // namespace passo

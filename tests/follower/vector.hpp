@@ -6,30 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "passo/emulator/emulated_follower.hpp"
+
 namespace passo {
-
-using Nanoseconds = std::int64_t;  // from the end of the reset
-
-// "clock.x" to a level.
-struct LineChange {
-  Nanoseconds at = 0;
-  std::string line;
-  bool high = false;
-};
-
-// "windings.x" from now on "0110".
-struct OutputChange {
-  Nanoseconds at = 0;
-  std::string output;
-  std::string value;
-};
-
-// What a chip's emulator saw.
-struct ChipRun {
-  std::vector<OutputChange> changes;
-  // The longest time from one sample of the clock lines to the next: a level that lasts longer is always seen.
-  std::uint64_t longest_turn = 0;  // in cycles
-};
 
 struct ExpectedChange {
   OutputChange change;  // at the earliest
@@ -65,24 +44,19 @@ FollowerVector manual_mode_at_full_rate(Nanoseconds level);
 // A person plays with the keypad meanwhile, but does not press `#`.
 void add_fidgeting(FollowerVector& vector, std::uint64_t seed);
 
-// A row and column, from 0, of "key.5".
-struct KeyPlace {
-  int row = 0;
-  int column = 0;
-};
-KeyPlace key_place(const std::string& line);
+// The same on a board that waits for a mode key after its reset and runs at a slower clock: all times are `factor`
+// times as long, and before them a person presses `*`.
+FollowerVector after_automatic_key(const FollowerVector& vector, int factor);
 
 // All there are; those that a board without a keypad has, and that random steps are about.
 std::vector<std::string> follower_outputs();
 std::vector<std::string> moved_outputs();
+std::vector<std::string> first_board_outputs();
 
 // What differs, in words; empty where nothing does. Only the outputs that the board `has` are asked for.
 std::string difference(const FollowerVector& vector, const std::vector<OutputChange>& seen,
                        const std::vector<std::string>& has);
 
 std::string text_of_file(const std::filesystem::path& file);
-
-// F1 first.
-std::string winding_text(unsigned pattern);
 
 }  // namespace passo

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "kit/command_line.hpp"
 
@@ -16,7 +17,7 @@ class ServedBoard : public CommandLine {
   // Where the machine stands on a board that was just started: a run wants to be told.
   static constexpr const char* from_here = " --from-here ";
 
-  // Starts a board in place of the last one and returns its address.
+  // Starts a board in place of the last one and returns its address. Without a clock it has the machine's.
   std::string serve(const std::string& clock = "16000000", const std::string& machine = "") {
     end_server();
     const std::string said = path("said");
@@ -24,8 +25,13 @@ class ServedBoard : public CommandLine {
     server_ = fork();
     if (server_ == 0) {
       if (std::freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      execl(PASSO_PROGRAM, PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3", "--clock", clock.c_str(),
-            machine.empty() ? nullptr : "--machine", machine.c_str(), nullptr);
+      std::vector<std::string> words = {PASSO_PROGRAM, "board", "serve", "--port", "0", "--motors", "3"};
+      if (!clock.empty()) words.insert(words.end(), {"--clock", clock});
+      if (!machine.empty()) words.insert(words.end(), {"--machine", machine});
+      std::vector<char*> arguments;
+      for (std::string& word : words) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      execv(PASSO_PROGRAM, arguments.data());
       _exit(1);
     }
     for (int i = 0; i < 1000; ++i) {
@@ -37,14 +43,18 @@ class ServedBoard : public CommandLine {
     return "it did not start";
   }
 
- private:
-  void end_server() {
-    if (server_ <= 0) return;
-    kill(server_, SIGTERM);
-    waitpid(server_, nullptr, 0);
+  // Returns the server's exit code, or the signal that killed it below 0.
+  int end_server(int signal = SIGTERM) {
+    if (server_ <= 0) return 0;
+    int status = 0;
+    kill(server_, signal);
+    waitpid(server_, &status, 0);
     server_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
+  void signal_server(int signal) const { kill(server_, signal); }
 
+ private:
   pid_t server_ = 0;
 };
 

@@ -1,8 +1,6 @@
 // passo board list, info, monitor: which boards there are, what each board is, and what it does.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -12,6 +10,7 @@
 #include "board_words.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
+#include "run_signals.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -85,12 +84,6 @@ Found look_at(const std::string& device, Seconds wait) {
   return found;
 }
 
-std::atomic<bool> interrupted = false;
-
-extern "C" void note_interrupt(int) {
-  interrupted = true;
-}
-
 std::string line_of(const BoardStatus& status) {
   std::string line = fmt::format("{:<8}", (status.state & board_moves) != 0 ? "moves" : "rests");
   const int motors = status.motors == 0 ? 0 : std::min<int>(status.motors, max_motors);
@@ -151,22 +144,21 @@ int board_monitor(const BoardMonitorArguments& arguments) {
   int code = exit_done;
   const auto port = open_named(arguments.board, code);
   if (!port) return code;
-  interrupted = false;
-  std::signal(SIGINT, note_interrupt);
+  note_signals();
   const bool live = rewrites_lines(STDOUT_FILENO) && !arguments.json;
   if (!arguments.json) fmt::print("state     steps of each motor   item + events done   switches that are on\n");
   BoardSession board(*port, inquiry_care);
-  for (std::uint64_t n = 0; !interrupted && (arguments.count == 0 || n < arguments.count); ++n) {
+  for (std::uint64_t n = 0; interrupted_by() == 0 && (arguments.count == 0 || n < arguments.count); ++n) {
     if (n > 0) std::this_thread::sleep_for(std::chrono::duration<double>(arguments.every));
     const auto status = ask_status(board, Seconds(5));
-    if (interrupted) break;
+    if (interrupted_by() != 0) break;
     if (!status) {
       if (live) fmt::print("\n");
       return fail(exit_failed, arguments.board + ": " + silence(board));
     }
     // A terminal shows one line that changes. A pipe gets a line for each status.
     fmt::print("{}{}", arguments.json ? to_json(*status).dump() : line_of(*status), live ? "\033[K\r" : "\n");
-    std::fflush(stdout);
+    if (const int printed = flush_output(); printed != exit_done) return printed;
   }
   if (live) fmt::print("\n");
   return exit_done;

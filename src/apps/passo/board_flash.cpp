@@ -4,10 +4,13 @@
 // avrdude checks by the chip's signature that the chip is the expected one, and reads back what it has written.
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "board_drive.hpp"
 #include "board_opening.hpp"
@@ -19,6 +22,7 @@
 #include <unistd.h>
 
 #include "passo/base/result.hpp"
+#include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
 namespace {
@@ -94,11 +98,13 @@ Result<unsigned, std::string> size_of_image(const std::string& path) {
 }
 
 // Runs a program and returns its exit code; 127 if there is no such program. There is no shell in between, so a file
-// name may have any characters.
+// name may have any characters. Ctrl-C ends that program, and not this one.
 int start(const std::vector<std::string>& words) {
   std::fflush(nullptr);
+  const auto on_interrupt = std::signal(SIGINT, SIG_IGN);
   const pid_t child = fork();
   if (child == 0) {
+    std::signal(SIGINT, on_interrupt);
     std::vector<char*> pointers;
     for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
@@ -106,14 +112,77 @@ int start(const std::vector<std::string>& words) {
     _exit(127);
   }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0) return -1;
+  const bool ended = child > 0 && waitpid(child, &status, 0) > 0;
+  std::signal(SIGINT, on_interrupt);
+  if (!ended) return -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// The file with what the board held before. It is the way back, so nothing ever overwrites it. Beside it lies a file
+// .unfinished as long as the board may hold half a program: whoever flashes again finds there that this file is whole.
+class Backup {
+ public:
+  explicit Backup(std::string path) : path_(std::move(path)) {}
+  const std::string& path() const { return path_; }
+  bool is_of_unfinished() const { return fs::exists(path_) && fs::exists(mark()); }
+  bool is_of_another() const { return fs::exists(path_) && !fs::exists(mark()); }
+  // What avrdude has written is not whole.
+  void drop() const {
+    std::error_code none;
+    fs::remove(path_, none);
+  }
+  bool begin_writing() const {
+    std::ofstream file(mark());
+    file << "the board may hold half a program\n" << std::flush;
+    return file.good();
+  }
+  void end_writing() const {
+    std::error_code none;
+    fs::remove(mark(), none);
+  }
+
+ private:
+  std::string mark() const { return path_ + ".unfinished"; }
+
+  std::string path_;
+};
+
+// avrdude with one task.
+using Words = std::vector<std::string>;
+
+int fail_of_avrdude(int code, const std::string& board_is) {
+  if (code == 127) return fail(exit_failed, "avrdude is not installed: apt-get install avrdude");
+  return fail(exit_failed, fmt::format("avrdude ended with {}; {}", code, board_is));
+}
+
+// Keeps what the board holds, and writes the new. Returns the exit code.
+int keep_and_write(const Backup& backup, const Words& read_old, const Words& write_new, bool dry_run) {
+  const auto run = [&](const Words& words) {
+    fmt::print("+ {}\n", fmt::join(words, " "));
+    return dry_run ? 0 : start(words);
+  };
+  if (backup.is_of_unfinished()) {
+    fmt::print("{} is what the board held before the attempt that failed, and stays\n", backup.path());
+  } else if (const int code = run(read_old); code != 0) {
+    backup.drop();
+    return fail_of_avrdude(code, "the board is as it was");
+  }
+  if (!dry_run && !backup.begin_writing()) {
+    return fail(exit_failed, backup.path() + ".unfinished: cannot be written; the board is as it was");
+  }
+  if (const int code = run(write_new); code != 0) {
+    return fail_of_avrdude(code, fmt::format("the board may hold half a program. The same command tries again; what "
+                                             "the board held before stays in {}",
+                                             backup.path()));
+  }
+  backup.end_writing();
+  return exit_done;
 }
 
 }  // namespace
 
 int board_flash(const BoardFlashArguments& arguments) {
-  if (arguments.board == "pico") return flash_by_copying(arguments);
+  if (is_pico(arguments.board)) return flash_by_copying(arguments);
   if (arguments.device.empty()) {
     return fail(exit_bad_program, "which serial line is the board at? As --device /dev/ttyACM0; see passo board list");
   }
@@ -129,42 +198,33 @@ int board_flash(const BoardFlashArguments& arguments) {
     return fail(exit_bad_program,
                 fmt::format("{}: {} bytes; the {} has room for {}", image, *size, chip.part, chip.flash));
   }
-  const std::string backup =
-      arguments.backup.empty() ? fmt::format("passo-backup-{}.hex", arguments.board) : arguments.backup;
-  // The backup is the way back to the old contents. A second attempt must not overwrite it.
-  if (fs::exists(backup)) {
-    return fail(exit_bad_program, backup + " is there already: what the board held before; name another with --backup");
+  const Backup backup(arguments.backup.empty() ? fmt::format("passo-backup-{}.hex", arguments.board)
+                                               : arguments.backup);
+  if (backup.is_of_another()) {
+    return fail(exit_bad_program,
+                backup.path() + " is there already: what the board held before; name another with --backup");
   }
 
-  const std::vector<std::string> avrdude = {"avrdude",
-                                            "-p",
-                                            chip.part,
-                                            "-c",
-                                            arguments.programmer.empty() ? chip.programmer : arguments.programmer,
-                                            "-P",
-                                            arguments.device,
-                                            "-b",
-                                            std::to_string(arguments.baud),
-                                            "-D"};
+  const Words avrdude = {"avrdude",
+                         "-p",
+                         chip.part,
+                         "-c",
+                         arguments.programmer.empty() ? chip.programmer : arguments.programmer,
+                         "-P",
+                         arguments.device,
+                         "-b",
+                         std::to_string(arguments.baud),
+                         "-D"};
   auto with = [&](const std::string& what) {
-    std::vector<std::string> words = avrdude;
+    Words words = avrdude;
     words.insert(words.end(), {"-U", what});
     return words;
   };
-  const auto read_old = with("flash:r:" + backup + ":i");
+  const auto read_old = with("flash:r:" + backup.path() + ":i");
   const auto write_new = with("flash:w:" + image + ":i");
-  const auto write_old = with("flash:w:" + backup + ":i");
+  const auto write_old = with("flash:w:" + backup.path() + ":i");
   fmt::print("{}: {} of {} bytes\n", image, *size, chip.flash);
-  for (const auto& words : {read_old, write_new}) {
-    fmt::print("+ {}\n", fmt::join(words, " "));
-    if (arguments.dry_run) continue;
-    const int code = start(words);
-    if (code == 127) return fail(exit_failed, "avrdude is not installed: apt-get install avrdude");
-    if (code != 0) {
-      return fail(exit_failed, fmt::format("avrdude ended with {}; the board {}", code,
-                                           words == read_old ? "is as it was" : "may hold half a program: try again"));
-    }
-  }
+  if (const int code = keep_and_write(backup, read_old, write_new, arguments.dry_run); code != exit_done) return code;
   fmt::print("{}The way back: {}\n", arguments.dry_run ? "Nothing was done. " : "Done. ", fmt::join(write_old, " "));
   return exit_done;
 }

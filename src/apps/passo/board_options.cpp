@@ -71,15 +71,14 @@ CLI::App& add_board_command(CLI::App& app, BoardArguments& arguments) {
   serve.add_option("--port", arguments.serve.port, "TCP; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
-  serve.add_option("--motors", arguments.serve.motors, "the most it can turn")
-      ->check(CLI::Range(1, 8))
-      ->capture_default_str();
-  serve.add_option("--clock", arguments.serve.clock, "ticks a second")
-      ->check(CLI::Range(1e5, 1e9))
-      ->capture_default_str();
+  serve
+      .add_option("--motors", arguments.serve.motors, "the most it can turn; without it the machine's, and 4 at least")
+      ->check(CLI::Range(1, 8));
+  serve.add_option("--clock", arguments.serve.clock, "ticks a second; without it the machine's, or 16 MHz")
+      ->check(CLI::Range(1e5, 1e9));
   serve.add_option("-m,--machine", arguments.serve.machine,
-                   "machine file: it has the switches of that machine, which stands at machine zero");
-  serve.add_flag("--once", arguments.serve.once, "serve one host, then end");
+                   "machine file: it is that machine's board, with its clock and switches, and stands at machine zero");
+  serve.add_flag("--once", arguments.serve.once, "end when everybody who has called has left");
   serve.callback([&arguments] { arguments.chosen = [&arguments] { return board_serve(arguments.serve); }; });
   return board;
 }

@@ -54,6 +54,7 @@ std::string state_of(const BoardStatus& status) {
   if ((status.state & board_manual) != 0) return state + ", in manual mode: a person moves it by its keypad";
   if (status.motors == 0) return state + ", no host has said hello since it started";
   if ((status.state & board_trusted) == 0) state += ", its position is not to be trusted";
+  if ((status.inputs & outputs_timed_out) != 0) state += ", its outputs off: its host was silent";
   if ((status.state & board_homes) != 0) state += ", an axis is being homed";
   if ((status.state & board_slipped) != 0) state += ", and stood still amid motion: its events came too late";
   return state;
@@ -84,6 +85,7 @@ nlohmann::json to_json(const BoardStatus& status) {
           {"manual", (status.state & board_manual) != 0},
           {"homes", (status.state & board_homes) != 0},
           {"slipped", (status.state & board_slipped) != 0},
+          {"outputs_timed_out", (status.inputs & outputs_timed_out) != 0},
           {"motors", status.motors},
           {"executed", status.executed},
           {"event", status.event},

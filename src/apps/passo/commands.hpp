@@ -53,6 +53,7 @@ struct RunArguments {
   std::vector<std::string> overrides;  // PERCENT@SECONDS
   std::vector<std::string> touches;    // ranges LOW:HIGH of axes: "X10:60,Z:-2"
   std::string cable_cut;               // SECONDS:SECONDS; empty: none
+  bool physics = false;                // the motors of a virtual or emulated machine obey physics
   std::string board = "virtual";       // an address for parse_board_address()
   std::string journal;                 // empty: usual_journal()
   bool resume = false;                 // goes on where another run was interrupted
@@ -78,6 +79,7 @@ int jog(const JogArguments& arguments);
 struct HomeArguments {
   std::string machine;
   std::string board = "virtual";  // an address for parse_board_address()
+  int repeat = 1;                 // how many times; from 2 on, how well the places agree is reported
   bool json = false;
   bool quiet = false;
 };
@@ -143,12 +145,11 @@ struct BoardFlashArguments {
 int board_flash(const BoardFlashArguments& arguments);
 
 struct BoardServeArguments {
-  std::string name = "virtual";
-  unsigned motors = 4;
-  double clock = 16e6;
+  std::optional<unsigned> motors;  // empty: as many as the machine has axes, and four at least
+  std::optional<double> clock;     // ticks a second; empty: that of the machine file, or 16 MHz
   unsigned port = 7070;
-  std::string machine;  // a machine file: the board has its switches and begins at machine zero; empty: no switches
-  bool once = false;    // ends after one host
+  std::string machine;  // a machine file: the board is that machine's, and stands at machine zero; empty: no switches
+  bool once = false;    // ends when everybody has left
 };
 int board_serve(const BoardServeArguments& arguments);
 
@@ -191,7 +192,14 @@ struct MotorArguments {
   double friction = 0;                   // N·m
   double friction_per_speed = 0;         // N·m·s/rad
   double margin = 1;
-  std::optional<double> max_rate;  // full steps/s at which tables and pictures end
+  std::string trial;                        // torque, step, stop or resonance; empty: no trial
+  std::string excitation = "microsteps:8";  // as Excitation::named() has it
+  double detent = 0;                        // N·m
+  double damping = 0.002;                   // share of the rotor's critical damping
+  double trial_rate = 500;                  // full steps/s
+  int trial_steps = 200;                    // of the driver, before a stop without a ramp
+  double trial_after = 0.1;                 // s after the last step
+  std::optional<double> max_rate;           // full steps/s at which tables and pictures end
   int rows = 101;
   std::vector<std::string> pictures;  // .svg or .png
   bool json = false;
@@ -229,6 +237,21 @@ struct WindingsArguments {
   std::string picture;              // .svg or .png
 };
 int windings(const WindingsArguments& arguments);
+
+struct FollowerArguments {
+  std::string follower;  // a name of emulated_followers()
+  std::string image;     // a file; empty: the one that the build made
+  double clock = 0;      // pulses a second; 0: none
+  std::string axes = "X";
+  std::string down;                 // axes whose direction line is high
+  double from = 0.2;                // s: the first pulse
+  double time = 1;                  // s
+  std::vector<std::string> keys;    // KEY@FROM[:TO]
+  std::vector<std::string> lines;   // LINE@FROM[:TO]
+  std::vector<std::string> traces;  // .vcd or .csv
+  std::string picture;              // .svg or .png
+};
+int follower_sim(const FollowerArguments& arguments);
 
 struct ChordsArguments {
   std::string curve;   // line, arc, helix, ellipse, parabola, bezier or nurbs

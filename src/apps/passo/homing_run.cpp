@@ -14,6 +14,8 @@ namespace {
 const char* name_of(HomingStage stage) {
   switch (stage) {
     case HomingStage::seek: return "seeks its switch";
+    case HomingStage::look: return "looks at its switch";
+    case HomingStage::square: return "is squared";
     case HomingStage::back_off: return "backs off";
     case HomingStage::latch: return "comes back slowly";
     case HomingStage::pull_off: return "pulls off";
@@ -87,7 +89,7 @@ HomingReport home_machine(OpenedMachine& machine, bool shows) {
   }
   {
     StageLine line(shows);
-    turn_to_the_end(session, [&] { line.look(*session.homing()); });
+    turn_to_the_end(machine, [&] { line.look(*session.homing()); });
   }
   report.time = session.now() - from;
   note_end(session, answer_of(session.take_changes(), *ticket), report);

@@ -12,6 +12,7 @@
 #include "opened_machine.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
+#include "stop_words.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -163,6 +164,9 @@ int jog(const JogArguments& arguments) {
   if (!opened->greet(opened->any_greeting(), code)) return code;
   if (by_keys) return jog_by_keys(*opened, *machine, MmPerSecond(arguments.feed / seconds_per_minute));
   const Ending ending = jog_to_rest(*opened, *words, arguments);
+  if (opened->session().status().trouble == LinkError::stopped) {
+    return fail(exit_failed, "the board: " + stop_words(*opened, *machine));
+  }
   if (ending.fault) return fail(exit_failed, fmt::format("{} [{}]", ending.fault->message, ending.fault->code));
   if (const auto differs = opened->compare()) return fail(exit_failed, "the board: " + *differs);
   print(ending, *machine, arguments.json);

@@ -115,10 +115,15 @@ CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("home", "find where a machine stands, by its limit switches");
   add_machine(command, arguments.machine);
   add_board(command, arguments.board);
+  command
+      .add_option("--repeat", arguments.repeat,
+                  "home so many times, and tell how well the places of each axis agree (mean, spread)")
+      ->check(CLI::Range(1, 1000));
   command.add_flag("--json", arguments.json, "print it as JSON");
   command.add_flag("-q,--quiet", arguments.quiet, "only errors");
   command.footer(
       "Examples:\n  passo home -m router.toml                              the virtual machine, from machine zero\n"
+      "  passo home -m uno.toml --repeat 10                     how well the switches repeat\n"
       "  passo home -m uno.toml --board serial:/dev/ttyACM0     a real one\n"
       "Errors end in a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
       "[home.board],\n"
@@ -168,6 +173,8 @@ int parse_and_run(int argc, char** argv) {
                          "$XDG_STATE_HOME/passo/BOARD.journal or ~/.local/state/passo/BOARD.journal");
   run_command.add_option("--cut-cable-at", run_arguments.cable_cut,
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
+  run_command.add_flag("--physics", run_arguments.physics,
+                       "the motors obey physics, from the machine file's [axis.X.torque], and may lose steps");
   run_command.add_flag("-y,--yes", run_arguments.yes, "go on at M0, M1 and M6 without asking");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");
@@ -245,6 +252,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
   WindingsArguments windings_arguments;
   CLI::App& windings_command = add_windings_command(app, windings_arguments);
+  FollowerArguments follower_arguments;
+  CLI::App& follower_command = add_follower_command(app, follower_arguments);
   ChordsArguments chords_arguments;
   CLI::App& chords_command = add_chords_command(app, chords_arguments);
 
@@ -267,6 +276,7 @@ int parse_and_run(int argc, char** argv) {
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
   if (windings_command.parsed()) return windings(windings_arguments);
+  if (follower_command.parsed()) return follower_sim(follower_arguments);
   if (chords_command.parsed()) return chords(chords_arguments);
   return machine(machine_arguments);
 }

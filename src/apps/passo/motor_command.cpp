@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "motor_trial.hpp"
 #include "named_files.hpp"
 #include "program_input.hpp"
 #include "run_outputs.hpp"
@@ -77,6 +78,21 @@ Result<TorqueCurve, MotorError> measured_curve(const MotorArguments& arguments) 
   return TorqueCurve::from_points(rotor_of(arguments), *pull_out, *pull_in);
 }
 
+// Both need the values of motor_values().
+MotorData data_of(const MotorArguments& arguments) {
+  return {.rotor = rotor_of(arguments),
+          .holding_torque = {*arguments.holding_torque},
+          .rated_current = {*arguments.current},
+          .resistance = {*arguments.resistance},
+          .inductance = {*arguments.inductance * henries_per_millihenry},
+          .winding = winding_of(arguments.data.empty() ? arguments.drive : arguments.data)};
+}
+MotorDrive drive_of(const MotorArguments& arguments) {
+  return {.supply = {*arguments.supply},
+          .winding = winding_of(arguments.drive),
+          .regulation = arguments.regulation == "resistive" ? Regulation::resistive : Regulation::chopper};
+}
+
 Result<TorqueCurve, MotorError> curve_of(const MotorArguments& arguments) {
   if (!arguments.pull_out.empty()) return measured_curve(arguments);
   if (!arguments.pull_in.empty()) return Failure{MotorError{"--pull-in needs the pull-out points of --curve"}};
@@ -87,17 +103,7 @@ Result<TorqueCurve, MotorError> curve_of(const MotorArguments& arguments) {
   if (!missing.empty()) {
     return Failure{MotorError{"the motor is not known: expected --curve, or also " + missing}};
   }
-  const MotorData data{.rotor = rotor_of(arguments),
-                       .holding_torque = {*arguments.holding_torque},
-                       .rated_current = {*arguments.current},
-                       .resistance = {*arguments.resistance},
-                       .inductance = {*arguments.inductance * henries_per_millihenry},
-                       .winding = winding_of(arguments.data.empty() ? arguments.drive : arguments.data)};
-  const MotorDrive drive{
-      .supply = {*arguments.supply},
-      .winding = winding_of(arguments.drive),
-      .regulation = arguments.regulation == "resistive" ? Regulation::resistive : Regulation::chopper};
-  return TorqueCurve::from_motor(data, drive);
+  return TorqueCurve::from_motor(data_of(arguments), drive_of(arguments));
 }
 
 // The rate at which tables and pictures end. The load can be driven up to some rate, and from some rate on less than a
@@ -196,6 +202,27 @@ Status<OutputError> write_pictures(const MotorScene& scene, const MotorArguments
   return Unit{};
 }
 
+// The motor of a trial. The scene has been checked.
+Result<MotorSetup, MotorError> setup_of(const MotorArguments& arguments, const MotorScene& scene) {
+  const auto excitation = Excitation::named(arguments.excitation);
+  if (!excitation) return Failure{MotorError{"--excitation: " + excitation.error()}};
+  const auto refuse = [](const char* words) { return Failure{MotorError{words}}; };
+  if (!(arguments.detent >= 0)) return refuse("--detent must be 0 N\u00B7m or more");
+  if (!(arguments.damping >= 0 && arguments.damping <= 10)) return refuse("--damping must be from 0 to 10");
+  if (!(arguments.trial_rate >= 0.1 && arguments.trial_rate <= 1e6)) return refuse("--rate must be from 0.1 to 1e6");
+  if (arguments.trial_steps < 1 || arguments.trial_steps > 1'000'000)
+    return refuse("--steps must be from 1 to 1000000");
+  if (!(arguments.trial_after > 0 && arguments.trial_after <= 100)) return refuse("--after must be above 0, to 100 s");
+  MotorSetup setup = measured_setup(scene.curve, *excitation);
+  if (arguments.pull_out.empty()) {
+    setup = {.motor = data_of(arguments), .drive = drive_of(arguments), .excitation = *excitation};
+  }
+  setup.damping = damping_of(setup.motor, arguments.damping);
+  setup.load = scene.load;
+  setup.detent = {arguments.detent};
+  return setup;
+}
+
 }  // namespace
 
 int motor(const MotorArguments& arguments) {
@@ -205,6 +232,11 @@ int motor(const MotorArguments& arguments) {
   }
   const Result<MotorScene, MotorError> scene = scene_of(arguments);
   if (!scene) return fail(exit_bad_program, scene.error().message);
+  if (!arguments.trial.empty()) {
+    const auto setup = setup_of(arguments, *scene);
+    if (!setup) return fail(exit_bad_program, setup.error().message);
+    return try_motor(arguments, *setup, scene->end, motor_text(arguments) + "   \u00B7   " + load_text(arguments));
+  }
   const Status<OutputError> written = write_pictures(*scene, arguments);
   if (!written) return fail(exit_failed, written.error().message);
   if (arguments.json) {

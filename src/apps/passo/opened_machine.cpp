@@ -9,6 +9,7 @@
 #include "board_opening.hpp"
 #include "board_words.hpp"
 #include "commands.hpp"
+#include "line_watch.hpp"
 #include "program_input.hpp"
 #include "run_signals.hpp"
 #include <fmt/format.h>
@@ -65,15 +66,25 @@ MotorSteps zero_counts_of(const MachineDescription& machine, const BoardStatus& 
 
 OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWish& wish)
     : description_(machine),
-      plant_(plant_of(machine, Point(), wish.boxes)),
-      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
-               static_cast<std::size_t>(machine.board.held_items)) {}
+      machine_(machine.motor_count(), machine.board.clock, machine.board.highest_event_rate,
+               static_cast<std::size_t>(machine.board.held_items)) {
+  if (wish.physics) {
+    auto rotors = std::make_unique<RotorPlant>();
+    rotors_ = rotors.get();
+    plant_ = std::move(rotors);
+  } else {
+    plant_ = std::make_unique<IdealPlant>();
+  }
+  fit(*plant_, machine, Point(), wish.boxes);
+  if (rotors_ != nullptr) fit_rotors(*rotors_, machine);
+}
 
 std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& machine, const MachineWish& wish,
                                                    int& code) {
   std::unique_ptr<OpenedMachine> opened(new OpenedMachine(machine, wish));
   if (wish.board == "virtual") {
-    opened->machine_.connect(opened->plant_);
+    opened->machine_.connect(*opened->plant_);
+    opened->machine_.wire(pin_setup(machine));
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.cut) {
       opened->session_ = std::make_unique<MachineSession>(machine, opened->machine_, SessionOptions{.start = at_zero});
@@ -104,7 +115,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     opened->place_file_.emplace(wish.board);
     opened->record_ = opened->place_file_->read();
   }
-  auto port = open_addressed(*address, &opened->plant_);
+  auto port = open_addressed(*address, opened->plant_.get(), pin_setup(machine));
   if (!port) {
     code = fail(exit_failed, port.error());
     return nullptr;
@@ -186,7 +197,7 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
   }
   // The greeting has kept its form in all versions: what does not answer a question may answer that.
   BoardSession greeting(*port_, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
-  passo::greet(greeting, {.motors = static_cast<std::uint8_t>(description_.axes.size())});
+  passo::greet(greeting, {.motors = description_.motor_count()});
   const LinkError error = greeting.error().value_or(LinkError::wrong_version);
   const bool is_sent_away = error == LinkError::no_answer && greeting.hung_up();
   code = fail(exit_failed, fmt::format("{}: {}", address,
@@ -195,10 +206,14 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
   return false;
 }
 
-bool OpenedMachine::wait_for_rest() {
-  const auto status = ask_status_at_rest(session_->board(), answer);
-  if (status) before_ = *status;
-  return status.has_value();
+std::optional<std::string> OpenedMachine::wait_for_rest() {
+  if (const auto status = ask_status_at_rest(session_->board(), answer)) {
+    before_ = *status;
+    return {};
+  }
+  if (!session_->board().status()) return "it does not answer any more";
+  return fmt::format("it still moves after {:g} s, and what a board holds ends sooner: another program drives it",
+                     longest_way_to_rest.value());
 }
 
 bool OpenedMachine::greet(const Greeting& greeting, int& code) {
@@ -247,9 +262,9 @@ std::optional<std::string> OpenedMachine::compare() {
     return fmt::format("motor {} stands {} steps from machine zero, and {} were planned", mismatch->motor + 1,
                        mismatch->counted, mismatch->commanded);
   }
-  if (!has_board() || !plant_is_behind_) return {};
+  if (!has_board() || !plant_is_behind_ || rotors_ != nullptr) return {};
   const MachineCounts planned = machine_.counts();
-  const Truth truth = plant_.truth_at(session_->now());
+  const Truth truth = plant_->truth_at(session_->now());
   for (std::size_t motor = 0; motor < description_.axes.size(); ++motor) {
     const auto steps = std::llround(truth.positions[motor]);
     if (steps == planned.motors[motor].position) continue;
@@ -271,23 +286,20 @@ std::string words_of(const Refusal& refusal) {
   return fmt::format("{} [{}]", refusal.message, code_of(refusal.code));
 }
 
-std::string trouble_words(MachineSession& session) {
-  std::string words = session.trouble_words();
-  if (session.status().trouble == LinkError::stopped) words += closed_switches(session.board());
-  return words;
-}
-
 void try_request(MachineSession& session, Request wanted) {
   static_cast<void>(session.request(std::move(wanted)).has_value());
 }
 
-void turn_to_the_end(MachineSession& session, const std::function<void()>& look) {
+void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look) {
+  MachineSession& session = machine.session();
+  LineWatch line = line_watch();
   bool asked_to_stop = false;
   while (session.busy()) {
     if (interrupted_by() != 0 && !std::exchange(asked_to_stop, true)) {
       try_request(session, request::Stop{});
     }
-    session.turn(endless);
+    session.turn(machine.is_on_a_line() ? LineWatch::between_looks : endless);
+    if (machine.is_on_a_line()) line.look(session.board());
     if (look) look();
   }
 }

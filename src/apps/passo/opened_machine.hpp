@@ -16,7 +16,8 @@
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
-#include "passo/plant/ideal_plant.hpp"
+#include "passo/plant/fitted_plant.hpp"
+#include "passo/plant/rotor_plant.hpp"
 #include "passo/session/machine_session.hpp"
 
 namespace passo {
@@ -25,6 +26,7 @@ struct MachineWish {
   std::string board = "virtual";     // as parse_board_address() has it
   std::optional<CableCut> cut = {};  // the virtual machine is at the end of a line that is cut
   std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
+  bool physics = false;              // the motors of a virtual or emulated machine obey physics
   bool may_move = false;             // another host may have left the board in motion
 };
 
@@ -43,12 +45,16 @@ class OpenedMachine {
   const MachineSession& session() const { return *session_; }
   // The board itself, or the virtual machine that repeats what the board has done.
   VirtualMachine& machine() { return machine_; }
+  // The motors, where they obey physics. Null: they do what they are told.
+  RotorPlant* rotors() { return rotors_; }
   // True: the board is not in this process, or is emulated.
   bool has_board() const { return port_ != nullptr; }
   // The board's status before the hello.
   const BoardStatus& before() const { return before_; }
-  // Asks until the board rests. False: the board does not answer. Call before the hello.
-  [[nodiscard]] bool wait_for_rest();
+  // True: the board outlives this program, at the end of a line that may break.
+  bool is_on_a_line() const { return claim_.has_value(); }
+  // Asks until the board rests. Otherwise says why it does not, as a sentence. Call before the hello.
+  std::optional<std::string> wait_for_rest();
   // Where the machine stands before the hello, or why nobody knows. Virtual and emulated machines stand at machine
   // zero. A real board is known by what an earlier command has written down, and by its counts.
   Result<KnownPosition, PlaceDoubt> place() const;
@@ -80,7 +86,8 @@ class OpenedMachine {
   void write_down(const KnownPosition& position, const MotorSteps& zero_counts, const SessionNumbers& numbers);
 
   const MachineDescription& description_;
-  IdealPlant plant_;
+  std::unique_ptr<FittedPlant> plant_;
+  RotorPlant* rotors_ = nullptr;  // plant_, if its motors obey physics
   VirtualMachine machine_;
   std::optional<VirtualLine> line_;
   std::unique_ptr<BoardPort> port_;
@@ -101,12 +108,10 @@ class OpenedMachine {
 std::string place_words(const MachineDescription& machine, const Point& place);
 // "the machine is busy [machine.busy]".
 std::string words_of(const Refusal& refusal);
-// Why a board cannot go on, with the switches that are closed if it has stopped its motors at once.
-std::string trouble_words(MachineSession& session);
 // Makes a request that may be refused. A refusal means that the machine is already where the request would lead.
 void try_request(MachineSession& session, Request wanted);
 // Turns the session until nothing is going on. Ctrl-C brakes. `look`, if any, is called after each turn.
-void turn_to_the_end(MachineSession& session, const std::function<void()>& look = {});
+void turn_to_the_end(OpenedMachine& machine, const std::function<void()>& look = {});
 // The result of a request that has been answered, and the reason.
 struct Answered {
   Outcome outcome = Outcome::done;

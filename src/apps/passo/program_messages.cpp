@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/report/summary.hpp"
+
 namespace passo {
 namespace {
 
@@ -21,12 +23,17 @@ std::string printable(std::string_view text) {
 
 }  // namespace
 
-void ProgramMessages::show(const Operation& operation, const std::function<void()>& before) const {
-  if (!wanted_) return;
+void ProgramMessages::show(const Operation& operation, const std::function<void()>& before) {
+  if (!wanted_ || shown_ > RunSummary::most_messages) return;
   const auto* message = std::get_if<operation::Message>(&operation.what);
   const auto* print = std::get_if<operation::Print>(&operation.what);
   if (message == nullptr && print == nullptr) return;
   if (before) before();
+  if (++shown_ > RunSummary::most_messages) {
+    fmt::print(stderr, "{}: note: the program says more than {} texts; the others are not shown\n", program_,
+               RunSummary::most_messages);
+    return;
+  }
   const std::string_view file = operation.file.empty() ? std::string_view(program_) : operation.file;
   fmt::print(stderr, "{}:{}: {}: {}\n", file, operation.source.line, message != nullptr ? "message" : "print",
              printable(message != nullptr ? message->text : print->text));

@@ -93,8 +93,8 @@ bool ResumableRun::find_place(OpenedMachine& machine, const ProgramReader& progr
     code = refuse(*stranger);
     return false;
   }
-  if (!machine.wait_for_rest()) {
-    code = fail(exit_failed, "the board: it does not answer any more");
+  if (const auto words = machine.wait_for_rest()) {
+    code = fail(exit_failed, "the board: " + *words);
     return false;
   }
   const auto found = resume_point_of(*before_, machine.before(), program, subject.machine, subject.options);

@@ -8,7 +8,9 @@
 
 #include "commands.hpp"
 #include "homing_run.hpp"
+#include "line_watch.hpp"
 #include "mid_run_changes.hpp"
+#include "motor_watch.hpp"
 #include "opened_machine.hpp"
 #include "operator_prompt.hpp"
 #include "program_input.hpp"
@@ -17,10 +19,12 @@
 #include "resumable_run.hpp"
 #include "run_outputs.hpp"
 #include "run_signals.hpp"
+#include "stop_words.hpp"
 #include "touch_option.hpp"
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/journal/path_fingerprint.hpp"
@@ -164,6 +168,7 @@ struct Run {
   OpenedMachine& opened;
   MidRunChanges& changes;
   RunOutputs& outputs;
+  LatestMotion& motion;
 };
 
 // Runs the program to its end and returns the summary. `answered` is set to the outcome.
@@ -174,6 +179,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   ProbeSummary probes;
   ProgressDisplay progress(run.arguments.program.program, !run.arguments.quiet);
   ProgramMessages messages(run.arguments.program.program, !run.arguments.quiet);
+  std::optional<MotorWatch> motors;
+  if (run.opened.rotors() != nullptr) motors.emplace(*run.opened.rotors(), machine, session.now());
   start.watchers.operations = [&](const Operation& operation) {
     builder.watch_operation(operation);
     messages.show(operation, [&] { progress.clear(); });
@@ -181,7 +188,9 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   start.watchers.path = [&](const PathItem& item) { builder.watch_path(item); };
   start.watchers.motion = [&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
+    run.motion.watch(item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
+    if (motors) motors->plan(item);
   };
   start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };
   run.outputs.watch(run.opened.machine(), start.watchers);
@@ -189,6 +198,8 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   const Before before = before_program(run.opened);
   TailWatch tails;
   LineLoad load;
+  LineWatch line = line_watch();
+  const Seconds longest_turn = run.opened.is_on_a_line() ? LineWatch::between_looks : endless;
   OperatorPrompt prompt(run.arguments.program.program);
   run.changes.begin(session.now());
   const auto ticket = session.request(std::move(start));
@@ -199,9 +210,11 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
     for (unsigned turns = 0; session.busy(); ++turns) {
       if ((interrupted_by() != 0 || run.outputs.failed()) && !std::exchange(brakes, true)) stop(session);
       const Seconds most = run.changes.any() ? run.changes.act(session, run.opened.machine(), machine) : endless;
-      session.turn(std::min(most, prompt.look(session)));
+      session.turn(std::min({most, longest_turn, prompt.look(session)}));
+      if (run.opened.is_on_a_line()) line.look(session.board());
       if (!run.opened.has_board()) tails.look(session, run.opened.machine(), machine);
       load.look(session.now(), run.opened.bytes_sent());
+      if (motors) motors->look(session.now());
       if (turns % turns_between_looks == 0) progress.update(session.program()->nominal_time() / run.check.nominal_time);
     }
     answered = answer_of(session.take_changes(), *ticket);
@@ -216,6 +229,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
+  if (motors) summary.physics = motors->finish(session.now());
   if (prompt.gave_up()) answered = {.outcome = Outcome::failed, .fault = prompt.fault()};
   return summary;
 }
@@ -306,6 +320,8 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--cut-cable-at is for the virtual machine; of a board's cable, pull the plug";
   } else if (!arguments.touches.empty() && keeps_journal(arguments)) {
     words = "--touch is for the virtual machine and emulated boards";
+  } else if (arguments.physics && keeps_journal(arguments)) {
+    words = "--physics is for the virtual machine and emulated boards; a real machine has its own";
   } else if (arguments.from_here && arguments.resume) {
     words = "--resume knows where the job began, so --from-here has no place beside it";
   }
@@ -317,7 +333,11 @@ bool suits_the_board(const RunArguments& arguments) {
 int end_run(const Run& run, const Answered& answered, const RunSummary& summary, const Diagnostics& late,
             LengthUnits machine_units) {
   MachineSession& session = run.opened.session();
-  if (session.status().trouble) return fail(exit_failed, "the board: " + trouble_words(session));
+  if (session.status().trouble == LinkError::stopped) {
+    return fail(exit_failed,
+                "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion));
+  }
+  if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
   if (answered.fault && answered.fault->code.starts_with("board.")) {
     return fail(exit_failed, "the board: " + answered.fault->message);
   }
@@ -333,7 +353,8 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
       run.outputs.commit(summary, session.program()->saved_parameters(), session.program()->tools(), machine_units);
   if (!written) return fail(exit_failed, written.error().message);
   print(summary, run.arguments);
-  return exit_done;
+  if (!summary.physics || !summary.physics->lost()) return exit_done;
+  return fail(exit_failed, "the motors lost steps: this part would be scrap [run.steps-lost]");
 }
 
 // Runs a program that was checked, on a machine that has not been greeted. Returns the exit code.
@@ -358,7 +379,8 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
   if (resumable != nullptr) resumable->add_to(start);
   if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
   Answered answered;
-  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs};
+  LatestMotion motion;
+  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion};
   const RunSummary summary = play(run, std::move(start), answered);
   if (resumable != nullptr) resumable->end(opened.session(), answered);
   return end_run(run, answered, summary, late, subject.options.machine_units);
@@ -429,9 +451,18 @@ int run(const RunArguments& arguments) {
   }
   if (!suits_the_board(arguments) || !files_are_apart(arguments, *options)) return exit_bad_program;
 
+  const auto has_physics = [](const AxisDescription& axis) { return motor_setup(axis).has_value(); };
+  if (arguments.physics && std::ranges::none_of(machine->axes, has_physics)) {
+    return fail(exit_bad_machine,
+                arguments.machine + ": --physics needs the motors: a table [axis.X.torque] of an axis");
+  }
   end_on_signals();
   return run_program(arguments, *machine,
-                     {.board = arguments.board, .cut = cut, .boxes = *boxes, .may_move = arguments.resume},
+                     {.board = arguments.board,
+                      .cut = cut,
+                      .boxes = *boxes,
+                      .physics = arguments.physics,
+                      .may_move = arguments.resume},
                      std::move(*program), std::move(*options), *changes);
 }
 

@@ -24,13 +24,19 @@ extern "C" void leave_on_signal(int signal) {
   end_on_signal(signal);
 }
 
-extern "C" void brake_on_signal(int signal) {
+extern "C" void note_signal(int signal) {
   if (first_signal != 0) {
     // A terminal that is closed may say so twice: from the shell, and by itself. Nobody has asked to leave at once.
     if (signal == SIGHUP) return;
     end_on_signal(signal);
   }
   first_signal = signal;
+}
+
+extern "C" void brake_on_signal(int signal) {
+  const bool is_first = first_signal == 0;
+  note_signal(signal);
+  if (!is_first) return;
   constexpr std::string_view words = "\npasso: brakes on the path; a second time leaves at once\n";
   static_cast<void>(!write(STDERR_FILENO, words.data(), words.size()));
 }
@@ -53,6 +59,10 @@ void end_on_signals() {
 
 void brake_on_signals() {
   handle_with(brake_on_signal);
+}
+
+void note_signals() {
+  handle_with(note_signal);
 }
 
 int interrupted_by() {

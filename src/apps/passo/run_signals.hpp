@@ -11,6 +11,9 @@ namespace passo {
 void end_on_signals();
 // From now on interrupted_by() reports the first signal, and a second signal ends the program.
 void brake_on_signals();
+// For a command that moves nothing and ends by itself when it is told to: interrupted_by() reports the first signal,
+// and a second signal ends the program.
+void note_signals();
 // The signal's number; 0: no signal has come.
 int interrupted_by();
 // For a program without such signals: a reader that goes away is no reason to end.

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "passo/emulator/emulated_follower.hpp"
+
 namespace passo {
 namespace {
 
@@ -220,6 +222,26 @@ CLI::App& add_motor_command(CLI::App& app, MotorArguments& arguments) {
       ->capture_default_str()
       ->group("Load");
 
+  option("--trial", arguments.trial, "KIND",
+         "tries the motor out with its physics: torque (pull-out and pull-in over the rate), step (the response to one "
+         "step), stop (steps at an even rate, without any ramp), resonance (the lag over the rate)")
+      ->check(CLI::IsMember({"torque", "step", "stop", "resonance"}))
+      ->group("Trials");
+  option("--excitation", arguments.excitation, "KIND", "two-on, wave, half-step or microsteps:N")
+      ->capture_default_str()
+      ->group("Trials");
+  option("--detent", arguments.detent, "NM", "torque of the motor without current, N·m")->group("Trials");
+  option("--damping", arguments.damping, "0...1", "of the rotor's ringing; 1 is critical")
+      ->capture_default_str()
+      ->group("Trials");
+  option("--rate", arguments.trial_rate, "HZ", "of step and stop, full steps/s")
+      ->capture_default_str()
+      ->group("Trials");
+  option("--steps", arguments.trial_steps, "N", "of stop, steps of the driver")->capture_default_str()->group("Trials");
+  option("--after", arguments.trial_after, "S", "how long step and stop go on after the last step")
+      ->capture_default_str()
+      ->group("Trials");
+
   option("--max-rate", arguments.max_rate, "HZ", "where table and picture end, full steps/s")->group("Output");
   option("--rows", arguments.rows, "N", "of the table")->capture_default_str()->group("Output");
   option("-p,--picture", arguments.pictures, "FILE", "draw the curves (FILE.svg or FILE.png), print no table")
@@ -264,6 +286,45 @@ Examples:
   passo windings --drive half-step --to 10,4,7 --time 0.1 --trace windings.vcd     for GTKWave
   passo windings --drive microsteps:16 --from 40,0 --to 0,40 --center 0,0 --time 0.5 --picture windings.svg
   passo windings --drive wave --move 40 --clock 250000 --accel 50 --reverse-after 12 --picture turn.svg)");
+  return command;
+}
+
+CLI::App& add_follower_command(CLI::App& app, FollowerArguments& arguments) {
+  CLI::App& follower = *app.add_subcommand("follower", "the follower: step and direction in, windings out");
+  follower.require_subcommand(1);
+  CLI::App& command = *follower.add_subcommand("sim", "runs a follower's image on its emulated chip");
+  const std::vector<std::string> names = emulated_followers();
+  command
+      .add_option("FOLLOWER", arguments.follower,
+                  "first_board, or board and drive: pic_, uno_, mega_ with two_on, wave, half_step")
+      ->required()
+      ->check(CLI::IsMember(names));
+  command.add_option("--clock", arguments.clock, "pulses a second on the clock lines; without it none")
+      ->check(CLI::Range(0.0, 1e6));
+  command.add_option("--axes", arguments.axes, "whose clock lines, as XZ")->capture_default_str();
+  command.add_option("--down", arguments.down, "axes whose direction line is high from the start");
+  command.add_option("--from", arguments.from, "SECONDS: the first pulse")
+      ->check(CLI::Range(0.0, 600.0))
+      ->capture_default_str();
+  command.add_option("--time", arguments.time, "SECONDS: how long it runs")
+      ->check(CLI::Range(0.001, 600.0))
+      ->capture_default_str();
+  command.add_option("-k,--key", arguments.keys, "KEY@FROM[:TO]: a key is held, else for 0.1 s; as 6@0.5:0.9 or #@0.1");
+  command.add_option("--line", arguments.lines, "LINE@FROM[:TO]: a line is high, as relay@0.3:0.6 or direction.x@0.5");
+  command.add_option("--image", arguments.image, "another file than the one that the build made");
+  command.add_option("-t,--trace", arguments.traces, "write lines and outputs (FILE.vcd or FILE.csv), no table");
+  command.add_option("-p,--picture", arguments.picture, "draw them (FILE.svg or FILE.png), no table");
+  command.footer(
+      R"(Prints a row at each change: the windings of each motor, the relay, the LEDs, and the keys and lines that are down.
+Times are from the end of the reset. Lines are clock.x and direction.x (also y and z), relay, button and reset, which is
+the emergency button. The first board waits for a key: without --key somebody presses * at 0.05 s.
+
+Examples:
+  passo follower sim first_board --clock 20                         as in its day: 20 Hz, and the windings on LEDs
+  passo follower sim first_board --clock 20 --line reset@0.5        an emergency: the pulses go on, the motor does not
+  passo follower sim first_board --key '#@0.1' --key 6@0.3:0.7      by hand
+  passo follower sim uno_half_step --clock 200 --axes XY --down Y --time 0.3 --picture xy.svg
+  passo follower sim pic_wave --clock 1000 --trace wave.vcd         for GTKWave)");
   return command;
 }
 

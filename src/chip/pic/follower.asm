@@ -1,24 +1,35 @@
-; The firmware `follower` for a PIC16F877A at 20 MHz: the first control board's job, on the first board's pins.
-; docs/follower.md says what it does; firmware/follower.hpp is the same in C++, and has the names that are used here.
+; The firmware `follower` for a PIC16F877A. docs/follower.md says what it does; firmware/follower.hpp is the same in C++,
+; and has the names that are used here. There are two boards. One has a crystal of 20 MHz. The other, with
+; -D first_board=1, is the first control board to the letter: 4 MHz, its keypad, its button, its LEDs and its customs.
 ;
 ; One loop, no interrupt. Each turn samples the clock lines once, so what counts is the longest turn: it decides how long
 ; a level of a line must last to be seen. All that can wait is done in turns without a step, a piece every millisecond.
-; Cycles (0.2 us) are in the margin where they add up to the longest turns. They are measured by tests/follower.
+; Cycles (0.2 us, on the first board 1 us) are in the margin where they add up to the longest turns. They are measured by
+; tests/follower.
 ;
 ;   RA0 RA1 RA2   clock X, Y, Z           RD4 RD5 RD6 RD7   F1 F2 F3 F4 of X
 ;   RA3 RA4 RA5   direction, 1 is down    RC7 RC4 RC5 RC6   F1 F2 F3 F4 of Y
 ;   RE0           the relay's line        RC2 RC3 RC0 RC1   F1 F2 F3 F4 of Z
-;   RD0           the relay               RB4 RB5 RB6 RB7   rows 123, 456, 789, *0# of the keypad
-;   RE2           its indicator           RB0 RB1 RB2       its columns
-;   RD1 RD2       automatic, manual       RB3               the tool button, to ground
-;   MCLR          the emergency button
+;   RD0           the relay               MCLR              the emergency button
+;   RE2           its indicator
+;
+;   20 MHz                                                  the first board
+;   RB4 RB5 RB6 RB7   rows 123, 456, 789, *0#               RB2 RB3 RB4 RB6
+;   RB0 RB1 RB2       columns 147*, 2580, 369#              RB1 RB7 RB5
+;   RB3               the tool button, to ground            RE1
+;   RD1 RD2           automatic, manual: lit when high      RD1 RD2 RD3 lit when low, RB0 lit when high: show_mode
 ;
 ; Assemble with -D two_on=1, -D wave=1 or -D half_step=1.
 
         list    p=16f877a, r=dec
         include "p16f877a.inc"
         ; A watchdog that bites after 0.14 s, and a reset where the supply sags: either way all outputs float.
-        __config _HS_OSC & _WDT_ON & _PWRTE_ON & _BOREN_ON & _LVP_OFF & _CPD_OFF & _CP_OFF & _DEBUG_OFF
+    ifdef first_board
+#define CRYSTAL _XT_OSC
+    else
+#define CRYSTAL _HS_OSC
+    endif
+        __config CRYSTAL & _WDT_ON & _PWRTE_ON & _BOREN_ON & _LVP_OFF & _CPD_OFF & _CP_OFF & _DEBUG_OFF
 
 ; ---- The motors' outputs -----------------------------------------------------------------------------------------------
 
@@ -29,10 +40,17 @@ X_ALL   equ     0xf0                    ; of port D
 Y_ALL   equ     0xf0                    ; of port C
 Z_ALL   equ     0x0f                    ; of port C
 
-RELAY           equ 0                   ; bits of port D
+RELAY           equ 0                   ; bit of port D
+RELAY_INDICATOR equ 1 << 2              ; of port E
+    ifdef first_board
+LED_1           equ 1 << 1              ; masks of port D
+LED_2           equ 1 << 2
+LED_3           equ 1 << 3
+LED_0           equ 1 << 0              ; of port B
+    else
 AUTOMATIC       equ 1 << 1              ; masks of port D
 MANUAL          equ 1 << 2
-RELAY_INDICATOR equ 1 << 2              ; of port E
+    endif
 
 ; The table of one motor, in the bits of its port. Windings come round in the order F1 F2 F3 F4.
 table   macro   f1, f2, f3, f4
@@ -68,16 +86,47 @@ PLACE_MASK equ  3
 
 ; ---- The keypad --------------------------------------------------------------------------------------------------------
 
+    ifdef first_board
+ROW_0   equ     2                       ; bits of port B
+ROW_1   equ     3
+ROW_2   equ     4
+ROW_3   equ     6
+COLUMN_0 equ    1
+COLUMN_1 equ    7
+COLUMN_2 equ    5
+B_INPUTS equ    0xff ^ LED_0            ; the rest of port B, while no column is drawn low
+#define BUTTON_PORT PORTE
+BUTTON  equ     1
+    else
+ROW_0   equ     4
+ROW_1   equ     5
+ROW_2   equ     6
+ROW_3   equ     7
+COLUMN_0 equ    0
+COLUMN_1 equ    1
+COLUMN_2 equ    2
+B_INPUTS equ    0xff
+#define BUTTON_PORT PORTB
+BUTTON  equ     3
+    endif
+ROWS    equ     1 << ROW_0 | 1 << ROW_1 | 1 << ROW_2 | 1 << ROW_3
+
 ; A key is 4 * column + row.
 KEY_STAR equ    3
+KEY_5   equ     5
 KEY_HASH equ    11
 NONE    equ     12
 SEVERAL equ     0x80 | NONE             ; counts as none once its upper half is cut off
 
 ; In looks of 5 ms each: three columns, the keys, the rest.
 LOOKS_TO_SETTLE equ 4                   ; 20 ms
+    ifdef first_board
+LOOKS_TO_REPEAT equ 4                   ; a held key steps at once, 50 steps a second
+LOOKS_A_STEP    equ 4
+    else
 LOOKS_TO_REPEAT equ 80                  ; 400 ms from a key's first step to its second
 LOOKS_A_STEP    equ 2                   ; 100 steps a second: motors start at that without a ramp
+    endif
 
 ; ---- Memory ------------------------------------------------------------------------------------------------------------
 
@@ -85,7 +134,8 @@ LOOKS_A_STEP    equ 2                   ; 100 steps a second: motors start at th
 lines                                   ; the last sample of port A
 before                                  ; the one before it: its bits 3 to 5 are the directions of the steps to make
 risen                                   ; bits 0 to 2: the axes that step
-follow                                  ; 7 in automatic mode, 0 in manual: the clock lines that count
+follow                                  ; 7 in automatic mode, else 0: the clock lines that count
+manual                                  ; bit 0: manual mode. On the first board neither mode is on before a mode key
 place_x                                 ; masked with PLACE_MASK, the index into the motor's table
 place_y
 place_z
@@ -102,7 +152,7 @@ now
 key_seen                                ; by the last look
 key                                     ; that counts
 key_left                                ; looks until key_seen counts
-button_seen                             ; the same for the button, in bit 3
+button_seen                             ; the same for the button, in its bit
 button
 button_left
 wait                                    ; looks until a held key acts again
@@ -231,27 +281,26 @@ relay_on
 column_0
         movlw   4 * 0
         movwf   column
-        movlw   0xff ^ (1 << 1)
+        movlw   B_INPUTS ^ (1 << COLUMN_1)
         goto    read_rows
 column_1
         movlw   4 * 1
         movwf   column
-        movlw   0xff ^ (1 << 2)
+        movlw   B_INPUTS ^ (1 << COLUMN_2)
         goto    read_rows
 column_2
         movlw   4 * 2                   ; 1
         movwf   column                  ; 1
-        movlw   0xff ^ (1 << 0)         ; 1
+        movlw   B_INPUTS ^ (1 << COLUMN_0) ; 1
 read_rows
         movwf   next_drawn              ; 1
         comf    PORTB,w                 ; 1
-        andlw   0xf0                    ; 1
+        andlw   ROWS                    ; 1
         movwf   rows                    ; 1
         movf    next_drawn,w            ; 1
         bsf     STATUS,RP0              ; 1
         movwf   TRISB                   ; 1
         bcf     STATUS,RP0              ; 1
-        swapf   rows,f                  ; 1
         movf    rows,f                  ; 1
         btfsc   STATUS,Z                ; 2
         goto    loop
@@ -264,11 +313,11 @@ read_rows
         btfss   STATUS,Z                ; 2
         goto    several
         movf    column,w                ; 1
-        btfsc   rows,1                  ; 2
+        btfsc   rows,ROW_1              ; 2
         addlw   1
-        btfsc   rows,2                  ; 2
+        btfsc   rows,ROW_2              ; 2
         addlw   2
-        btfsc   rows,3                  ; 1
+        btfsc   rows,ROW_3              ; 1
         addlw   3                       ; 1
         movwf   found                   ; 1
         goto    loop                    ; 2
@@ -309,11 +358,11 @@ key_same
         xorlw   KEY_STAR
         btfsc   STATUS,Z
         goto    to_automatic
-        btfsc   follow,0
+        btfss   manual,0
         goto    loop
         movlw   LOOKS_TO_REPEAT
         goto    jog
-held    btfsc   follow,0
+held    btfss   manual,0
         goto    loop
         movf    key_seen,w              ; being let go, it does not repeat
         xorwf   key,w
@@ -332,12 +381,14 @@ jog     movwf   wait
 ; A mode key also says: I know where the machine stands.
 to_manual
         clrf    follow
+        bsf     manual,0
         bsf     trusted,0
         clrf    looks
         goto    loop
 to_automatic
         movlw   7
         movwf   follow
+        clrf    manual
         bsf     trusted,0
         clrf    looks
         btfss   relay_line,0
@@ -348,8 +399,8 @@ to_automatic
 
 look_at_the_rest
         clrf    piece
-        comf    PORTB,w
-        andlw   1 << 3
+        comf    BUTTON_PORT,w
+        andlw   1 << BUTTON
         movwf   now
         xorwf   button_seen,w
         btfsc   STATUS,Z
@@ -369,13 +420,38 @@ button_same
         btfsc   STATUS,Z
         goto    show_mode
         xorwf   button,f
-        btfsc   button,3                ; pushed, not let go
-        btfsc   follow,0
+        btfsc   button,BUTTON           ; pushed, not let go
+        btfss   manual,0
         goto    show_mode
         btfsc   port_d,RELAY
         goto    relay_off
         goto    relay_on
 
+    ifdef first_board
+; LEDs 1 to 3 are lit when their pins are low: before the first mode key, and in automatic mode. LED 0, lit when high, is
+; lit in automatic mode only. In manual mode LED 1 is lit while 5 raises Z.
+show_mode
+        movlw   LED_0
+        btfss   follow,0
+        clrw
+        movwf   PORTB
+        movlw   0
+        btfsc   manual,0
+        movlw   LED_1 | LED_2 | LED_3
+        movwf   now
+        movf    key,w
+        xorlw   KEY_5
+        movlw   0xff
+        btfsc   STATUS,Z
+        movlw   0xff ^ LED_1
+        andwf   now,f
+        movf    port_d,w
+        andlw   0xff ^ (LED_1 | LED_2 | LED_3)
+        iorwf   now,w
+        movwf   port_d
+        movwf   PORTD
+        goto    loop
+    else
 ; Until a mode key was pressed it blinks, 0.32 s on and 0.32 s off.
 show_mode
         btfss   trusted,0
@@ -391,6 +467,7 @@ show_mode
         movf    port_d,w
         movwf   PORTD
         goto    loop
+    endif
 
 ; ---- After a reset: all off, and nobody knows the position -------------------------------------------------------------
 
@@ -408,7 +485,7 @@ start   clrf    STATUS
         movwf   OPTION_REG
         movlw   0xff
         movwf   TRISA
-        movlw   0xff ^ (1 << 0)
+        movlw   B_INPUTS ^ (1 << COLUMN_0)
         movwf   TRISB
         clrf    TRISC
         clrf    TRISD
@@ -417,7 +494,11 @@ start   clrf    STATUS
         movlw   249
         movwf   PR2
         bcf     STATUS,RP0
+    ifdef first_board
+        movlw   b'00000101'             ; 1 MHz / 4 / 250: a millisecond
+    else
         movlw   b'00100101'             ; 5 MHz / 4 / 250 / 5: a millisecond
+    endif
         movwf   T2CON
 
         movlw   lines                   ; no variable keeps what it had before
@@ -428,8 +509,10 @@ clear   clrf    INDF
         xorlw   trusted + 1
         btfss   STATUS,Z
         goto    clear
+    ifndef first_board                  ; the first board waits for a mode key
         movlw   7
         movwf   follow
+    endif
         movlw   NONE
         movwf   found
         movwf   key_seen

@@ -283,18 +283,30 @@ TEST(SettingsFile, a_setting_that_changes_what_programs_mean_is_followed_or_told
   };
   for (const char* const setting :
        {"[RS274NGC]\nREMAP = M6 modalgroup=6 ngc=x", "[RS274NGC]\nFEATURES = 2", "[RS274NGC]\nRETAIN_G43 = 1",
-        "[RS274NGC]\nOWORD_NARGS=yes", "[RS274NGC]\nCENTER_ARC_RADIUS_TOLERANCE_MM = 1",
-        "[EMCIO]\nRANDOM_TOOLCHANGER = 1", "[EMCIO]\nTOOL_CHANGE_AT_G30 = 1", "[TRAJ]\nANGULAR_UNITS = rad"}) {
+        "[RS274NGC]\nOWORD_NARGS=yes", "[RS274NGC]\nNO_DOWNCASE_OWORD = 1",
+        "[RS274NGC]\nCENTER_ARC_RADIUS_TOLERANCE_MM = 1", "[RS274NGC]\nCENTER_ARC_RADIUS_TOLERANCE_INCH = 1",
+        "[RS274NGC]\nPARAMETER_G73_PECK_CLEARANCE = 1", "[RS274NGC]\nPARAMETER_G83_PECK_CLEARANCE = 1",
+        "[EMCIO]\nRANDOM_TOOLCHANGER = 1", "[EMCIO]\nDB_PROGRAM = tools.py", "[EMCIO]\nTOOL_CHANGE_AT_G30 = 1",
+        "[EMCIO]\nTOOL_CHANGE_QUILL_UP = 1", "[EMCIO]\nTOOL_CHANGE_WITH_SPINDLE_ON = 1", "[AXIS_A]\nWRAPPED_ROTARY = 1",
+        "[AXIS_B]\nWRAPPED_ROTARY = YES", "[AXIS_C]\nWRAPPED_ROTARY = 1", "[AXIS_A]\nLOCKING_INDEXER_JOINT = 3",
+        "[TRAJ]\nANGULAR_UNITS = rad"}) {
     const Diagnostic finding = finding_of(std::string(setting) + "\n");
     EXPECT_EQ(finding.code, "settings.not-followed") << setting;
     EXPECT_EQ(finding.severity, Severity::error) << setting;
     EXPECT_EQ(finding.place.line, 2U);
   }
-  EXPECT_EQ(finding_of("[RS274NGC]\nRS274NGC_STARTUP_CODE = G20\n").severity, Severity::warning);
-  EXPECT_EQ(finding_of("[RS274NGC]\nRS274NGC_STARTUP_CODE = G20\n").code, "settings.not-followed");
+  for (const char* const setting :
+       {"[RS274NGC]\nRS274NGC_STARTUP_CODE = G20", "[RS274NGC]\nON_ABORT_COMMAND = o<stop> call",
+        "[RS274NGC]\nOWORD_WARNONLY = 1", "[RS274NGC]\nOWORD_WARN_ONLY = 1", "[EMCIO]\nTOOL_CHANGE_POSITION = 0 0 5",
+        "[PYTHON]\nTOPLEVEL = subs.py", "[WIZARD]\nWIZARD_ROOT = wizards"}) {
+    EXPECT_EQ(finding_of(std::string(setting) + "\n").severity, Severity::warning) << setting;
+    EXPECT_EQ(finding_of(std::string(setting) + "\n").code, "settings.not-followed") << setting;
+  }
   for (const char* const harmless :
        {"[RS274NGC]\nFEATURES = 12", "[RS274NGC]\nRETAIN_G43 = 0", "[EMCIO]\nRANDOM_TOOLCHANGER = 0",
-        "[TRAJ]\nANGULAR_UNITS = degree", "[RS274NGC]\nDISABLE_G92_PERSISTENCE = 1", "[VARS]\nREMAP = 1"}) {
+        "[TRAJ]\nANGULAR_UNITS = degree", "[RS274NGC]\nDISABLE_G92_PERSISTENCE = 1", "[VARS]\nREMAP = 1",
+        "[AXIS_A]\nWRAPPED_ROTARY = 0", "[AXIS_X]\nWRAPPED_ROTARY = 1", "[RS274NGC]\nLOG_LEVEL = 5",
+        "[RS274NGC]\nHAL_PIN_VARS = 1"}) {
     EXPECT_EQ(finding_of(std::string(harmless) + "\n").code, "") << harmless;
   }
 }
@@ -360,6 +372,14 @@ TEST(Parameters, numbers_5021_on_are_the_machine_position_where_a_machine_is_the
   const std::string program = "G21 G10 L2 P1 X5\nG0 X2\n#1=#5021\nG0 Y#1\nM2\n";
   EXPECT_EQ(interpret_text(program, options).last<operation::StraightTraverse>().end[Axis::y], 7);
   EXPECT_EQ(interpret_text(program).last<operation::StraightTraverse>().end[Axis::y], 0);
+  // No offset counts, and the units are the program's: LinuxCNC 2.10 has them as #<_abs_x> and so on.
+  const std::string offsets = "G20 G10 L2 P1 X1\nG92 Z3\nG43.1 Z2 C4\nG0 X2 Z5 C30 W-1\n";
+  EXPECT_THAT(interpret_text(offsets + "(debug,#5021 #5022 #5023 #5026 #5029)\n"
+                                       "(debug,#<_abs_x> #<_abs_y> #<_abs_z> #<_abs_c> #<_abs_w>)\nM2\n",
+                             options)
+                  .calls(),
+              HasSubstr("MESSAGE(\"3.000000 0.000000 4.000000 34.000000 -1.000000\")\n"
+                        "MESSAGE(\"3.000000 0.000000 4.000000 34.000000 -1.000000\")"));
   EXPECT_EQ(interpret_text("#5029=1\nM2\n", options).diagnostics.errors(), 1U);
   EXPECT_EQ(interpret_text("#5029=1\nM2\n").diagnostics.errors(), 0U);
 }

@@ -81,7 +81,7 @@ void answer_like_a_board(PeerPort& port, const std::function<void(BoardStatus&)>
                          .motors = 3,
                          .answers = frame.sequence};
       forge(status);
-      put(bytes, status, std::uint8_t{3}, std::uint8_t{0});
+      put(bytes, status, frame.payload[1], std::uint8_t{0});
     }
   };
 }
@@ -157,6 +157,78 @@ TEST(StubbornPeer, that_never_answers_a_question_is_given_up) {
   await(session, [&] { return session.settled(); });
   EXPECT_EQ(session.error(), LinkError::no_progress);
   EXPECT_LE(port.elapsed() - begin, 2 * care.patience + Seconds(0.2));
+}
+
+// It answers each question, and never rests: another host drives it, or it only says so.
+TEST(StubbornPeer, that_moves_for_ever_is_not_waited_for_for_ever) {
+  PeerPort port;
+  std::uint16_t executed = 0;
+  answer_like_a_board(port, [&](BoardStatus& status) {
+    status.state |= board_moves;
+    status.executed = ++executed;
+  });
+  BoardSession session(port, care);
+  const Seconds begin = port.elapsed();
+  EXPECT_FALSE(ask_status_at_rest(session, Seconds(2)));
+  EXPECT_GE(port.elapsed() - begin, longest_way_to_rest);
+  EXPECT_LE(port.elapsed() - begin, longest_way_to_rest + Seconds(2.1));
+  ASSERT_TRUE(session.status()) << "by which the caller knows why";
+  EXPECT_NE(session.status()->state & board_moves, 0);
+}
+
+// It rests each time at another place.
+TEST(StubbornPeer, that_rests_at_no_place_twice_is_not_waited_for_for_ever) {
+  PeerPort port;
+  std::uint16_t executed = 0;
+  answer_like_a_board(port, [&](BoardStatus& status) { status.executed = ++executed; });
+  BoardSession session(port, care);
+  EXPECT_FALSE(ask_status_at_rest(session, Seconds(2)));
+  EXPECT_LE(port.elapsed(), longest_way_to_rest + Seconds(2.1));
+}
+
+// The hello and its answer keep their form in all versions; a question of another version is not understood.
+TEST(StubbornPeer, of_another_version_is_refused_by_the_answer_to_the_hello) {
+  for (const std::uint8_t version :
+       {std::uint8_t{0}, std::uint8_t{protocol_version - 1}, std::uint8_t{protocol_version + 1}, std::uint8_t{255}}) {
+    SCOPED_TRACE(int{version});
+    PeerPort port;
+    port.on_frame = [&](const WireFrame& frame, PeerPort::Bytes& bytes) {
+      if (frame.type == MessageType::hello) {
+        put(bytes, HelloReply{.version = version, .motors = 3, .capacity = 30, .clock = 16'000'000}, std::uint8_t{0});
+      } else {
+        put(bytes, ErrorReport{.reason = WireError::bad_value, .expected = 1}, std::uint8_t{0});
+      }
+    };
+    BoardSession session(port, care);
+    EXPECT_FALSE(ask_status(session, Seconds(4)));
+    EXPECT_LE(port.elapsed(), Seconds(4.1));
+    const Seconds begin = port.elapsed();
+    EXPECT_FALSE(greet(session, {.motors = 3, .session = 7}));
+    EXPECT_EQ(session.error(), LinkError::wrong_version);
+    EXPECT_LE(port.elapsed() - begin, Seconds(0.2));
+  }
+}
+
+// A man in the middle says that more was taken than was sent, by every message that can say so.
+TEST(StubbornPeer, that_forges_what_was_taken_ends_in_its_time) {
+  for (unsigned ahead = 1; ahead < 256; ahead += 3) {
+    SCOPED_TRACE(ahead);
+    PeerPort port;
+    answer_like_a_board(port, [](BoardStatus&) {});
+    BoardSession session(port, care);
+    ASSERT_TRUE(greet(session, {.motors = 3, .session = 7}));
+    const auto forged = static_cast<std::uint8_t>(session.sent() + 2 + ahead);
+    port.talk = [&](PeerPort::Bytes& bytes) {
+      put(bytes, Credit{.executed = forged, .taken = forged, .free = 30}, std::uint8_t{0});
+      put(bytes, ErrorReport{.reason = WireError::out_of_sequence, .expected = forged}, std::uint8_t{0});
+    };
+    const std::vector<LinkItem> items{BoardSegment{.events = 1, .interval = 100U << 16}};
+    session.replace(session.executed(), items);
+    const Seconds begin = port.elapsed();
+    drain(session);
+    EXPECT_TRUE(session.error());
+    EXPECT_LE(port.elapsed() - begin, 2 * care.patience + Seconds(0.2));
+  }
 }
 
 }  // namespace

@@ -103,6 +103,18 @@ TEST_F(PathSmootherTest, a_corner_swings_to_the_outer_side_unless_an_axis_goes_b
   EXPECT_LT(above, 10);
 }
 
+// The corner is passed at the slow feed, where a swing would only be a way more.
+TEST_F(PathSmootherTest, a_corner_to_a_slow_feed_does_not_swing) {
+  go(10, 0);
+  go(10, 10).speed = MmPerSecond(5);
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+    for (const Segment& segment : segments_of(smooth(path_, smoothness))) {
+      EXPECT_GT(segment.curve.extents().low[Axis::y], -0.2 * tolerance_);
+      EXPECT_LT(segment.curve.extents().high[Axis::x], 10 + 0.2 * tolerance_);
+    }
+  }
+}
+
 TEST_F(PathSmootherTest, a_line_in_pieces_is_one_line) {
   constexpr int pieces = 700;
   for (int i = 1; i <= pieces; ++i) go(12.0 * i / pieces, 9.0 * i / pieces);

@@ -228,6 +228,16 @@ TEST(StepGenerator, loose_arcs_take_few_segments_and_lose_no_step) {
   }
 }
 
+TEST(StepGenerator, bends_no_motor_of_a_machine_with_two_motors_at_an_axis) {
+  StepOptions options = machine({640, 640, 640}, 140e3);
+  options.bends = false;
+  test::ListSource<MotionItem> source(
+      {planned(Curve::arc(xyz(0, 0), xyz(0, 0), Axis::x, Axis::y, 30, 0, 2 * std::numbers::pi), 0, 60, 0, 600)});
+  StepGenerator generator(source, options);
+  generator.be_exact_to({.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all});
+  for (BoardItem item; generator.next(item);) ASSERT_EQ(std::get<BoardSegment>(item).bend, 0);
+}
+
 TEST(BoardText, a_short_move_from_rest_to_rest_and_a_dwell_read_as_they_are_played) {
   const StepOptions options = machine({100, 100, 100}, 50e3);
   const std::vector<MotionItem> items = {planned(Curve::line(xyz(0, 0), xyz(0.4, -0.1)), 0, 10, 0, 200), dwell(0.5)};

@@ -94,7 +94,7 @@ class RandomMessages {
     std::array<std::uint8_t, largest_frame> frame{};
     std::uint8_t size = 0;
     const std::uint8_t sequence = byte();
-    switch (below(17)) {
+    switch (below(18)) {
       case 0: size = encode(Hello{.version = byte(), .motors = byte()}, sequence, frame.data()); break;
       case 1: size = encode(BoardOutputs{.switches = byte(), .spindle_rpm = word()}, sequence, frame.data()); break;
       case 2: {
@@ -131,6 +131,11 @@ class RandomMessages {
       }
       case 11: size = encode(about(), sequence, frame.data()); break;
       case 12: size = encode(turned(), sequence, frame.data()); break;
+      case 13: {
+        const PinSetup setup{.inputs = word(), .steps = byte(), .outputs = byte(), .drivers_rest = byte()};
+        size = encode(setup, sequence, frame.data());
+        break;
+      }
       default: size = encode(segment(motors), motors, sequence, frame.data()); break;
     }
     return {frame.begin(), frame.begin() + size};

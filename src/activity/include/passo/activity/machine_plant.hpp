@@ -1,13 +1,16 @@
 // The plant that a machine file describes: the world behind a virtual or an emulated board.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "passo/activity/touch_box.hpp"
 #include "passo/geometry/axes.hpp"
 #include "passo/machine_file/machine_description.hpp"
 #include "passo/plant/ideal_plant.hpp"
+#include "passo/plant/rotor_plant.hpp"
 #include "passo/plant/travel_switch.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -15,11 +18,28 @@ namespace passo {
 // They open `hysteresis` further off.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
 
+// Where the motors of that plant stand at first, if the axes stand at `place`: second motors are ahead by their skew.
+MotorSteps truth_at(const MachineDescription& machine, const Point& place);
+
+// How the machine's switches and drivers are connected to its board's pins.
+PinSetup pin_setup(const MachineDescription& machine);
+
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
-// A plant with the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
+// Gives a plant the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
 // coordinates. `boxes`: what its probe can touch.
+void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at = {},
+         const std::vector<TouchBox>& boxes = {});
+
+// An ideal plant that was fitted so.
 IdealPlant plant_of(const MachineDescription& machine, const Point& stands_at = {},
                     const std::vector<TouchBox>& boxes = {});
+
+// The physics of an axis's motor. Empty: the machine file does not describe the motor, or a full step is not a whole
+// number of the driver's steps.
+std::optional<MotorSetup> motor_setup(const AxisDescription& axis);
+
+// Gives a plant the physics of all motors that the machine file describes. Call after fit().
+void fit_rotors(RotorPlant& plant, const MachineDescription& machine);
 
 }  // namespace passo

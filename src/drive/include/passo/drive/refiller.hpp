@@ -29,6 +29,7 @@
 #include "passo/drive/feed.hpp"
 #include "passo/drive/outputs_order.hpp"
 #include "passo/drive/played_items.hpp"
+#include "passo/drive/played_motion.hpp"
 #include "passo/drive/rewindable_path.hpp"
 #include "passo/drive/speed_for_tails.hpp"
 #include "passo/link/link.hpp"
@@ -101,6 +102,9 @@ class Refiller final : public Feed {
 
   // The watcher sees each item that the board has reported as executed, including tails that were played.
   void watch_executed(std::function<void(const LinkItem&)> watcher) { played_.watch(std::move(watcher)); }
+  // The watcher sees the motion that the board has executed, tails that were played included. Motion that was planned
+  // and then planned anew is shown as it was executed.
+  void watch_motion(std::function<void(const MotionItem&)> watcher) { motion_played_.watch(std::move(watcher)); }
   // The watcher is told before each refill where the board may come to rest from then on.
   void watch_rests(std::function<void(const BoardRest&)> watcher) { rest_watcher_ = std::move(watcher); }
   // How often a tail was played to its end and the path was taken up again there.
@@ -124,12 +128,18 @@ class Refiller final : public Feed {
     std::unique_ptr<StepGenerator> generator = {};
     OutputsOrder outputs = {};
   };
+  // The motion of a tail, for those who watch what is executed.
+  struct PlannedTail {
+    std::uint64_t from = 0;  // after so many items of the motion
+    std::vector<PlannedMove> moves = {};
+  };
   struct Refill {
     ItemNumber first = 0;
     ItemNumber last_of_motion = 0;
     ItemNumber last = 0;  // the tail's last item; without a tail, the motion's
     PathPlace from = {};  // where its tail begins; no later refill rests before this place
     Rest rest = {};       // after the refill
+    PlannedTail tail = {};
   };
 
   // How the machine would come to rest. At rest the tail has no items.
@@ -137,6 +147,7 @@ class Refiller final : public Feed {
     PathPlace from = {};
     Rest rest = {};
     std::vector<LinkItem> items = {};
+    PlannedTail motion = {};
   };
   struct Pulled {
     LinkItem item;
@@ -178,6 +189,7 @@ class Refiller final : public Feed {
   ItemNumber behind_ = 0;                 // the next refill goes after this item
   std::size_t places_;                    // the places for items that we use on the board
   PlayedItems played_;
+  PlayedMotion motion_played_;
   std::function<void(const BoardRest&)> rest_watcher_;
   Seconds ahead_{0};
   Seconds given_time_{0};  // all motion since the last rest that the planner gave

@@ -33,7 +33,8 @@ class EmulatedChip {
   // Runs until a watcher or a source calls stop(). Throws std::runtime_error if the program crashes or sleeps for good,
   // or if `most_cycles` pass before.
   void run(std::uint64_t most_cycles);
-  void stop() { stopped_ = true; }
+  // The run ends after the instruction that is being executed.
+  void stop();
   // Runs until at least this many cycles have passed, or stop() is called. Throws if the program crashes.
   void run_for(std::uint64_t cycles);
 

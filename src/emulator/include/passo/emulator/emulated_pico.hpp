@@ -1,79 +1,34 @@
-// EmulatedPico: a Raspberry Pi Pico, emulated by a program of its own (src/emulator/pico, rp2040js on node). The two
-// run in lock-step: the emulator does nothing but what run() asks for, so the same calls give the same figures
-// everywhere.
-//
-// Cycles are the chip's, of 128 MHz. Needs node, and `npm ci` in src/emulator/pico (scripts/install.sh).
+// EmulatedPico: a Raspberry Pi Pico, emulated by a program of its own (src/emulator/pico, rp2040js on node). A pin is a
+// GPIO. Cycles are the chip's, of 128 MHz. Needs node, and `npm ci` in src/emulator/pico (scripts/install.sh).
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "passo/base/result.hpp"
+#include "passo/chip/pico_pins.hpp"
+#include "passo/emulator/emulator_process.hpp"
 
 namespace passo {
 
 class EmulatedBoard;
 
-// The levels of all outputs from a cycle on, a bit for each GPIO.
-struct PicoChange {
-  std::uint64_t cycle = 0;
-  std::uint32_t levels = 0;
-};
+using PicoChange = PinChange;
+// Where the line is plugged in.
+enum class PicoSocket { usb, uart };
 
-class EmulatedPico {
+class EmulatedPico : public EmulatorProcess {
  public:
   // `program`: a UF2 file. The error is a sentence with the reason.
-  static Result<std::unique_ptr<EmulatedPico>, std::string> start(const std::string& program);
-  EmulatedPico(const EmulatedPico&) = delete;
-  ~EmulatedPico();
-
-  // When to stop before the time is over.
-  struct Stops {
-    bool at_byte = false;       // when the board has said one
-    std::uint32_t watched = 0;  // bits of GPIOs
-    std::uint32_t rises = 0;    // after so many moments in which some of these rose; 0: never
-  };
-  // Runs until `cycle`. False if the emulator has died; then error() tells it.
-  bool run(std::uint64_t cycle, const Stops& stops);
-  const std::string& error() const { return error_; }
-
-  // Puts bytes on the line; they arrive one after the other while it runs.
-  void send(std::span<const std::uint8_t> bytes);
-  // Connects these pins to ground, and no others. A bit for each GPIO.
-  void draw_low(std::uint32_t inputs) { drawn_low_ = inputs; }
-
-  std::uint64_t cycle() const { return cycle_; }
-  std::uint32_t levels() const { return levels_; }
-  std::uint64_t lost_bytes() const { return lost_bytes_; }
-  // How long the spindle's output is high, as a part of its period.
-  double duty() const { return duty_; }
-  // What came out in the last run().
-  const std::vector<PicoChange>& changes() const { return changes_; }
-  const std::vector<std::uint8_t>& said() const { return said_; }
+  static Result<std::unique_ptr<EmulatedPico>, std::string> start(const std::string& program, const PicoPins& pins,
+                                                                  PicoSocket socket = PicoSocket::usb);
 
  private:
-  EmulatedPico(int process, int to, int from) : process_(process), to_(to), from_(from) {}
-  bool fail();
-  bool read_answer();
-
-  int process_;
-  int to_;
-  int from_;
-  std::string error_;
-  std::uint64_t cycle_ = 0;
-  std::uint32_t levels_ = 0;
-  std::uint32_t drawn_low_ = 0;
-  std::uint64_t lost_bytes_ = 0;
-  double duty_ = 0;
-  std::vector<std::uint8_t> to_send_;
-  std::vector<PicoChange> changes_;
-  std::vector<std::uint8_t> said_;
+  using EmulatorProcess::EmulatorProcess;
 };
 
-// As EmulatedBoard::start() for the kind "pico".
-Result<std::unique_ptr<EmulatedBoard>, std::string> start_pico_board(const std::string& program);
+// As EmulatedBoard::start() for a kind that is one of pico_boards.
+Result<std::unique_ptr<EmulatedBoard>, std::string> start_pico_board(std::string_view kind, const std::string& program);
 
 }  // namespace passo

@@ -34,10 +34,14 @@ class EmulatedPorts {
 
   // If set, called with every change of an output register as it is made. The changes are then not kept.
   std::function<void(const PortChange&)> on_change;
+  // If set, called after every write to a direction register.
+  std::function<void()> on_direction;
   // All kept changes of output registers, in order of time.
   const std::vector<PortChange>& changes() const { return changes_; }
   void forget_changes() { changes_.clear(); }
   std::uint8_t outputs(char port) const;
+  // A bit for each pin that is an output.
+  std::uint8_t directions(char port) const;
   // Sets an input pin from outside.
   void set_input(char port, std::uint8_t bit, bool high);
   // Connects two pins by a key: while one pin is drawn low, the other pin reads low.

@@ -26,8 +26,11 @@ inline bool greet(BoardSession& session, const Greeting& greeting) {
 // Asks the board before the hello, and waits for the answer. Empty: the board is silent.
 std::optional<About> ask_about(BoardSession& session, Seconds within);
 std::optional<BoardStatus> ask_status(BoardSession& session, Seconds within);
-// Asks again until the board rests, however long that takes, as long as the board answers. Two answers must be alike,
-// because a chip that has made its last event may not have counted the item yet.
+// What a board holds without a host are some braking and at most two dwells of 67 s.
+inline constexpr Seconds longest_way_to_rest{150};
+// Asks again until the board rests. Two answers must be alike, because a chip that has made its last event may not have
+// counted the item yet. Empty: an answer did not come `within` this time; or the board still moves after
+// `longest_way_to_rest`, and its last status says so.
 std::optional<BoardStatus> ask_status_at_rest(BoardSession& session, Seconds within);
 
 // Waits for room, then sends.

@@ -7,16 +7,27 @@
 // acceleration is allowed.
 #pragma once
 
+#include <optional>
+
 #include "passo/motor/torque_curve.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
+
+// The electrical half of a motor. A motor that is known by measured torque has none.
+struct DrivenMotor {
+  MotorData data = {};
+  MotorDrive drive = {};
+};
 
 struct AxisMotor {
   TorqueCurve curve;
   Load load = {};  // everything that turns, except the rotor
   double share = 0.7;
   double radians_per_unit = 0;  // radians of the shaft for each millimetre or degree of the axis
+  std::optional<DrivenMotor> driven = {};
+  NewtonMetres detent = {};
+  NewtonMetres weight = {};  // pulls towards the low end of the travel, as felt at the shaft
 
   // The acceleration at a speed. 0 where no torque is left. It never rises with the speed.
   MmPerSecond2 acceleration_at(MmPerSecond speed) const;

@@ -65,6 +65,8 @@ struct MotorDrive {
   Volts supply = {};
   Winding winding = Winding::whole_coil;
   Regulation regulation = Regulation::chopper;
+  Volts drop = {};        // what the transistors take of the supply
+  double fast_decay = 1;  // chopper: the share of the supply against a falling current; 0: slow decay
 };
 
 struct MotorError {

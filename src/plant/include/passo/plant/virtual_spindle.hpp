@@ -31,6 +31,7 @@ class VirtualSpindle {
   double turns_at(Seconds time) const;
   bool has_encoder() const { return model_.counts_per_turn > 0; }
   std::int32_t counts_per_turn() const { return model_.counts_per_turn; }
+  const SpindleModel& model() const { return model_; }
   // What the encoder has counted, and its count at the last index. The index is where the turns are a whole number, in
   // the commanded direction. The tick is not set.
   SpindleCount count_at(Seconds time) const;

@@ -98,6 +98,29 @@ struct TailSummary {
   Seconds resumed{0};
 };
 
+// What the motors truly did, where physics was asked for.
+struct PhysicsSummary {
+  struct Motor {
+    Axis axis = Axis::x;
+    std::int64_t lost_steps = 0;  // of the driver; positive: the axis stands too low
+    double lost = 0;              // the same in millimetres or degrees
+    double following_error = 0;   // the farthest that the axis was from where it was told to be
+    double least_margin = 1;      // the share of the motor's pull-out torque that was left at the worst moment
+    std::uint32_t line = 0;       // of the program, then; 0: none
+    Seconds least_margin_at{0};
+    double position = 0;  // machine coordinates at the end: the true place
+  };
+  struct Loss {
+    Seconds time{0};
+    Axis axis = Axis::x;
+    std::int64_t steps = 0;
+    std::uint32_t line = 0;
+  };
+  std::vector<Motor> motors;
+  std::vector<Loss> losses;  // the first of them, in the order of time
+  bool lost() const;
+};
+
 struct RunSummary {
   std::string program;
   std::string machine;
@@ -125,6 +148,7 @@ struct RunSummary {
   std::vector<HoldSummary> holds;
   std::optional<ProbeSummary> probes;  // empty: no probe move
   std::vector<TailSummary> tails;
+  std::optional<PhysicsSummary> physics;  // empty: the motors did what they were told
 
   Seconds time() const { return cutting_time + rapid_time + dwell_time; }
 };

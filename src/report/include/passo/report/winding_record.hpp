@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "passo/motor/excitation.hpp"
 #include "passo/report/output_file.hpp"
 #include "passo/report/picture.hpp"
-#include "passo/study/excitation.hpp"
 #include "passo/study/step_move.hpp"
 #include "passo/units/units.hpp"
 

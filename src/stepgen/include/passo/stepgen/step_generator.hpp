@@ -41,7 +41,8 @@ struct StepOptions {
   std::array<Motor, max_motors> motors;
   std::uint8_t motor_count = 0;
   BoardClock clock;
-  Point start;  // machine position at the start; the motors' step counts begin at its whole steps
+  Point start;        // machine position at the start; the motors' step counts begin at its whole steps
+  bool bends = true;  // whether segments may bend. A bend serves one motor only, and not the second one of its axis
   std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
 };
 

@@ -38,6 +38,23 @@ struct Session {
   Silence silence = {};
 };
 
+// Host to board, before a hello: what is connected to the board's pins. It counts for that hello, and until a hello
+// without one. Board to host, as the answer: the setup that the board now has. What it cannot do is left out.
+//
+// As usual an input is on when it is low, and an output is on when it is high. The driver's enable is on when it is
+// low. A bit that is set means the opposite.
+struct PinSetup {
+  uint16_t inputs = 0;       // bits: BoardInput
+  uint8_t steps = 0;         // bit m: the step pin of motor m
+  uint8_t outputs = 0;       // bits: OutputSwitch, and inverted_enable
+  uint8_t drivers_rest = 0;  // after so many tenths of a second without host or motion drivers are off; 0: never
+
+  friend constexpr bool operator==(const PinSetup& a, const PinSetup& b) {
+    return a.inputs == b.inputs && a.steps == b.steps && a.outputs == b.outputs && a.drivers_rest == b.drivers_rest;
+  }
+};
+inline constexpr uint8_t inverted_enable = 0x10;
+
 // Host to board. The next `count` frames are items. They replace everything that the board holds after item `after`, as
 // soon as the last of them has come.
 struct Replace {
@@ -233,6 +250,16 @@ uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
 }
 
 template <class Pause = NoPause>
+uint8_t encode(const PinSetup& setup, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::pin_setup, sequence);
+  encoder.put16(setup.inputs);
+  encoder.put8(setup.steps);
+  encoder.put8(setup.outputs);
+  encoder.put8(setup.drivers_rest);
+  return encoder.finish();
+}
+
+template <class Pause = NoPause>
 uint8_t encode(const Replace& replace, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::replace, sequence);
   encoder.put16(replace.after);
@@ -424,6 +451,13 @@ inline void decode(const WireFrame& frame, Turned& turned) {
 inline void decode(const WireFrame& frame, Session& session) {
   session = {.number = load16(frame.payload),
              .silence = {.spindle = frame.payload[2], .mist = frame.payload[3], .flood = frame.payload[4]}};
+}
+
+inline void decode(const WireFrame& frame, PinSetup& setup) {
+  setup = {.inputs = load16(frame.payload),
+           .steps = frame.payload[2],
+           .outputs = frame.payload[3],
+           .drivers_rest = frame.payload[4]};
 }
 
 inline void decode(const WireFrame& frame, Replace& replace) {

@@ -36,6 +36,8 @@ enum class MessageType : uint8_t {
   fault = 0x96,
   about = 0x69,
   turned = 0xFF,
+  // both ways
+  pin_setup = 0x00,
 };
 
 inline constexpr uint8_t frame_overhead = 6;
@@ -67,6 +69,7 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::ask:
     case MessageType::credit: return 4;
     case MessageType::session:
+    case MessageType::pin_setup:
     case MessageType::fault: return 5;
     case MessageType::replace:
     case MessageType::hello_reply: return 7;

@@ -34,6 +34,8 @@ class Excitation {
 
   WindingState at(std::int64_t place) const;
   int steps_per_full_step() const { return steps_; }
+  // Microsteps: the currents are sines.
+  bool is_sine() const { return kind_ == Kind::microsteps; }
   // Degrees that an unloaded rotor has turned at `place`, from where it stood at place 0.
   double rotor_degrees(std::int64_t place, std::int32_t full_steps_per_turn) const;
   const std::string& name() const { return name_; }

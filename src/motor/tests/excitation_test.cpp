@@ -1,4 +1,4 @@
-#include "passo/study/excitation.hpp"
+#include "passo/motor/excitation.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,0 +1,83 @@
+#include "motor_watch.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace passo {
+
+MotorWatch::MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins)
+    : plant_(plant), begins_(begins), planned_(begins), motors_(machine.motor_count()) {
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    motors_[m] = {.axis = &axis, .inverted = axis.inverted, .worst_line = 0};
+    if (axis.second) {
+      motors_[machine.second_motor_of(m)] = {.axis = &axis, .inverted = axis.second->inverted, .worst_line = 0};
+    }
+  }
+}
+
+void MotorWatch::plan(const MotionItem& item) {
+  if (const auto* move = std::get_if<PlannedMove>(&item)) {
+    planned_ += move->duration();
+    const std::uint32_t line = move->segment.source.line;
+    if (!ahead_.empty() && ahead_.back().line == line) {
+      ahead_.back().end = planned_;
+    } else {
+      ahead_.push_back({.end = planned_, .line = line});
+    }
+    return;
+  }
+  const auto& action = std::get<Action>(item);
+  if (action.kind != Action::Kind::dwell) return;
+  planned_ += action.dwell;
+  ahead_.push_back({.end = planned_, .line = action.source.line});
+}
+
+std::uint32_t MotorWatch::line_at(Seconds time) const {
+  const auto found = std::ranges::lower_bound(ahead_, time, {}, &Planned::end);
+  if (found != ahead_.end()) return found->line;
+  return ahead_.empty() ? 0 : ahead_.back().line;
+}
+
+void MotorWatch::look(Seconds now) {
+  for (std::size_t m = 0; m < motors_.size(); ++m) {
+    const RotorRecord& record = plant_.record(m);
+    if (record.least_margin_at > looked_) motors_[m].worst_line = line_at(record.least_margin_at);
+  }
+  while (lines_of_losses_.size() < plant_.losses().size()) {
+    lines_of_losses_.push_back(line_at(plant_.losses()[lines_of_losses_.size()].time));
+  }
+  looked_ = now;
+  while (ahead_.size() > 1 && ahead_.front().end < now) ahead_.pop_front();
+}
+
+PhysicsSummary MotorWatch::finish(Seconds now) {
+  constexpr Seconds longest_ringing{2};
+  static_cast<void>(plant_.settle(longest_ringing));  // what still rings then is far below a step
+  look(now);
+  const Truth truth = plant_.truth_at(now);
+  PhysicsSummary summary;
+  for (std::size_t m = 0; m < motors_.size(); ++m) {
+    const AxisDescription& axis = *motors_[m].axis;
+    const RotorRecord& record = plant_.record(m);
+    const double scale = motors_[m].inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+    summary.motors.push_back({.axis = axis.axis,
+                              .lost_steps = motors_[m].inverted ? -record.lost : record.lost,
+                              .lost = static_cast<double>(record.lost) / scale,
+                              .following_error = plant_.steps_per_full_step(m) * record.most_lag / axis.steps_per_unit,
+                              .least_margin = record.least_margin,
+                              .line = motors_[m].worst_line,
+                              .least_margin_at = record.least_margin_at - begins_,
+                              .position = truth.positions[m] / scale});
+  }
+  for (std::size_t i = 0; i < plant_.losses().size(); ++i) {
+    const StepLoss& loss = plant_.losses()[i];
+    summary.losses.push_back({.time = loss.time - begins_,
+                              .axis = motors_[loss.motor].axis->axis,
+                              .steps = motors_[loss.motor].inverted ? -loss.steps : loss.steps,
+                              .line = lines_of_losses_[i]});
+  }
+  return summary;
+}
+
+}  // namespace passo

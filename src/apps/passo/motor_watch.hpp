@@ -1,0 +1,50 @@
+// MotorWatch: what the motors of a machine with physics do during a run, with the program's lines.
+//
+// Motion is planned ahead of the board, so the watch keeps the lines whose motion has not been played yet.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/plant/rotor_plant.hpp"
+#include "passo/report/summary.hpp"
+#include "passo/trajectory/phase.hpp"
+
+namespace passo {
+
+class MotorWatch {
+ public:
+  // `begins`: the board's time when the program begins. `plant` and `machine` outlive the watch.
+  MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins);
+
+  // What is planned, in order.
+  void plan(const MotionItem& item);
+  // Call after each turn of the session. `now`: the board's time.
+  void look(Seconds now);
+  // Lets the rotors come to rest. `now`: the board's time at the end.
+  PhysicsSummary finish(Seconds now);
+
+ private:
+  struct Motor {
+    const AxisDescription* axis = nullptr;
+    bool inverted = false;
+    std::uint32_t worst_line = 0;  // of the least margin
+  };
+  struct Planned {
+    Seconds end{0};
+    std::uint32_t line = 0;
+  };
+  std::uint32_t line_at(Seconds time) const;
+
+  RotorPlant& plant_;
+  Seconds begins_;
+  Seconds planned_;
+  Seconds looked_{-1};
+  std::deque<Planned> ahead_;
+  std::vector<Motor> motors_;  // of the board, each axis's second motor after all the first ones
+  std::vector<std::uint32_t> lines_of_losses_;
+};
+
+}  // namespace passo

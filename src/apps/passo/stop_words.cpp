@@ -1,0 +1,112 @@
+#include "stop_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "board_words.hpp"
+#include <fmt/format.h>
+
+#include "passo/activity/stage_options.hpp"
+#include "passo/geometry/euclid.hpp"
+
+namespace passo {
+namespace {
+
+// A move is looked at in straight pieces of about this length.
+constexpr double piece_length = 1;
+constexpr double most_pieces_of_a_move = 32;
+
+double distance_to(const Point& from, const Point& to, const Point& place) {
+  const Point way = to - from;
+  const double squared = dot(way, way);
+  const double share = squared > 0 ? std::clamp(dot(place - from, way) / squared, 0.0, 1.0) : 0;
+  return distance(place, from + way * share);
+}
+
+// Where the motors stand by the board's counts.
+Point counted_place(OpenedMachine& opened, const MachineDescription& machine) {
+  const MachineSession& session = opened.session();
+  const auto& status = session.board().status();
+  const StepOptions steps = step_options(machine);
+  const MachineCounts counts = opened.machine().counts();
+  Point place;
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const bool is_told = session.zero_counts() && status;
+    const std::int64_t counted =
+        is_told ? std::int64_t{status->positions[m]} - (*session.zero_counts())[m] : counts.motors[m].position;
+    place[steps.motors[m].axis] = static_cast<double>(counted) / steps.motors[m].steps_per_unit;
+  }
+  return place;
+}
+
+struct ClosedSwitch {
+  std::string words;   // the subject of a sentence
+  std::string remedy;  // what to do first
+};
+
+ClosedSwitch closed_switch(const BoardStatus& status, const MachineDescription& machine) {
+  if ((status.inputs & input_emergency_stop) != 0) return {"the emergency stop was pressed", "release it"};
+  for (unsigned input = 0; input < max_motors; ++input) {
+    if ((status.inputs & (unsigned{input_limit} << input)) == 0) continue;
+    const auto axis = std::ranges::find_if(machine.axes, [&](const AxisDescription& one) {
+      return one.home && static_cast<unsigned>(one.home->input) == input;
+    });
+    if (axis == machine.axes.end()) {
+      return {fmt::format("limit switch {} closed", input + 1), "jog off it (passo jog)"};
+    }
+    const char letter = letter_of(axis->axis);
+    return {fmt::format("the limit switch of {} closed", letter),
+            fmt::format("jog off it (passo jog {}{}2)", letter, axis->home->toward_high ? '-' : '+')};
+  }
+  return {"a limit switch or the emergency stop closed, and is open again", "look at its wiring"};
+}
+
+}  // namespace
+
+void LatestMotion::watch(const MotionItem& motion) {
+  const auto* move = std::get_if<PlannedMove>(&motion);
+  if (move == nullptr) return;
+  const double length = (move->to - move->from()).value();
+  const double count = std::clamp(std::ceil(length / piece_length), 1.0, most_pieces_of_a_move);
+  Point from = move->segment.curve.at(move->from());
+  for (double i = 1; i <= count; ++i) {
+    const Point to = move->segment.curve.at(move->from() + Mm(length * i / count));
+    pieces_.push_back({.line = move->segment.source.line, .from = from, .to = to});
+    from = to;
+  }
+  while (pieces_.size() > most_pieces) pieces_.pop_front();
+}
+
+std::uint32_t LatestMotion::line_at(const Point& place) const {
+  constexpr double as_near = 1e-3;  // mm, below a step
+  double nearest = std::numeric_limits<double>::infinity();
+  std::uint32_t line = 0;
+  for (const Piece& piece : pieces_) {
+    const double away = distance_to(piece.from, piece.to, place);
+    if (away >= nearest - as_near) continue;
+    nearest = away;
+    line = piece.line;
+  }
+  return line;
+}
+
+std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
+                       const LatestMotion& motion) {
+  const std::string closed = closed_switches(opened.session().board());
+  const auto& status = opened.session().board().status();
+  if (!status) return std::string(message_of(LinkError::stopped)) + " [board.stopped]";
+  const Point place = counted_place(opened, machine);
+  const std::uint32_t line = motion.line_at(place);
+  const ClosedSwitch what = closed_switch(*status, machine);
+  const bool homes = !machine.homing.empty();
+  return fmt::format(
+      "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}{} "
+      "[board.stopped]{}",
+      what.words, line == 0 ? "" : fmt::format(" in line {} of {}", line, program), place_words(machine, place),
+      what.remedy, homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
+      program.empty() ? "" : ", and run the program from its beginning", closed);
+}
+
+}  // namespace passo

@@ -1,0 +1,36 @@
+#include "passo/emulator/emulated_avr.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace passo {
+
+Result<std::string, std::string> avr_emulator() {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", none).parent_path() / "passo-emulate-avr";
+  if (fs::exists(beside, none)) return beside.string();
+  if (fs::exists(PASSO_EMULATED_AVR, none)) return std::string(PASSO_EMULATED_AVR);
+  return Failure<std::string>{
+      "passo-emulate-avr, which emulates the Uno and the Mega, is not there: scripts/start.sh builds it, if "
+      "libsimavr-dev and libelf-dev are installed"};
+}
+
+std::uint32_t PinNumbers::number(Pin pin, bool when_drawn_low) {
+  if (!pin.exists()) return 0;
+  auto found = std::ranges::find_if(pins_, [&](const Numbered& one) { return one.pin == pin; });
+  if (found == pins_.end()) found = pins_.insert(found, {pin, when_drawn_low});
+  return std::uint32_t{1} << static_cast<unsigned>(found - pins_.begin());
+}
+
+std::string PinNumbers::text() const {
+  std::string text;
+  for (const auto& [pin, when_drawn_low] : pins_) {
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ",", when_drawn_low ? "!" : "", pin.port, pin.bit);
+  }
+  return text;
+}
+
+}  // namespace passo

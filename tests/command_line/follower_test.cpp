@@ -1,0 +1,61 @@
+// passo follower sim, as a user starts it.
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+
+namespace {
+
+using passo::test::Outcome;
+using passo::test::read;
+using testing::HasSubstr;
+
+class FollowerCommand : public passo::test::CommandLine {
+ protected:
+  Outcome sim(const std::string& arguments) const { return passo("follower sim " + arguments); }
+  // Without gpsim, simavr or an assembler some emulators and images are missing.
+  static bool is_missing(const Outcome& outcome) {
+    return outcome.err.find("is not there") != std::string::npos ||
+           outcome.err.find("is not installed") != std::string::npos;
+  }
+};
+
+// The first board in its day: a clock of 20 Hz, and the windings on LEDs.
+TEST_F(FollowerCommand, shows_the_first_boards_windings_and_leds_at_twenty_pulses_a_second) {
+  const Outcome board = sim("first_board --clock 20 --time 0.4");
+  if (is_missing(board)) GTEST_SKIP() << board.err;
+  ASSERT_EQ(board.code, 0) << board.err;
+  EXPECT_THAT(board.out, HasSubstr("time, s  X F1-F4  Y F1-F4  Z F1-F4  relay  tool LED  RB0  RD1  RD2  RD3  keys"));
+  // It waits, lit; then `*` counts; then four pulses.
+  EXPECT_THAT(board.out, HasSubstr("0.050000  0000     0000     0000     -      -         -    on   on   on   *\n"));
+  EXPECT_THAT(board.out, HasSubstr("0110     0000     0000     -      -         on   on   on   on\n"));
+  EXPECT_THAT(board.out, testing::EndsWith("1100     0000     0000     -      -         on   on   on   on\n"));
+  const Outcome emergency = sim("first_board --clock 20 --time 0.6 --line reset@0.33");
+  EXPECT_THAT(emergency.out, HasSubstr("reset\n"));
+  EXPECT_THAT(emergency.out, testing::EndsWith("0000     0000     0000     -      -         -    on   on   on\n"));
+}
+
+TEST_F(FollowerCommand, runs_an_uno_and_a_mega_and_writes_traces_and_pictures) {
+  const Outcome uno = sim("uno_half_step --clock 100 --axes XY --down Y --time 0.22");
+  if (is_missing(uno)) GTEST_SKIP() << uno.err;
+  ASSERT_EQ(uno.code, 0) << uno.err;
+  EXPECT_THAT(uno.out, HasSubstr("0100     1000     0000     -\n"));
+  const std::string trace = path("mega.csv");
+  const std::string waves = path("mega.vcd");
+  const std::string picture = path("mega.svg");
+  const Outcome mega = sim("mega_two_on --key '#@0.05' --key 6@0.2:0.3 --line reset@0.35 --time 0.4 -t " + trace +
+                           " -t " + waves + " -p " + picture);
+  ASSERT_EQ(mega.code, 0) << mega.err;
+  EXPECT_THAT(read(trace), testing::StartsWith("t,key_hash,key_6,reset,x_F1,x_F2,x_F3,x_F4,y_F1"));
+  EXPECT_THAT(read(waves), HasSubstr("$scope module follower $end"));
+  EXPECT_THAT(read(picture), HasSubstr("</svg>"));
+}
+
+TEST_F(FollowerCommand, says_what_it_expected) {
+  EXPECT_EQ(sim("third_board").code, 2);
+  EXPECT_THAT(sim("first_board --key 6").err, HasSubstr("expected KEY@FROM"));
+  EXPECT_THAT(sim("first_board --line clock.w@1").err, HasSubstr("expected LINE@FROM"));
+  EXPECT_THAT(sim("first_board --clock 10 --axes Q").err, HasSubstr("letters of XYZ"));
+  EXPECT_THAT(sim("uno_wave --clock 1e6 --time 100").err, HasSubstr("more than 2000000 edges"));
+  EXPECT_THAT(sim("uno_wave --trace x.txt").err, HasSubstr("ends in .vcd or .csv"));
+}
+
+}  // namespace

@@ -1,0 +1,109 @@
+// Motors with physics as a user sees them: `passo run --physics` and `passo motor --trial`.
+#include <sstream>
+
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using testing::HasSubstr;
+using testing::Not;
+
+// A machine with one axis and a motor that is not asked what it can do: the acceleration is given.
+std::string machine_text(double acceleration) {
+  return "name = \"weak\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 100_000\n"
+         "[axis.X]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-100, 100]\n"
+         "max_velocity_mm_s = 40\nmax_acceleration_mm_s2 = " +
+         std::to_string(acceleration) +
+         "\n[axis.X.torque]\nholding_torque_nm = 0.45\nrated_current_a = 1.7\nresistance_ohm = 1.5\n"
+         "inductance_mh = 2.8\nsupply_v = 24\nrotor_inertia_g_cm2 = 68\nload_mass_kg = 4\nfriction_n = 10\n"
+         "share_of_pull_out = 1\n";
+}
+
+class Physics : public passo::test::CommandLine {
+ protected:
+  Outcome run(const std::string& options, double acceleration = 800) const {
+    return passo("run " + write("p.ngc", "G21 G90\nG0 X30\nG0 X-30\nG0 X0\nM2\n") + " -m " +
+                 write("m.toml", machine_text(acceleration)) + " " + options);
+  }
+};
+
+TEST_F(Physics, of_a_gentle_machine_loses_nothing) {
+  const Outcome outcome = run("--physics --json");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto physics = nlohmann::json::parse(outcome.out)["physics"];
+  ASSERT_EQ(physics["motors"].size(), 1U);
+  EXPECT_EQ(physics["motors"][0]["axis"], "X");
+  EXPECT_EQ(physics["motors"][0]["lost_steps"], 0);
+  EXPECT_GT(physics["motors"][0]["margin"], 0);
+  EXPECT_GT(physics["motors"][0]["following_error_mm"], 0);
+  EXPECT_TRUE(physics["losses"].empty());
+}
+
+TEST_F(Physics, is_told_in_the_summary) {
+  const Outcome outcome = run("--physics");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\nMotors, mm"));
+  EXPECT_THAT(run("").out, Not(HasSubstr("\nMotors")));
+}
+
+// A load of 60 N more than the motor has.
+TEST_F(Physics, of_a_motor_that_is_too_weak_loses_steps_and_says_so) {
+  std::string weak = machine_text(800);
+  weak.replace(weak.find("friction_n = 10"), 15, "weight_n = 480\n");
+  const Outcome outcome =
+      passo("run " + write("p.ngc", "G21 G90\nG0 X30\nM2\n") + " -m " + write("m.toml", weak) + " --physics --json");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("[run.steps-lost]"));
+  const auto physics = nlohmann::json::parse(outcome.out)["physics"];
+  EXPECT_NE(physics["motors"][0]["lost_steps"], 0);
+  ASSERT_FALSE(physics["losses"].empty());
+  EXPECT_EQ(physics["losses"][0]["axis"], "X");
+  EXPECT_EQ(physics["losses"][0]["line"], 2);
+  EXPECT_EQ(static_cast<int>(physics["losses"][0]["steps"]) % 32, 0);
+}
+
+TEST_F(Physics, needs_motors) {
+  const std::string uno = std::string(PASSO_SOURCE_DIR) + "/examples/machines/uno.toml";
+  const Outcome outcome = passo("run " + write("p.ngc", "G21 G0 X1\nM2\n") + " -m " + uno + " --physics");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("[axis.X.torque]"));
+}
+
+class Trial : public passo::test::CommandLine {
+ protected:
+  Outcome trial(const std::string& options) const {
+    return passo(
+        "motor --holding-torque 0.45 --current 1.7 --resistance 1.5 --inductance 2.8 --rotor-inertia 68 "
+        "--supply 24 --load-inertia 68 " +
+        options);
+  }
+};
+
+TEST_F(Trial, prints_a_table) {
+  const Outcome step = trial("--trial step --excitation two-on");
+  ASSERT_EQ(step.code, 0) << step.err;
+  EXPECT_TRUE(step.out.starts_with("time_s,commanded_full_steps,place_full_steps,"));
+  const Outcome torque = trial("--trial torque --rows 3 --max-rate 900");
+  ASSERT_EQ(torque.code, 0) << torque.err;
+  EXPECT_TRUE(torque.out.starts_with("rate_hz,pull_out_nm,pull_in_nm\n300,"));
+}
+
+TEST_F(Trial, draws_a_picture) {
+  for (const char* kind : {"torque", "step", "stop", "resonance"}) {
+    const std::string file = path(std::string(kind) + ".svg");
+    const Outcome outcome = trial("--rows 5 --max-rate 1000 --trial " + std::string(kind) + " --picture " + file);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(passo::test::read(file), HasSubstr("</svg>"));
+  }
+}
+
+TEST_F(Trial, refuses_what_it_does_not_know) {
+  EXPECT_THAT(trial("--trial step --excitation thirds").err, HasSubstr("expected two-on, wave, half-step"));
+  EXPECT_EQ(trial("--trial jump").code, 2);
+  EXPECT_THAT(trial("--trial stop --steps 0").err, HasSubstr("--steps must be"));
+}
+
+}  // namespace
