@@ -17,9 +17,11 @@ constexpr std::int64_t longest_interval = 65535 * whole_tick;
 // polynomial T3, moved so that the first zero is at the start.
 constexpr double first_node = 0.464;
 constexpr double second_node = 0.928;
-// Of a root: the shortest part, in the board's shortest intervals; the longest part has two to the power of this many
-// events; and at least so many parts are left to the rest, because the board takes a series for the root.
-constexpr double shortest_part = 80;
+// What a part and an event cost a chip, in the board's shortest intervals: board_test.cpp plays just such parts. The
+// longest part has two to the power of this many events. At least so many parts are left to the rest, because the board
+// takes a series for the root.
+constexpr double cost_of_part = 46;
+constexpr double cost_of_event = 0.7;
 constexpr unsigned longest_root_part = 7;
 constexpr double parts_to_rest = 3;
 // A motor that moves less than this in one event stands still. In 1/65536 step.
@@ -115,6 +117,13 @@ SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::in
   return root.events > quadratic.events ? root : quadratic;
 }
 
+// The number of events in the shortest part that a chip has time for, where events come that fast. More than any part
+// has: there is no time at all.
+double SegmentFitter::least_events_of_part(double interval) const {
+  const double spare = interval / static_cast<double>(shortest_interval_) - cost_of_event;
+  return spare > 0 ? cost_of_part / spare : std::numeric_limits<double>::infinity();
+}
+
 // Finds a long root of more than `least` events, if there is one.
 SegmentFitter::Timing SegmentFitter::fit_root(const EventBuffer& events, std::int64_t now, unsigned most,
                                               unsigned least) const {
@@ -176,8 +185,7 @@ std::optional<SegmentFitter::Timing> SegmentFitter::root_of(const EventBuffer& e
     const double rest = v * v / (2 * a);  // so many events ahead; negative: behind
     const double nearest_rest = a > 0 ? rest - n : -rest;
     const double fastest = 1 / std::sqrt(a > 0 ? v * v : v * v - 2 * a * n);  // the shortest interval
-    // Parts are a hardship for a chip: no more of them than in a full ring of events at the highest rate.
-    const double least_part = shortest_part * static_cast<double>(shortest_interval_) / fastest;
+    const double least_part = least_events_of_part(fastest);
     unsigned k = 0;
     while (k < longest_root_part && (1U << k) < least_part) ++k;
     const double part = 1U << k;
@@ -394,8 +402,12 @@ std::optional<SegmentFitter::Bent> SegmentFitter::fit_bend(const EventBuffer& ev
     if (!bent || longer[m].events < longer[*bent].events) bent = m;
   }
   if (!lender || bent == lender) return {};
-  const double least_part =
-      shortest_part * static_cast<double>(shortest_interval_) / static_cast<double>(timing.interval);
+  const BoardSegment times{.events = static_cast<std::uint16_t>(timing.events),
+                           .form = timing.form,
+                           .interval = timing.interval,
+                           .change = timing.change};
+  const std::int64_t last = duration(times, most_events) - duration(times, times.events - 1);
+  const double least_part = least_events_of_part(static_cast<double>(std::min<std::int64_t>(timing.interval, last)));
   const unsigned least = longer[*bent].events;
   for (unsigned n = most; n > least + least / 4; n = n * 3 / 4) {
     bool others_serve = true;

@@ -67,14 +67,14 @@ TEST(Uno, plays_roots_and_bends_in_parts_as_the_host_says) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
   expect_every_edge(bench.play(random_stream(
-                        random, 3, {.shortest_interval = 575, .longest_interval = 600, .segments = 12, .part = 4})),
+                        random, 3, {.shortest_interval = 410, .longest_interval = 420, .segments = 12, .part = 4})),
                     unavoidable);
   expect_every_edge(bench.play(random_stream(
-                        random, 3, {.shortest_interval = 290, .longest_interval = 300, .segments = 12, .part = 5})),
+                        random, 3, {.shortest_interval = 246, .longest_interval = 255, .segments = 12, .part = 5})),
                     unavoidable);
   expect_every_edge(
       bench.play(random_stream(
-          random, 3, {.shortest_interval = 140, .longest_interval = 150, .segments = 20, .part = 7, .ramp = 6})),
+          random, 3, {.shortest_interval = 122, .longest_interval = 130, .segments = 20, .part = 7, .ramp = 6})),
       unavoidable);
 }
 
