@@ -418,8 +418,10 @@ class Board : private BoardVoice<Hardware> {
     load_part(item.segment, begins);
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
+    breathe();
     if (begins) {
       part_ = segment;
+      breathe();
       part_.form = 0;
       to_load_ = segment.events;
     } else {

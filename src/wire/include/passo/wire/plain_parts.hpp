@@ -1,4 +1,6 @@
 // Plain parts: a segment as the plain segments that a player plays for it, bends and roots resolved. For the host.
+//
+// Portable.
 #pragma once
 
 #include <cstdint>
