@@ -1,5 +1,7 @@
 #include "passo/link/twin_motors.hpp"
 
+#include <cassert>
+
 namespace passo {
 
 void TwinMotors::set(const std::vector<MotorPair>& pairs) {
@@ -41,6 +43,7 @@ bool TwinMotors::forget_shifts(std::int32_t* counts) {
 }
 
 BoardSegment TwinMotors::for_board(BoardSegment segment) const {
+  assert(segment.bend == 0 || twins_.empty());
   for (const auto& [pair, turns, counts, shift] : twins_) {
     const unsigned first = 1U << pair.first;
     const unsigned second = 1U << pair.second;

@@ -63,6 +63,21 @@ TEST(Uno, turns_three_motors_at_140_kHz_while_it_is_fed) {
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
 }
 
+TEST(Uno, plays_roots_and_bends_in_parts_as_the_host_says) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  expect_every_edge(bench.play(random_stream(
+                        random, 3, {.shortest_interval = 410, .longest_interval = 420, .segments = 12, .part = 4})),
+                    unavoidable);
+  expect_every_edge(bench.play(random_stream(
+                        random, 3, {.shortest_interval = 246, .longest_interval = 255, .segments = 12, .part = 5})),
+                    unavoidable);
+  expect_every_edge(
+      bench.play(random_stream(
+          random, 3, {.shortest_interval = 122, .longest_interval = 130, .segments = 20, .part = 7, .ramp = 6})),
+      unavoidable);
+}
+
 // At its deepest: told of its pins, amid motion, asked for all it knows, and stopped by a switch.
 TEST(Uno, leaves_room_on_its_stack) {
   std::mt19937_64 random(test::seed());

@@ -36,11 +36,13 @@ class RandomMessages {
     BoardSegment segment;
     segment.events = byte();
     segment.directions = byte();
-    segment.flips = byte();
+    segment.flips = motors > most_motors_beside_bend ? byte() : byte() & 0x0F;
     segment.interval = static_cast<std::uint32_t>(word()) << 16 | word();
     segment.change = static_cast<std::int32_t>(below(2 * fine_change + 1)) - fine_change;
     if (below(4) == 0) segment.change *= coarse_change;
     for (unsigned m = 0; m < motors; ++m) segment.increments[m] = word();
+    segment.form = static_cast<std::uint8_t>(below(16));
+    segment.bend = static_cast<std::uint8_t>(below(motors) | below(motors) << 4);
     return segment;
   }
 

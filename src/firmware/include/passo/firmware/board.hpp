@@ -25,6 +25,7 @@
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
+#include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 
@@ -405,27 +406,59 @@ class Board : private BoardVoice<Hardware> {
     complained_ = false;
   }
 
-  // The player gets an item in parts of at most as many events as it can count. To the player each part is a segment.
-  static constexpr uint8_t longest_part = 0xFF;
-
+  // The player gets an item in parts (segment_parts.hpp). To the player each part is a segment.
   // Loads the next part of the item begun last, or the first part of the item after it.
   [[gnu::noinline]] void load() {
     const bool begins = to_load_ == 0;
     if (begins) ++begun_;
-    const auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
+    auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
     if (events == 0) return player_.pass(item.outputs());
-    if (events <= longest_part) return player_.load(item.segment);
-    part_ = item.segment;
+    if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
+    load_part(item.segment, begins);
+  }
+  [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     breathe();
     if (begins) {
-      to_load_ = events;
+      part_ = segment;
+      breathe();
+      part_.form = 0;
+      to_load_ = segment.events;
     } else {
-      part_.interval += static_cast<uint32_t>(part_.change) * static_cast<uint16_t>(events - to_load_);
+      pass_part();
     }
-    part_.events = to_load_ < longest_part ? to_load_ : longest_part;
+    breathe();
+    const uint8_t length = part_length(segment.form);
+    part_.events = to_load_ < length ? to_load_ : length;
     to_load_ = static_cast<uint16_t>(to_load_ - part_.events);
+    breathe();
+    if (segment.bend != 0) bend(segment, begins);
+    if (is_root(segment.form)) grow(segment, begins);
+    breathe();
     player_.load(part_);
+  }
+  [[gnu::noinline]] void pass_part() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
+  // Gives the part the increment that a bent motor has there.
+  [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
+    breathe();
+    const Bend bend = bend_of(segment);
+    part_.increments[bend.lender] = 0;
+    if (begins) return;
+    part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
+  }
+  // Gives the part the change that a root has there. The item keeps the growth of the part.
+  [[gnu::noinline]] void grow(Segment& segment, bool begins) {
+    breathe();
+    if (!begins) segment.change = next_growth<Breath>(segment.change);
+    breathe();
+    const int32_t twice = twice_factor<Breath>(segment.change);
+    breathe();
+    part_.change = root_change<Breath>(part_.interval, twice, segment.form & ~root_form);
+    breathe();
+    // A part that is too fast, which only a wrong host makes, is played as fast as may be.
+    if (identity_.template can_play<Breath>(part_, motors_)) return;
+    if (part_.interval < identity_.shortest_interval) part_.interval = identity_.shortest_interval;
+    part_.change = 0;
   }
 
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
@@ -434,8 +467,9 @@ class Board : private BoardVoice<Hardware> {
     if (item.is_segment()) {
       count_steps();
       const uint16_t left = static_cast<uint16_t>(item.segment.events - done_of_front_);
-      done_of_front_ = static_cast<uint16_t>(done_of_front_ + longest_part);
-      if (left > longest_part) return;
+      const uint8_t length = part_length(item.segment.form);
+      done_of_front_ = static_cast<uint16_t>(done_of_front_ + length);
+      if (left > length) return;
     } else {
       hardware_.outputs(item.outputs());
     }

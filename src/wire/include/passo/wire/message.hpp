@@ -6,6 +6,7 @@
 #include "passo/wire/board_segment.hpp"
 #include "passo/wire/encoder.hpp"
 #include "passo/wire/item_sums.hpp"
+#include "passo/wire/segment_message.hpp"
 #include "passo/wire/wire_frame.hpp"
 
 namespace passo {
@@ -202,19 +203,6 @@ uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
 }
 
 template <class Pause = NoPause>
-uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder<Pause> encoder(frame, MessageType::segment, sequence);
-  const bool fine = is_fine(segment.change);
-  encoder.put16(fine ? segment.events : static_cast<uint16_t>(segment.events | coarse_bit));
-  encoder.put8(segment.directions);
-  encoder.put8(segment.flips);
-  encoder.put32(segment.interval);
-  encoder.put24(static_cast<uint32_t>(fine ? segment.change : segment.change / coarse_change));
-  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put16(segment.increments[motor]);
-  return encoder.finish();
-}
-
-template <class Pause = NoPause>
 uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::outputs, sequence);
   encoder.put8(outputs.switches);
@@ -354,46 +342,9 @@ uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-constexpr uint16_t load16(const uint8_t* bytes) {
-  return static_cast<uint16_t>(bytes[0] | bytes[1] << 8);
-}
-constexpr uint32_t load32(const uint8_t* bytes) {
-  return load16(bytes) | static_cast<uint32_t>(load16(bytes + 2)) << 16;
-}
-
 // The caller has checked the frame's type.
 inline void decode(const WireFrame& frame, Hello& hello) {
   hello = {.version = frame.payload[0], .motors = frame.payload[1]};
-}
-
-// A function of its own, because of the registers that it needs on a chip.
-template <uint8_t room>
-[[gnu::noinline]] void load_increments(const uint8_t* bytes, uint8_t motors, SegmentFor<room>& segment) {
-  for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
-    segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
-  }
-}
-
-template <uint8_t room>
-[[gnu::noinline]] void load_times(const uint8_t* bytes, bool coarse, SegmentFor<room>& segment) {
-  segment.interval = load32(bytes);
-  // 24 bits with a sign. In the upper bits they are a large change. For a small one they are shifted down, sign
-  // included.
-  segment.change =
-      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 4)) << 8 | static_cast<uint32_t>(bytes[6]) << 24);
-  if (!coarse) segment.change >>= 8;
-}
-
-// `motors` is at most `room`.
-template <uint8_t room>
-void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
-  const uint8_t* bytes = frame.payload;
-  const uint16_t events = load16(bytes);
-  segment.events = events & most_events;
-  segment.directions = bytes[2];
-  segment.flips = bytes[3];
-  load_times(bytes + 4, (events & coarse_bit) != 0, segment);
-  load_increments(bytes + segment_size, motors, segment);
 }
 
 inline void decode(const WireFrame& frame, BoardOutputs& outputs) {
