@@ -1,7 +1,7 @@
 // Drawing: the geometry that every reader of cam/ makes of its file: holes and paths on named layers.
 //
 // Lengths are whole nanometres, X to the right, Y up. So an inch and a millimetre are both exact, and no sum of lengths
-// rounds. A coordinate is at most 10 m from zero. A path is a row of points; from each point a line or an arc leads to
+// rounds. A coordinate is at most 100 m from zero. A path is a row of points; from each point a line or an arc leads to
 // the next. The readers refuse a drawing of more than `most_drawn` points.
 #pragma once
 
@@ -23,7 +23,7 @@ struct Nanometres {
 };
 
 inline constexpr double nanometres_per_mm = 1e6;
-inline constexpr Nanometres farthest_drawn{10'000'000'000};
+inline constexpr Nanometres farthest_drawn{100'000'000'000};
 inline constexpr std::size_t most_drawn = 4'000'000;  // points, those of holes included
 
 constexpr Mm to_mm(Nanometres length) {
