@@ -22,7 +22,7 @@ constexpr std::array ignored_words = {
     "FMAT,2", "ATC",  "VER,", "DETECT",   "OSTOP",   "FSB", "SBK", "TCST", "BLKD",  "UP,",  "R,T", "R,C",    "R,D",
     "R,H",    "R,CP", "R,CR", "PCKPARAM", "ICI,OFF", "AFS", "CCW", "CP,",  "MERGE", "STOP", "M47", "SBKOFF", "VER"};
 
-struct DrillTool {
+struct FileTool {
   std::optional<Nanometres> diameter;
   std::uint32_t layer = 0;
 };
@@ -98,8 +98,8 @@ class ExcellonReader {
 
   std::string_view line_;
   std::vector<DrillWord> words_;
-  std::map<std::int64_t, DrillTool> tools_;
-  const DrillTool* tool_ = nullptr;
+  std::map<std::int64_t, FileTool> tools_;
+  const FileTool* tool_ = nullptr;
   DrawnPoint now_;
   DrawnPoint zero_;           // G93: where the file's zero is
   bool incremental_ = false;  // G91, ICI
@@ -296,7 +296,7 @@ bool ExcellonReader::choose_tool() {
   }
   const DrillWord* const diameter = word_of('C');
   const bool is_new = !tools_.contains(*number);
-  DrillTool& tool = tools_[*number];
+  FileTool& tool = tools_[*number];
   if (is_new) tool.layer = builder_.layer(fmt::format("T{}", *number));
   if (diameter != nullptr) {
     const std::optional<Mm> value = numbers_.diameter(diameter->number);

@@ -45,34 +45,39 @@ inline double distance_nm(DrawnPoint a, DrawnPoint b) {
 }
 
 struct DrawnHole {
-  DrawnPoint at;
-  Nanometres diameter;      // 0: the file does not say
-  std::uint32_t layer = 0;  // index into Drawing::layers
-  std::uint32_t line = 0;   // of the file, from 1; 0: the file has no lines
+  DrawnPoint at = {};
+  Nanometres diameter = {};  // 0: the file does not say
+  std::uint32_t layer = 0;   // index into Drawing::layers
+  std::uint32_t line = 0;    // of the file, from 1; 0: the file has no lines
 };
 
 // A point of a path. `bulge` tells how the path leads to the next point: 0 by a line, else by an arc, as the tangent of
 // a quarter of the angle that the arc sweeps; above 0 counterclockwise. 1 is a half circle.
 struct PathPoint {
-  DrawnPoint at;
+  DrawnPoint at = {};
   double bulge = 0;
 };
 
 struct DrawnPath {
-  std::vector<PathPoint> points;
+  std::vector<PathPoint> points = {};
   bool is_closed = false;
   // How wide the path is to be cut: a slot or a rout of a drill file. 0: a mere line of a drawing.
-  Nanometres width;
+  Nanometres width = {};
   std::uint32_t layer = 0;
   std::uint32_t line = 0;
 };
 
 struct Drawing {
-  std::string file;                 // as the user named it
-  std::vector<std::string> layers;  // of a drill file: its tools, "T1"
-  std::vector<DrawnHole> holes;
-  std::vector<DrawnPath> paths;
-  std::vector<std::string> notes;  // what was guessed or left out, a sentence each without a full stop
+  std::string file = {};                 // as the user named it
+  std::vector<std::string> layers = {};  // of a drill file: its tools, "T1"
+  std::vector<DrawnHole> holes = {};
+  std::vector<DrawnPath> paths = {};
+  std::vector<std::string> notes = {};  // what was guessed or left out, a sentence each without a full stop
 };
+
+// The least X and the least Y of all holes' centres and of all points of slots; zero if there are none.
+DrawnPoint lower_left_of(const std::vector<Drawing>& drawings);
+// Makes `zero` the drawing's zero.
+void move_zero_to(DrawnPoint zero, Drawing& drawing);
 
 }  // namespace passo

@@ -20,12 +20,12 @@
 namespace passo {
 
 struct DrillOptions {
-  std::vector<Nanometres> rack;            // diameters of the drills at hand; empty: one for each diameter
-  Nanometres tolerance{50'000};            // between a hole and its drill
-  std::optional<Nanometres> one_drill;     // this drill makes every hole and slot
-  std::optional<Nanometres> mill;          // diameter of the milling cutter
-  DrawnPoint park;                         // where the tool is at the start, at tool changes and at the end
-  std::uint64_t route_steps = 20'000'000;  // work of shorten_route() on each tool
+  std::vector<Nanometres> rack = {};         // diameters of the drills at hand; empty: one for each diameter
+  Nanometres tolerance{50'000};              // between a hole and its drill
+  std::optional<Nanometres> one_drill = {};  // this drill makes every hole and slot
+  std::optional<Nanometres> mill = {};       // diameter of the milling cutter
+  DrawnPoint park = {};                      // where the tool is at the start, at tool changes and at the end
+  std::uint64_t route_steps = 20'000'000;    // work of shorten_route() on each tool
 };
 
 // What one tool makes at one place.
@@ -36,23 +36,23 @@ struct DrillTarget {
     slot     // milled along points, the middle of the cutter; closed where `radius` is not 0: a straight slot's sides
   };
   Kind kind = Kind::hole;
-  std::vector<PathPoint> points;
-  Nanometres radius;
+  std::vector<PathPoint> points = {};
+  Nanometres radius = {};
 };
 
 struct DrillTool {
-  Nanometres diameter;
+  Nanometres diameter = {};
   bool is_mill = false;
-  std::vector<DrillTarget> targets;  // in the order in which they are made
-  std::size_t holes = 0;             // drilled or milled
+  std::vector<DrillTarget> targets = {};  // in the order in which they are made
+  std::size_t holes = 0;                  // drilled or milled
   std::size_t slots = 0;
   double rapids_before_nm = 0;  // the way of the rapids in the files' order, from the park place and back
   double rapids_after_nm = 0;
 };
 
 struct DrillPlan {
-  std::vector<DrillTool> tools;    // drills from thin to thick, then the milling cutter
-  std::vector<std::string> notes;  // what was changed or left out, a sentence each without a full stop
+  std::vector<DrillTool> tools = {};    // drills from thin to thick, then the milling cutter
+  std::vector<std::string> notes = {};  // what was changed or left out, a sentence each without a full stop
 };
 
 // Errors "drill.…" are in `diagnostics`.

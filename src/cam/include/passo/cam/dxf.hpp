@@ -26,9 +26,9 @@
 namespace passo {
 
 struct DxfOptions {
-  std::optional<Mm> unit;           // what a 1 of the file is; it wins over $INSUNITS
-  std::vector<std::string> layers;  // the layers to read; empty: all that are on
-  Mm tolerance{0.005};              // of chords on ellipses and splines
+  std::optional<Mm> unit = {};           // what a 1 of the file is; it wins over $INSUNITS
+  std::vector<std::string> layers = {};  // the layers to read; empty: all that are on
+  Mm tolerance{0.005};                   // of chords on ellipses and splines
 };
 
 // Errors are in `diagnostics`; the drawing then holds what was read so far.

@@ -26,8 +26,8 @@ enum class LeftOutZeros : std::uint8_t { leading, trailing };
 
 // What the user knows better than the file.
 struct ExcellonOptions {
-  std::optional<bool> inch;
-  std::optional<LeftOutZeros> zeros;
+  std::optional<bool> inch = {};
+  std::optional<LeftOutZeros> zeros = {};
 };
 
 // Errors are in `diagnostics`; the drawing then holds what was read so far.
