@@ -48,7 +48,7 @@ class DrillPlanner {
   void mill(const WantedCut& cut);
   void drill_slot(const WantedCut& cut, Nanometres drill);
   std::optional<Nanometres> drill_for(Nanometres width) const;
-  void refuse(const WantedCut& cut);
+  void refuse(const WantedCut& first, std::size_t count);
   void finish();
   void order(DrillTool& tool) const;
 
@@ -65,7 +65,8 @@ class DrillPlanner {
   std::map<Nanometres, DrillTool> drills_;
   DrillTool mill_;
   std::size_t slots_as_holes_ = 0;
-  std::map<Nanometres, std::pair<Nanometres, std::size_t>> off_;  // widths made by another drill, and how many
+  std::map<Nanometres, std::pair<Nanometres, std::size_t>> off_;     // widths made by another drill, and how many
+  std::map<Nanometres, std::pair<WantedCut, std::size_t>> refused_;  // widths that nothing makes: the first, how many
 };
 
 void DrillPlanner::collect(const std::vector<Drawing>& drawings) {
@@ -112,7 +113,7 @@ std::optional<Nanometres> DrillPlanner::drill_for(Nanometres width) const {
   if (options_.one_drill) return options_.one_drill;
   if (width.count == 0) return std::nullopt;
   if (options_.rack.empty()) {
-    const bool is_milled = options_.mill && width > *options_.mill;
+    const bool is_milled = options_.mill && width > *options_.mill + options_.tolerance;
     return is_milled ? std::nullopt : std::optional(width);
   }
   const auto off = [width](Nanometres drill) { return std::abs(drill.count - width.count); };
@@ -133,7 +134,8 @@ void DrillPlanner::give_to_a_tool(const WantedCut& cut) {
     if (mills) {
       mill(cut);
     } else {
-      refuse(cut);
+      const auto [entry, is_new] = refused_.try_emplace(cut.width, cut, 0U);
+      ++entry->second.second;
     }
     return;
   }
@@ -232,26 +234,29 @@ void DrillPlanner::drill_slot(const WantedCut& cut, Nanometres drill) {
   }
 }
 
-void DrillPlanner::refuse(const WantedCut& cut) {
-  const char* const what = cut.slot == nullptr ? "hole" : "slot";
-  const bool is_known = cut.width.count != 0;
-  std::string expected = "--drill D makes every hole with one drill";
+// One finding for all holes of a width.
+void DrillPlanner::refuse(const WantedCut& first, std::size_t count) {
+  const bool is_known = first.width.count != 0;
+  const std::string what = count == 1 ? "1 hole or slot" : fmt::format("{} holes or slots", count);
+  std::string expected = "--drill D, which makes every hole with one drill";
   if (is_known) {
     std::string rack;
     for (const Nanometres drill : options_.rack) rack += (rack.empty() ? "" : ", ") + mm_words(drill);
     expected = fmt::format("a drill of {} in --tools (now: {}), a larger --tolerance, or a narrower cutter in --mill",
-                           mm_words(cut.width), rack);
+                           mm_words(first.width), rack);
   }
-  diagnostics_.add({.code = is_known ? "drill.no-tool" : "drill.no-diameter",
-                    .file = cut.drawing->file,
-                    .place = {cut.line, cut.line == 0 ? 0U : 1U, 1},
-                    .message = is_known ? fmt::format("no tool makes this {} of {}", what, mm_words(cut.width))
-                                        : fmt::format("the file does not say how wide this {} is", what),
-                    .expected = std::move(expected),
-                    .text = ""});
+  diagnostics_.add(
+      {.code = is_known ? "drill.no-tool" : "drill.no-diameter",
+       .file = first.drawing->file,
+       .place = {first.line, first.line == 0 ? 0U : 1U, 1},
+       .message = is_known ? fmt::format("no tool makes {} of {}; here is the first", what, mm_words(first.width))
+                           : fmt::format("the file does not say how wide {} are; here is the first", what),
+       .expected = std::move(expected),
+       .text = ""});
 }
 
 void DrillPlanner::finish() {
+  for (const auto& [width, refused] : refused_) refuse(refused.first, refused.second);
   for (const auto& [width, use] : off_) {
     if (options_.one_drill) break;
     plan_.notes.push_back(
@@ -284,7 +289,9 @@ void DrillPlanner::order(DrillTool& tool) const {
   std::vector<std::uint32_t> given(places.size());
   for (std::uint32_t i = 0; i < given.size(); ++i) given[i] = i;
   tool.rapids_before_nm = route_length(places, given, options_.park, options_.park);
-  std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, options_.route_steps);
+  constexpr std::uint64_t enough_a_place = 20'000;  // more steps hardly shorten the route of few places
+  const std::uint64_t steps = std::min<std::uint64_t>(options_.route_steps, enough_a_place * places.size());
+  std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, steps);
   tool.rapids_after_nm = route_length(places, best, options_.park, options_.park);
   if (tool.rapids_after_nm > tool.rapids_before_nm) {  // the file's own order is better
     best = given;
