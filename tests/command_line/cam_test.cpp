@@ -78,7 +78,7 @@ TEST_F(CamDrill, tools_change_slots_and_wide_holes_are_milled_and_all_of_it_runs
   const Outcome made =
       drill(drill_file() + " --mill 0.8 --spindle 8000 --peck 0.7 -o " + path("b.ngc") + " -p " + path("b.png"));
   EXPECT_EQ(made.code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("4 holes, 1 slots"));
+  EXPECT_THAT(made.out, HasSubstr("5 holes, 1 slots, 0 other paths"));
   EXPECT_THAT(made.out, HasSubstr("tool 2: mill 0.8 mm, 1 holes, 1 slots"));
   const std::string program = read(path("b.ngc"));
   EXPECT_THAT(program, HasSubstr("(MSG, tool 2: mill 0.8 mm)\nT2 M6\n"));
@@ -108,7 +108,7 @@ TEST_F(CamDrill, the_same_files_make_the_same_bytes) {
 TEST_F(CamDrill, what_is_wrong_is_told_and_nothing_is_written) {
   const Outcome rack = drill(drill_file() + " --tools 0.8 -o " + path("b.ngc"));
   EXPECT_EQ(rack.code, 2);
-  EXPECT_THAT(rack.err, HasSubstr("board.drl:14:1: error: no tool makes 1 hole or slot of 3.2 mm"));
+  EXPECT_THAT(rack.err, HasSubstr("board.drl:15:1: error: no tool makes 1 hole or slot of 3.2 mm"));
   const Outcome file = drill(write("broken.drl", "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Yq\n") + " -o " + path("b.ngc"));
   EXPECT_EQ(file.code, 2);
   EXPECT_THAT(file.err, HasSubstr("broken.drl:6:5: error: 'Y' has no number [excellon.unknown-command]"));
