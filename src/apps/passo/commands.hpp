@@ -301,9 +301,9 @@ struct CamDrillArguments {
   std::string feed = "100mm";
   std::string mill_feed = "150mm";
   std::string park = "0,0";
-  std::optional<std::uint32_t> spindle;    // turns a minute
-  std::uint64_t route_steps = 20'000'000;  // of shorten_route()
-  bool plain = false;                      // no canned cycles
+  std::optional<std::uint32_t> spindle;     // turns a minute
+  std::uint64_t route_steps = 200'000'000;  // of shorten_route()
+  bool plain = false;                       // no canned cycles
 };
 int cam_drill(const CamDrillArguments& arguments);
 

@@ -25,7 +25,7 @@ struct DrillOptions {
   std::optional<Nanometres> one_drill = {};  // this drill makes every hole and slot
   std::optional<Nanometres> mill = {};       // diameter of the milling cutter
   DrawnPoint park = {};                      // where the tool is at the start, at tool changes and at the end
-  std::uint64_t route_steps = 20'000'000;    // work of shorten_route() on each tool, at most
+  std::uint64_t route_steps = 200'000'000;   // work of shorten_route() on each tool, at most
 };
 
 // What one tool makes at one place.
