@@ -1,13 +1,14 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_words.cpp, board_options.cpp and study_options.cpp know CLI11, because CLI11 compiles slowly.
-// Each command is in a file of its own.
+// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp and study_options.cpp know CLI11, because CLI11
+// compiles slowly. Each command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <utility>
 
 #include "board_options.hpp"
+#include "cam_options.hpp"
 #include "command_words.hpp"
 #include "commands.hpp"
 #include "program_input.hpp"
@@ -33,6 +34,7 @@ constexpr const char* examples = R"(Examples:
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
+  passo cam drill pads.dxf -o board.ngc                       the holes of a circuit board, as a program
   passo board list                                            what is on this computer's serial lines
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
@@ -244,6 +246,9 @@ int parse_and_run(int argc, char** argv) {
   BoardArguments board_arguments;
   CLI::App& board_command = add_board_command(app, board_arguments);
 
+  CamDrillArguments cam_drill_arguments;
+  CLI::App& cam_drill_command = add_cam_command(app, cam_drill_arguments);
+
   InterpolateArguments interpolate_arguments;
   CLI::App& interpolate_command = add_interpolate_command(app, interpolate_arguments);
   RampArguments ramp_arguments;
@@ -272,6 +277,7 @@ int parse_and_run(int argc, char** argv) {
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);
   if (board_command.parsed()) return board_arguments.chosen();
+  if (cam_drill_command.parsed()) return cam_drill(cam_drill_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);

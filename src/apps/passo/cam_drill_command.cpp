@@ -1,0 +1,217 @@
+// passo cam drill: a program that drills the holes of circuit boards, from DXF drawings and drill files.
+#include <cmath>
+#include <filesystem>
+
+#include "commands.hpp"
+#include "length_argument.hpp"
+#include "named_files.hpp"
+#include "program_input.hpp"
+#include <fmt/format.h>
+
+#include "passo/cam/drawing_file.hpp"
+#include "passo/cam/drill_plan.hpp"
+#include "passo/cam/drill_program.hpp"
+#include "passo/report/drill_picture.hpp"
+#include "passo/report/output_file.hpp"
+
+namespace passo {
+namespace {
+
+// Reads the lengths of the arguments. Keeps the first message of what is wrong.
+class LengthArguments {
+ public:
+  explicit LengthArguments(double unit_mm) : unit_mm_(unit_mm) {}
+
+  Nanometres any(const char* option, const std::string& text) {
+    const Result<Mm, std::string> length = parse_length(option, text, unit_mm_);
+    if (length) return to_nanometres(*length);
+    refuse(length.error());
+    return {};
+  }
+  Nanometres above_0(const char* option, const std::string& text) {
+    const Nanometres length = any(option, text);
+    if (length.count <= 0) refuse(fmt::format("{}: expected a length above 0, found '{}'", option, text));
+    return length;
+  }
+  std::optional<Nanometres> perhaps(const char* option, const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    return above_0(option, text);
+  }
+  std::vector<Nanometres> list(const char* option, const std::string& text) {
+    const Result<std::vector<Mm>, std::string> lengths = parse_lengths(option, text, unit_mm_);
+    std::vector<Nanometres> all;
+    if (!lengths) {
+      refuse(lengths.error());
+    } else {
+      for (const Mm length : *lengths) all.push_back(to_nanometres(length));
+    }
+    return all;
+  }
+  void refuse(const std::string& message) {
+    if (message_.empty()) message_ = message;
+  }
+  const std::string& message() const { return message_; }
+
+ private:
+  double unit_mm_;
+  std::string message_;
+};
+
+struct DrillJob {
+  DrawingFileOptions reading;
+  DrillOptions plan;
+  DrillProgramOptions program;
+};
+
+Result<DrillJob, std::string> job_of(const CamDrillArguments& arguments) {
+  const double unit = *mm_of_unit(arguments.units);
+  LengthArguments lengths(unit);
+  DrillJob job;
+  if (arguments.scale || !arguments.input.empty()) {
+    const double scale = arguments.scale.value_or(1);
+    if (!(scale > 1e-9 && scale < 1e9))
+      lengths.refuse(fmt::format("--scale: expected a number above 0, found {:g}", scale));
+    job.reading.dxf.unit = Mm(scale * (arguments.input.empty() ? unit : *mm_of_unit(arguments.input)));
+  }
+  job.reading.dxf.layers = arguments.layers;
+  if (!arguments.input.empty()) job.reading.excellon.inch = arguments.input == "inch";
+  if (!arguments.zeros.empty()) {
+    job.reading.excellon.zeros = arguments.zeros == "leading" ? LeftOutZeros::leading : LeftOutZeros::trailing;
+  }
+
+  if (!arguments.tools.empty()) {
+    job.plan.rack = lengths.list("--tools", arguments.tools);
+    for (const Nanometres drill : job.plan.rack) {
+      if (drill.count <= 0) lengths.refuse("--tools: expected diameters above 0");
+    }
+  }
+  if (!arguments.tools.empty() && !arguments.drill.empty())
+    lengths.refuse("--drill is one drill for all: leave --tools out");
+  job.plan.tolerance = lengths.any("--tolerance", arguments.tolerance);
+  if (job.plan.tolerance.count < 0) lengths.refuse("--tolerance: expected a length of 0 or more");
+  job.plan.one_drill = lengths.perhaps("--drill", arguments.drill);
+  job.plan.mill = lengths.perhaps("--mill", arguments.mill);
+  const std::vector<Nanometres> park = lengths.list("--park", arguments.park);
+  if (park.size() == 2) job.plan.park = {park[0], park[1]};
+  if (park.size() != 2) lengths.refuse(fmt::format("--park: expected X,Y, found '{}'", arguments.park));
+  job.plan.route_steps = arguments.route_steps;
+
+  DrillProgramOptions& program = job.program;
+  program.name = arguments.output.empty() ? "board" : std::filesystem::path(arguments.output).filename().string();
+  for (const std::string& file : arguments.files) {
+    program.files.push_back(std::filesystem::path(file).filename().string());
+  }
+  program.units = arguments.units == "cm"     ? ProgramUnits::cm
+                  : arguments.units == "inch" ? ProgramUnits::inch
+                                              : ProgramUnits::mm;
+  program.clearance = lengths.above_0("--clearance", arguments.clearance);
+  program.depth = lengths.any("--depth", arguments.depth);
+  if (program.depth.count >= 0) {
+    lengths.refuse(fmt::format("--depth: expected a length below 0, as in -2, found '{}'", arguments.depth));
+  }
+  program.peck = lengths.perhaps("--peck", arguments.peck);
+  program.mill_step = lengths.above_0("--mill-step", arguments.mill_step);
+  program.feed = lengths.above_0("--feed", arguments.feed);
+  program.mill_feed = lengths.above_0("--mill-feed", arguments.mill_feed);
+  constexpr std::int64_t finest_step = 1000;  // nm: less makes programs without end
+  const bool is_too_fine = program.mill_step.count < finest_step || (program.peck && program.peck->count < finest_step);
+  if (is_too_fine) lengths.refuse("--peck and --mill-step: expected 0.001 mm or more");
+  program.spindle = arguments.spindle;
+  program.park = job.plan.park;
+  program.canned = !arguments.plain;
+  if (!lengths.message().empty()) return Failure{lengths.message()};
+  return job;
+}
+
+// What was read and planned, in the program's units.
+std::string summary_of(const std::vector<Drawing>& drawings, const DrillPlan& plan,
+                       const CamDrillArguments& arguments) {
+  const double unit_nm = *mm_of_unit(arguments.units) * nanometres_per_mm;
+  const auto words = [&](double nm) { return fmt::format("{:.6g} {}", nm / unit_nm, arguments.units); };
+  const auto size = [&](Nanometres length) { return words(static_cast<double>(length.count)); };
+  std::string text;
+  for (const Drawing& drawing : drawings) {
+    std::size_t slots = 0;
+    for (const DrawnPath& path : drawing.paths) slots += path.width.count > 0 ? 1 : 0;
+    text += fmt::format("{}: {} holes, {} slots, {} other paths\n", drawing.file, drawing.holes.size(), slots,
+                        drawing.paths.size() - slots);
+  }
+  double before = 0;
+  double after = 0;
+  for (std::size_t i = 0; i < plan.tools.size(); ++i) {
+    const DrillTool& tool = plan.tools[i];
+    text += fmt::format("tool {}: {} {}, {} holes, {} slots; rapids {} as drawn, {} as ordered\n", i + 1,
+                        tool.is_mill ? "mill" : "drill", size(tool.diameter), tool.holes, tool.slots,
+                        words(std::round(tool.rapids_before_nm / 1e4) * 1e4),
+                        words(std::round(tool.rapids_after_nm / 1e4) * 1e4));
+    before += tool.rapids_before_nm;
+    after += tool.rapids_after_nm;
+  }
+  const double saved = before > 0 ? (1 - after / before) * 100 : 0;
+  text += fmt::format("all rapids: {:.1f} % shorter than as drawn\n", saved);
+  return text;
+}
+
+int write(const std::string& path, const std::string& text) {
+  Result<OutputFile, OutputError> file = OutputFile::open(path.empty() ? "-" : path);
+  if (!file) return fail(exit_failed, file.error().message);
+  file->write(text);
+  const Status<OutputError> written = file->commit();
+  return written ? exit_done : fail(exit_failed, written.error().message);
+}
+
+int draw(const DrillPlan& plan, const CamDrillArguments& arguments, PictureFormat format, DrawnPoint park) {
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
+  if (!file) return fail(exit_failed, file.error().message);
+  PictureOptions options;
+  options.format = format;
+  options.program = arguments.output.empty() ? arguments.files.front() : arguments.output;
+  Status<OutputError> done = draw_drill_plan(plan, park, options, *file);
+  if (done) done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+}  // namespace
+
+int cam_drill(const CamDrillArguments& arguments) {
+  NamedFiles files;
+  for (const std::string& file : arguments.files) files.reads("the file", file);
+  files.writes("--output", arguments.output);
+  files.writes("--picture", arguments.picture);
+  if (!files.are_apart()) return exit_bad_program;
+  const Result<DrillJob, std::string> job = job_of(arguments);
+  if (!job) return fail(exit_bad_program, job.error());
+  const std::optional<PictureFormat> format = picture_format_of(arguments.picture);
+  if (!arguments.picture.empty() && !format) {
+    return fail(exit_bad_program, fmt::format("--picture: '{}' should end in .svg or .png", arguments.picture));
+  }
+
+  Diagnostics findings;
+  std::vector<Drawing> drawings;
+  for (const std::string& file : arguments.files) {
+    drawings.push_back(read_drawing(file, job->reading, findings));
+    for (const std::string& words : drawings.back().notes) note(file + ": " + words);
+  }
+  if (findings.any_error()) {
+    show(findings);
+    return exit_bad_program;
+  }
+  if (arguments.zero == "lower-left") {
+    const DrawnPoint corner = lower_left_of(drawings);
+    for (Drawing& drawing : drawings) move_zero_to(corner, drawing);
+  }
+  const DrillPlan plan = plan_drilling(drawings, job->plan, findings);
+  for (const std::string& words : plan.notes) note(words);
+  if (findings.any_error()) {
+    show(findings);
+    return exit_bad_program;
+  }
+  if (const int code = write(arguments.output, write_drill_program(plan, job->program)); code != exit_done) return code;
+  if (format) {
+    if (const int code = draw(plan, arguments, *format, job->plan.park); code != exit_done) return code;
+  }
+  if (!arguments.output.empty() && arguments.output != "-") fmt::print("{}", summary_of(drawings, plan, arguments));
+  return exit_done;
+}
+
+}  // namespace passo

@@ -1,0 +1,66 @@
+#include "cam_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace passo {
+namespace {
+
+constexpr const char* drill_examples =
+    R"(Lengths: a number in the unit of --units, or with a unit of its own: 2mm, 0.2cm, 30mil, 1/32in.
+
+Examples:
+  passo cam drill board.drl -o board.ngc                      a drill for each diameter, changed with M6
+  passo cam drill board.drl --tools 0.8,1.0,1.3 -o board.ngc  the drills at hand, each hole to the nearest
+  passo cam drill board.drl --mill 1 --depth -1.8 -o b.ngc    holes wider than 1 mm, and slots, are milled
+  passo cam drill board.drl --zero lower-left -p board.svg -o board.ngc
+  passo cam drill pads.dxf --layer Pads --drill 0.8 -o b.ngc  one drill for all, of one layer
+  passo cam drill pads.dxf --scale 0.1 --units cm --drill 0.075 --clearance 0.2 --depth -0.3 -o fori.gc
+                                                              drawn in mm, made in cm: the classic chain
+
+Every option, and what is read: docs/manual/cam.md.)";
+
+}  // namespace
+
+CLI::App& add_cam_command(CLI::App& app, CamDrillArguments& arguments) {
+  CLI::App& cam = *app.add_subcommand("cam", "make programs of drawings: the holes of circuit boards");
+  cam.require_subcommand(1);
+  CLI::App& drill = *cam.add_subcommand("drill", "drill the holes of DXF drawings and Excellon drill files");
+  drill.add_option("FILE", arguments.files, "DXF drawings and drill files; the kind is seen from what is in them")
+      ->required();
+  drill.add_option("-o,--output", arguments.output, "write the program to a file; without it to standard output");
+  drill.add_option("-p,--picture", arguments.picture, "draw holes, tools and rapids (FILE.svg or FILE.png)");
+  drill.add_option("--units", arguments.units, "of the program, and of lengths without a unit: mm, cm or inch")
+      ->check(CLI::IsMember({"mm", "cm", "inch"}))
+      ->capture_default_str();
+  drill.add_option("--input", arguments.input, "unit of the files' numbers: mm, cm or inch; without it as they say")
+      ->check(CLI::IsMember({"mm", "cm", "inch"}));
+  drill.add_option("--scale", arguments.scale,
+                   "DXF: the numbers times this are in the unit of --input, without it of --units");
+  drill.add_option("--zeros", arguments.zeros, "drill files: which zeros are left out, leading or trailing")
+      ->check(CLI::IsMember({"leading", "trailing"}));
+  drill.add_option("--layer", arguments.layers, "DXF: read this layer; may be given again. Without it all that are on")
+      ->take_all();
+  drill.add_option("--zero", arguments.zero, "where X0 Y0 is: file, or lower-left of all holes")
+      ->check(CLI::IsMember({"file", "lower-left"}))
+      ->capture_default_str();
+  drill.add_option("--tools", arguments.tools, "the drills at hand, as 0.8,1.0,1.3; without it one for each diameter");
+  drill.add_option("--tolerance", arguments.tolerance, "how far a drill of --tools may be off")->capture_default_str();
+  drill.add_option("--drill", arguments.drill, "this one drill makes every hole");
+  drill.add_option("--mill", arguments.mill, "a milling cutter of this diameter makes wider holes, and slots");
+  drill.add_option("--mill-step", arguments.mill_step, "how deep a turn of the cutter goes")->capture_default_str();
+  drill.add_option("--clearance", arguments.clearance, "height of the rapids above the board")->capture_default_str();
+  drill.add_option("--depth", arguments.depth, "of the holes, below 0")->capture_default_str();
+  drill.add_option("--peck", arguments.peck, "drill in pecks of this depth, and clear the hole after each");
+  drill.add_option("--feed", arguments.feed, "a minute, down into a hole")->capture_default_str();
+  drill.add_option("--mill-feed", arguments.mill_feed, "a minute, of the cutter")->capture_default_str();
+  drill.add_option("--spindle", arguments.spindle, "turns a minute; without it the program leaves the spindle alone");
+  drill.add_option("--park", arguments.park, "X,Y at the start, at tool changes and at the end")->capture_default_str();
+  drill.add_flag("--plain", arguments.plain, "plain moves (G0, G1), not canned cycles (G81, G83)");
+  drill.add_option("--route-steps", arguments.route_steps, "work on the order of each tool's holes")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{10'000'000'000}))
+      ->capture_default_str();
+  drill.footer(drill_examples);
+  return drill;
+}
+
+}  // namespace passo

@@ -1,0 +1,312 @@
+#include "passo/cam/drill_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/cam/route.hpp"
+
+namespace passo {
+namespace {
+
+// A hole or a slot, wherever it was drawn.
+struct WantedCut {
+  const Drawing* drawing = nullptr;
+  DrawnPoint at;
+  Nanometres width;
+  const DrawnPath* slot = nullptr;  // null: a hole
+  std::uint32_t line = 0;
+};
+
+std::string mm_words(Nanometres length) {
+  return fmt::format("{:.4g} mm", to_mm(length).value());
+}
+
+Nanometres half(Nanometres length) {
+  return {length.count / 2};
+}
+
+class DrillPlanner {
+ public:
+  DrillPlanner(const DrillOptions& options, Diagnostics& diagnostics) : options_(options), diagnostics_(diagnostics) {}
+
+  DrillPlan plan(const std::vector<Drawing>& drawings) {
+    collect(drawings);
+    for (const WantedCut& cut : cuts_) give_to_a_tool(cut);
+    finish();
+    return std::move(plan_);
+  }
+
+ private:
+  void collect(const std::vector<Drawing>& drawings);
+  void drop_doubles();
+  void give_to_a_tool(const WantedCut& cut);
+  void mill(const WantedCut& cut);
+  void drill_slot(const WantedCut& cut, Nanometres drill);
+  std::optional<Nanometres> drill_for(Nanometres width) const;
+  void refuse(const WantedCut& first, std::size_t count);
+  void finish();
+  void order(DrillTool& tool) const;
+
+  DrillTool& drill_of(Nanometres diameter) {
+    DrillTool& tool = drills_[diameter];
+    tool.diameter = diameter;
+    return tool;
+  }
+
+  const DrillOptions& options_;
+  Diagnostics& diagnostics_;
+  DrillPlan plan_;
+  std::vector<WantedCut> cuts_;
+  std::map<Nanometres, DrillTool> drills_;
+  DrillTool mill_;
+  std::size_t slots_as_holes_ = 0;
+  std::map<Nanometres, std::pair<Nanometres, std::size_t>> off_;     // widths made by another drill, and how many
+  std::map<Nanometres, std::pair<WantedCut, std::size_t>> refused_;  // widths that nothing makes: the first, how many
+};
+
+void DrillPlanner::collect(const std::vector<Drawing>& drawings) {
+  std::size_t lines = 0;
+  for (const Drawing& drawing : drawings) {
+    for (const DrawnHole& hole : drawing.holes) {
+      cuts_.push_back({.drawing = &drawing, .at = hole.at, .width = hole.diameter, .line = hole.line});
+    }
+    for (const DrawnPath& path : drawing.paths) {
+      if (path.width.count == 0) {
+        ++lines;
+        continue;
+      }
+      cuts_.push_back({&drawing, path.points.front().at, path.width, &path, path.line});
+    }
+  }
+  if (lines != 0) plan_.notes.push_back(fmt::format("left out, because they are no holes: {} lines and paths", lines));
+  drop_doubles();
+}
+
+// A pad is often drawn as two circles about one place, its copper and its hole.
+void DrillPlanner::drop_doubles() {
+  std::map<DrawnPoint, std::size_t> places;
+  std::vector<WantedCut> kept;
+  std::size_t doubles = 0;
+  for (const WantedCut& cut : cuts_) {
+    const auto [entry, is_new] =
+        cut.slot == nullptr ? places.try_emplace(cut.at, kept.size()) : std::pair(places.end(), true);
+    if (is_new) {
+      kept.push_back(cut);
+      continue;
+    }
+    ++doubles;
+    WantedCut& first = kept[entry->second];
+    const bool is_narrower = cut.width.count > 0 && (first.width.count == 0 || cut.width < first.width);
+    if (is_narrower) first = cut;
+  }
+  cuts_ = std::move(kept);
+  if (doubles == 0) return;
+  plan_.notes.push_back(fmt::format("{} holes lie on others; of holes at one place the narrowest is made", doubles));
+}
+
+std::optional<Nanometres> DrillPlanner::drill_for(Nanometres width) const {
+  if (options_.one_drill) return options_.one_drill;
+  if (width.count == 0) return std::nullopt;
+  if (options_.rack.empty()) {
+    const bool is_milled = options_.mill && width > *options_.mill + options_.tolerance;
+    return is_milled ? std::nullopt : std::optional(width);
+  }
+  const auto off = [width](Nanometres drill) { return std::abs(drill.count - width.count); };
+  const Nanometres best = *std::ranges::min_element(options_.rack, {}, off);
+  return off(best) <= options_.tolerance.count ? std::optional(best) : std::nullopt;
+}
+
+void DrillPlanner::give_to_a_tool(const WantedCut& cut) {
+  if (diagnostics_.full()) return;
+  const bool mills =
+      options_.mill && !options_.one_drill && cut.width.count + options_.tolerance.count >= options_.mill->count;
+  if (cut.slot != nullptr && mills) {
+    mill(cut);
+    return;
+  }
+  const std::optional<Nanometres> drill = drill_for(cut.width);
+  if (!drill) {
+    if (mills) {
+      mill(cut);
+    } else {
+      const auto [entry, is_new] = refused_.try_emplace(cut.width, cut, 0U);
+      ++entry->second.second;
+    }
+    return;
+  }
+  if (*drill != cut.width && cut.width.count != 0) {
+    auto& [used, count] = off_[cut.width];
+    used = *drill;
+    ++count;
+  }
+  if (cut.slot != nullptr) {
+    drill_slot(cut, *drill);
+    return;
+  }
+  DrillTool& tool = drill_of(*drill);
+  tool.targets.push_back({.kind = DrillTarget::Kind::hole, .points = {{cut.at}}, .radius = {}});
+  ++tool.holes;
+}
+
+// The sides of a straight slot are two lines and two half circles about its ends.
+std::vector<PathPoint> sides_of(const DrawnPath& slot, double radius_nm) {
+  const DrawnPoint a = slot.points[0].at;
+  const DrawnPoint b = slot.points[1].at;
+  const double length = distance_nm(a, b);
+  const double across_x = length > 0 ? -static_cast<double>(b.y.count - a.y.count) / length * radius_nm : 0;
+  const double across_y = length > 0 ? static_cast<double>(b.x.count - a.x.count) / length * radius_nm : radius_nm;
+  const auto beside = [&](DrawnPoint at, double side) {
+    return DrawnPoint{{at.x.count + std::llround(side * across_x)}, {at.y.count + std::llround(side * across_y)}};
+  };
+  return {{beside(a, -1), 0}, {beside(b, -1), 1}, {beside(b, 1), 0}, {beside(a, 1), 1}};
+}
+
+void DrillPlanner::mill(const WantedCut& cut) {
+  const Nanometres radius = half({std::max<std::int64_t>(0, cut.width.count - options_.mill->count)});
+  const bool is_as_wide = 2 * radius.count <= options_.tolerance.count;
+  if (cut.slot == nullptr) {
+    ++mill_.holes;
+    const auto kind = is_as_wide ? DrillTarget::Kind::hole : DrillTarget::Kind::circle;
+    mill_.targets.push_back({.kind = kind, .points = {{cut.at}}, .radius = is_as_wide ? Nanometres{} : radius});
+    return;
+  }
+  ++mill_.slots;
+  const bool is_straight = cut.slot->points.size() == 2 && cut.slot->points[0].bulge == 0;
+  if (is_as_wide) {
+    mill_.targets.push_back({.kind = DrillTarget::Kind::slot, .points = cut.slot->points, .radius = {}});
+  } else if (is_straight) {
+    mill_.targets.push_back({.kind = DrillTarget::Kind::slot,
+                             .points = sides_of(*cut.slot, static_cast<double>(radius.count)),
+                             .radius = radius});
+  } else {
+    --mill_.slots;
+    diagnostics_.add({.code = "drill.bent-slot",
+                      .file = cut.drawing->file,
+                      .place = {cut.line, cut.line == 0 ? 0U : 1U, 1},
+                      .message = fmt::format("this bent slot is {} wide, and the cutter {}", mm_words(cut.width),
+                                             mm_words(*options_.mill)),
+                      .expected = "a cutter as wide as the slot: --mill",
+                      .text = ""});
+  }
+}
+
+// A row of holes half a drill apart: between two of them stays a bridge of a few hundredths of the drill, or none.
+void DrillPlanner::drill_slot(const WantedCut& cut, Nanometres drill) {
+  DrillTool& tool = drill_of(drill);
+  ++tool.slots;
+  ++slots_as_holes_;
+  const auto add = [&](double x, double y) {
+    const DrawnPoint at{{std::llround(x)}, {std::llround(y)}};
+    tool.targets.push_back({.kind = DrillTarget::Kind::hole, .points = {{at}}, .radius = {}});
+  };
+  const std::vector<PathPoint>& points = cut.slot->points;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const DrawnPoint a = points[i].at;
+    const DrawnPoint b = points[i + 1].at;
+    const double chord = distance_nm(a, b);
+    // An arc of this bulge sweeps 4 atan(bulge) about a centre beside the chord.
+    const double sweep = 4 * std::atan(points[i].bulge);
+    const double way = sweep == 0 ? chord : std::abs(sweep) * chord / 2 / std::sin(std::abs(sweep) / 2);
+    const double step = std::max(1.0, static_cast<double>(drill.count) / 2);
+    constexpr double most_holes = 10'000;
+    const auto count = static_cast<std::size_t>(std::clamp(std::ceil(way / step), 1.0, most_holes));
+    const auto ax = static_cast<double>(a.x.count);
+    const auto ay = static_cast<double>(a.y.count);
+    const double dx = static_cast<double>(b.x.count) - ax;
+    const double dy = static_cast<double>(b.y.count) - ay;
+    for (std::size_t k = i == 0 ? 0 : 1; k <= count; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(count);
+      if (sweep == 0) {
+        add(ax + share * dx, ay + share * dy);
+        continue;
+      }
+      // The chord from the start to a point at this share of the arc turns by half the rest of the sweep.
+      const double lean = -sweep * (1 - share) / 2;
+      const double factor = std::sin(sweep * share / 2) / std::sin(sweep / 2);
+      add(ax + factor * (dx * std::cos(lean) - dy * std::sin(lean)),
+          ay + factor * (dx * std::sin(lean) + dy * std::cos(lean)));
+    }
+  }
+}
+
+// One finding for all holes of a width.
+void DrillPlanner::refuse(const WantedCut& first, std::size_t count) {
+  const bool is_known = first.width.count != 0;
+  const std::string what = count == 1 ? "1 hole or slot" : fmt::format("{} holes or slots", count);
+  std::string expected = "--drill D, which makes every hole with one drill";
+  if (is_known) {
+    std::string rack;
+    for (const Nanometres drill : options_.rack) rack += (rack.empty() ? "" : ", ") + mm_words(drill);
+    expected = fmt::format("a drill of {} in --tools (now: {}), a larger --tolerance, or a narrower cutter in --mill",
+                           mm_words(first.width), rack);
+  }
+  diagnostics_.add(
+      {.code = is_known ? "drill.no-tool" : "drill.no-diameter",
+       .file = first.drawing->file,
+       .place = {first.line, first.line == 0 ? 0U : 1U, 1},
+       .message = is_known ? fmt::format("no tool makes {} of {}; here is the first", what, mm_words(first.width))
+                           : fmt::format("the file does not say how wide {} are; here is the first", what),
+       .expected = std::move(expected),
+       .text = ""});
+}
+
+void DrillPlanner::finish() {
+  for (const auto& [width, refused] : refused_) refuse(refused.first, refused.second);
+  for (const auto& [width, use] : off_) {
+    if (options_.one_drill) break;
+    plan_.notes.push_back(
+        fmt::format("{} holes of {} are made with the drill of {}", use.second, mm_words(width), mm_words(use.first)));
+  }
+  if (slots_as_holes_ != 0) {
+    plan_.notes.push_back(fmt::format("{} slots are drilled as rows of holes; --mill D mills them", slots_as_holes_));
+  }
+  for (auto& [diameter, tool] : drills_) plan_.tools.push_back(std::move(tool));
+  if (!mill_.targets.empty()) {
+    mill_.diameter = *options_.mill;
+    mill_.is_mill = true;
+    plan_.tools.push_back(std::move(mill_));
+  }
+  if (plan_.tools.empty() && !diagnostics_.any_error()) {
+    diagnostics_.add({.code = "drill.no-holes",
+                      .file = "",
+                      .place = {},
+                      .message = "there is no hole in these files",
+                      .expected = "circles or points of a DXF file, on layers that are read, or a drill file",
+                      .text = ""});
+  }
+  for (DrillTool& tool : plan_.tools) order(tool);
+}
+
+// Each target counts as the place where it begins: an open slot is short beside the ways between.
+void DrillPlanner::order(DrillTool& tool) const {
+  std::vector<DrawnPoint> places;
+  for (const DrillTarget& target : tool.targets) places.push_back(target.points.front().at);
+  std::vector<std::uint32_t> given(places.size());
+  for (std::uint32_t i = 0; i < given.size(); ++i) given[i] = i;
+  tool.rapids_before_nm = route_length(places, given, options_.park, options_.park);
+  constexpr std::uint64_t enough_a_place = 20'000;  // more steps hardly shorten the route of few places
+  const std::uint64_t steps = std::min<std::uint64_t>(options_.route_steps, enough_a_place * places.size());
+  std::vector<std::uint32_t> best = shorten_route(places, options_.park, options_.park, steps);
+  tool.rapids_after_nm = route_length(places, best, options_.park, options_.park);
+  if (tool.rapids_after_nm > tool.rapids_before_nm) {  // the file's own order is better
+    best = given;
+    tool.rapids_after_nm = tool.rapids_before_nm;
+  }
+  std::vector<DrillTarget> ordered;
+  ordered.reserve(best.size());
+  for (const std::uint32_t index : best) ordered.push_back(std::move(tool.targets[index]));
+  tool.targets = std::move(ordered);
+}
+
+}  // namespace
+
+DrillPlan plan_drilling(const std::vector<Drawing>& drawings, const DrillOptions& options, Diagnostics& diagnostics) {
+  return DrillPlanner(options, diagnostics).plan(drawings);
+}
+
+}  // namespace passo

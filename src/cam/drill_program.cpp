@@ -1,0 +1,236 @@
+#include "passo/cam/drill_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+// Text that may stand in a comment of G-code.
+std::string in_comment(std::string_view text) {
+  std::string words(text);
+  const auto breaks = [](char c) { return c == '(' || c == ')' || c == '%' || static_cast<unsigned char>(c) < ' '; };
+  std::ranges::replace_if(words, breaks, '_');
+  constexpr std::size_t longest = 120;
+  if (words.size() > longest) words = "..." + words.substr(words.size() - longest);
+  return words;
+}
+
+class DrillProgram {
+ public:
+  DrillProgram(const DrillPlan& plan, const DrillProgramOptions& options) : plan_(plan), options_(options) {}
+
+  std::string write() {
+    begin();
+    for (std::size_t i = 0; i < plan_.tools.size(); ++i) write_tool(plan_.tools[i], i + 1);
+    if (options_.spindle) line("M5");
+    line("G0 {}", place(options_.park));
+    line("M2");
+    return std::move(text_);
+  }
+
+ private:
+  template <class... T>
+  void line(fmt::format_string<T...> words, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), words, std::forward<T>(values)...);
+    text_ += '\n';
+  }
+  void begin();
+  void write_tool(const DrillTool& tool, std::size_t number);
+  void change_tool(const DrillTool& tool, std::size_t number);
+  void drill(const DrillTarget& target, bool is_first);
+  void drill_by_moves(const DrillTarget& target);
+  void mill(const DrillTarget& target);
+  void go_along(const std::vector<PathPoint>& points, bool is_closed, bool backwards);
+  void arc(DrawnPoint from, DrawnPoint to, double bulge);
+  std::vector<Nanometres> depths() const;
+
+  // A length in the program's units, without zeros at its end.
+  std::string number(Nanometres length) const {
+    const double mm = to_mm(length).value();
+    const double value = options_.units == ProgramUnits::mm   ? mm
+                         : options_.units == ProgramUnits::cm ? mm / 10
+                                                              : mm / mm_per_inch;
+    std::string digits = fmt::format("{:.{}f}", value, options_.units == ProgramUnits::mm ? 4 : 5);
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.') digits.pop_back();
+    return digits == "-0" ? "0" : digits;
+  }
+  std::string place(DrawnPoint at) const { return "X" + number(at.x) + " Y" + number(at.y); }
+  std::string diameter_words(const DrillTool& tool) const {
+    return fmt::format("{} {} {}", tool.is_mill ? "mill" : "drill", number(tool.diameter), unit_name());
+  }
+  const char* unit_name() const {
+    return options_.units == ProgramUnits::mm ? "mm" : options_.units == ProgramUnits::cm ? "cm" : "inch";
+  }
+
+  const DrillPlan& plan_;
+  const DrillProgramOptions& options_;
+  std::string text_;
+};
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string contents_of(const DrillTool& tool) {
+  if (tool.slots == 0) return counted(tool.holes, "hole");
+  if (tool.holes == 0) return counted(tool.slots, "slot");
+  return counted(tool.holes, "hole") + ", " + counted(tool.slots, "slot");
+}
+
+void DrillProgram::begin() {
+  line("({}: holes, by passo cam drill)", in_comment(options_.name));
+  for (const std::string& file : options_.files) line("(from {})", in_comment(file));
+  for (std::size_t i = 0; i < plan_.tools.size(); ++i) {
+    line("(tool {}: {}, {})", i + 1, diameter_words(plan_.tools[i]), contents_of(plan_.tools[i]));
+  }
+  line("(X0 Y0 is the drawing's zero, Z0 the face of the board)");
+  if (options_.units == ProgramUnits::cm) {
+    line("(all lengths are centimetres: for a machine that counts in centimetres)");
+    line("G17 G40 G80 G90 G94");
+  } else {
+    line("G17 {} G40 G80 G90 G94", options_.units == ProgramUnits::mm ? "G21" : "G20");
+  }
+  line("G0 Z{}", number(options_.clearance));
+}
+
+void DrillProgram::change_tool(const DrillTool& tool, std::size_t number_of_tool) {
+  if (plan_.tools.size() > 1) {
+    if (number_of_tool > 1) {
+      if (options_.spindle) line("M5");
+      line("G0 {}", place(options_.park));
+    }
+    line("(MSG, tool {}: {})", number_of_tool, diameter_words(tool));
+    line("T{} M6", number_of_tool);
+    line("G0 Z{}", number(options_.clearance));
+  }
+  if (options_.spindle) {
+    line("M3 S{}", *options_.spindle);
+    line("G4 P2 (the spindle reaches its speed)");
+  }
+}
+
+void DrillProgram::write_tool(const DrillTool& tool, std::size_t number_of_tool) {
+  line("");
+  line("(tool {}: {}, {})", number_of_tool, diameter_words(tool), contents_of(tool));
+  change_tool(tool, number_of_tool);
+  line("F{}", number(tool.is_mill ? options_.mill_feed : options_.feed));
+  bool in_cycle = false;
+  for (const DrillTarget& target : tool.targets) {
+    const bool is_hole = target.kind == DrillTarget::Kind::hole;
+    if (in_cycle && !is_hole) {
+      line("G80");
+      in_cycle = false;
+    }
+    if (!is_hole) {
+      mill(target);
+    } else if (options_.canned) {
+      drill(target, !in_cycle);
+      in_cycle = true;
+    } else {
+      drill_by_moves(target);
+    }
+  }
+  if (in_cycle) line("G80");
+}
+
+void DrillProgram::drill(const DrillTarget& target, bool is_first) {
+  const std::string at = place(target.points.front().at);
+  if (!is_first) {
+    line("{}", at);
+    return;
+  }
+  const std::string heights = "Z" + number(options_.depth) + " R" + number(options_.clearance);
+  if (options_.peck) {
+    line("G98 G83 {} {} Q{}", at, heights, number(*options_.peck));
+  } else {
+    line("G98 G81 {} {}", at, heights);
+  }
+}
+
+void DrillProgram::drill_by_moves(const DrillTarget& target) {
+  line("G0 {}", place(target.points.front().at));
+  Nanometres down{};
+  while (options_.peck && down.count - options_.peck->count > options_.depth.count) {
+    down = down - *options_.peck;
+    line("G1 Z{}", number(down));
+    line("G0 Z{}", number(options_.clearance));
+    constexpr Nanometres above{250'000};  // where the next peck's feed begins
+    line("G0 Z{}", number(down + above));
+  }
+  line("G1 Z{}", number(options_.depth));
+  line("G0 Z{}", number(options_.clearance));
+}
+
+std::vector<Nanometres> DrillProgram::depths() const {
+  const auto turns =
+      std::max<std::int64_t>(1, (-options_.depth.count + options_.mill_step.count - 1) / options_.mill_step.count);
+  std::vector<Nanometres> all;
+  for (std::int64_t i = 1; i <= turns; ++i) {
+    all.push_back({-static_cast<std::int64_t>(std::llround(static_cast<double>(-options_.depth.count) *
+                                                           static_cast<double>(i) / static_cast<double>(turns)))});
+  }
+  return all;
+}
+
+void DrillProgram::mill(const DrillTarget& target) {
+  const DrawnPoint centre = target.points.front().at;
+  const bool is_circle = target.kind == DrillTarget::Kind::circle;
+  const DrawnPoint begin = is_circle ? DrawnPoint{centre.x + target.radius, centre.y} : centre;
+  line("G0 {}", place(begin));
+  line("G0 Z{}", number({std::min<std::int64_t>(options_.clearance.count, 500'000)}));
+  line("G1 Z0 F{}", number(options_.feed));
+  line("F{}", number(options_.mill_feed));
+  if (is_circle) {
+    const std::string turn = "I" + number({-target.radius.count}) + " J0";
+    for (const Nanometres depth : depths()) line("G3 {} Z{} {}", place(begin), number(depth), turn);
+    line("G3 {} {}", place(begin), turn);
+  } else {
+    const bool is_closed = target.radius.count != 0;
+    bool backwards = false;
+    for (const Nanometres depth : depths()) {
+      line("G1 Z{} F{}", number(depth), number(options_.feed));
+      line("F{}", number(options_.mill_feed));
+      go_along(target.points, is_closed, backwards);
+      if (!is_closed) backwards = !backwards;
+    }
+  }
+  line("G0 Z{}", number(options_.clearance));
+}
+
+void DrillProgram::go_along(const std::vector<PathPoint>& points, bool is_closed, bool backwards) {
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const std::size_t from = backwards ? n - 1 - i : i;
+    const std::size_t to = backwards ? from - 1 : from + 1;
+    arc(points[from].at, points[to].at, backwards ? -points[to].bulge : points[from].bulge);
+  }
+  if (is_closed) arc(points[n - 1].at, points[0].at, points[n - 1].bulge);
+}
+
+void DrillProgram::arc(DrawnPoint from, DrawnPoint to, double bulge) {
+  if (bulge == 0 || from == to) {
+    line("G1 {}", place(to));
+    return;
+  }
+  // The centre lies beside the middle of the chord: to its left where the arc is counterclockwise and below a half
+  // circle.
+  const double off = (1 - bulge * bulge) / (4 * bulge);
+  const auto dx = static_cast<double>(to.x.count - from.x.count);
+  const auto dy = static_cast<double>(to.y.count - from.y.count);
+  const Nanometres i{std::llround(dx / 2 - dy * off)};
+  const Nanometres j{std::llround(dy / 2 + dx * off)};
+  line("{} {} I{} J{}", bulge > 0 ? "G3" : "G2", place(to), number(i), number(j));
+}
+
+}  // namespace
+
+std::string write_drill_program(const DrillPlan& plan, const DrillProgramOptions& options) {
+  return DrillProgram(plan, options).write();
+}
+
+}  // namespace passo

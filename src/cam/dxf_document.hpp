@@ -1,0 +1,79 @@
+// DxfDocument: a DXF file's layers, blocks and entities as they are written, before blocks are expanded. Private to
+// cam/.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+
+struct DxfNumber {
+  int code = 0;
+  double value = 0;
+};
+
+enum class DxfKind : std::uint8_t {
+  point,
+  circle,
+  arc,
+  line,
+  lwpolyline,
+  polyline,
+  vertex,
+  seqend,
+  ellipse,
+  spline,
+  insert,
+  other
+};
+
+struct DxfEntity {
+  DxfKind kind = DxfKind::other;
+  bool is_in_paper = false;
+  std::uint32_t layer = 0;  // index into DxfDocument::layers
+  std::uint32_t block = 0;  // of an INSERT: index into DxfDocument::blocks
+  std::uint32_t line = 0;   // where it begins; 0 in a binary file
+  std::size_t first = 0;    // its numbers in DxfDocument::numbers
+  std::size_t count = 0;
+};
+
+struct DxfLayer {
+  std::string name;
+  bool is_on = true;
+};
+
+struct DxfBlock {
+  std::string name;
+  bool is_defined = false;
+  double base_x = 0;
+  double base_y = 0;
+  std::vector<DxfEntity> entities = {};
+};
+
+struct DxfDocument {
+  std::optional<int> insert_units;  // $INSUNITS
+  bool has_end = false;             // EOF
+  std::vector<DxfLayer> layers;
+  std::vector<DxfBlock> blocks;
+  std::vector<DxfEntity> entities;
+  std::vector<DxfNumber> numbers;               // of all entities
+  std::map<std::string, std::size_t> left_out;  // names of entities that are not read, and how many there are
+
+  std::span<const DxfNumber> numbers_of(const DxfEntity& entity) const {
+    return std::span(numbers).subspan(entity.first, entity.count);
+  }
+  // The first number of this code.
+  double number(const DxfEntity& entity, int code, double otherwise) const;
+};
+
+// Errors are in `diagnostics`; the document then holds what was read so far.
+DxfDocument read_dxf_document(const std::string& name, std::string_view text, Diagnostics& diagnostics);
+
+}  // namespace passo

@@ -1,0 +1,87 @@
+// Any bytes as a DXF drawing and as a drill file: they are refused with places inside their lines, or the drawing is
+// within its limits; of small drawings the plan holds every hole, and the program has no number that is not finite.
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "kit/require.hpp"
+
+#include "passo/cam/drill_plan.hpp"
+#include "passo/cam/drill_program.hpp"
+#include "passo/cam/dxf.hpp"
+#include "passo/cam/excellon.hpp"
+
+namespace passo {
+namespace {
+
+using test::require;
+
+void check_place(DrawnPoint at) {
+  require(std::abs(at.x.count) <= farthest_drawn.count && std::abs(at.y.count) <= farthest_drawn.count, "too far");
+}
+
+void check_drawing(const Drawing& drawing) {
+  std::size_t points = drawing.holes.size();
+  for (const DrawnHole& hole : drawing.holes) {
+    check_place(hole.at);
+    require(hole.diameter.count >= 0 && hole.layer < drawing.layers.size(), "a wrong hole");
+  }
+  for (const DrawnPath& path : drawing.paths) {
+    require(path.points.size() >= 2 && path.layer < drawing.layers.size(), "a wrong path");
+    points += path.points.size();
+    for (const PathPoint& point : path.points) {
+      check_place(point.at);
+      require(std::isfinite(point.bulge), "a bulge that is not finite");
+    }
+  }
+  require(points <= most_drawn, "too many points");
+}
+
+void check_findings(const Diagnostics& findings) {
+  for (const Diagnostic& finding : findings.all()) {
+    require(!finding.code.empty() && !finding.message.empty(), "a finding without words");
+    require(finding.place.column == 0 || finding.text.empty() || finding.place.column - 1 <= finding.text.size(),
+            "a finding outside its line");
+    static_cast<void>(render(finding, true));
+  }
+}
+
+void check_plan(const Drawing& drawing) {
+  constexpr std::size_t few = 2000;
+  if (drawing.holes.size() + drawing.paths.size() > few) return;
+  DrillOptions options;
+  options.mill = Nanometres{800'000};
+  options.route_steps = 20'000;
+  Diagnostics findings;
+  const DrillPlan plan = plan_drilling({drawing}, options, findings);
+  check_findings(findings);
+  if (findings.any_error()) return;
+  DrillProgramOptions program;
+  program.peck = Nanometres{700'000};
+  const std::string text = write_drill_program(plan, program);
+  require(text.find("nan") == std::string::npos && text.find("inf") == std::string::npos, "a number not finite", text);
+  require(text.ends_with("M2\n"), "no end", text);
+}
+
+void check_bytes(std::string_view bytes) {
+  Diagnostics of_dxf;
+  const Drawing dxf = read_dxf("fuzz.dxf", bytes, {}, of_dxf);
+  check_findings(of_dxf);
+  check_drawing(dxf);
+  if (!of_dxf.any_error()) check_plan(dxf);
+  Diagnostics of_drill;
+  const Drawing drill = read_excellon("fuzz.drl", bytes, {}, of_drill);
+  check_findings(of_drill);
+  check_drawing(drill);
+  if (!of_drill.any_error()) check_plan(drill);
+}
+
+}  // namespace
+}  // namespace passo
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  passo::check_bytes({reinterpret_cast<const char*>(data), size});
+  return 0;
+}

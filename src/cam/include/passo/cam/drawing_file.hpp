@@ -1,0 +1,23 @@
+// read_drawing: a drawing from a file of any kind that cam/ knows. The kind is told by what is in the file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "passo/cam/dxf.hpp"
+#include "passo/cam/excellon.hpp"
+
+namespace passo {
+
+inline constexpr std::size_t largest_drawing_file = std::size_t{256} * 1024 * 1024;  // bytes
+
+struct DrawingFileOptions {
+  DxfOptions dxf = {};
+  ExcellonOptions excellon = {};
+};
+
+// Errors are in `diagnostics`: "drawing.…", "dxf.…" and "excellon.…".
+Drawing read_drawing(const std::string& path, const DrawingFileOptions& options, Diagnostics& diagnostics);
+
+}  // namespace passo

@@ -1,0 +1,135 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "passo/cam/drill_plan.hpp"
+#include "passo/cam/drill_program.hpp"
+
+namespace passo {
+namespace {
+
+Nanometres mm(double value) {
+  return to_nanometres(Mm(value));
+}
+DrawnHole hole_at(double x, double y, double diameter) {
+  return {{mm(x), mm(y)}, mm(diameter), 0, 7};
+}
+Drawing board_of(std::vector<DrawnHole> holes, std::vector<DrawnPath> paths = {}) {
+  return {.file = "board.drl", .layers = {"T1"}, .holes = std::move(holes), .paths = std::move(paths), .notes = {}};
+}
+DrawnPath slot_of(double width) {
+  return {.points = {{{mm(10), mm(10)}}, {{mm(14), mm(10)}}},
+          .is_closed = false,
+          .width = mm(width),
+          .layer = 0,
+          .line = 9};
+}
+struct Planned {
+  DrillPlan plan;
+  Diagnostics found;
+};
+Planned plan_of(const Drawing& drawing, const DrillOptions& options) {
+  Planned planned;
+  planned.plan = plan_drilling({drawing}, options, planned.found);
+  return planned;
+}
+
+TEST(DrillPlan, without_a_rack_each_diameter_has_its_drill) {
+  const Planned planned = plan_of(board_of({hole_at(5, 5, 1), hole_at(1, 1, 0.8), hole_at(9, 1, 0.8)}), {});
+  ASSERT_EQ(planned.plan.tools.size(), 2U);
+  EXPECT_EQ(planned.plan.tools[0].diameter, mm(0.8));
+  EXPECT_EQ(planned.plan.tools[0].holes, 2U);
+  EXPECT_EQ(planned.plan.tools[1].holes, 1U);
+}
+
+TEST(DrillPlan, a_rack_serves_within_its_tolerance_and_no_hole_is_lost) {
+  const Drawing board = board_of({hole_at(5, 5, 1.02), hole_at(1, 1, 0.8), hole_at(9, 1, 1.5)});
+  const Planned planned = plan_of(board, {.rack = {mm(0.8), mm(1)}, .tolerance = mm(0.05)});
+  ASSERT_EQ(planned.found.errors(), 1U);
+  EXPECT_EQ(planned.found.all()[0].code, "drill.no-tool");
+  EXPECT_EQ(planned.found.all()[0].place.line, 7U);
+  EXPECT_THAT(planned.plan.notes, testing::ElementsAre("1 holes of 1.02 mm are made with the drill of 1 mm"));
+  const Planned wider = plan_of(board, {.rack = {mm(0.8), mm(1)}, .tolerance = mm(0.5)});
+  EXPECT_FALSE(wider.found.any_error());
+}
+
+TEST(DrillPlan, one_drill_makes_all_and_of_holes_at_one_place_one) {
+  const Planned planned =
+      plan_of(board_of({hole_at(5, 5, 1), hole_at(5, 5, 2), hole_at(1, 1, 0)}), {.one_drill = mm(0.75)});
+  ASSERT_EQ(planned.plan.tools.size(), 1U);
+  EXPECT_EQ(planned.plan.tools[0].diameter, mm(0.75));
+  EXPECT_EQ(planned.plan.tools[0].holes, 2U);
+  EXPECT_THAT(planned.plan.notes, testing::ElementsAre(testing::HasSubstr("1 holes lie on others")));
+  EXPECT_EQ(plan_of(board_of({hole_at(1, 1, 0)}), {}).found.all().at(0).code, "drill.no-diameter");
+  EXPECT_EQ(plan_of(board_of({}), {}).found.all().at(0).code, "drill.no-holes");
+}
+
+TEST(DrillPlan, wide_holes_and_slots_are_milled) {
+  const Planned planned = plan_of(board_of({hole_at(5, 5, 3.2), hole_at(1, 1, 0.8)}, {slot_of(2)}), {.mill = mm(1)});
+  ASSERT_EQ(planned.plan.tools.size(), 2U);
+  const DrillTool& mill = planned.plan.tools[1];
+  EXPECT_TRUE(mill.is_mill);
+  EXPECT_EQ(mill.holes, 1U);
+  EXPECT_EQ(mill.slots, 1U);
+  for (const DrillTarget& target : mill.targets) {
+    if (target.kind == DrillTarget::Kind::circle) {
+      EXPECT_EQ(target.radius, mm(1.1));
+    } else {
+      ASSERT_EQ(target.points.size(), 4U);
+      EXPECT_EQ(target.points[0].at, (DrawnPoint{mm(10), mm(9.5)}));
+      EXPECT_EQ(target.points[2].at, (DrawnPoint{mm(14), mm(10.5)}));
+    }
+  }
+}
+
+TEST(DrillPlan, without_a_cutter_slots_are_rows_of_holes) {
+  const Planned planned = plan_of(board_of({}, {slot_of(1)}), {});
+  ASSERT_EQ(planned.plan.tools.size(), 1U);
+  EXPECT_EQ(planned.plan.tools[0].targets.size(), 9U) << "4 mm, half a millimetre apart, both ends";
+  DrawnPath bow = slot_of(1);
+  bow.points[0].bulge = 1;  // a half circle about (12, 10), below
+  const Planned bent = plan_of(board_of({}, {bow}), {});
+  for (const DrillTarget& target : bent.plan.tools.at(0).targets) {
+    EXPECT_NEAR(distance_nm(target.points[0].at, {mm(12), mm(10)}), 2e6, 2);
+    EXPECT_LE(target.points[0].at.y.count, mm(10).count + 2);
+  }
+}
+
+TEST(DrillProgram, one_tool_has_no_change_and_begins_and_ends_parked) {
+  const Planned planned = plan_of(board_of({hole_at(10, 0, 0.8), hole_at(20, 0, 0.8)}), {});
+  EXPECT_EQ(
+      write_drill_program(
+          planned.plan,
+          {.name = "b(1).ngc", .files = {"board.drl"}, .clearance = mm(2), .depth = mm(-3), .spindle = {}, .park = {}}),
+      "(b_1_.ngc: holes, by passo cam drill)\n(from board.drl)\n(tool 1: drill 0.8 mm, 2 holes)\n"
+      "(X0 Y0 is the drawing's zero, Z0 the face of the board)\nG17 G21 G40 G80 G90 G94\nG0 Z2\n\n"
+      "(tool 1: drill 0.8 mm, 2 holes)\nF100\nG98 G81 X10 Y0 Z-3 R2\nX20 Y0\nG80\nG0 X0 Y0\nM2\n");
+}
+
+TEST(DrillProgram, centimetres_and_inches_scale_every_length) {
+  const Planned planned = plan_of(board_of({hole_at(25.4, 50.8, 0.8)}), {});
+  DrillProgramOptions options{.name = "b", .clearance = mm(2), .depth = mm(-3), .peck = mm(1), .feed = mm(254)};
+  options.units = ProgramUnits::cm;
+  const std::string cm = write_drill_program(planned.plan, options);
+  EXPECT_THAT(cm, testing::HasSubstr("G98 G83 X2.54 Y5.08 Z-0.3 R0.2 Q0.1\n"));
+  EXPECT_THAT(cm, testing::HasSubstr("F25.4\n"));
+  EXPECT_THAT(cm, testing::HasSubstr("centimetres"));
+  EXPECT_THAT(cm, testing::Not(testing::HasSubstr("G21")));
+  options.units = ProgramUnits::inch;
+  const std::string inch = write_drill_program(planned.plan, options);
+  EXPECT_THAT(inch, testing::HasSubstr("G98 G83 X1 Y2 Z-0.11811 R0.07874 Q0.03937\n"));
+  EXPECT_THAT(inch, testing::HasSubstr("G20"));
+}
+
+TEST(DrillProgram, plain_moves_peck_and_circles_go_down_in_turns) {
+  const Planned planned = plan_of(board_of({hole_at(5, 5, 3), hole_at(1, 1, 0.8)}), {.mill = mm(1)});
+  const std::string text = write_drill_program(
+      planned.plan,
+      {.name = "b", .files = {}, .depth = mm(-1), .peck = mm(0.4), .spindle = 9000, .park = {}, .canned = false});
+  EXPECT_THAT(text, testing::HasSubstr("G0 X1 Y1\nG1 Z-0.4\nG0 Z2\nG0 Z-0.15\nG1 Z-0.8\nG0 Z2\nG0 Z-0.55\nG1 Z-1\n"));
+  EXPECT_THAT(text, testing::HasSubstr("(MSG, tool 2: mill 1 mm)\nT2 M6\n"));
+  EXPECT_THAT(text, testing::HasSubstr("G3 X6 Y5 Z-0.5 I-1 J0\nG3 X6 Y5 Z-1 I-1 J0\nG3 X6 Y5 I-1 J0\n"));
+  EXPECT_THAT(text, testing::HasSubstr("M3 S9000\n"));
+}
+
+}  // namespace
+}  // namespace passo

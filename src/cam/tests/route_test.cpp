@@ -1,0 +1,84 @@
+#include "passo/cam/route.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace passo {
+namespace {
+
+DrawnPoint at_mm(int x, int y) {
+  return {Nanometres{x * 1'000'000LL}, Nanometres{y * 1'000'000LL}};
+}
+std::vector<DrawnPoint> scattered(std::size_t count, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::vector<DrawnPoint> places;
+  for (std::size_t i = 0; i < count; ++i) {
+    places.push_back({Nanometres{static_cast<std::int64_t>(random() % 100'000'000)},
+                      Nanometres{static_cast<std::int64_t>(random() % 100'000'000)}});
+  }
+  return places;
+}
+bool holds_each_once(std::vector<std::uint32_t> order, std::size_t count) {
+  std::ranges::sort(order);
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  return order == all;
+}
+
+TEST(Route, holds_each_place_once) {
+  for (std::size_t count = 0; count < 40; ++count) {
+    const std::vector<DrawnPoint> places = scattered(count, static_cast<unsigned>(count));
+    for (const std::uint64_t steps : {0ULL, 50ULL, 5000ULL}) {
+      EXPECT_TRUE(holds_each_once(shorten_route(places, {}, at_mm(50, 0), steps), count)) << count << " " << steps;
+    }
+  }
+}
+
+// All orders tried out: with few places the route is the best there is.
+TEST(Route, is_the_shortest_of_all_for_few_places) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const std::size_t count = 1 + seed % 7;
+    const std::vector<DrawnPoint> places = scattered(count, 1000 + seed);
+    const DrawnPoint start = at_mm(0, 0);
+    const DrawnPoint end = at_mm(static_cast<int>(seed % 3) * 40, 10);
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    double best = 1e300;
+    do best = std::min(best, route_length(places, order, start, end));
+    while (std::ranges::next_permutation(order).found);
+    const double found = route_length(places, shorten_route(places, start, end, 200'000), start, end);
+    EXPECT_LE(found, best * 1.0000001 + 1) << "seed " << seed << ", " << count << " places";
+  }
+}
+
+TEST(Route, a_grid_is_walked_without_a_detour) {
+  std::vector<DrawnPoint> places;
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 30; ++x) places.push_back(at_mm(10 + (x * 7) % 30, 10 + (y * 3) % 20));
+  }
+  const double found = route_length(places, shorten_route(places, {}, {}, 20'000'000), {}, {}) / 1e6;
+  // 599 ways of 1 mm, one from (0, 0) to (10, 10) and one back from beside it.
+  EXPECT_LT(found, (599 + 2 * 14.9) * 1.02);
+}
+
+// Of scattered places the best tour is about 0.7124 √(n A) long (Beardwood, Halton, Hammersley).
+TEST(Route, of_scattered_places_is_near_the_known_constant) {
+  const std::size_t count = 2000;
+  const std::vector<DrawnPoint> places = scattered(count, 7);
+  const double found = route_length(places, shorten_route(places, {}, {}, 10'000'000), {}, {}) / 1e6;
+  const double constant = 0.7124 * std::sqrt(static_cast<double>(count) * 100 * 100) * (1 + 0.33 / 44);
+  EXPECT_LT(found, constant * 1.07);
+}
+
+TEST(Route, is_the_same_each_time_and_takes_equal_places) {
+  const std::vector<DrawnPoint> places = scattered(300, 3);
+  EXPECT_EQ(shorten_route(places, {}, {}, 100'000), shorten_route(places, {}, {}, 100'000));
+  EXPECT_TRUE(holds_each_once(shorten_route(std::vector<DrawnPoint>(500), {}, {}, 100'000), 500));
+}
+
+}  // namespace
+}  // namespace passo

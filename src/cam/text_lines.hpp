@@ -1,0 +1,41 @@
+// TextLines: the lines of a text one after the other, with their numbers. Private to cam/.
+//
+// A line ends with LF, CR LF or CR. The end is no part of the line.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace passo {
+
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : rest_(text) {
+    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+  }
+
+  [[nodiscard]] bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    const std::size_t end = rest_.find_first_of("\r\n");
+    line = rest_.substr(0, end);
+    const bool has_two = end != std::string_view::npos && rest_.substr(end, 2) == "\r\n";
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + (has_two ? 2 : 1));
+    ++number_;
+    return true;
+  }
+  // Of the line that next() gave last, from 1.
+  std::uint32_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::uint32_t number_ = 0;
+};
+
+inline std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+}  // namespace passo

@@ -1,0 +1,14 @@
+// A picture of a drill plan: holes and slots in their size, coloured by tool, and the rapids between them.
+#pragma once
+
+#include "passo/cam/drill_plan.hpp"
+#include "passo/report/output_file.hpp"
+#include "passo/report/picture.hpp"
+
+namespace passo {
+
+// Draws into `file`, which the caller commits. `park`: where the plan's rapids begin and end.
+Status<OutputError> draw_drill_plan(const DrillPlan& plan, DrawnPoint park, const PictureOptions& options,
+                                    OutputFile& file);
+
+}  // namespace passo
