@@ -3,7 +3,7 @@
 // Portable.
 #pragma once
 
-#include <cstdint>
+#include <stdint.h>
 
 #include "passo/wire/segment_parts.hpp"
 
@@ -16,9 +16,9 @@ void for_each_plain_part(const BoardSegment& segment, const Each& each) {
   plain.form = plain.bend = 0;
   const Bend bend = bend_of(segment);
   if (segment.bend != 0) plain.increments[bend.lender] = 0;
-  for_each_part(segment, [&](const PartTimes& times, std::uint16_t events, std::uint16_t before) {
-    std::uint16_t& bent = plain.increments[bend.bent];
-    if (segment.bend != 0 && before != 0) bent = static_cast<std::uint16_t>(bent + segment.increments[bend.lender]);
+  for_each_part(segment, [&](const PartTimes& times, uint16_t events, uint16_t before) {
+    uint16_t& bent = plain.increments[bend.bent];
+    if (segment.bend != 0 && before != 0) bent = static_cast<uint16_t>(bent + segment.increments[bend.lender]);
     plain.events = events;
     plain.interval = times.interval;
     plain.change = times.change;
