@@ -1,5 +1,6 @@
 #include "passo/activity/machine_plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,9 +36,23 @@ SpindleModel spindle_model(const SpindleDescription& spindle) {
           .ripple_rate = spindle.ripple_rate.value()};
 }
 
+std::optional<ScrewModel> screw_model(const AxisDescription& axis) {
+  if (!axis.screw) return std::nullopt;
+  const double scale = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+  ScrewModel model{.backlash = axis.screw->backlash * scale};
+  for (const ScrewDescription::Error& error : axis.screw->errors) {
+    model.errors.push_back({.at = error.at * scale, .off = error.off * scale});
+  }
+  if (scale < 0) std::ranges::reverse(model.errors);
+  return model;
+}
+
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
          const std::vector<TouchBox>& boxes) {
   plant.stand_at(steps_at(machine, stands_at));
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    if (const auto screw = screw_model(machine.axes[m])) plant.fit_screw(m, *screw);
+  }
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
   for (const TouchBox& box : boxes) plant.add(touch_body(box, machine));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
 
@@ -17,6 +18,7 @@ class Passed {
   void pass(const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
       point_.point = segment->curve.end();
+      point_.downs = segment->downs;
       waits_ = false;
       return;
     }
@@ -47,7 +49,10 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path_options_here, diagnostics);
   PathSmoother smoother(builder, smoothness(machine));
-  RewindablePath path(smoother);
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
+  RewindablePath path(backlash_taker);
   path.keep();
   ResumePoint point;
   point.place = place;
@@ -64,11 +69,12 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   if (place.s > Mm(0)) {
     const auto* segment = more ? std::get_if<Segment>(&item) : nullptr;
     if (segment == nullptr || place.s >= segment->curve.length()) return {};
-    point.point = segment->curve.at(place.s);
+    point.point = segment->tool_at(place.s);
+    point.downs = segment->downs;
   }
   path.rewind(place);
   point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
-  point.steps = steps_at(machine, point.point);
+  point.steps = steps_at(machine, point.point, point.downs);
   return point;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "homing_reader.hpp"
+#include "screw_reader.hpp"
 #include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
@@ -42,6 +43,7 @@ constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
 
 constexpr std::string_view torque_table = "torque";
 constexpr std::string_view home_table = "home";
+constexpr std::string_view screw_table = "screw";
 
 // The keys of an axis that carry a unit in their names.
 struct AxisKeys {
@@ -105,6 +107,7 @@ class MachineReader {
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
   std::optional<HomeDescription> read_home_of(TableReader& reader, const AxisDescription& axis);
   static void read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
+  void read_screw_of(TableReader& reader, AxisDescription& axis) const;
   void read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const;
   static std::optional<double> way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis);
   double read_scale(TableReader& reader, const AxisKeys& keys, Axis axis) const;
@@ -281,6 +284,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
   description.inverted = reader.flag("inverted").value_or(false);
   description.home = read_home_of(reader, description);
+  read_screw_of(reader, description);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
     result.motor_place = reader.place_of(motor_key.name);
@@ -298,6 +302,14 @@ std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, 
   finish(own);
   if (!description) homes_are_readable_ = false;
   return description;
+}
+
+void MachineReader::read_screw_of(TableReader& reader, AxisDescription& axis) const {
+  const TomlEntry* screw = reader.table(screw_table, "a table [axis.X.screw] with its backlash", Need::optional);
+  if (screw == nullptr) return;
+  TableReader own(std::get<TomlTable>(screw->value.content), reader.full_name(screw_table), screw->place, reporter_);
+  axis.screw = read_screw(own, is_rotary(axis.axis));
+  finish(own);
 }
 
 void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {

@@ -19,16 +19,16 @@ void Screws::fit(std::size_t motor, const ScrewModel& model, double position) {
   fitted_.push_back({.motor = motor, .model = model, .nut = position});
 }
 
-bool Screws::any_play() const {
-  return std::ranges::any_of(fitted_, [](const Fitted& one) { return one.model.play != 0; });
+bool Screws::any_backlash() const {
+  return std::ranges::any_of(fitted_, [](const Fitted& one) { return one.model.backlash != 0; });
 }
 
 void Screws::follow(const MotorPositions& motors, MotorPositions& slides) {
   slides = motors;
   for (Fitted& one : fitted_) {
     const double motor = motors[one.motor];
-    const double play = one.model.play;
-    one.nut = std::clamp(one.nut, motor + std::min(play, 0.0), motor + std::max(play, 0.0));
+    const double backlash = one.model.backlash;
+    one.nut = std::clamp(one.nut, motor + std::min(backlash, 0.0), motor + std::max(backlash, 0.0));
     slides[one.motor] = one.model.slide_at(one.nut);
   }
 }
@@ -39,7 +39,7 @@ void Screws::stand_at(const MotorPositions& motors, MotorPositions& slides) {
 }
 
 std::int64_t Screws::motor_steps_for(std::int64_t steps) const {
-  if (any_play()) return 1;
+  if (any_backlash()) return 1;
   if (fitted_.empty() || steps == INT64_MAX) return steps;
   // A slide is faster than its motor by less than a hundredth.
   return std::max<std::int64_t>(1, steps - steps / 100 - 1);

@@ -15,16 +15,16 @@ namespace {
 
 constexpr Seconds no_time{0};
 
-TEST(ScrewModel, a_slide_stands_until_the_play_is_taken_up) {
+TEST(ScrewModel, a_slide_stands_until_the_backlash_is_taken_up) {
   IdealPlant plant;
   plant.stand_at({100});
-  plant.fit_screw(0, {.play = 15});
+  plant.fit_screw(0, {.backlash = 15});
   EXPECT_EQ(plant.events_to_next_change(), 1) << "a sum would hide reversals";
   const auto slide_after = [&](std::int64_t steps) {
     plant.pulse(no_time, {steps});
     return plant.truth_at(no_time).positions[0];
   };
-  EXPECT_EQ(slide_after(10), 110) << "the play was taken up";
+  EXPECT_EQ(slide_after(10), 110) << "the backlash was taken up";
   EXPECT_EQ(slide_after(-14), 110);
   EXPECT_EQ(slide_after(-1), 110);
   EXPECT_EQ(slide_after(-5), 105);
@@ -32,9 +32,9 @@ TEST(ScrewModel, a_slide_stands_until_the_play_is_taken_up) {
   EXPECT_EQ(slide_after(1), 106);
 }
 
-TEST(ScrewModel, the_sign_of_the_play_tells_on_which_side_the_motor_begins) {
+TEST(ScrewModel, the_sign_of_the_backlash_tells_on_which_side_the_motor_begins) {
   IdealPlant plant;
-  plant.fit_screw(0, {.play = -15});
+  plant.fit_screw(0, {.backlash = -15});
   plant.pulse(no_time, {-3});
   EXPECT_EQ(plant.truth_at(no_time).positions[0], -3);
   plant.pulse(no_time, {15});
@@ -55,14 +55,14 @@ TEST(ScrewModel, errors_of_pitch_lie_between_those_given_and_stay_beyond_the_end
 TEST(ScrewModel, switches_and_the_probe_see_the_slide) {
   IdealPlant plant;
   plant.add(TravelSwitch{.input = input_limit, .motor = 0, .closes_at = -20, .opens_at = -20});
-  plant.fit_screw(0, {.play = 15});
+  plant.fit_screw(0, {.backlash = 15});
   plant.pulse(no_time, {-34});
   EXPECT_EQ(plant.inputs_at(no_time), 0);
   plant.pulse(no_time, {-1});
   EXPECT_EQ(plant.inputs_at(no_time), input_limit);
 }
 
-// A board that keeps sums back misses no change behind a screw with errors of pitch, or with play.
+// A board that keeps sums back misses no change behind a screw with errors of pitch, or with backlash.
 TEST(ScrewModel, sums_up_to_the_next_change_tell_as_much_as_each_pulse) {
   const std::uint64_t seed = test::seed();
   SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed));
@@ -71,7 +71,7 @@ TEST(ScrewModel, sums_up_to_the_next_change_tell_as_much_as_each_pulse) {
   for (int trial = 0; trial < 100; ++trial) {
     IdealPlant each;
     each.add(TravelSwitch{.input = input_limit, .motor = 0, .at_high_end = true, .closes_at = 300, .opens_at = 296});
-    ScrewModel model{.play = trial % 4 == 0 ? 3.5 : 0.0};
+    ScrewModel model{.backlash = trial % 4 == 0 ? 3.5 : 0.0};
     for (int at = -400; at <= 400; at += 100) model.errors.push_back({static_cast<double>(at), (at / 100) % 2 * 0.9});
     each.fit_screw(0, model);
     IdealPlant sums = each;

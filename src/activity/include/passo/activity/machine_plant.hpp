@@ -17,10 +17,13 @@ namespace passo {
 // They open `hysteresis` further off.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
 
+// The screw of an axis, in steps of its motor. Empty: the machine file says nothing of it.
+std::optional<ScrewModel> screw_model(const AxisDescription& axis);
+
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
-// Gives a plant the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
-// coordinates. `boxes`: what its probe can touch.
+// Gives a plant the machine's screws, spindle and limit switches. `stands_at`: where the machine truly stands, in
+// machine coordinates. `boxes`: what its probe can touch.
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at = {},
          const std::vector<TouchBox>& boxes = {});
 

@@ -35,6 +35,17 @@ struct HomeDescription {
   double rest() const { return toward_high ? switch_at - pull_off : switch_at + pull_off; }
 };
 
+// What the screw of an axis is known to do wrong. A rotary axis has degrees for millimetres.
+struct ScrewDescription {
+  struct Error {
+    double at = 0;   // place by the screw's nominal pitch, machine coordinates
+    double off = 0;  // true place minus that place
+  };
+  double backlash = 0;             // what the motor turns at a reversal before the axis moves
+  std::vector<Error> errors = {};  // in ascending order of `at`
+  bool is_compensated = true;      // false: only the virtual machine behaves so
+};
+
 // For a rotary axis degrees take the place of millimetres throughout.
 struct AxisDescription {
   Axis axis = Axis::x;
@@ -48,6 +59,7 @@ struct AxisDescription {
   MmPerSecond start_stop{0};       // the motor starts and stops at it in one step; 0: always from rest
   bool inverted = false;           // true: the motor turns the other way
   std::optional<HomeDescription> home = {};
+  std::optional<ScrewDescription> screw = {};
 
   MmPerSecond2 acceleration_at(MmPerSecond speed) const {
     return motor ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;

@@ -16,7 +16,7 @@ class FittedPlant : public Plant {
   void fit_spindle(const SpindleModel& model) { spindle_ = VirtualSpindle(model); }
   // Sets the motors' steps from machine zero. Call this and add() before a board drives the plant.
   void stand_at(const MotorSteps& steps);
-  // Puts a screw between a motor and its slide. The play is taken up in the direction of its sign.
+  // Puts a screw between a motor and its slide. The backlash is taken up in the direction of its sign.
   void fit_screw(std::size_t motor, const ScrewModel& model);
   void add(const TravelSwitch& added);
   void add(const TouchBody& body);
