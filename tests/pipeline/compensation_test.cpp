@@ -163,6 +163,13 @@ TEST_P(OnEachProgram, over_a_line_the_side_of_the_backlash_is_kept) {
   EXPECT_LE(farthest(wanted.places, way.places), 1 + 1e-9);
 }
 
+TEST_P(OnEachProgram, with_limits_of_jerk_the_tool_stays_on_the_path_too) {
+  const Way wanted = way_of(test::with_jerk_limits(router_with({})), GetParam());
+  const Way way = way_of(test::with_jerk_limits(router_with({.backlash = 0.15})), GetParam(), {}, 3);
+  EXPECT_LE(farthest(way.places, wanted.places), 1 + 1e-9);
+  EXPECT_LE(farthest(wanted.places, way.places), 1 + 1e-9);
+}
+
 const ScrewDescription crooked{.backlash = 0,
                                .errors = {{.at = -3, .off = 0.02},
                                           {.at = -1, .off = 0.004},

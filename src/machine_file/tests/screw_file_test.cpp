@@ -32,7 +32,7 @@ TEST(ScrewFile, refuses_what_no_screw_does) {
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_machine(with_screw(lines), "m.toml", diagnostics)) << lines;
     const Diagnostic& first = diagnostics.all().at(0);
-    return fmt::format("{} {}", first.place.line - 29, first.code);
+    return fmt::format("{} {}", first.place.line - 28, first.code);
   };
   EXPECT_EQ(first_of("backlash_mm = -0.1\n"), "1 machine.out-of-range");
   EXPECT_EQ(first_of("error_mm = [[0, 0], [0, 0.01]]\n"), "1 machine.screw");
