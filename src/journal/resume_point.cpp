@@ -1,5 +1,6 @@
 #include "passo/journal/resume_point.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "passo/activity/stage_options.hpp"
@@ -66,15 +67,21 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   }
   const bool more = path.next(item);
   if (more) point.line = std::visit([](const auto& what) { return what.source.line; }, item);
+  Point beside;  // of the motors, amid a segment that takes up backlash
   if (place.s > Mm(0)) {
     const auto* segment = more ? std::get_if<Segment>(&item) : nullptr;
     if (segment == nullptr || place.s >= segment->curve.length()) return {};
     point.point = segment->tool_at(place.s);
     point.downs = segment->downs;
+    beside = segment->curve.at(place.s) - point.point;
   }
   path.rewind(place);
   point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
-  point.steps = steps_at(machine, point.point, point.downs);
+  for (std::size_t m = 0; m < steps.motor_count; ++m) {
+    const Motor& motor = steps.motors[m];
+    const double motor_place = motor.steps_at(point.point[motor.axis], point.downs.has(motor.axis));
+    point.steps[m] = std::llround(motor_place + beside[motor.axis] * motor.steps_per_unit);
+  }
   return point;
 }
 

@@ -163,6 +163,29 @@ TEST_P(OnEachProgram, over_a_line_the_side_of_the_backlash_is_kept) {
   EXPECT_LE(farthest(wanted.places, way.places), 1 + 1e-9);
 }
 
+// The line is cut at many times, one run for each. The board plays a tail, and the drive goes on from its
+// end.
+TEST_P(OnEachProgram, a_broken_line_does_not_lose_the_side_of_the_backlash) {
+  const MachineDescription real = router_with({.backlash = 0.15});
+  const Way wanted = way_of(router_with({}), GetParam());
+  int recoveries = 0;
+  for (double cut = 0.1; cut < 3; cut += 0.26) {
+    SCOPED_TRACE(cut);
+    WatchedPlant plant(real);
+    Diagnostics diagnostics;
+    DrivenProgram run(ProgramReader::from_text("t", GetParam()), real, {}, diagnostics,
+                      {.line = LineOptions{}, .plant = &plant});
+    run.line().cut(Seconds(cut), Seconds(0.9));
+    while (run.advance()) {
+    }
+    recoveries += run.drive().refiller()->recoveries();
+    EXPECT_LE(farthest(plant.places, wanted.places), 1 + 1e-9);
+    EXPECT_LE(farthest(wanted.places, plant.places), 1 + 1e-9);
+    EXPECT_LE(between(plant.places.back(), wanted.places.back()), 1e-9);
+  }
+  EXPECT_GT(recoveries, 5);
+}
+
 TEST_P(OnEachProgram, with_limits_of_jerk_the_tool_stays_on_the_path_too) {
   const Way wanted = way_of(test::with_jerk_limits(router_with({})), GetParam());
   const Way way = way_of(test::with_jerk_limits(router_with({.backlash = 0.15})), GetParam(), {}, 3);
