@@ -340,7 +340,9 @@ MachineSession::Answer MachineSession::take(request::OperatorDone&) {
 MachineSession::Answer MachineSession::take(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
   if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
-  stand_at(set.position);
+  KnownPosition position = set.position;
+  position.downs = position_.downs;  // the motors stand where they stood
+  stand_at(position);
   return at_once();
 }
 

@@ -79,6 +79,8 @@ TEST_P(WornMachine, knows_the_side_of_its_backlash_when_a_jog_was_stopped) {
       run.to_end();
       expect_true_place(run);
     }
+    const Point place = run.session().status().position.place;
+    run.taken(request::SetPosition{.position = {.place = place, .trust = Trust::commanded}});
     done(run, jog(xyz(1, 1), 3));
     done(run, start_of("G21 G53 G0 X0 Y0\nM2\n"));
   }

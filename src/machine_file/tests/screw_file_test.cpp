@@ -25,6 +25,9 @@ TEST(ScrewFile, tells_backlash_and_errors_of_pitch) {
   EXPECT_EQ(a.backlash, 0.1);
   EXPECT_TRUE(a.errors.empty());
   EXPECT_FALSE(a.is_compensated);
+  EXPECT_THAT(describe(*machine),
+              testing::HasSubstr("screw with 0.15 mm of backlash, errors at 3 places, compensated\n"));
+  EXPECT_THAT(describe(*machine), testing::HasSubstr("screw with 0.1 deg of backlash, not compensated\n"));
 }
 
 TEST(ScrewFile, refuses_what_no_screw_does) {
