@@ -15,17 +15,58 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hy
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     if (!axis.home) continue;
-    const double scale = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
-    const bool high = axis.home->toward_high != axis.inverted;
-    const auto closes = std::llround(axis.home->switch_at * scale);
-    const auto later = std::llround(hysteresis.value() * axis.steps_per_unit);
-    switches.push_back({.input = static_cast<std::uint16_t>(1U << static_cast<unsigned>(axis.home->input)),
-                        .motor = static_cast<std::uint8_t>(m),
-                        .at_high_end = high,
-                        .closes_at = closes,
-                        .opens_at = high ? closes - later : closes + later});
+    const auto add = [&](int input, std::size_t motor, bool inverted, double place) {
+      const bool high = axis.home->toward_high != inverted;
+      const auto closes = std::llround(place * (inverted ? -axis.steps_per_unit : axis.steps_per_unit));
+      const auto later = std::llround(hysteresis.value() * axis.steps_per_unit);
+      switches.push_back({.input = static_cast<std::uint16_t>(1U << static_cast<unsigned>(input)),
+                          .motor = static_cast<std::uint8_t>(motor),
+                          .at_high_end = high,
+                          .closes_at = closes,
+                          .opens_at = high ? closes - later : closes + later});
+    };
+    add(axis.home->input, m, axis.inverted, axis.home->switch_at);
+    if (!axis.second) continue;
+    add(axis.second->input, machine.second_motor_of(m), axis.second->inverted,
+        axis.home->switch_at - axis.second->square);
   }
   return switches;
+}
+
+// Where the motors truly stand, if the axes stand there. Second motors are skewed at first.
+MotorSteps truth_at(const MachineDescription& machine, const Point& place) {
+  MotorSteps steps = steps_at(machine, place);
+  const StepOptions options = step_options(machine);
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    if (!axis.second) continue;
+    Motor second = options.motors[m];
+    second.steps_per_unit = axis.second->inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+    steps[machine.second_motor_of(m)] = std::llround(second.steps_at(place[axis.axis] + axis.second->skew, false));
+  }
+  return steps;
+}
+
+PinSetup pin_setup(const MachineDescription& machine) {
+  const PinsDescription& pins = machine.pins;
+  unsigned inputs = 0;
+  for (std::size_t i = 0; i < pins.limits_high.size(); ++i) inputs |= pins.limits_high[i] ? 1U << i : 0U;
+  if (pins.probe_high) inputs |= input_probe;
+  if (pins.door_high) inputs |= input_door;
+  if (pins.emergency_stop_high) inputs |= input_emergency_stop;
+  if (pins.feed_hold_high) inputs |= input_hold;
+  if (pins.cycle_start_high) inputs |= input_start;
+  unsigned outputs = 0;
+  if (pins.spindle_low) outputs |= spindle_on;
+  if (pins.spindle_reverse_low) outputs |= spindle_reverse;
+  if (pins.mist_low) outputs |= mist_on;
+  if (pins.flood_low) outputs |= flood_on;
+  if (pins.driver_enable_high) outputs |= inverted_enable;
+  const unsigned motors = (1U << machine.motor_count()) - 1;
+  return {.inputs = static_cast<std::uint16_t>(inputs),
+          .steps = static_cast<std::uint8_t>(pins.step_low ? motors : 0U),
+          .outputs = static_cast<std::uint8_t>(outputs),
+          .drivers_rest = static_cast<std::uint8_t>(std::lround(pins.drivers_off_after.value() * 10))};
 }
 
 SpindleModel spindle_model(const SpindleDescription& spindle) {
@@ -36,9 +77,8 @@ SpindleModel spindle_model(const SpindleDescription& spindle) {
           .ripple_rate = spindle.ripple_rate.value()};
 }
 
-std::optional<ScrewModel> screw_model(const AxisDescription& axis) {
-  if (!axis.screw) return std::nullopt;
-  const double scale = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+ScrewModel screw_model(const AxisDescription& axis, bool inverted) {
+  const double scale = inverted ? -axis.steps_per_unit : axis.steps_per_unit;
   ScrewModel model{.backlash = axis.screw->backlash * scale};
   for (const ScrewDescription::Error& error : axis.screw->errors) {
     model.errors.push_back({.at = error.at * scale, .off = error.off * scale});
@@ -49,9 +89,12 @@ std::optional<ScrewModel> screw_model(const AxisDescription& axis) {
 
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
          const std::vector<TouchBox>& boxes) {
-  plant.stand_at(steps_at(machine, stands_at));
+  plant.stand_at(truth_at(machine, stands_at));
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    if (const auto screw = screw_model(machine.axes[m])) plant.fit_screw(m, *screw);
+    const AxisDescription& axis = machine.axes[m];
+    if (!axis.screw) continue;
+    plant.fit_screw(m, screw_model(axis, axis.inverted));
+    if (axis.second) plant.fit_screw(machine.second_motor_of(m), screw_model(axis, axis.second->inverted));
   }
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
@@ -98,7 +141,14 @@ std::optional<MotorSetup> motor_setup(const AxisDescription& axis) {
 
 void fit_rotors(RotorPlant& plant, const MachineDescription& machine) {
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    if (const auto setup = motor_setup(machine.axes[m])) plant.fit_motor(m, *setup);
+    const AxisDescription& axis = machine.axes[m];
+    const auto setup = motor_setup(axis);
+    if (!setup) continue;
+    plant.fit_motor(m, *setup);
+    if (!axis.second) continue;
+    MotorSetup second = *setup;
+    if (axis.second->inverted != axis.inverted) second.weight.value = -second.weight.value;
+    plant.fit_motor(machine.second_motor_of(m), second);
   }
 }
 

@@ -92,6 +92,7 @@ StepOptions step_options(const MachineDescription& machine) {
         .axis = axis.axis,
         .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit,
         .screw = screw_map(axis)};
+    if (axis.second) options.bends = false;
   }
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
   return options;

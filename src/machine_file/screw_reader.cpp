@@ -46,15 +46,22 @@ void read_errors(TableReader& reader, const NumberKey& key, ScrewDescription& sc
   for (const LowHigh& pair : *pairs) screw.errors.push_back({.at = pair.low, .off = pair.high});
 }
 
+constexpr std::string_view screw_table = "screw";
+
 }  // namespace
 
-ScrewDescription read_screw(TableReader& reader, bool rotary) {
+std::optional<ScrewDescription> read_screw_of(TableReader& axis, bool rotary, const TomlReporter& reporter,
+                                              const std::function<void(TableReader&)>& finish) {
+  const TomlEntry* table = axis.table(screw_table, "a table [axis.X.screw] with its backlash", Need::optional);
+  if (table == nullptr) return std::nullopt;
+  TableReader reader(std::get<TomlTable>(table->value.content), axis.full_name(screw_table), table->place, reporter);
   const ScrewKeys& keys = rotary ? rotary_keys : linear_keys;
   ScrewDescription screw;
   screw.backlash = reader.number(keys.backlash, Need::optional).value_or(0);
   reader.know(keys.errors.name);
   if (reader.has(keys.errors.name)) read_errors(reader, keys.errors, screw);
   screw.is_compensated = reader.flag("compensate").value_or(true);
+  finish(reader);
   return screw;
 }
 

@@ -40,6 +40,10 @@ std::uint64_t place_fingerprint(const MachineDescription& machine) {
         fingerprint.add(error.off);
       }
     }
+    if (axis.second) {
+      fingerprint.add(std::uint64_t{axis.second->inverted});
+      fingerprint.add(axis.second->square);
+    }
     if (!axis.home) continue;
     fingerprint.add(axis.home->switch_at);
     fingerprint.add(std::uint64_t{axis.home->toward_high});

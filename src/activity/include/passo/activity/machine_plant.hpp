@@ -10,6 +10,7 @@
 #include "passo/plant/ideal_plant.hpp"
 #include "passo/plant/rotor_plant.hpp"
 #include "passo/plant/travel_switch.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -17,8 +18,14 @@ namespace passo {
 // They open `hysteresis` further off.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
 
-// The screw of an axis, in steps of its motor. Empty: the machine file says nothing of it.
-std::optional<ScrewModel> screw_model(const AxisDescription& axis);
+// The screw of an axis for which the machine file has one, in steps of a motor that is wired inverted or not.
+ScrewModel screw_model(const AxisDescription& axis, bool inverted);
+
+// Where the motors of that plant stand at first, if the axes stand at `place`: second motors are ahead by their skew.
+MotorSteps truth_at(const MachineDescription& machine, const Point& place);
+
+// How the machine's switches and drivers are connected to its board's pins.
+PinSetup pin_setup(const MachineDescription& machine);
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
