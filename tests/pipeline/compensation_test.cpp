@@ -169,7 +169,7 @@ TEST_P(OnEachProgram, a_broken_line_does_not_lose_the_side_of_the_backlash) {
   const MachineDescription real = router_with({.backlash = 0.15});
   const Way wanted = way_of(router_with({}), GetParam());
   int recoveries = 0;
-  for (double cut = 0.1; cut < 3; cut += 0.26) {
+  for (double cut = 0.1; cut < 3; cut += 0.13) {
     SCOPED_TRACE(cut);
     WatchedPlant plant(real);
     Diagnostics diagnostics;
