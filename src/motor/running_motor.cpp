@@ -12,6 +12,7 @@ constexpr double radians_of_ringing = 0.05;  // the most of a ringing's angle in
 constexpr double part_of_time_constant = 0.05;
 constexpr int steps_between_looks = 64;
 constexpr int steps_between_exact_angles = 256;
+constexpr double most_turn = 0.5;   // electrical radians in half a step
 constexpr double averaging = 3e-3;  // seconds
 constexpr double in_motion = 3;     // full steps from the field to a rotor that is in step
 constexpr double at_rest_in_step = 2;
@@ -133,7 +134,10 @@ void RunningMotor::integrate(const StepSize& size) {
 
   const double free = (speed_ * (1 - size.fade) + (torque_ - weight_) * size.kick) / (1 + size.fade);
   const double dry = (dry_ + resisting_) * size.kick;
-  const double speed = std::copysign(std::max(std::abs(free) - dry, 0.0), free);
+  // A rotor that runs away, as under a weight that the motor does not hold, gets no faster than the integration can
+  // see.
+  const double fastest = 2 * most_turn / (teeth_ * size.h);
+  const double speed = std::copysign(std::clamp(std::abs(free) - dry, 0.0, fastest), free);
   gain_ = (speed - speed_) / size.h;
   speed_ = speed;
   turn(electrical * speed_);

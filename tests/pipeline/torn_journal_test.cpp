@@ -56,7 +56,7 @@ TEST(TornJournal, tells_the_right_place_or_none_wherever_it_ends) {
   int refused = 0;
   // At each byte of one journal; in full, of three.
   const std::vector<std::uint64_t> moments =
-      test::in_full() == 0 ? std::vector<std::uint64_t>{420} : std::vector<std::uint64_t>{40, 200, 420};
+      test::in_full() == 0 ? std::vector<std::uint64_t>{300} : std::vector<std::uint64_t>{40, 160, 300};
   for (const std::uint64_t moment : moments) {
     const auto left = host_dies_at(machine, moment);
     ASSERT_TRUE(left) << moment;

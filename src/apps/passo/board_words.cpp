@@ -44,7 +44,14 @@ std::vector<std::string> switches_of(const BoardStatus& status) {
 std::string closed_switches(BoardSession& board) {
   constexpr Seconds answer{2};
   board.hang_up();
-  const auto status = ask_status(board, answer);
+  auto status = ask_status(board, answer);
+  if (status && switches_of(*status).empty()) {
+    // A chip stops at once, and believes a switch only when it has stayed closed for some hundredths of a second.
+    constexpr Seconds until_believed{0.15};
+    await(
+        board, [] { return false; }, until_believed);
+    status = ask_status(board, answer);
+  }
   const std::vector<std::string> closed = status ? switches_of(*status) : std::vector<std::string>();
   return closed.empty() ? "" : fmt::format("; closed now: {}", fmt::join(closed, ", "));
 }

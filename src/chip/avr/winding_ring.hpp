@@ -25,7 +25,7 @@ inline constexpr uint16_t ram_address = 0x200;
 #else
 inline constexpr PinMap<3> pins = driven(uno_windings, {PASSO_WINDINGS});
 inline constexpr About about = {.firmware = 101, .highest_event_rate = 35'000, .baud = 500'000, .name = "uno windings"};
-inline constexpr uint8_t queue_capacity = 38;
+inline constexpr uint8_t queue_capacity = 37;
 inline constexpr uint16_t ram_address = 0x100;
 #endif
 

@@ -21,6 +21,7 @@
 #include "passo/firmware/board_voice.hpp"
 #include "passo/firmware/host_silence.hpp"
 #include "passo/firmware/input_watch.hpp"
+#include "passo/firmware/part_taker.hpp"
 #include "passo/firmware/play_list.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
@@ -143,7 +144,7 @@ class Board : private BoardVoice<Hardware> {
         player_.forget();
         breathe();
       }
-      if (!player_.ready() || (to_load_ == 0 && begun_ == list_.size())) return;
+      if (!player_.ready() || (parts_.are_done() && begun_ == list_.size())) return;
       load();
     } while (true);
   }
@@ -406,10 +407,10 @@ class Board : private BoardVoice<Hardware> {
     complained_ = false;
   }
 
-  // The player gets an item in parts (segment_parts.hpp). To the player each part is a segment.
-  // Loads the next part of the item begun last, or the first part of the item after it.
+  // Loads the next part of the item begun last, or the first part of the item after it. To the player each part is a
+  // segment.
   [[gnu::noinline]] void load() {
-    const bool begins = to_load_ == 0;
+    const bool begins = parts_.are_done();
     if (begins) ++begun_;
     auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
@@ -418,47 +419,8 @@ class Board : private BoardVoice<Hardware> {
     load_part(item.segment, begins);
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
-    breathe();
-    if (begins) {
-      part_ = segment;
-      breathe();
-      part_.form = 0;
-      to_load_ = segment.events;
-    } else {
-      pass_part();
-    }
-    breathe();
-    const uint8_t length = part_length(segment.form);
-    part_.events = to_load_ < length ? to_load_ : length;
-    to_load_ = static_cast<uint16_t>(to_load_ - part_.events);
-    breathe();
-    if (segment.bend != 0) bend(segment, begins);
-    if (is_root(segment.form)) grow(segment, begins);
-    breathe();
-    player_.load(part_);
-  }
-  [[gnu::noinline]] void pass_part() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
-  // Gives the part the increment that a bent motor has there.
-  [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
-    breathe();
-    const Bend bend = bend_of(segment);
-    part_.increments[bend.lender] = 0;
-    if (begins) return;
-    part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
-  }
-  // Gives the part the change that a root has there. The item keeps the growth of the part.
-  [[gnu::noinline]] void grow(Segment& segment, bool begins) {
-    breathe();
-    if (!begins) segment.change = next_growth<Breath>(segment.change);
-    breathe();
-    const int32_t twice = twice_factor<Breath>(segment.change);
-    breathe();
-    part_.change = root_change<Breath>(part_.interval, twice, segment.form & ~root_form);
-    breathe();
-    // A part that is too fast, which only a wrong host makes, is played as fast as may be.
-    if (identity_.template can_play<Breath>(part_, motors_)) return;
-    if (part_.interval < identity_.shortest_interval) part_.interval = identity_.shortest_interval;
-    part_.change = 0;
+    parts_.take(segment, begins, identity_, motors_);
+    player_.load(parts_.part());
   }
 
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
@@ -487,7 +449,8 @@ class Board : private BoardVoice<Hardware> {
   void drop_all() {
     list_.template clear<Breath>(places());
     begun_ = 0;
-    to_load_ = done_of_front_ = 0;
+    parts_.drop();
+    done_of_front_ = 0;
   }
   uint8_t places() const { return identity_.places < queue_capacity ? identity_.places : uint8_t{queue_capacity}; }
 
@@ -513,11 +476,10 @@ class Board : private BoardVoice<Hardware> {
   Decoder decoder_;
   SegmentPlayer player_{0};
   PlayList<queue_capacity, most_motors> list_;  // its front is being played
-  uint8_t begun_ = 0;           // items at the front that the player has; the last one may be there in part
-  uint16_t to_load_ = 0;        // events of that last item that the player has not got yet
-  uint16_t done_of_front_ = 0;  // events of the front item in parts that are done
-  Segment part_;                // the part that is being loaded; too large for a chip's stack
-  uint8_t motors_ = 0;          // as agreed with the host
+  uint8_t begun_ = 0;                     // items at the front that the player has; the last one may be there in part
+  uint16_t done_of_front_ = 0;            // events of the front item in parts that are done
+  PartTaker<most_motors, Breath> parts_;  // of that last item
+  uint8_t motors_ = 0;                    // as agreed with the host
   uint16_t session_ = 0;
   uint16_t expected_ = 0;  // number of the next frame; the wire has its low byte
   uint16_t executed_ = 0;  // number of the last item done

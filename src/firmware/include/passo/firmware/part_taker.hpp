@@ -1,0 +1,76 @@
+// PartTaker: takes a segment apart into the parts that a board's player plays (wire/segment_parts.hpp).
+//
+// Portable: integers only, no heap.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/firmware/board_identity.hpp"
+#include "passo/wire/segment_parts.hpp"
+
+namespace passo {
+
+// `Breath{}()` is called between the steps of the work, so that a chip's interrupts do not wait long.
+template <uint8_t most_motors, class Breath>
+class PartTaker {
+ public:
+  using Segment = SegmentFor<most_motors>;
+
+  // No part of the last segment is left.
+  bool are_done() const { return left_ == 0; }
+  void drop() { left_ = 0; }
+  // Too large for a chip's stack.
+  const Segment& part() const { return part_; }
+
+  // Takes the next part of the segment, or the first one if it begins. A segment with a root keeps the growth of the
+  // part in its change.
+  [[gnu::always_inline]] void take(Segment& segment, bool begins, const BoardIdentity& identity, uint8_t motors) {
+    Breath{}();
+    if (begins) {
+      part_ = segment;
+      Breath{}();
+      part_.form = 0;
+      left_ = segment.events;
+    } else {
+      pass();
+    }
+    Breath{}();
+    const uint8_t length = part_length(segment.form);
+    part_.events = left_ < length ? left_ : length;
+    left_ = static_cast<uint16_t>(left_ - part_.events);
+    Breath{}();
+    if (segment.bend != 0) bend(segment, begins);
+    if (is_root(segment.form)) grow(segment, begins, identity, motors);
+    Breath{}();
+  }
+
+ private:
+  [[gnu::noinline]] void pass() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
+  // Gives the part the increment that a bent motor has there.
+  [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
+    Breath{}();
+    const Bend bend = bend_of(segment);
+    part_.increments[bend.lender] = 0;
+    if (begins) return;
+    part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
+  }
+  // Gives the part the change that a root has there.
+  [[gnu::noinline]] void grow(Segment& segment, bool begins, const BoardIdentity& identity, uint8_t motors) {
+    Breath{}();
+    if (!begins) segment.change = next_growth<Breath>(segment.change);
+    Breath{}();
+    const int32_t twice = twice_factor<Breath>(segment.change);
+    Breath{}();
+    part_.change = root_change<Breath>(part_.interval, twice, segment.form & ~root_form);
+    Breath{}();
+    // A part that is too fast, which only a wrong host makes, is played as fast as may be.
+    if (identity.template can_play<Breath>(part_, motors)) return;
+    if (part_.interval < identity.shortest_interval) part_.interval = identity.shortest_interval;
+    part_.change = 0;
+  }
+
+  Segment part_;
+  uint16_t left_ = 0;  // events of the segment that were not taken yet
+};
+
+}  // namespace passo
