@@ -1,5 +1,6 @@
 #include "passo/activity/machine_plant.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -35,11 +36,13 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hy
 // Where the motors truly stand, if the axes stand there. Second motors are skewed at first.
 MotorSteps truth_at(const MachineDescription& machine, const Point& place) {
   MotorSteps steps = steps_at(machine, place);
+  const StepOptions options = step_options(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     if (!axis.second) continue;
-    const auto own = std::llround((place[axis.axis] + axis.second->skew) * axis.steps_per_unit);
-    steps[machine.second_motor_of(m)] = axis.second->inverted ? -own : own;
+    Motor second = options.motors[m];
+    second.steps_per_unit = axis.second->inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+    steps[machine.second_motor_of(m)] = std::llround(second.steps_at(place[axis.axis] + axis.second->skew, false));
   }
   return steps;
 }
@@ -74,9 +77,25 @@ SpindleModel spindle_model(const SpindleDescription& spindle) {
           .ripple_rate = spindle.ripple_rate.value()};
 }
 
+ScrewModel screw_model(const AxisDescription& axis, bool inverted) {
+  const double scale = inverted ? -axis.steps_per_unit : axis.steps_per_unit;
+  ScrewModel model{.backlash = axis.screw->backlash * scale};
+  for (const ScrewDescription::Error& error : axis.screw->errors) {
+    model.errors.push_back({.at = error.at * scale, .off = error.off * scale});
+  }
+  if (scale < 0) std::ranges::reverse(model.errors);
+  return model;
+}
+
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
          const std::vector<TouchBox>& boxes) {
   plant.stand_at(truth_at(machine, stands_at));
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    if (!axis.screw) continue;
+    plant.fit_screw(m, screw_model(axis, axis.inverted));
+    if (axis.second) plant.fit_screw(machine.second_motor_of(m), screw_model(axis, axis.second->inverted));
+  }
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
   for (const TouchBox& box : boxes) plant.add(touch_body(box, machine));

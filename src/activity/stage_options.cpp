@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace passo {
@@ -61,20 +63,35 @@ MotionLimits motion_limits(const MachineDescription& machine) {
   return limits;
 }
 
-std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place) {
+std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place, AxisSet downs) {
   const StepOptions options = step_options(machine);
   std::array<std::int64_t, max_motors> steps{};
   for (std::size_t m = 0; m < options.motor_count; ++m) {
-    steps[m] = std::llround(place[options.motors[m].axis] * options.motors[m].steps_per_unit);
+    const Motor& motor = options.motors[m];
+    steps[m] = std::llround(motor.steps_at(place[motor.axis], downs.has(motor.axis)));
   }
   return steps;
 }
+
+namespace {
+
+// Null: the axis is in proportion to its motor, or is taken for it.
+std::shared_ptr<const ScrewMap> screw_map(const AxisDescription& axis) {
+  if (!axis.screw || !axis.screw->is_compensated) return nullptr;
+  std::vector<ScrewMap::Error> errors;
+  for (const ScrewDescription::Error& error : axis.screw->errors) errors.push_back({error.at, error.off});
+  return std::make_shared<const ScrewMap>(axis.screw->backlash, std::move(errors));
+}
+
+}  // namespace
 
 StepOptions step_options(const MachineDescription& machine) {
   StepOptions options;
   for (const AxisDescription& axis : machine.axes) {
     options.motors[options.motor_count++] = {
-        .axis = axis.axis, .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit};
+        .axis = axis.axis,
+        .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit,
+        .screw = screw_map(axis)};
     if (axis.second) options.bends = false;
   }
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};

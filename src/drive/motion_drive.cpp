@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "passo/drive/backlash_options.hpp"
 #include "passo/drive/direct_feed.hpp"
 
 namespace passo {
@@ -18,6 +19,11 @@ constexpr double no_feed = 0.01;
 constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::program_stop,
                                   HoldReason::tool_change, HoldReason::stop};
 
+BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
+  if (options.begin_at) steps.downs = AxisSet();
+  return backlash_options(steps, options.tails || options.begin_at);
+}
+
 }  // namespace
 
 MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, const StepOptions& steps,
@@ -25,7 +31,8 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
     : board_(board),
       answers_(answers),
       watched_path_(path),
-      path_(watched_path_),
+      backlash_taker_(watched_path_, backlash_of(steps, options)),
+      path_(backlash_taker_),
       planner_(path_, limits),
       watched_motion_(planner_),
       step_generator_(watched_motion_, steps),
@@ -35,6 +42,7 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
       spindle_({.planner = planner_, .feed = *feed_, .link = board_}, limits, options.counts_per_turn,
                steps.clock.tick_rate),
       spindle_wait_(options.spindle_wait) {
+  backlash_taker_.ask_after_probe([this, motors = steps] { return backlash_at_rest(motors); });
   watched_path_.watch([this](const PathItem& item) { watch(item); });
   watched_motion_.watch([this](const MotionItem& item) { watch(item); });
   if (options.guards_by_probe) probe_.guard_other_moves();
@@ -45,6 +53,17 @@ MotionDrive::MotionDrive(Source<PathItem>& path, const MotionLimits& limits, con
 }
 
 MotionDrive::~MotionDrive() = default;
+
+BacklashAtRest MotionDrive::backlash_at_rest(const StepOptions& steps) const {
+  BacklashAtRest rest{.downs = step_generator_.downs(), .place = steps.start};
+  const BoardPlace place = step_generator_.place();
+  for (std::size_t m = 0; m < steps.motor_count; ++m) {
+    const Motor& motor = steps.motors[m];
+    const double counted = static_cast<double>(place.motors[m]) / whole_step - 0.5;
+    rest.place[motor.axis] = motor.place_at(counted, rest.downs.has(motor.axis));
+  }
+  return rest;
+}
 
 std::unique_ptr<Feed> MotionDrive::make_feed(const DriveOptions& options, const StepOptions& steps) {
   if (options.begin_at) {
@@ -92,7 +111,7 @@ void MotionDrive::watch(const MotionItem& item) {
   feed_->watch(item);
   if (move == nullptr) return;
   // Over a line, not all given motion is executed, so the end is not known here.
-  if (probe_.is_running() && !feed_->is_remote()) end_of_probe_ = move->segment.curve.at(move->to);
+  if (probe_.is_running() && !feed_->is_remote()) end_of_probe_ = move->segment.tool_at(move->to);
   if (spindle_.exists() && move->segment.reverse_at > Mm(0)) watch_tap(*move);
   if (move->segment.heeds.spindle_override == outputs_.heeds_override()) return;
   outputs_.heed_override(move->segment.heeds.spindle_override);
@@ -106,7 +125,7 @@ void MotionDrive::pass_on_outputs() {
 // On the tap's way down. At the end of the thread the spindle is reversed, and the tool follows the spindle as it slows
 // down.
 void MotionDrive::watch_tap(const PlannedMove& move) {
-  end_of_tap_ = move.segment.curve.at(move.to);
+  end_of_tap_ = move.segment.tool_at(move.to);
   if (spindle_.expects_turn() || holds_.has(HoldReason::tap) || move.to < move.segment.reverse_at) return;
   spindle_.expect_turn();
   OutputState outputs = outputs_.ordered();
@@ -186,7 +205,7 @@ void MotionDrive::begin_probe(const Action& action) {
   script_.then([this, action] { probe_.ask_to_watch(action); });
   script_.until([this] { return board_.settled(); });
   script_.then([this, action] {
-    probe_.begin(action);
+    probe_.begin(action, step_generator_.downs());
     contact_seen_ = false;
     end_of_probe_.reset();
     feed_->attend(attention());

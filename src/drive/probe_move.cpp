@@ -8,8 +8,9 @@ void ProbeMove::ask_to_watch(const Action& action) {
   link_.watch_probe(action.probe_toward ? ProbeUntil::touched : ProbeUntil::released, action.limit);
 }
 
-void ProbeMove::begin(const Action& action) {
+void ProbeMove::begin(const Action& action, AxisSet downs) {
   start_ = action.place;
+  downs_ = downs;
   outcome_ = {.refused = link_.probe_report().touched == action.probe_toward,
               .touched = false,
               .contact = start_,
@@ -27,7 +28,7 @@ void ProbeMove::find(const Point& rest) {
   if (outcome_.refused) return;
   outcome_.rest = rest;
   outcome_.touched = contact();
-  outcome_.contact = outcome_.touched ? contact_place(link_.probe_report()) : rest;
+  outcome_.contact = outcome_.touched ? contact_place(link_.probe_report(), rest) : rest;
 }
 
 void ProbeMove::end() {
@@ -35,14 +36,15 @@ void ProbeMove::end() {
   for (const auto& watcher : watchers_) watcher(outcome_);
 }
 
-// An axis that made no step stands where it stood, even if that is between two steps.
-Point ProbeMove::contact_place(const ProbeReport& report) const {
+// An axis that made no step stands where it stood, even if that is between two steps. The move was a straight line, so
+// its direction tells on which side the backlash is.
+Point ProbeMove::contact_place(const ProbeReport& report, const Point& rest) const {
   Point place = start_;
   for (std::size_t m = 0; m < steps_.motor_count; ++m) {
     if (report.steps[m] == 0) continue;
     const Motor& motor = steps_.motors[m];
-    const double steps = std::round(start_[motor.axis] * motor.steps_per_unit) + report.steps[m];
-    place[motor.axis] = steps / motor.steps_per_unit;
+    const double steps = std::round(motor.steps_at(start_[motor.axis], downs_.has(motor.axis))) + report.steps[m];
+    place[motor.axis] = motor.place_at(steps, rest[motor.axis] < start_[motor.axis]);
   }
   return place;
 }

@@ -58,7 +58,7 @@ Point RewindablePath::point_at(const PathPlace& place) const {
   assert(place.item >= first_ && place.item < first_ + kept_.size());
   const PathItem& item = kept_[place.item - first_];
   if (const auto* action = std::get_if<Action>(&item)) return action->place;
-  return std::get<Segment>(item).curve.at(place.s);
+  return std::get<Segment>(item).tool_at(place.s);
 }
 
 bool RewindablePath::is_in_thread() const {

@@ -1,8 +1,10 @@
 #include "passo/journal/resume_point.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
 #include "passo/path/path_builder.hpp"
 #include "passo/path/path_smoother.hpp"
 
@@ -17,6 +19,7 @@ class Passed {
   void pass(const PathItem& item) {
     if (const auto* segment = std::get_if<Segment>(&item)) {
       point_.point = segment->curve.end();
+      point_.downs = segment->downs;
       waits_ = false;
       return;
     }
@@ -47,7 +50,10 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   Interpreter interpreter(std::move(program), options, diagnostics);
   PathBuilder builder(interpreter, path_options_here, diagnostics);
   PathSmoother smoother(builder, smoothness(machine));
-  RewindablePath path(smoother);
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker backlash_taker(smoother, backlash_options(steps, true));
+  RewindablePath path(backlash_taker);
   path.keep();
   ResumePoint point;
   point.place = place;
@@ -61,14 +67,21 @@ std::optional<ResumePoint> find_resume_point(ProgramReader program, const Machin
   }
   const bool more = path.next(item);
   if (more) point.line = std::visit([](const auto& what) { return what.source.line; }, item);
+  Point beside;  // of the motors, amid a segment that takes up backlash
   if (place.s > Mm(0)) {
     const auto* segment = more ? std::get_if<Segment>(&item) : nullptr;
     if (segment == nullptr || place.s >= segment->curve.length()) return {};
-    point.point = segment->curve.at(place.s);
+    point.point = segment->tool_at(place.s);
+    point.downs = segment->downs;
+    beside = segment->curve.at(place.s) - point.point;
   }
   path.rewind(place);
   point.in_thread = machine.spindle.counts_per_turn > 0 && path.is_in_thread();
-  point.steps = steps_at(machine, point.point);
+  for (std::size_t m = 0; m < steps.motor_count; ++m) {
+    const Motor& motor = steps.motors[m];
+    const double motor_place = motor.steps_at(point.point[motor.axis], point.downs.has(motor.axis));
+    point.steps[m] = std::llround(motor_place + beside[motor.axis] * motor.steps_per_unit);
+  }
   return point;
 }
 

@@ -27,6 +27,13 @@ std::string describe_home(const AxisDescription& axis, const char* unit) {
       home.rest(), fmt::arg("unit", unit));
 }
 
+std::string describe_screw(const AxisDescription& axis, const char* unit) {
+  if (!axis.screw) return "";
+  std::string line = fmt::format("                screw with {:g} {} of backlash", axis.screw->backlash, unit);
+  if (!axis.screw->errors.empty()) line += fmt::format(", errors at {} places", axis.screw->errors.size());
+  return line + (axis.screw->is_compensated ? ", compensated\n" : ", not compensated\n");
+}
+
 std::string describe_second(const MachineDescription& machine, std::size_t index) {
   const AxisDescription& axis = machine.axes[index];
   if (!axis.second) return "";
@@ -101,7 +108,7 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
                         axis.start_stop_rate().value());
   }
   if (axis.inverted) line += ", inverted";
-  return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit);
+  return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit) + describe_screw(axis, unit);
 }
 
 std::string describe_tool(const ToolDescription& tool) {

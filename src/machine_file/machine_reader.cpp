@@ -7,6 +7,7 @@
 
 #include "homing_reader.hpp"
 #include "pins_reader.hpp"
+#include "screw_reader.hpp"
 #include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
@@ -290,6 +291,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
   description.inverted = reader.flag("inverted").value_or(false);
   description.home = read_home_of(reader, description);
+  description.screw = read_screw_of(reader, is_rotary(axis), reporter_, [this](TableReader& screw) { finish(screw); });
   read_second_of(reader, description);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);

@@ -9,7 +9,7 @@ void IdealPlant::pulse(Seconds /*time*/, const MotorSteps& steps) {
 }
 
 Truth IdealPlant::truth_at(Seconds time) {
-  return {.positions = positions(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
+  return {.positions = slides(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
 }
 
 }  // namespace passo

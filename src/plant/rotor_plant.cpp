@@ -26,7 +26,7 @@ int RotorPlant::steps_per_full_step(std::size_t motor) const {
 
 // The rotors move also between pulses, so every event counts.
 std::int64_t RotorPlant::events_to_next_change() const {
-  return any_ ? 1 : switches().steps_to_next_change(positions());
+  return any_ ? 1 : steps_to_next_switch();
 }
 
 void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
@@ -56,6 +56,7 @@ void RotorPlant::run_to(Seconds time) {
     moving[m] = one.origin + one.rotor->place();
     look_at(m);
   }
+  move_slides();
 }
 
 void RotorPlant::look_at(std::size_t motor) {
@@ -102,7 +103,7 @@ bool RotorPlant::settle(Seconds most) {
 Truth RotorPlant::truth_at(Seconds time) {
   run_to(time);
   set_switches();
-  return {.positions = positions(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
+  return {.positions = slides(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
 }
 
 }  // namespace passo

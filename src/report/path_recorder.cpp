@@ -96,6 +96,7 @@ void PathRecorder::watch_move(const PlannedMove& move, const Point& origin) {
 }
 
 void PathRecorder::record(const PlannedMove& move) {
+  if (move.segment.takes_up_backlash) return;  // the tool stands
   if (!move.segment.rapid) {
     for (const Phase& phase : move) {
       fastest_feed_ = std::max({fastest_feed_, phase.velocity.value(), phase.velocity_at(phase.duration).value()});

@@ -133,7 +133,7 @@ void MachineSession::stand_at(const KnownPosition& position) {
   trust_before_ = position.trust;
   mismatch_.reset();
   if (place_) {
-    const MotorSteps steps = steps_at(machine_, position.place);
+    const MotorSteps steps = steps_at(machine_, position.place, position.downs);
     for (std::size_t m = 0; m < machine_.axes.size(); ++m) place_->set_steps(m, steps[m]);
   }
   count_from_here();
@@ -142,7 +142,7 @@ void MachineSession::stand_at(const KnownPosition& position) {
 
 void MachineSession::count_from_here() {
   if (!options_.over_a_line || !board_.status()) return;
-  const MotorSteps steps = place_ ? steps_of(*place_) : steps_at(machine_, position_.place);
+  const MotorSteps steps = place_ ? steps_of(*place_) : steps_at(machine_, position_.place, position_.downs);
   zero_counts_.emplace();
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     (*zero_counts_)[m] = std::int64_t{board_.status()->positions[m]} - steps[m];
@@ -188,7 +188,8 @@ void MachineSession::find_place_again() {
   const StepOptions steps = passo::step_options(machine_);
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     const auto counted = static_cast<double>(status.positions[m] - (*zero_counts_)[m]);
-    position_.place[steps.motors[m].axis] = counted / steps.motors[m].steps_per_unit;
+    const Motor& motor = steps.motors[m];
+    position_.place[motor.axis] = motor.place_at(counted, position_.downs.has(motor.axis));
   }
 }
 
@@ -301,10 +302,12 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
 void MachineSession::note_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_ = work_->drive->place();
+  position_.downs = work_->drive->downs();
   const StepOptions steps = passo::step_options(machine_);
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
-    position_.place[steps.motors[m].axis] = exact / steps.motors[m].steps_per_unit;
+    const Motor& motor = steps.motors[m];
+    position_.place[motor.axis] = motor.place_at(exact, position_.downs.has(motor.axis));
   }
   const bool agrees = !work_->finishing || counts_agree();
   const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
@@ -327,7 +330,8 @@ Point MachineSession::home_place() {
     place[homed.axis] = homed.place;
     for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
       if (steps.motors[m].axis != homed.axis) continue;
-      place_->set_steps(m, std::llround(homed.place * steps.motors[m].steps_per_unit));
+      const bool down = position_.downs.has(homed.axis);
+      place_->set_steps(m, std::llround(steps.motors[m].steps_at(homed.place, down)));
     }
   }
   return place;

@@ -33,6 +33,13 @@ std::uint64_t place_fingerprint(const MachineDescription& machine) {
   for (const AxisDescription& axis : machine.axes) {
     fingerprint.add(std::uint64_t{static_cast<unsigned char>(letter_of(axis.axis))});
     fingerprint.add(axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
+    if (axis.screw && axis.screw->is_compensated) {
+      fingerprint.add(axis.screw->backlash);
+      for (const ScrewDescription::Error& error : axis.screw->errors) {
+        fingerprint.add(error.at);
+        fingerprint.add(error.off);
+      }
+    }
     if (axis.second) {
       fingerprint.add(std::uint64_t{axis.second->inverted});
       fingerprint.add(axis.second->square);
@@ -103,7 +110,7 @@ Result<KnownPosition, PlaceDoubt> place_of(const std::optional<PlaceRecord>& rec
   const StepOptions steps = step_options(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const auto counted = static_cast<double>(std::int64_t{status.positions[m]} - record->zero_counts[m]);
-    position.place[steps.motors[m].axis] = counted / steps.motors[m].steps_per_unit;
+    position.place[steps.motors[m].axis] = steps.motors[m].place_at(counted, false);
   }
   return position;
 }

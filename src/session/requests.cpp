@@ -127,6 +127,7 @@ StepOptions MachineSession::step_options() const {
   StepOptions options = passo::step_options(machine_);
   options.start = position_.place;
   options.place = place_;
+  options.downs = position_.downs;
   return options;
 }
 
@@ -140,7 +141,7 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
   if (auto refused = closed_limit()) return Failure{*refused};
   auto work = std::make_unique<Work>();
-  if (start.from) stand_at({.place = start.from->point, .trust = position_.trust});
+  if (start.from) stand_at({.place = start.from->point, .trust = position_.trust, .downs = start.from->downs});
   if (start.findings != nullptr) work->findings = start.findings;
   const int counts = machine_.spindle.counts_per_turn;
   // Over a line, a tap does not follow the spindle while it reverses: the tool rests meanwhile, and a floating holder
@@ -178,7 +179,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   work.ahead = position_.place;
   if (knows_ahead) {
     drive.motion().watch([&work](const MotionItem& item) {
-      if (const auto* move = std::get_if<PlannedMove>(&item)) work.ahead = move->segment.curve.at(move->to);
+      if (const auto* move = std::get_if<PlannedMove>(&item)) work.ahead = move->segment.tool_at(move->to);
     });
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
@@ -336,7 +337,9 @@ MachineSession::Answer MachineSession::take(request::OperatorDone&) {
 MachineSession::Answer MachineSession::take(request::SetPosition& set) {
   if (state_ != MachineState::idle) return Failure{why_not()};
   if (!is_finite(set.position.place)) return refusal(RefusalCode::bad_value, "a place has a number for each axis");
-  stand_at(set.position);
+  KnownPosition position = set.position;
+  position.downs = position_.downs;  // the motors stand where they stood
+  stand_at(position);
   return at_once();
 }
 

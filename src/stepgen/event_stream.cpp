@@ -27,10 +27,12 @@ EventStream::EventStream(const StepOptions& options)
     : options_(options),
       tick_rate_(options.clock.tick_rate.value()),
       shortest_interval_(std::llround(options.clock.tick_rate / options.clock.highest_event_rate * whole_tick)),
-      slowest_share_(options.clock.highest_event_rate.value() * slow_share) {
+      slowest_share_(options.clock.highest_event_rate.value() * slow_share),
+      screws_(options) {
   divide_below(Exactness{}.least_rate);
   for (unsigned m = 0; m < options_.motor_count; ++m) {
-    end_[m] = place_of(options_.motors[m], options_.start);
+    const Motor& motor = options_.motors[m];
+    end_[m] = (motor.steps_at(options_.start[motor.axis], options_.downs.has(motor.axis)) + 0.5) * place_per_step;
   }
   here_ = at_last_event_ = end_;
 }
@@ -53,21 +55,33 @@ void EventStream::go_back_to(std::int64_t time) {
 }
 
 void EventStream::start_move(const PlannedMove& move) {
-  const Curve& curve = move.segment.curve;
-  path_.start(curve, move.to.value(), options_);
   clock_.start(move);
   in_move_ = true;
+  move_end_ = move.to.value();
+  screws_.start_move(move.segment);
+  start_part(move.segment.curve, move.from().value());
+}
+
+void EventStream::start_part(const Curve& curve, double from) {
+  path_.start(curve, screws_.any() ? screws_.fit(curve, from, move_end_, options_) : move_end_, options_);
   here_ = end_;
   spot_ = path_.at(path_.end());
   // The last part of a segment ends exactly where the program says.
-  const bool whole = move.to >= curve.length();
+  const bool whole = path_.end() >= curve.length().value();
   for (unsigned m = 0; m < options_.motor_count; ++m) {
     end_[m] = whole ? place_of(options_.motors[m], curve.end()) : path_.place(m, spot_);
   }
-  spot_ = path_.at(move.from().value());
+  spot_ = path_.at(from);
   moment_ = clock_.at(spot_.s);
   in_stretch_ = in_stretch_ && master_leads(spot_) && rate_fits(master_slope(spot_));
   if (in_stretch_) leads_until_ = leads_until(spot_);
+}
+
+// False: the part was the last of its move.
+bool EventStream::start_next_part() {
+  if (path_.end() >= move_end_) return false;
+  start_part(path_.curve(), path_.end());
+  return true;
 }
 
 // The square of the rate that a motor of this slope would have one step from here if the path sped up all the way.
@@ -268,18 +282,22 @@ EventStream::Stop EventStream::fill(EventBuffer& events, std::size_t enough) {
     if (!in_stretch_) {
       if (!events.empty() || push_border(events)) return Stop::stretch_end;
       const Start start = start_stretch(events);
+      if (start == Start::turned || (start == Start::nothing_moves && start_next_part())) continue;
       if (start == Start::nothing_moves) return finish_move();
-      if (start == Start::turned) continue;
     }
     const Filled filled = fill_lanes(events);
     if (filled == Filled::some) continue;
+    if (filled == Filled::to_end && start_next_part()) continue;
     if (filled == Filled::to_end) return finish_move();
     const MotorPath::Spot spot = path_.crossing(stretch_.master, target_, spot_);
     if (spot.s == infinity) {  // the master turns back first: choose again
       in_stretch_ = false;
       continue;
     }
-    if (spot.s > path_.end()) return finish_move();
+    if (spot.s > path_.end()) {
+      if (start_next_part()) continue;
+      return finish_move();
+    }
     // On a curve another motor may have become the fastest on the way.
     const bool leads = still_leads(spot);
     if (!leads && !events.empty()) {

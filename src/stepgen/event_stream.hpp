@@ -14,6 +14,7 @@
 #include "event_buffer.hpp"
 #include "motor_path.hpp"
 #include "phase_clock.hpp"
+#include "screw_parts.hpp"
 
 #include "passo/stepgen/step_generator.hpp"
 
@@ -58,6 +59,7 @@ class EventStream {
   // The exact place of a motor at the end of the last move.
   double place_at_end(unsigned motor) const { return end_[motor]; }
   std::int64_t shortest_interval() const { return shortest_interval_; }
+  AxisSet downs() const { return screws_.downs(); }
 
  private:
   enum class Start : std::uint8_t { done, turned, nothing_moves };
@@ -76,6 +78,8 @@ class EventStream {
     bool hold(double rate) const { return rate > above && rate <= most; }
   };
 
+  void start_part(const Curve& curve, double from);
+  bool start_next_part();
   Fastest fastest() const;
   Start start_stretch(EventBuffer& events);
   bool push_border(EventBuffer& events);
@@ -108,14 +112,16 @@ class EventStream {
   std::int64_t ticks_ = 0;
   double fraction_ = 0;
 
-  MotorPath path_;
+  MotorPath path_;  // up to the end of the present part of the move
   PhaseClock clock_;
+  ScrewParts screws_;
+  double move_end_ = 0;
   bool in_move_ = false;
   MotorPath::Spot spot_;  // the present place on the curve
   PhaseClock::Moment moment_;
   std::array<double, max_motors> here_{};  // exact places at spot_
   std::array<double, max_motors> at_last_event_{};
-  std::array<double, max_motors> end_{};  // at the end of the present move, or of the last one
+  std::array<double, max_motors> end_{};  // at the end of the present part, or of the last move
 
   bool in_stretch_ = false;
   Stretch stretch_;

@@ -72,7 +72,7 @@ MotorPath::Term MotorPath::round_term(const Motor& motor, const Curve::ArcData& 
   const double scale = motor.steps_per_unit * place_per_step;
   return {.way = Way::round,
           .on_cosine = first,
-          .base = (first ? arc.first_center : arc.second_center) * scale + 0.5 * place_per_step,
+          .base = (first ? arc.first_center : arc.second_center) * scale + (motor.offset + 0.5) * place_per_step,
           .scale = scale,
           // cos(a) = sin(a + pi/2): one formula for both axes.
           .angle = arc.start_angle + (first ? pi / 2 : 0),

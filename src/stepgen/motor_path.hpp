@@ -90,6 +90,7 @@ class MotorPath {
 
   bool is_straight() const { return curve_->shape() == Curve::Shape::line; }
   double end() const { return end_; }
+  const Curve& curve() const { return *curve_; }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();

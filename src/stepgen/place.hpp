@@ -10,8 +10,9 @@ namespace passo {
 // Units of place in one step.
 inline constexpr double place_per_step = 65536.0;
 
+// For a motor without a screw.
 inline double place_of(const Motor& motor, const Point& point) {
-  return (point[motor.axis] * motor.steps_per_unit + 0.5) * place_per_step;
+  return (point[motor.axis] * motor.steps_per_unit + motor.offset + 0.5) * place_per_step;
 }
 
 }  // namespace passo

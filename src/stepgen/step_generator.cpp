@@ -22,7 +22,8 @@ class StepGenerator::Implementation {
         board_(options.motor_count),
         fitter_(options.motor_count, stream_.shortest_interval(), options.bends) {
     for (unsigned m = 0; m < motors_; ++m) {
-      board_.set_steps(m, std::llround(options.start[options.motors[m].axis] * options.motors[m].steps_per_unit));
+      const Motor& motor = options.motors[m];
+      board_.set_steps(m, std::llround(motor.steps_at(options.start[motor.axis], options.downs.has(motor.axis))));
     }
     if (options.place) board_.set_place(*options.place);
   }
@@ -58,6 +59,7 @@ class StepGenerator::Implementation {
     return Seconds(static_cast<double>(left) / whole_tick / tick_rate_.value());
   }
   BoardPlace place() const { return board_.place(); }
+  AxisSet downs() const { return stream_.downs(); }
 
   bool next(BoardItem& item) {
     for (;;) {
@@ -236,6 +238,9 @@ Seconds StepGenerator::cut_dwell() {
 }
 BoardPlace StepGenerator::place() const {
   return implementation_->place();
+}
+AxisSet StepGenerator::downs() const {
+  return implementation_->downs();
 }
 bool StepGenerator::at_rest() const {
   return implementation_->at_rest();

@@ -7,6 +7,7 @@
 #include "opened_machine.hpp"
 #include "program_input.hpp"
 
+#include "passo/activity/stage_options.hpp"
 #include "passo/link/await.hpp"
 
 namespace passo {
@@ -37,10 +38,9 @@ std::optional<std::pair<double, double>> pair_of(std::string_view text, char bet
 std::vector<double> place_of(const VirtualMachine& machine, const MachineDescription& description) {
   std::vector<double> place;
   const MachineCounts counts = machine.counts();
+  const StepOptions steps = step_options(description);
   for (std::size_t m = 0; m < description.axes.size(); ++m) {
-    const AxisDescription& axis = description.axes[m];
-    const auto steps = static_cast<double>(counts.motors[m].position);
-    place.push_back((axis.inverted ? -steps : steps) / axis.steps_per_unit);
+    place.push_back(steps.motors[m].place_at(static_cast<double>(counts.motors[m].position), false));
   }
   return place;
 }

@@ -26,6 +26,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
+#include "passo/activity/stage_options.hpp"
 #include "passo/geometry/euclid.hpp"
 #include "passo/journal/path_fingerprint.hpp"
 #include "passo/link/await.hpp"
@@ -74,13 +75,14 @@ void add_board(RunSummary& summary, OpenedMachine& opened, const MachineDescript
     board.held_items = link.board()->capacity;
     board.rests = refiller->recoveries();
   }
+  const StepOptions steps = step_options(machine);
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const std::int64_t net = axis.inverted ? -counts.motors[m].position : counts.motors[m].position;
     const std::int64_t total = counts.motors[m].total - before.counts.motors[m].total;
     summary.axes[m].net_steps = Steps{net};
     summary.axes[m].total_steps = Steps{total};
-    summary.axes[m].position = static_cast<double>(net) / axis.steps_per_unit;
+    summary.axes[m].position = steps.motors[m].place_at(static_cast<double>(counts.motors[m].position), false);
     board.pulses += static_cast<std::uint64_t>(total);
   }
   summary.board = board;

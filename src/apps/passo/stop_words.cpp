@@ -36,7 +36,7 @@ Point counted_place(OpenedMachine& opened, const MachineDescription& machine) {
     const bool is_told = session.zero_counts() && status;
     const std::int64_t counted =
         is_told ? std::int64_t{status->positions[m]} - (*session.zero_counts())[m] : counts.motors[m].position;
-    place[steps.motors[m].axis] = static_cast<double>(counted) / steps.motors[m].steps_per_unit;
+    place[steps.motors[m].axis] = steps.motors[m].place_at(static_cast<double>(counted), false);
   }
   return place;
 }

@@ -18,6 +18,9 @@ namespace passo {
 // They open `hysteresis` further off.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
 
+// The screw of an axis for which the machine file has one, in steps of a motor that is wired inverted or not.
+ScrewModel screw_model(const AxisDescription& axis, bool inverted);
+
 // Where the motors of that plant stand at first, if the axes stand at `place`: second motors are ahead by their skew.
 MotorSteps truth_at(const MachineDescription& machine, const Point& place);
 
@@ -26,8 +29,8 @@ PinSetup pin_setup(const MachineDescription& machine);
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 
-// Gives a plant the machine's spindle and limit switches. `stands_at`: where the machine truly stands, in machine
-// coordinates. `boxes`: what its probe can touch.
+// Gives a plant the machine's screws, spindle and limit switches. `stands_at`: where the machine truly stands, in
+// machine coordinates. `boxes`: what its probe can touch.
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at = {},
          const std::vector<TouchBox>& boxes = {});
 

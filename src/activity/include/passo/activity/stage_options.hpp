@@ -22,8 +22,10 @@ PathOptions path_options(const MachineDescription& machine, const std::string& p
 Smoothness smoothness(const MachineDescription& machine);
 MotionLimits motion_limits(const MachineDescription& machine);
 StepOptions step_options(const MachineDescription& machine);
-// The steps of each motor from machine zero, rounded to the step nearest to `place`.
-std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place);
+// The steps of each motor from machine zero, rounded to the step nearest to `place`. `downs`: the axes whose backlash
+// is taken up for motion down.
+std::array<std::int64_t, max_motors> steps_at(const MachineDescription& machine, const Point& place,
+                                              AxisSet downs = {});
 ProofOptions proof_options(const MachineDescription& machine);
 
 }  // namespace passo

@@ -28,6 +28,7 @@
 #include "passo/drive/spindle_tracker.hpp"
 #include "passo/interpreter/machine_answers.hpp"
 #include "passo/link/board_session.hpp"
+#include "passo/path/backlash_taker.hpp"
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/trajectory/planner.hpp"
 
@@ -120,8 +121,11 @@ class MotionDrive {
   const BoardSession& link() const { return board_; }
   // Where the board stands, for the next drive on this board. Valid at rest, after the end.
   BoardPlace place() const { return step_generator_.place(); }
+  // The axes whose backlash is then taken up for motion down.
+  AxisSet downs() const { return step_generator_.downs(); }
 
  private:
+  BacklashAtRest backlash_at_rest(const StepOptions& steps) const;
   std::unique_ptr<Feed> make_feed(const DriveOptions& options, const StepOptions& steps);
   void watch(const PathItem& item);
   void watch(const MotionItem& item);
@@ -151,6 +155,7 @@ class MotionDrive {
   BoardSession& board_;
   AnswerBook& answers_;
   Tap<PathItem> watched_path_;
+  BacklashTaker backlash_taker_;  // rests where an axis with backlash turns back
   RewindablePath path_;
   Planner planner_;  // segments -> phases
   Tap<MotionItem> watched_motion_;

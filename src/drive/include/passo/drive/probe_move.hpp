@@ -34,8 +34,9 @@ class ProbeMove {
   void ask_to_watch_others() { link_.watch_probe(guards_ ? ProbeUntil::touched : ProbeUntil::off); }
   void ask_to_watch(const Action& action);
 
-  // The board watches now. The machine rests at the place that the action names.
-  void begin(const Action& action);
+  // The board watches now. The machine rests at the place that the action names. `downs`: the axes whose backlash is
+  // taken up for motion down there.
+  void begin(const Action& action, AxisSet downs);
   bool is_running() const { return running_; }
   // True: what the board watches for has happened.
   bool contact() const { return link_.probe_report().happened; }
@@ -47,7 +48,7 @@ class ProbeMove {
   void end();
 
  private:
-  Point contact_place(const ProbeReport& report) const;
+  Point contact_place(const ProbeReport& report, const Point& rest) const;
 
   Link& link_;
   AnswerBook& answers_;
@@ -55,6 +56,7 @@ class ProbeMove {
   bool guards_ = false;
   bool running_ = false;
   Point start_;
+  AxisSet downs_;
   ProbeOutcome outcome_;
   std::vector<std::function<void(const ProbeOutcome&)>> watchers_;
 };

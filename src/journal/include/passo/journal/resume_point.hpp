@@ -19,6 +19,7 @@ struct ResumePoint {
   PathPlace place;
   Point point;                                   // machine coordinates
   std::array<std::int64_t, max_motors> steps{};  // steps of each motor from machine zero, at rest there
+  AxisSet downs;                                 // the axes whose backlash is taken up for motion down
   OutputState outputs;                           // the outputs at that place
   // How long the program itself waited after it had switched the spindle, before it went on.
   Seconds spindle_wait{0};

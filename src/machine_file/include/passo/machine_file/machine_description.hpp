@@ -37,6 +37,17 @@ struct HomeDescription {
   double rest() const { return toward_high ? switch_at - pull_off : switch_at + pull_off; }
 };
 
+// What the screw of an axis is known to do wrong. A rotary axis has degrees for millimetres.
+struct ScrewDescription {
+  struct Error {
+    double at = 0;   // place by the screw's nominal pitch, machine coordinates
+    double off = 0;  // true place minus that place
+  };
+  double backlash = 0;             // what the motor turns at a reversal before the axis moves
+  std::vector<Error> errors = {};  // in ascending order of `at`
+  bool is_compensated = true;      // false: only the virtual machine behaves so
+};
+
 // The second motor of an axis that two motors turn together, as at a gantry. Homing squares the axis by two switches.
 struct SecondMotor {
   bool inverted = false;  // true: this motor turns the other way
@@ -59,6 +70,7 @@ struct AxisDescription {
   MmPerSecond start_stop{0};       // the motor starts and stops at it in one step; 0: always from rest
   bool inverted = false;           // true: the motor turns the other way
   std::optional<HomeDescription> home = {};
+  std::optional<ScrewDescription> screw = {};
   std::optional<SecondMotor> second = {};
 
   // The limit switches by which the axis is homed: bit i is switch i. Only for an axis with `home`.

@@ -36,7 +36,14 @@ struct Segment {
   // For a tap's way down: where the spindle is to be reversed. The rest of the segment is room for the spindle to come
   // to rest.
   Mm reverse_at{0};
+  // On machines that compensate backlash: the axes whose backlash is taken up for motion down.
+  AxisSet downs{};
+  // True: the segment takes up the backlash of an axis that has turned back. The motor moves along the curve, and the
+  // tool stands where the curve ends.
+  bool takes_up_backlash = false;
   OperationSource source{};
+
+  Point tool_at(Mm s) const { return takes_up_backlash ? curve.end() : curve.at(s); }
 };
 
 constexpr SpindleDirection reversed(SpindleDirection direction) {

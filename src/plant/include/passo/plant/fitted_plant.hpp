@@ -1,8 +1,11 @@
-// FittedPlant: what every plant of this project has: switches, bodies for the probe, and a spindle. How its motors obey
-// is left to the kinds of plants.
+// FittedPlant: what every plant of this project has: screws, switches, bodies for the probe, and a spindle. How its
+// motors obey is left to the kinds of plants.
+//
+// Switches and the probe see the slides. A slide without a screw stands where its motor stands.
 #pragma once
 
 #include "passo/plant/plant.hpp"
+#include "passo/plant/screw_model.hpp"
 #include "passo/plant/switches.hpp"
 
 namespace passo {
@@ -13,6 +16,8 @@ class FittedPlant : public Plant {
   void fit_spindle(const SpindleModel& model) { spindle_ = VirtualSpindle(model); }
   // Sets the motors' steps from machine zero. Call this and add() before a board drives the plant.
   void stand_at(const MotorSteps& steps);
+  // Puts a screw between a motor and its slide. The backlash is taken up in the direction of its sign.
+  void fit_screw(std::size_t motor, const ScrewModel& model);
   void add(const TravelSwitch& added);
   void add(const TouchBody& body);
 
@@ -24,13 +29,26 @@ class FittedPlant : public Plant {
 
  protected:
   const MotorPositions& positions() const { return positions_; }
+  const MotorPositions& slides() const { return screws_.any() ? slides_ : positions_; }
   // Every motor's position, between two settings of the switches.
   MotorPositions& moving_positions() { return positions_; }
-  void set_switches() { switches_.follow(positions_); }
+  // Lets the slides follow the motors. Call it at each change of a motor's direction.
+  void move_slides() {
+    if (screws_.any()) screws_.follow(positions_, slides_);
+  }
+  void set_switches() {
+    move_slides();
+    switches_.follow(slides());
+  }
+  std::int64_t steps_to_next_switch() const {
+    return screws_.motor_steps_for(switches_.steps_to_next_change(slides()));
+  }
   const Switches& switches() const { return switches_; }
 
  private:
   MotorPositions positions_{};
+  MotorPositions slides_{};  // where a motor has a screw
+  Screws screws_;
   Switches switches_;
   VirtualSpindle spindle_;
 };

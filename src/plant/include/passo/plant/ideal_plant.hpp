@@ -12,7 +12,7 @@ namespace passo {
 class IdealPlant final : public FittedPlant {
  public:
   void pulse(Seconds time, const MotorSteps& steps) override;
-  std::int64_t events_to_next_change() const override { return switches().steps_to_next_change(positions()); }
+  std::int64_t events_to_next_change() const override { return steps_to_next_switch(); }
   std::uint16_t inputs_at(Seconds /*time*/) override { return switches().closed(); }
   Truth truth_at(Seconds time) override;
 };

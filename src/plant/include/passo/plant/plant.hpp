@@ -20,7 +20,7 @@
 namespace passo {
 
 struct Truth {
-  MotorPositions positions{};  // from machine zero
+  MotorPositions positions{};  // of the slides, in steps of their motors from machine zero
   double spindle_turns = 0;    // since the start
   std::uint16_t inputs = 0;    // bits of BoardInput: the closed inputs
 };

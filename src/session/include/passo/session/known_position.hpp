@@ -27,6 +27,7 @@ constexpr std::string_view name_of(Trust trust) {
 struct KnownPosition {
   Point place;  // machine coordinates
   Trust trust = Trust::unknown;
+  AxisSet downs = {};  // the axes whose backlash is taken up for motion down; none, unless a motion was stopped
   friend bool operator==(const KnownPosition&, const KnownPosition&) = default;
 };
 

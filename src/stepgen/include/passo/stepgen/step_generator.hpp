@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "passo/base/source.hpp"
+#include "passo/stepgen/screw_map.hpp"
 #include "passo/trajectory/phase.hpp"
 #include "passo/wire/board_segment.hpp"
 
@@ -17,6 +18,18 @@ namespace passo {
 struct Motor {
   Axis axis = Axis::x;
   double steps_per_unit = 0;  // steps a millimetre or a degree; negative: the motor counts down when the axis goes up
+  double offset = 0;          // steps where the axis is at 0; not for a motor with a screw
+  std::shared_ptr<const ScrewMap> screw = {};  // null: motor and axis are in proportion
+
+  // The steps at a place of the axis, with a fraction, and the place at a number of steps. `down`: the backlash is
+  // taken up for motion down.
+  double steps_at(double place, bool down) const {
+    return (screw ? screw->nominal(place, down) : place) * steps_per_unit + offset;
+  }
+  double place_at(double steps, bool down) const {
+    const double place = (steps - offset) / steps_per_unit + 0.0;  // never a negative zero
+    return screw ? screw->place(place, down) : place;
+  }
 };
 
 struct BoardClock {
@@ -44,6 +57,7 @@ struct StepOptions {
   Point start;        // machine position at the start; the motors' step counts begin at its whole steps
   bool bends = true;  // whether segments may bend. A bend serves one motor only, and not the second one of its axis
   std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
+  AxisSet downs = {};                    // the axes whose backlash is taken up for motion down
 };
 
 // The items that go down the wire, in order. The segments before an Action end at rest. A dwell becomes segments
@@ -92,6 +106,8 @@ class StepGenerator final : public Source<BoardItem> {
   Seconds cut_dwell();
   // Where the board stands after all items given so far. Call it only at rest.
   BoardPlace place() const;
+  // The axes whose backlash is taken up for motion down, at the end of the motion pulled so far.
+  AxisSet downs() const;
 
  private:
   class Implementation;

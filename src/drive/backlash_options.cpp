@@ -1,0 +1,25 @@
+#include "passo/drive/backlash_options.hpp"
+
+#include <cmath>
+
+namespace passo {
+namespace {
+
+// In steps. An axis that goes back by less has not turned back, so that noise of a path costs no rests.
+constexpr double least_turn = 0.25;
+
+}  // namespace
+
+BacklashOptions backlash_options(const StepOptions& steps, bool counts_items) {
+  BacklashOptions options{
+      .start = steps.start, .backlash = {}, .least = {}, .downs = steps.downs, .counts_items = counts_items};
+  for (std::size_t m = 0; m < steps.motor_count; ++m) {
+    const Motor& motor = steps.motors[m];
+    if (!motor.screw) continue;
+    options.backlash[motor.axis] = motor.screw->backlash();
+    options.least[motor.axis] = least_turn / std::abs(motor.steps_per_unit);
+  }
+  return options;
+}
+
+}  // namespace passo

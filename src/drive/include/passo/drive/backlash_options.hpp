@@ -1,0 +1,13 @@
+// The options of BacklashTaker for motors with screws.
+#pragma once
+
+#include "passo/path/backlash_taker.hpp"
+#include "passo/stepgen/step_generator.hpp"
+
+namespace passo {
+
+// `counts_items`: places on the path are counted in items. A path that is taken up in its middle is counted from its
+// beginning, where no axis had its backlash taken up for motion down.
+BacklashOptions backlash_options(const StepOptions& steps, bool counts_items);
+
+}  // namespace passo

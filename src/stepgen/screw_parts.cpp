@@ -1,0 +1,78 @@
+#include "screw_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace passo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// In steps. So near to a border of the errors, a place counts as on it. Crossings are found far better than this, and
+// the errors of both sides agree there to a millionth of a step.
+constexpr double border_steps = 1e-4;
+
+struct Range {
+  double low = 0;  // steps
+  double high = 0;
+};
+
+// Where a motor that follows its axis in proportion leaves the range. Infinity if it does not before the path's end.
+double leaves(const MotorPath& path, unsigned motor, const Range& range, double from) {
+  MotorPath::Spot spot = path.at(from);
+  for (;;) {
+    const double border = path.rises(motor, spot) ? range.high : range.low;
+    const double target = (border + 0.5) * place_per_step;
+    const double s = std::isfinite(target) ? path.crossing(motor, target, spot).s : infinity;
+    if (s < infinity) return s;
+    const double turn = path.turning_point(motor, spot.s);
+    if (!(turn < path.end())) return infinity;
+    spot = path.at(turn);
+  }
+}
+
+}  // namespace
+
+ScrewParts::ScrewParts(const StepOptions& options) : downs_(options.downs) {
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    scales_[m] = options.motors[m].steps_per_unit;
+    any_ = any_ || options.motors[m].screw;
+  }
+}
+
+double ScrewParts::fit(const Curve& curve, double from, double end, StepOptions& options) const {
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    Motor& motor = options.motors[m];
+    if (!motor.screw) continue;
+    motor.steps_per_unit = scales_[m];
+    motor.offset = 0;
+  }
+  MotorPath axes;  // the motors as if their screws were perfect
+  axes.start(curve, end, options);
+  const Point place = curve.at(Mm(from));
+  double until = end;
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    Motor& motor = options.motors[m];
+    if (!motor.screw) continue;
+    if (takes_up_backlash_) {
+      fit_backlash(curve, motor, scales_[m]);
+      continue;
+    }
+    const bool up = axes.rises(m, axes.at(from)) == (scales_[m] > 0);
+    const auto& piece = motor.screw->piece_at(place[motor.axis], up, border_steps / std::fabs(scales_[m]));
+    const double one = piece.low * scales_[m];
+    const double other = piece.high * scales_[m];
+    until = std::min(until, leaves(axes, m, {.low = std::min(one, other), .high = std::max(one, other)}, from));
+    motor.steps_per_unit = scales_[m] * piece.slope;
+    motor.offset = scales_[m] * (piece.offset - (downs_.has(motor.axis) ? motor.screw->backlash() : 0));
+  }
+  return std::max(until, from);
+}
+
+// The motor alone moves, and its slide stands at the end of the curve.
+void ScrewParts::fit_backlash(const Curve& curve, Motor& motor, double scale) const {
+  const double stands_at = curve.end()[motor.axis];
+  motor.offset = scale * (motor.screw->nominal(stands_at, downs_.has(motor.axis)) - stands_at);
+}
+
+}  // namespace passo
