@@ -138,7 +138,7 @@ void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase, std:
     const Seconds t = phase.duration * (static_cast<double>(i) / looks);
     const Moment moment(motors_[motor], move, phase, t, now_ + t);
     const double before = std::exchange(states_[motor].torque, moment.torque);
-    if (i == 0) judge_jump(motor, moment, before);
+    if (i == 0) judge_jump(motor, moment, phase, before);
     judge(motor, moment);
     if (i > 0 && falls_behind(motor, moment, phase.duration.value() / looks)) {
       MarginSpot spot = spot_at(motors_[motor], moment);
@@ -151,7 +151,8 @@ void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase, std:
 void MarginSurvey::judge(std::size_t motor, const Moment& moment) {
   const TorqueBand& band = motors_[motor].band;
   MarginSpot spot = spot_at(motors_[motor], moment);
-  if (moment.is_steady() && band.swings_at(moment.shaft) && spot.needed.value <= share_ * spot.there.low.value) {
+  const bool may_swing = motors_[motor].coarse_steps ? moment.shaft.value > 0 : moment.is_steady();
+  if (may_swing && band.swings_at(moment.shaft) && spot.needed.value <= share_ * spot.there.low.value) {
     spot.there.low = band.while_steady(moment.shaft);
     spot.want = Want::calm;
   }
@@ -160,7 +161,7 @@ void MarginSurvey::judge(std::size_t motor, const Moment& moment) {
   note(motor, spot);
 }
 
-void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, double before) {
+void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, double before) {
   const TorqueRange there = motors_[motor].band.of_curve(moment.shaft);
   constexpr double notable = 0.05;
   if (std::abs(moment.torque - before) < notable * there.low.value) return;
@@ -172,6 +173,12 @@ void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, double be
     spot.verdict = Verdict::doubtful;
     spot.want = Want::jump;
   }
+  // The rotor's own losses may still catch a swing that is only just too large.
+  constexpr double beyond_losses = 1.1;
+  const double stiffness = motors_[motor].band.rotor().teeth() * there.high.value;
+  const bool lasts = phase.jerk.value() == 0 &&
+                     phase.duration.value() * std::sqrt(stiffness / motors_[motor].inertia) > 2 * std::numbers::pi;
+  if (lasts && swings > beyond_losses * there.high.value) spot.verdict = Verdict::lost;
   note(motor, spot);
 }
 

@@ -3,6 +3,12 @@
 
 namespace passo {
 
+namespace {
+
+constexpr int most_coarse = 2;  // steps of the driver to a full step
+
+}  // namespace
+
 std::vector<SurveyedMotor> surveyed_motors(const MachineDescription& machine) {
   std::vector<SurveyedMotor> motors;
   for (const AxisDescription& axis : machine.axes) {
@@ -17,7 +23,8 @@ std::vector<SurveyedMotor> surveyed_motors(const MachineDescription& machine) {
                       .load = load,
                       .inertia = setup->motor.rotor.inertia.value + load.inertia.value,
                       .weight = motor.weight.value,
-                      .radians_per_unit = motor.radians_per_unit});
+                      .radians_per_unit = motor.radians_per_unit,
+                      .coarse_steps = setup->excitation.steps_per_full_step() <= most_coarse});
   }
   return motors;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "check_page.hpp"
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "named_files.hpp"
@@ -145,14 +146,22 @@ int check(const CheckArguments& arguments) {
     display.finish();
     return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);
   }
+  if (!arguments.json) display.finish();
+  std::optional<CheckPage> page;
+  if (result.good) page = judge(std::move(*program), *machine, *options, result);
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    std::puts(as_json(findings, stops).dump(2, ' ', false, replace).c_str());
+    nlohmann::ordered_json json = as_json(findings, stops);
+    if (page) add_to(json, *page, *machine);
+    std::puts(json.dump(2, ' ', false, replace).c_str());
   } else {
-    display.finish();
     const char* const name = arguments.program.program.c_str();
     if (result.good) std::printf("%s: no errors\n", name);
     if (stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, stops.words().c_str());
+    if (page) std::fputs(to_text(*page, *machine).c_str(), stdout);
+  }
+  if (page && page->lost()) {
+    return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");
   }
   return result.good ? exit_done : exit_bad_program;
 }

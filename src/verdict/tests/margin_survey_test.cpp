@@ -59,7 +59,8 @@ TEST(MarginSurvey, calls_safe_doubtful_and_lost) {
   };
   EXPECT_EQ(verdict_of(0.5), Verdict::safe);
   EXPECT_EQ(verdict_of(0.6), Verdict::doubtful);  // the swing of the start needs 0.83 of 0.82
-  EXPECT_EQ(verdict_of(1.15), Verdict::doubtful);
+  EXPECT_EQ(verdict_of(0.9), Verdict::doubtful);  // and here 1.24 of 1.22
+  EXPECT_EQ(verdict_of(1.1), Verdict::lost);      // a strong motor does not catch the swing either
   EXPECT_EQ(verdict_of(1.4), Verdict::lost);
 }
 

@@ -47,6 +47,8 @@ struct SurveyedMotor {
   double inertia = 0;  // kg·m², rotor and load
   double weight = 0;   // N·m, pulls towards the low end
   double radians_per_unit = 0;
+  bool coarse_steps =
+      false;  // full or half steps: each step makes the rotor ring, so a ramp through a resonance counts
 };
 
 // The axes whose motor the machine file describes, with a driver that divides a full step evenly. The trials of an axis
@@ -116,7 +118,7 @@ class MarginSurvey {
   void watch_move(const PlannedMove& move);
   void watch_phase(const PlannedMove& move, const Phase& phase, std::size_t motor);
   void judge(std::size_t motor, const Moment& moment);
-  void judge_jump(std::size_t motor, const Moment& moment, double before);
+  void judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, double before);
   bool falls_behind(std::size_t motor, const Moment& moment, double time);
   void note(std::size_t motor, const MarginSpot& spot);
   static MarginSpot spot_at(const SurveyedMotor& own, const Moment& moment);
