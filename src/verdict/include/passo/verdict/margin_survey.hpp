@@ -7,9 +7,10 @@
 //
 // A motor's true pull-out is only known between two torques (TorqueBand). So there are three verdicts:
 //
-//   safe      the low end, less a reserve, is enough: for what is needed, and for the swing after a jump of what is
-//   needed lost      what is needed exceeds the high end, for so long that the rotor falls a full step behind doubtful
-//   neither
+//   safe      the low end, less a reserve, is enough for what is needed, and for the swing after a jump of it
+//   lost      what is needed exceeds the high end so long that the rotor falls a full step behind; or the high end
+//             does not catch the swing
+//   doubtful  neither
 //
 // After a jump of the torque the rotor swings beyond its new place. The swing ends well if the energy does not carry
 // the rotor over the top: the equal-area criterion, as for a start without a ramp (motor/torque_curve.hpp). A motor
