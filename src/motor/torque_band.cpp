@@ -24,10 +24,15 @@ TorqueCurve curve_of(const MotorSetup& setup) {
   return *TorqueCurve::from_motor(setup.motor, setup.drive);
 }
 
-double whole_torque(MotorSetup setup, Hertz rate, RadiansPerSecond speed) {
-  setup.weight = {};  // counts as a load, not as something that the motor lacks
+double whole_torque(const MotorSetup& setup, Hertz rate, RadiansPerSecond speed) {
   const double tried = tried_pull_out(setup, rate).value;
   return tried > 0 ? tried + setup.load.friction_at(speed).value + setup.damping.value * speed.value : 0;
+}
+
+// Swinging that grows slowly is not seen by a trial of pull-out, whose torque damps it.
+bool keeps_step(const MotorSetup& setup, Hertz rate) {
+  constexpr double in_step = 2;  // full steps
+  return tried_lag(setup, rate) < in_step;
 }
 
 }  // namespace
@@ -45,13 +50,18 @@ TorqueBand::TorqueBand(const MotorSetup& setup, double tolerance, RadiansPerSeco
       factor_low_(curve_too_high),
       factor_high_(setup.excitation.is_sine() ? curve_too_low : of_whole_steps) {
   const double last_rate = rate_at(fastest).value();
-  const MotorSetup weak = with_torque(setup, 1 - tolerance);
-  const MotorSetup strong = with_torque(setup, 1 + tolerance);
+  MotorSetup usual = setup;
+  usual.weight = {};  // counts as a load, not as something that the motor lacks
+  const MotorSetup weak = with_torque(usual, 1 - tolerance);
+  const MotorSetup strong = with_torque(usual, 1 + tolerance);
   if (last_rate <= first_rate) return;
   for (int i = 0; i < trials; ++i) {
     const Hertz rate(first_rate * std::pow(last_rate / first_rate, i / double{trials - 1}));
     const RadiansPerSecond speed = weak_.speed_at(rate);
-    tried_.push_back({speed.value, std::min(whole_torque(weak, rate, speed), whole_torque(strong, rate, speed))});
+    const bool all_keep_step = keeps_step(usual, rate) && keeps_step(weak, rate) && keeps_step(strong, rate);
+    const double torque =
+        all_keep_step ? std::min(whole_torque(weak, rate, speed), whole_torque(strong, rate, speed)) : 0;
+    tried_.push_back({speed.value, torque});
   }
 }
 

@@ -112,9 +112,17 @@ void MarginSurvey::watch(const MotionItem& item) {
 
 void MarginSurvey::rest() {
   for (std::size_t m = 0; m < motors_.size(); ++m) {
-    states_[m].torque = motors_[m].weight;
-    states_[m].behind = states_[m].behind_rate = 0;
+    stand(m);
   }
+}
+
+// The axis rests, or has nothing to do in the motion of the others.
+void MarginSurvey::stand(std::size_t motor) {
+  constexpr double for_ever = 1e9;
+  states_[motor].torque = motors_[motor].weight;
+  states_[motor].acceleration = 0;
+  states_[motor].lasted = for_ever;
+  states_[motor].behind = states_[motor].behind_rate = 0;
 }
 
 void MarginSurvey::watch_move(const PlannedMove& move) {
@@ -129,16 +137,16 @@ void MarginSurvey::watch_move(const PlannedMove& move) {
 
 void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase, std::size_t motor) {
   if (move.segment.curve.shape() == Curve::Shape::line && !move.segment.curve.moves(motors_[motor].axis)) {
-    states_[motor].torque = motors_[motor].weight;
-    states_[motor].behind = states_[motor].behind_rate = 0;
+    stand(motor);
     return;
   }
   const int looks = looks_in(move.segment.curve, phase);
   for (int i = 0; i <= looks; ++i) {
     const Seconds t = phase.duration * (static_cast<double>(i) / looks);
     const Moment moment(motors_[motor], move, phase, t, now_ + t);
-    const double before = std::exchange(states_[motor].torque, moment.torque);
-    if (i == 0) judge_jump(motor, moment, phase, before);
+    if (i == 0) judge_jump(motor, moment, phase, states_[motor]);
+    states_[motor].torque = moment.torque;
+    states_[motor].acceleration = moment.acceleration;
     judge(motor, moment);
     if (i > 0 && falls_behind(motor, moment, phase.duration.value() / looks)) {
       MarginSpot spot = spot_at(motors_[motor], moment);
@@ -146,6 +154,7 @@ void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase, std:
       note(motor, spot);
     }
   }
+  states_[motor].lasted += phase.duration.value();
 }
 
 void MarginSurvey::judge(std::size_t motor, const Moment& moment) {
@@ -161,14 +170,15 @@ void MarginSurvey::judge(std::size_t motor, const Moment& moment) {
   note(motor, spot);
 }
 
-void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, double before) {
+void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, const State& before) {
   const TorqueRange there = motors_[motor].band.of_curve(moment.shaft);
   constexpr double notable = 0.05;
-  if (std::abs(moment.torque - before) < notable * there.low.value) return;
-  const double swings = torque_to_catch(before, moment.torque);
-  if (swings <= std::abs(moment.torque)) return;
+  if (std::abs(moment.torque - before.torque) < notable * there.low.value) return;
+  const double swings = torque_to_catch(before.torque, moment.torque);
   MarginSpot spot = spot_at(motors_[motor], moment);
   spot.needed = {swings};
+  spot.of_motion = {std::max(std::abs(before.torque), std::abs(moment.torque))};
+  spot.acceleration = MmPerSecond2(std::max(std::abs(before.acceleration), std::abs(moment.acceleration)));
   if (swings > share_ * there.low.value) {
     spot.verdict = Verdict::doubtful;
     spot.want = Want::jump;
@@ -176,9 +186,10 @@ void MarginSurvey::judge_jump(std::size_t motor, const Moment& moment, const Pha
   // The rotor's own losses may still catch a swing that is only just too large.
   constexpr double beyond_losses = 1.1;
   const double stiffness = motors_[motor].band.rotor().teeth() * there.high.value;
-  const bool lasts = phase.jerk.value() == 0 &&
-                     phase.duration.value() * std::sqrt(stiffness / motors_[motor].inertia) > 2 * std::numbers::pi;
-  if (lasts && swings > beyond_losses * there.high.value) spot.verdict = Verdict::lost;
+  const double period = 2 * std::numbers::pi * std::sqrt(motors_[motor].inertia / stiffness);
+  const bool settled = std::exchange(states_[motor].lasted, 0) > period;
+  const bool lasts = phase.jerk.value() == 0 && phase.duration.value() > period;
+  if (settled && lasts && swings > beyond_losses * there.high.value) spot.verdict = Verdict::lost;
   note(motor, spot);
 }
 
@@ -196,8 +207,12 @@ bool MarginSurvey::falls_behind(std::size_t motor, const Moment& moment, double 
 
 void MarginSurvey::note(std::size_t motor, const MarginSpot& spot) {
   last_load_ = std::max(last_load_, spot.load());
+  const std::optional<MmPerSecond2> cure = safe_acceleration(motors_[motor], spot);
   std::optional<MarginSpot>& worst = states_[motor].worst_of_line;
+  const std::optional<MmPerSecond2> other = worst ? worst->safe_acceleration : std::nullopt;
   if (!worst || is_worse(spot, *worst)) worst = spot;
+  // The cure of a line is one for all its moments.
+  worst->safe_acceleration = cure && other ? std::min(*cure, *other) : (cure ? cure : other);
 }
 
 MarginSpot MarginSurvey::spot_at(const SurveyedMotor& own, const Moment& moment) {
@@ -213,19 +228,23 @@ MarginSpot MarginSurvey::spot_at(const SurveyedMotor& own, const Moment& moment)
   return spot;
 }
 
-// The greatest acceleration, and the greatest speed, with which the moment would be safe: one of them is changed, and
-// the other one stays.
-void MarginSurvey::find_cure(MarginSpot& spot) const {
+// The greatest acceleration with which the moment would be safe at its speed.
+std::optional<MmPerSecond2> MarginSurvey::safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const {
+  if (spot.verdict == Verdict::safe || !(spot.of_motion.value > 0)) return {};
+  const double swing = spot.needed.value / spot.of_motion.value;
+  const double for_each = own.inertia * own.radians_per_unit;  // N·m for mm/s²
+  const double rest = spot.of_motion.value - for_each * spot.acceleration.value();
+  const double acceleration = (share_ * spot.there.low.value / swing - rest) / for_each;
+  if (acceleration > 0 && acceleration < spot.acceleration.value()) return MmPerSecond2(acceleration);
+  return {};
+}
+
+// The greatest speed with which the moment would be safe at its acceleration.
+void MarginSurvey::find_safe_speed(MarginSpot& spot) const {
   if (spot.verdict == Verdict::safe) return;
   const auto own = std::ranges::find(motors_, spot.axis, &SurveyedMotor::axis);
   const double swing = spot.of_motion.value > 0 ? spot.needed.value / spot.of_motion.value : 1;
-  const double for_each = own->inertia * own->radians_per_unit;  // N·m for mm/s²
-  const double rest = spot.of_motion.value - for_each * spot.acceleration.value();
-  const double allowed = share_ * spot.there.low.value;
-  const double acceleration = (allowed / swing - rest) / for_each;
-  if (acceleration > 0 && acceleration < spot.acceleration.value()) {
-    spot.safe_acceleration = MmPerSecond2(acceleration);
-  }
+  const double for_each = own->inertia * own->radians_per_unit;
   const double shaft = spot.speed.value() * own->radians_per_unit;
   constexpr int parts = 50;
   for (int i = parts - 1; i > 0 && shaft > 0; --i) {
@@ -246,13 +265,13 @@ MarginVerdict MarginSurvey::verdict() {
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     std::optional<MarginSpot> worst = states_[m].worst;
     if (worst) {
-      find_cure(*worst);
+      find_safe_speed(*worst);
       whole.verdict = std::max(whole.verdict, worst->verdict);
     }
     whole.axes.push_back({.axis = motors_[m].axis, .worst = worst});
   }
   whole.worst = worst_;
-  for (MarginSpot& spot : whole.worst) find_cure(spot);
+  for (MarginSpot& spot : whole.worst) find_safe_speed(spot);
   return whole;
 }
 

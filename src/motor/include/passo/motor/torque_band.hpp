@@ -12,7 +12,7 @@
 //
 // The curves themselves differ from the full physics: docs/ramps/physics.md. The band includes that.
 //
-// Cost of the constructor: 32 trials, some tens of milliseconds each. Afterwards a look takes below a microsecond.
+// Cost of the constructor: 80 trials, some milliseconds each. Afterwards a look takes below a microsecond.
 #pragma once
 
 #include <vector>

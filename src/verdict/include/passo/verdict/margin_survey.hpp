@@ -106,8 +106,10 @@ class MarginSurvey {
   MarginVerdict verdict();
 
  private:
-  struct State {        // of one motor
-    double torque = 0;  // needed at the last moment
+  struct State {              // of one motor
+    double torque = 0;        // needed at the last moment
+    double acceleration = 0;  // of the axis, then
+    double lasted = 0;        // s since the torque jumped
     // How far the rotor would be behind if its motor had the high end.
     double behind = 0;       // rad
     double behind_rate = 0;  // rad/s
@@ -119,14 +121,16 @@ class MarginSurvey {
   void watch_move(const PlannedMove& move);
   void watch_phase(const PlannedMove& move, const Phase& phase, std::size_t motor);
   void judge(std::size_t motor, const Moment& moment);
-  void judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, double before);
+  void judge_jump(std::size_t motor, const Moment& moment, const Phase& phase, const State& before);
   bool falls_behind(std::size_t motor, const Moment& moment, double time);
   void note(std::size_t motor, const MarginSpot& spot);
   static MarginSpot spot_at(const SurveyedMotor& own, const Moment& moment);
-  void find_cure(MarginSpot& spot) const;
+  std::optional<MmPerSecond2> safe_acceleration(const SurveyedMotor& own, const MarginSpot& spot) const;
+  void find_safe_speed(MarginSpot& spot) const;
   void end_line();
   void keep(const MarginSpot& spot);
   void rest();
+  void stand(std::size_t motor);
 
   std::vector<SurveyedMotor> motors_;
   double share_;  // of the low end that may be used
