@@ -24,7 +24,6 @@
 #include "passo/plant/rotor_plant.hpp"
 #include "passo/session/machine_session.hpp"
 #include "passo/verdict/margin_survey.hpp"
-#include "passo/verdict/margin_words.hpp"
 
 namespace passo {
 namespace {
@@ -148,16 +147,6 @@ Outcome play(const MachineDescription& machine, const std::string& text, Draw& d
   Outcome outcome{.verdict = verdict.verdict};
   if (!verdict.worst.empty()) outcome.want = verdict.worst[0].want;
   outcome.lost = !plant.losses().empty();
-  if (std::getenv("V")) {
-    for (const MarginSpot& spot : verdict.worst)
-      fmt::print("{} line {} t {} {} {}\n", name_of(spot.verdict), spot.line, spot.time.value(), cause_of(spot),
-                 cure_of(spot));
-    for (auto& l : plant.losses()) fmt::print("loss m{} t {} steps {}\n", l.motor, l.time.value(), l.steps);
-    for (std::size_t m = 0; m < machine.axes.size(); ++m)
-      fmt::print("micro {} most lag {} margin {}\n", plant.steps_per_full_step(m), plant.record(m).most_lag,
-                 plant.record(m).least_margin);
-    fmt::print("{}\n{}\n", describe(machine), text);
-  }
   return outcome;
 }
 

@@ -60,6 +60,14 @@ TEST_F(CheckMargin, is_doubtful_where_only_a_strong_motor_does_it_and_passes) {
   EXPECT_EQ(json["axes"]["X"]["extents"][1], 30);
 }
 
+TEST_F(CheckMargin, is_drawn_along_the_path) {
+  const Outcome outcome = check(100, "--picture " + path("margin.svg") + " --colour-by margin");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(passo::test::read(path("margin.svg")), HasSubstr("<svg"));
+  EXPECT_EQ(check(100, "--colour-by margin").code, 2);
+  EXPECT_EQ(check(100, "--colour-by speed --picture " + path("speed.svg")).code, 2);
+}
+
 TEST_F(CheckMargin, agrees_with_the_physics_of_a_run) {
   for (const double acceleration : {100.0, 4'000.0}) {
     const Outcome verdict = check(acceleration);

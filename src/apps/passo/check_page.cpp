@@ -101,6 +101,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
     const auto* move = std::get_if<PlannedMove>(&item);
     survey.watch(item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
+    if (path != nullptr) path->load_of_next(survey.last_load());
     if (path != nullptr) path->watch(item, move != nullptr ? move->segment.work_zero : Point());
     if (move == nullptr && std::get<Action>(item).kind == Action::Kind::tool_change) ++page.tool_changes;
     if (items % items_between_looks == 0) progress.update(activity.nominal_time() / check.nominal_time);
