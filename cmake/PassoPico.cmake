@@ -25,13 +25,13 @@ set(PASSO_PICO_OPTIONS
   -nostdinc -isystem "${PASSO_PICO_RESOURCES}/include")
 set(PASSO_PICO_CXX_OPTIONS -std=c++20 -fno-exceptions -fno-rtti -fno-threadsafe-statics)
 
-# passo_pico_program(NAME SOURCES file… MODULES module… SCRIPT linker-script)
+# passo_pico_program(NAME SOURCES file… MODULES module… SCRIPT linker-script [OPTIONS option…])
 #
 # The target NAME builds NAME.elf and NAME.uf2 in the current binary directory; the path of the latter is the target's
 # property PASSO_UF2. MODULES are the portable modules whose headers the sources include.
 function(passo_pico_program name)
-  cmake_parse_arguments(ARG "" "SCRIPT" "SOURCES;MODULES" ${ARGN})
-  set(options ${PASSO_PICO_OPTIONS})
+  cmake_parse_arguments(ARG "" "SCRIPT" "SOURCES;MODULES;OPTIONS" ${ARGN})
+  set(options ${PASSO_PICO_OPTIONS} ${ARG_OPTIONS})
   foreach(module IN LISTS ARG_MODULES)
     list(APPEND options "-I${PROJECT_SOURCE_DIR}/src/${module}/include")
   endforeach()

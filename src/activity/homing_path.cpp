@@ -2,18 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace passo {
 namespace {
 
 constexpr double travels_to_seek = 1.1;
 constexpr double pull_offs_to_latch = 3;
+constexpr double hardly_a_step = 1e-3;
 // How often a switch may open and close on the way off.
 constexpr int most_turns = 8;
 
 const AxisDescription* find(const MachineDescription& machine, Axis axis) {
   const auto found = std::ranges::find(machine.axes, axis, &AxisDescription::axis);
   return found == machine.axes.end() ? nullptr : &*found;
+}
+
+// Whether axis `i` of the order of homing and the next one seek at once.
+bool is_same_turn(const MachineDescription& machine, std::size_t i) {
+  const std::vector<int>& turns = machine.homing_turns;
+  return i + 1 < machine.homing.size() && i + 1 < turns.size() && turns[i] == turns[i + 1];
 }
 
 double in_steps(const AxisDescription& axis, double place) {
@@ -23,6 +32,11 @@ double in_steps(const AxisDescription& axis, double place) {
 // Rounds to whole steps, so that the axis rests on a step.
 double pull_off_of(const AxisDescription& axis) {
   return in_steps(axis, axis.home->pull_off) / axis.steps_per_unit;
+}
+
+// How far the second motor falls behind, so that the first one's switch closes first.
+double lag_of(const AxisDescription& axis) {
+  return std::max(in_steps(axis, axis.home->pull_off / 4), 1.0) / axis.steps_per_unit;
 }
 
 }  // namespace
@@ -57,80 +71,208 @@ std::string_view message_of(HomingFault fault) {
 
 HomingPath::HomingPath(const MachineDescription& machine, const MachineAnswers& answers, const Point& start)
     : machine_(machine), answers_(answers), start_(start), position_(start) {
-  begin_axis();
+  begin_turn();
 }
 
 bool HomingPath::next(PathItem& item) {
   if (step_ == Step::judge) judge();
   if (axis_ == nullptr || fault_) return false;
-  Point end = position_;
-  end[axis_->axis] = target_;
   if (step_ == Step::begin) {
     step_ = Step::move;
     item = action(Action::Kind::probe_begin, position_);
     return true;
   }
-  if (step_ == Step::move && !outcome().refused && end != position_) {
+  if (step_ == Step::move && !outcome().refused && target_ != position_) {
     step_ = Step::end;
-    item = Segment{.curve = Curve::line(position_, end),
-                   .speed = stage_ == HomingStage::latch ? home().latch : home().seek,
-                   .mode = PathMode::exact_stop};
+    item = Segment{.curve = Curve::line(position_, target_), .speed = speed_, .mode = PathMode::exact_stop};
     return true;
   }
   step_ = Step::judge;
-  item = action(Action::Kind::probe_end, outcome().refused ? position_ : end);
+  item = action(Action::Kind::probe_end, outcome().refused ? position_ : target_);
   return true;
 }
 
 Action HomingPath::action(Action::Kind kind, const Point& place) const {
-  return {.kind = kind,
-          .probe_toward = until_closed_,
-          .limit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(home().input)),
-          .place = place};
+  return {.kind = kind, .probe_toward = until_closed_, .limit = limits_, .place = place};
 }
 
 double HomingPath::off(double place) const {
   return place - direction() * pull_off_of(*axis_);
 }
 
-void HomingPath::begin_axis() {
-  axis_ = homed_.size() < machine_.homing.size() ? find(machine_, machine_.homing[homed_.size()]) : nullptr;
-  if (axis_ == nullptr) return;
+// Goes on with the axes of this turn, or else of the next one.
+void HomingPath::begin_turn() {
+  if (turn_.empty() && homed_.size() < machine_.homing.size()) {
+    std::size_t i = homed_.size();
+    do turn_.push_back(find(machine_, machine_.homing[i]));
+    while (is_same_turn(machine_, i++));
+  }
+  axis_ = nullptr;
+  if (turn_.size() == 1) return begin_axis(*turn_.front());
+  if (!turn_.empty()) seek_together();
+}
+
+// Every axis seeks at its own speed. The way ends where the first of them has gone as far as it may.
+void HomingPath::seek_together() {
+  double time = std::numeric_limits<double>::infinity();
+  double squares = 0;
+  unsigned limits = 0;
+  for (const AxisDescription* axis : turn_) {
+    const double own = travels_to_seek * (axis->travel_high - axis->travel_low) / axis->home->seek.value();
+    if (own < time) axis_ = axis;
+    time = std::min(time, own);
+    squares += axis->home->seek.value() * axis->home->seek.value();
+    limits |= axis->home_switches();
+  }
+  together_ = until_closed_ = true;
+  begin(HomingStage::seek, stands());
+  for (const AxisDescription* axis : turn_) {
+    const double way = axis->home->seek.value() * time;
+    target_[axis->axis] += axis->home->toward_high ? way : -way;
+  }
+  limits_ = static_cast<std::uint8_t>(limits);
+  speed_ = MmPerSecond(std::sqrt(squares));
+}
+
+// Watches the switch of one axis without a move: the watch is refused if the switch is closed.
+void HomingPath::look_at(std::size_t which) {
+  looked_at_ = which;
+  axis_ = turn_[which];
+  until_closed_ = true;
+  begin(HomingStage::look, stands());
+}
+
+void HomingPath::begin_axis(const AxisDescription& axis) {
+  axis_ = &axis;
+  together_ = false;
   turns_ = 0;
   knows_switch_ = false;
+  lag_ = lag_of(axis);
   until_closed_ = true;
+  goes_ = {stands(), stands()};
+  found_ = goes_;
   begin(HomingStage::seek, stands() + direction() * travels_to_seek * (axis_->travel_high - axis_->travel_low));
 }
 
+// A move of the whole axis.
 void HomingPath::begin(HomingStage stage, double target) {
   stage_ = stage;
-  target_ = target;
+  target_ = position_;
+  target_[axis_->axis] = target;
+  speed_ = stage == HomingStage::latch ? home().latch : home().seek;
+  limits_ = axis_->home_switches();
   step_ = Step::begin;
+}
+
+void HomingPath::begin_alone(Alone alone, double way) {
+  alone_ = alone;
+  until_closed_ = true;
+  move_alone(way);
+}
+
+void HomingPath::move_alone(double way) {
+  begin(HomingStage::square, stands() + way);
+  speed_ = home().latch;
+  const int input = alone_ == Alone::close_first ? home().input : axis_->second->input;
+  limits_ = static_cast<std::uint8_t>(1U << static_cast<unsigned>(input));
 }
 
 // The machine rests after a move, and the outcome is known.
 void HomingPath::judge() {
+  const Point before = position_;
   if (!outcome().refused) position_ = outcome().rest;
-  const bool approaches = stage_ == HomingStage::seek || stage_ == HomingStage::latch;
-  approaches ? judge_approach() : judge_retreat();
+  note_way(before);
+  if (together_) return judge_together();
+  switch (stage_) {
+    case HomingStage::look: return judge_look();
+    case HomingStage::square: return judge_alone();
+    case HomingStage::seek:
+    case HomingStage::latch: return judge_approach();
+    case HomingStage::back_off:
+    case HomingStage::pull_off: return judge_retreat();
+  }
+}
+
+// Takes note of where the motors of the axis have gone, and of where the switch has closed.
+void HomingPath::note_way(const Point& before) {
+  const double way = stands() - before[axis_->axis];
+  const double to_contact = outcome().contact[axis_->axis] - before[axis_->axis];
+  for (const std::size_t motor : {first_motor, second_motor}) {
+    const bool is_alone = stage_ == HomingStage::square;
+    const bool is_first = alone_ == Alone::close_first;
+    if (is_alone && is_first != (motor == first_motor)) continue;
+    if (!outcome().refused && outcome().touched && until_closed_) found_[motor] = goes_[motor] + to_contact;
+    goes_[motor] += way;
+  }
+}
+
+void HomingPath::judge_together() {
+  if (!outcome().refused && !outcome().touched) return fail(HomingFault::not_met);
+  together_ = false;
+  if (outcome().touched && !outcome().refused) met_ = outcome().contact;
+  look_at(0);
+}
+
+// The switch may have opened again by itself: then the first axis seeks alone.
+void HomingPath::judge_look() {
+  if (outcome().refused) return begin_axis(*turn_[looked_at_]);
+  if (looked_at_ + 1 < turn_.size()) return look_at(looked_at_ + 1);
+  begin_axis(*turn_.front());
 }
 
 void HomingPath::judge_approach() {
-  const double contact = outcome().contact[axis_->axis];
-  if (outcome().refused) {
-    // The switch is closed: from the beginning, or because it has closed by itself after the axis backed off.
-    if (stage_ == HomingStage::seek) return retreat(HomingStage::back_off, off(stands()));
+  if (outcome().refused && stage_ == HomingStage::latch) {
+    // The switch has closed by itself after the axis backed off.
     turn_watch();
     return retreat(HomingStage::back_off, stands());
   }
-  if (!outcome().touched) {
-    fault_ = HomingFault::not_met;
-    return;
+  if (!outcome().refused && !outcome().touched) return fail(HomingFault::not_met);
+  if (stage_ == HomingStage::latch) {
+    if (!is_pair()) return retreat(HomingStage::pull_off, off(found_[first_motor]));
+    return begin_alone(Alone::find_second, direction() * (lag_ + axis_->second->most_skew));
   }
+  if (is_pair()) return begin_alone(Alone::close_first, direction() * axis_->second->most_skew);
+  // A switch that is closed from the beginning.
+  if (outcome().refused) return retreat(HomingStage::back_off, off(met_ ? (*met_)[axis_->axis] : stands()));
   knows_switch_ = true;
-  if (stage_ == HomingStage::seek) return retreat(HomingStage::back_off, off(contact));
-  found_ = contact;
-  retreat(HomingStage::pull_off, off(contact));
+  retreat(HomingStage::back_off, off(found_[first_motor]));
+}
+
+// The motors are whole steps apart before they go on together: otherwise they would not step at the same events.
+void HomingPath::judge_alone() {
+  const bool met = outcome().refused || outcome().touched;
+  const bool is_free = alone_ == Alone::lag || alone_ == Alone::adjust;
+  if (!settles_ && met == is_free) return fail(is_free ? HomingFault::still_closed : HomingFault::not_met);
+  if (!settles_ && alone_ == Alone::find_second && outcome().refused) return fall_further_behind();
+  const double apart = goes_[first_motor] - goes_[second_motor];
+  const double steps = (alone_ == Alone::close_first ? apart : -apart) * axis_->steps_per_unit * direction();
+  const double left = std::ceil(steps - hardly_a_step) - steps;
+  settles_ = !settles_ && left > hardly_a_step;
+  if (!settles_) return go_on_alone();
+  until_closed_ = false;
+  move_alone(direction() * left / axis_->steps_per_unit);
+}
+
+// The second motor's switch has closed before the first one's: after the fast seek their places were not known well.
+void HomingPath::fall_further_behind() {
+  if (++turns_ > most_turns) return fail(HomingFault::unsteady);
+  lag_ *= 2;
+  retreat(HomingStage::back_off, off(stands()));
+}
+
+void HomingPath::go_on_alone() {
+  switch (alone_) {
+    case Alone::close_first: return begin_alone(Alone::close_second, direction() * axis_->second->most_skew);
+    case Alone::close_second:
+      knows_switch_ = true;
+      return retreat(HomingStage::back_off, off(stands()) - direction() * farthest_beyond());
+    case Alone::lag:
+      until_closed_ = true;
+      return begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
+    case Alone::find_second:
+      return retreat(HomingStage::pull_off, stands() + off(found_[first_motor]) - goes_[first_motor]);
+    case Alone::adjust: return end_axis();
+  }
 }
 
 // Moves off the switch, which is closed at first.
@@ -142,21 +284,35 @@ void HomingPath::retreat(HomingStage stage, double target) {
 // Tells whether the switch is open at the end of a retreat. The switch may open and close more than once on the way. So
 // one watch follows the other, and each ends when the switch changes.
 void HomingPath::judge_retreat() {
+  const double target = target_[axis_->axis];
   if (outcome().refused || outcome().touched) {
-    if (!knows_switch_ && outcome().touched) {
-      knows_switch_ = true;
-      target_ = off(outcome().contact[axis_->axis]);
-    }
+    const bool is_first = !knows_switch_ && outcome().touched;
+    knows_switch_ = knows_switch_ || outcome().touched;
     turn_watch();
-    return begin(stage_, target_);
+    return begin(stage_, is_first ? off(outcome().contact[axis_->axis]) : target);
   }
-  if (!until_closed_) {
-    fault_ = HomingFault::still_closed;
-  } else if (stage_ == HomingStage::back_off) {
+  if (!until_closed_) return fail(HomingFault::still_closed);
+  if (stage_ == HomingStage::back_off) {
+    if (is_pair()) return begin_alone(Alone::lag, apart_from_switches() - direction() * lag_);
     begin(HomingStage::latch, stands() + direction() * pull_offs_to_latch * pull_off_of(*axis_));
+  } else if (is_pair()) {
+    const double square = in_steps(*axis_, axis_->second->square) / axis_->steps_per_unit;
+    begin_alone(Alone::adjust, off(found_[second_motor]) + square - goes_[second_motor]);
   } else {
     end_axis();
   }
+}
+
+// How far the motors have gone on after their switches closed, the farther of the two.
+double HomingPath::farthest_beyond() const {
+  const double first = direction() * (goes_[first_motor] - found_[first_motor]);
+  const double second = direction() * (goes_[second_motor] - found_[second_motor]);
+  return std::max({first, second, 0.0});
+}
+
+// By how much the second motor has to move to be as far from its switch as the first one, as far as that is known.
+double HomingPath::apart_from_switches() const {
+  return (goes_[first_motor] - found_[first_motor]) - (goes_[second_motor] - found_[second_motor]);
 }
 
 void HomingPath::turn_watch() {
@@ -165,11 +321,18 @@ void HomingPath::turn_watch() {
 }
 
 void HomingPath::end_axis() {
-  const double found = in_steps(*axis_, found_);
-  homed_.push_back({.axis = axis_->axis,
-                    .way = (found - in_steps(*axis_, start_[axis_->axis])) / axis_->steps_per_unit,
-                    .place = home().switch_at + (in_steps(*axis_, stands()) - found) / axis_->steps_per_unit});
-  begin_axis();
+  const double found = in_steps(*axis_, found_[first_motor]);
+  HomedAxis homed{.axis = axis_->axis,
+                  .way = (found - in_steps(*axis_, start_[axis_->axis])) / axis_->steps_per_unit,
+                  .place = home().switch_at + (in_steps(*axis_, goes_[first_motor]) - found) / axis_->steps_per_unit};
+  if (is_pair()) {
+    homed.squared =
+        (in_steps(*axis_, goes_[second_motor]) - in_steps(*axis_, goes_[first_motor])) / axis_->steps_per_unit;
+  }
+  homed_.push_back(homed);
+  std::erase(turn_, axis_);
+  if (turn_.empty()) met_.reset();
+  begin_turn();
 }
 
 std::optional<double> HomingPath::progress() const {

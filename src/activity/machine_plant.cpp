@@ -14,17 +14,56 @@ std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hy
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     if (!axis.home) continue;
-    const double scale = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
-    const bool high = axis.home->toward_high != axis.inverted;
-    const auto closes = std::llround(axis.home->switch_at * scale);
-    const auto later = std::llround(hysteresis.value() * axis.steps_per_unit);
-    switches.push_back({.input = static_cast<std::uint16_t>(1U << static_cast<unsigned>(axis.home->input)),
-                        .motor = static_cast<std::uint8_t>(m),
-                        .at_high_end = high,
-                        .closes_at = closes,
-                        .opens_at = high ? closes - later : closes + later});
+    const auto add = [&](int input, std::size_t motor, bool inverted, double place) {
+      const bool high = axis.home->toward_high != inverted;
+      const auto closes = std::llround(place * (inverted ? -axis.steps_per_unit : axis.steps_per_unit));
+      const auto later = std::llround(hysteresis.value() * axis.steps_per_unit);
+      switches.push_back({.input = static_cast<std::uint16_t>(1U << static_cast<unsigned>(input)),
+                          .motor = static_cast<std::uint8_t>(motor),
+                          .at_high_end = high,
+                          .closes_at = closes,
+                          .opens_at = high ? closes - later : closes + later});
+    };
+    add(axis.home->input, m, axis.inverted, axis.home->switch_at);
+    if (!axis.second) continue;
+    add(axis.second->input, machine.second_motor_of(m), axis.second->inverted,
+        axis.home->switch_at - axis.second->square);
   }
   return switches;
+}
+
+// Where the motors truly stand, if the axes stand there. Second motors are skewed at first.
+MotorSteps truth_at(const MachineDescription& machine, const Point& place) {
+  MotorSteps steps = steps_at(machine, place);
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    if (!axis.second) continue;
+    const auto own = std::llround((place[axis.axis] + axis.second->skew) * axis.steps_per_unit);
+    steps[machine.second_motor_of(m)] = axis.second->inverted ? -own : own;
+  }
+  return steps;
+}
+
+PinSetup pin_setup(const MachineDescription& machine) {
+  const PinsDescription& pins = machine.pins;
+  unsigned inputs = 0;
+  for (std::size_t i = 0; i < pins.limits_high.size(); ++i) inputs |= pins.limits_high[i] ? 1U << i : 0U;
+  if (pins.probe_high) inputs |= input_probe;
+  if (pins.door_high) inputs |= input_door;
+  if (pins.emergency_stop_high) inputs |= input_emergency_stop;
+  if (pins.feed_hold_high) inputs |= input_hold;
+  if (pins.cycle_start_high) inputs |= input_start;
+  unsigned outputs = 0;
+  if (pins.spindle_low) outputs |= spindle_on;
+  if (pins.spindle_reverse_low) outputs |= spindle_reverse;
+  if (pins.mist_low) outputs |= mist_on;
+  if (pins.flood_low) outputs |= flood_on;
+  if (pins.driver_enable_high) outputs |= inverted_enable;
+  const unsigned motors = (1U << machine.motor_count()) - 1;
+  return {.inputs = static_cast<std::uint16_t>(inputs),
+          .steps = static_cast<std::uint8_t>(pins.step_low ? motors : 0U),
+          .outputs = static_cast<std::uint8_t>(outputs),
+          .drivers_rest = static_cast<std::uint8_t>(std::lround(pins.drivers_off_after.value() * 10))};
 }
 
 SpindleModel spindle_model(const SpindleDescription& spindle) {
@@ -37,7 +76,7 @@ SpindleModel spindle_model(const SpindleDescription& spindle) {
 
 void fit(FittedPlant& plant, const MachineDescription& machine, const Point& stands_at,
          const std::vector<TouchBox>& boxes) {
-  plant.stand_at(steps_at(machine, stands_at));
+  plant.stand_at(truth_at(machine, stands_at));
   plant.fit_spindle(spindle_model(machine.spindle));
   for (const TravelSwitch& one : home_switches(machine)) plant.add(one);
   for (const TouchBox& box : boxes) plant.add(touch_body(box, machine));
@@ -83,7 +122,14 @@ std::optional<MotorSetup> motor_setup(const AxisDescription& axis) {
 
 void fit_rotors(RotorPlant& plant, const MachineDescription& machine) {
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
-    if (const auto setup = motor_setup(machine.axes[m])) plant.fit_motor(m, *setup);
+    const AxisDescription& axis = machine.axes[m];
+    const auto setup = motor_setup(axis);
+    if (!setup) continue;
+    plant.fit_motor(m, *setup);
+    if (!axis.second) continue;
+    MotorSetup second = *setup;
+    if (axis.second->inverted != axis.inverted) second.weight.value = -second.weight.value;
+    plant.fit_motor(machine.second_motor_of(m), second);
   }
 }
 

@@ -75,6 +75,7 @@ StepOptions step_options(const MachineDescription& machine) {
   for (const AxisDescription& axis : machine.axes) {
     options.motors[options.motor_count++] = {
         .axis = axis.axis, .steps_per_unit = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit};
+    if (axis.second) options.bends = false;
   }
   options.clock = {.tick_rate = machine.board.clock, .highest_event_rate = machine.board.highest_event_rate};
   return options;

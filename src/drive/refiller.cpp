@@ -7,6 +7,8 @@
 
 #include "host_actions.hpp"
 
+#include "passo/wire/segment_parts.hpp"
+
 namespace passo {
 namespace {
 
@@ -15,7 +17,7 @@ namespace {
 constexpr Seconds between_tails{0.0025};
 constexpr std::size_t items_between_tails = 3;
 // While there is time, a refill has at least this many items, and leaves as many places for the next refill.
-constexpr std::size_t worth_sending = 8;
+constexpr std::size_t worth_sending = 4;
 
 // Waiting for answers between refills. `behind_a_refill`: an answer takes this many times longer when a refill goes
 // before the question. `patience`: the rate at which slow answers are forgotten. `made_ahead`: how far ahead a chip
@@ -454,9 +456,7 @@ bool Refiller::settled() {
 Seconds Refiller::time_of(const LinkItem& item, int of_events) const {
   const auto* segment = std::get_if<BoardSegment>(&item);
   if (segment == nullptr) return Seconds(0);
-  const double events = std::min(of_events, int{segment->events});
-  const double time = events * segment->interval + events * (events - 1) / 2 * segment->change;
-  return Seconds(time / static_cast<double>(whole_tick) / steps_.clock.tick_rate.value());
+  return Seconds(static_cast<double>(duration(*segment, of_events)) / whole_tick / steps_.clock.tick_rate.value());
 }
 
 }  // namespace passo

@@ -42,6 +42,9 @@ Kind kind_of(bool is_mega, const Map& pins, DriveMode drive = {}) {
             .switches = {{input_limit, pins.limits[0]},
                          {static_cast<BoardInput>(input_limit << 1U), pins.limits[1]},
                          {static_cast<BoardInput>(input_limit << 2U), pins.limits[2]},
+                         {static_cast<BoardInput>(input_limit << 3U), pins.limits[3]},
+                         {static_cast<BoardInput>(input_limit << 4U), pins.limits[4]},
+                         {static_cast<BoardInput>(input_limit << 5U), pins.limits[5]},
                          {input_probe, pins.probe},
                          {input_emergency_stop, pins.emergency_stop},
                          {input_hold, pins.feed_hold},
@@ -65,6 +68,7 @@ Kind kind_named(std::string_view name) {
 struct Motor {
   std::uint32_t step = 0;
   std::uint32_t direction = 0;
+  std::uint32_t enable = 0;  // 0: no such pin, always enabled
   std::array<std::uint32_t, winding_count> windings = {};
   DriveMode drive = DriveMode::two_on;
 };
@@ -75,7 +79,10 @@ class AvrBoard final : public EmulatedBoard {
       : has_encoder_(kind.has_encoder), positions_(kind.motors.size(), 0) {
     PinNumbers numbers;
     for (const MotorPins& pins : kind.motors) {
-      Motor motor{.step = numbers.bit_of(pins.step), .direction = numbers.bit_of(pins.direction), .drive = pins.drive};
+      Motor motor{.step = numbers.bit_of(pins.step),
+                  .direction = numbers.bit_of(pins.direction),
+                  .enable = numbers.bit_of(pins.enable),
+                  .drive = pins.drive};
       for (std::size_t f = 0; f < winding_count; ++f) {
         motor.windings[f] = numbers.bit_of(pins.windings[f]);
         stepping_ |= motor.windings[f];
@@ -117,6 +124,10 @@ class AvrBoard final : public EmulatedBoard {
     if (has_encoder_ && plant.spindle().has_encoder()) start_with_encoder(plant.spindle().model());
     look_at_plant(elapsed());
   }
+  void wire(const PinSetup& wiring) override {
+    wiring_ = wiring;
+    set_pins(plant_->inputs_at(elapsed()));
+  }
 
  private:
   static Seconds time_of(std::uint64_t cycle) { return Seconds(static_cast<double>(cycle) / clock_rate); }
@@ -145,17 +156,21 @@ class AvrBoard final : public EmulatedBoard {
       const std::uint32_t before = std::exchange(levels_, change.levels);
       if (((before ^ change.levels) & stepping_) != 0) count_steps(change, before);
     }
-    const bool back = (levels_ & spindle_turns_back_) != 0;
-    const double rpm = (back ? -1 : 1) * chip_->duty() * full_rpm;
+    const bool back = is_high(spindle_turns_back_) != ((wiring_.outputs & spindle_reverse) != 0);
+    const bool low_is_on = (wiring_.outputs & spindle_on) != 0;
+    const double duty = low_is_on ? 1 - chip_->duty() : chip_->duty();
+    const double rpm = (back ? -1 : 1) * duty * full_rpm;
     if (rpm != rpm_) plant_->command_spindle(elapsed(), rpm_ = rpm);
     look_at_plant(elapsed());
   }
   void count_steps(const PinChange& change, std::uint32_t before) {
-    const std::uint32_t rose = change.levels & ~before;
+    const std::uint32_t turned = change.levels ^ before;
     pulses_ = {};
     for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
       const Motor& pins = motors_[motor];
-      if ((rose & pins.step) != 0) count(change.cycle, motor, (change.levels & pins.direction) != 0);
+      const bool low_steps = (wiring_.steps >> motor & 1U) != 0;
+      const bool steps = (turned & pins.step) != 0 && is_high(pins.step) != low_steps;
+      if (steps && is_enabled(pins)) count(change.cycle, motor, is_high(pins.direction));
       if (windings_ != 0) follow_windings(change, motor);
     }
     if (std::ranges::any_of(pulses_, [](std::int64_t pulses) { return pulses != 0; })) {
@@ -164,13 +179,19 @@ class AvrBoard final : public EmulatedBoard {
   }
   void look_at_plant(Seconds time) {
     const std::uint16_t inputs = plant_->inputs_at(time);
-    if (inputs == inputs_) return;
+    if (inputs != inputs_) set_pins(inputs);
+  }
+  void set_pins(std::uint16_t inputs) {
     inputs_ = inputs;
     std::uint32_t low = 0;
     for (const auto& [which, pin] : switches_) {
-      if ((inputs & which) != 0) low |= pin;
+      if (((inputs ^ wiring_.inputs) & which) != 0) low |= pin;
     }
     chip_->draw_low(low);
+  }
+  bool is_high(std::uint32_t pin) const { return (levels_ & pin) != 0; }
+  bool is_enabled(const Motor& pins) const {
+    return pins.enable == 0 || is_high(pins.enable) == ((wiring_.outputs & inverted_enable) != 0);
   }
   void count(std::uint64_t cycle, std::size_t motor, bool down) {
     positions_[motor] += down ? -1 : 1;
@@ -201,6 +222,7 @@ class AvrBoard final : public EmulatedBoard {
   IdealPlant own_plant_;
   Plant* plant_ = &own_plant_;
   std::uint16_t inputs_ = 0;  // the inputs that the plant told last
+  PinSetup wiring_;           // how the plant is connected to the pins
   double rpm_ = 0;
   std::vector<std::int64_t> positions_;
   MotorSteps pulses_{};  // the pulses of the current change
@@ -213,7 +235,7 @@ class AvrBoard final : public EmulatedBoard {
 
 Result<std::unique_ptr<EmulatedBoard>, std::string> EmulatedBoard::start(std::string_view kind,
                                                                          const std::string& program) {
-  if (kind == "pico") return start_pico_board(program);
+  if (is_pico(kind)) return start_pico_board(kind, program);
   auto emulator = avr_emulator();
   if (!emulator) return Failure{emulator.error()};
   try {

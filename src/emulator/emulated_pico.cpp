@@ -13,12 +13,16 @@ constexpr const char* died =
 
 }  // namespace
 
-Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std::string& program) {
+Result<std::unique_ptr<EmulatedPico>, std::string> EmulatedPico::start(const std::string& program, const PicoPins& pins,
+                                                                       PicoSocket socket) {
   if (!std::filesystem::exists(packages)) {
     return Failure<std::string>{
         std::string("the Pico's emulator is not installed: scripts/install.sh, or `npm ci` in ") + PASSO_EMULATED_PICO};
   }
-  std::unique_ptr<EmulatedPico> pico(new EmulatedPico({"node", script, program}, died));
+  std::unique_ptr<EmulatedPico> pico(new EmulatedPico(
+      {"node", script, program, socket == PicoSocket::usb ? "usb" : "uart", std::to_string(pins.spindle_pwm),
+       std::to_string(pins.encoder_pulses), std::to_string(pins.encoder_index)},
+      died));
   // The first answer shows that the program is there and boots.
   if (!pico->run(1, {})) return Failure<std::string>{pico->error()};
   return pico;

@@ -92,18 +92,26 @@ EmulatorProcess::~EmulatorProcess() {
 }
 
 bool EmulatorProcess::run(std::uint64_t cycle, const Stops& stops) {
+  const std::vector<std::uint8_t> bytes = std::exchange(to_send_, {});
+  return request(cycle, stops, stops.at_byte ? 1 : 0, bytes);
+}
+bool EmulatorProcess::send_by_other_line(std::span<const std::uint8_t> bytes) {
+  return request(cycle_, {}, 2, bytes);
+}
+
+bool EmulatorProcess::request(std::uint64_t cycle, const Stops& stops, std::uint8_t flags,
+                              std::span<const std::uint8_t> bytes) {
   std::vector<std::uint8_t> request;
-  put(request, static_cast<std::uint32_t>(request_head + to_send_.size()));
+  put(request, static_cast<std::uint32_t>(request_head + bytes.size()));
   put(request, static_cast<double>(cycle));
   put(request, drawn_low_);
   put(request, stops.watched);
   put(request, stops.rises);
-  request.push_back(stops.at_byte ? 1 : 0);
+  request.push_back(flags);
   put(request, encoder_.from);
   put(request, encoder_.to);
   put(request, encoder_.pulses_per_turn);
-  request.insert(request.end(), to_send_.begin(), to_send_.end());
-  to_send_.clear();
+  request.insert(request.end(), bytes.begin(), bytes.end());
   if (write_all(to_, request) && read_answer()) return true;
   error_ = died_;
   return false;

@@ -19,12 +19,18 @@ void BoardSession::greet(const Greeting& greeting) {
   motors_ = greeting.motors;
   session_ = greeting.session;
   silence_ = greeting.silence;
+  setup_ = greeting.setup;
+  set_up_ = {};
+  twins_.set(greeting.pairs);
   greeting_ = greeting.number;
   sent_ = taken_ = executed_ = asked_behind_ = greeting_;
   decoder_.set_motors(motors_);
   progressed_ = heard_ = port_.elapsed();
   phase_ = Phase::greeting;
-  say_hello();
+  if (is_set_up()) return say_hello();
+  // The hello waits for the answer: the board looks at its switches when it is greeted.
+  greeted_ = quiet_since_ = port_.elapsed();
+  say(setup_, std::uint8_t{0});
 }
 
 // Forgets everything of the conversation so far, including an error.
@@ -50,9 +56,50 @@ void BoardSession::hang_up() {
   decoder_.set_motors(max_motors);
 }
 
+// The setup counts for one hello. A board of another version knows no setup, and answers the hello.
 void BoardSession::say_hello() {
   greeted_ = quiet_since_ = port_.elapsed();
+  if (setup_ != PinSetup{}) say(setup_, std::uint8_t{0});
   say(Hello{.motors = motors_}, greeting_);
+}
+
+void BoardSession::take(const PinSetup& setup) {
+  if (phase_ != Phase::greeting || is_set_up()) return;
+  set_up_ = setup;
+  if (!is_set_up()) {
+    error_ = LinkError::cannot_set_up;
+    return;
+  }
+  board_.reset();  // an answer to a hello before
+  say_hello();
+}
+
+PinSetup BoardSession::undone_setup() const {
+  return {.inputs = static_cast<std::uint16_t>(setup_.inputs & ~set_up_.inputs),
+          .steps = static_cast<std::uint8_t>(setup_.steps & ~set_up_.steps),
+          .outputs = static_cast<std::uint8_t>(setup_.outputs & ~set_up_.outputs),
+          .drivers_rest = set_up_.drivers_rest == 0 ? setup_.drivers_rest : std::uint8_t{0}};
+}
+
+std::string words_of_setup(const PinSetup& setup) {
+  std::string words;
+  const auto add = [&](bool has, const std::string& word) {
+    if (has) words += (words.empty() ? "" : ", ") + word;
+  };
+  for (unsigned i = 0; i < 8; ++i) add((setup.inputs >> i & 1U) != 0, "limit " + std::to_string(i + 1));
+  add((setup.inputs & input_probe) != 0, "probe");
+  add((setup.inputs & input_door) != 0, "door");
+  add((setup.inputs & input_emergency_stop) != 0, "emergency_stop");
+  add((setup.inputs & input_hold) != 0, "feed_hold");
+  add((setup.inputs & input_start) != 0, "cycle_start");
+  add(setup.steps != 0, "step");
+  add((setup.outputs & inverted_enable) != 0, "driver_enable");
+  add((setup.outputs & spindle_on) != 0, "spindle");
+  add((setup.outputs & spindle_reverse) != 0, "spindle_reverse");
+  add((setup.outputs & mist_on) != 0, "mist");
+  add((setup.outputs & flood_on) != 0, "flood");
+  add(setup.drivers_rest != 0, "drivers_off_after_s");
+  return words;
 }
 
 void BoardSession::name_session(std::uint16_t number) {
@@ -75,9 +122,11 @@ void BoardSession::look_at_greeting() {
     free_ = board_->capacity;
     if (board_->version != protocol_version) {
       error_ = LinkError::wrong_version;
+    } else if (!is_set_up()) {
+      board_.reset();
     } else if (board_->motors < motors_) {
       error_ = LinkError::too_few_motors;
-    } else if (session_ != 0) {
+    } else if (session_ != 0 || setup_ != PinSetup{}) {  // the answer tells how the switches are
       phase_ = Phase::naming;
       progressed_ = port_.elapsed();
       status_.reset();

@@ -99,7 +99,7 @@ void BoardSession::ask_again() {
 void BoardSession::send(const BoardSegment& segment) {
   assert(segment.events > 0 && std::abs(segment.change) <= largest_change);
   assert(error_ || room() > 0);
-  send_counted(segment, motors_);
+  send_counted(twins_.for_board(segment), motors_);
 }
 
 void BoardSession::send(const BoardOutputs& outputs) {
@@ -118,7 +118,7 @@ ItemNumber BoardSession::replace(ItemNumber after, std::span<const LinkItem> ite
     frame.number = static_cast<ItemNumber>(number + frames_.size());
     const auto sequence = static_cast<std::uint8_t>(frame.number);
     if (const auto* segment = std::get_if<BoardSegment>(&item)) {
-      frame.size = encode(*segment, motors_, sequence, frame.bytes);
+      frame.size = encode(twins_.for_board(*segment), motors_, sequence, frame.bytes);
     } else {
       frame.size = encode(std::get<BoardOutputs>(item), sequence, frame.bytes);
     }
@@ -138,6 +138,7 @@ void BoardSession::await(Question question) {
 
 // An answer to an earlier question may come first. That answer counts if it tells of the same rest.
 void BoardSession::watch_probe(ProbeUntil until, std::uint8_t limit) {
+  twins_.watch(limit);
   if (!probe_.wish(until, limit)) return;
   status_.reset();
   answered_ = true;  // what went before is over
@@ -215,6 +216,8 @@ void BoardSession::take(const WireFrame& frame) {
     case MessageType::status: {
       BoardStatus status;
       decode(frame, phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_, status);
+      if (awaited_ == Question::watch && probe_.is_confirmed_by(status, executed_)) twins_.settle(status.positions);
+      if (phase_ != Phase::before_hello) twins_.for_host(status.positions);
       return take(status);
     }
     case MessageType::error: {
@@ -223,11 +226,18 @@ void BoardSession::take(const WireFrame& frame) {
       return take(error);
     }
     case MessageType::fault:
-      if (phase_ != Phase::before_hello) error_ = LinkError::stopped;
+      // A board that does not know yet how its switches are wired may take them for closed.
+      if (phase_ != Phase::before_hello && is_set_up()) error_ = LinkError::stopped;
       return;
+    case MessageType::pin_setup: {
+      PinSetup setup;
+      decode(frame, setup);
+      return take(setup);
+    }
     case MessageType::captured: {
       Captured captured;
       decode(frame, phase_ == Phase::before_hello ? std::uint8_t{max_motors} : motors_, captured);
+      if (phase_ != Phase::before_hello) twins_.for_host(captured.positions);
       return take(captured);
     }
     case MessageType::turned: {
@@ -378,6 +388,10 @@ void BoardSession::take(const ErrorReport& error) {
       refusals_ = error.expected == refused_ ? refusals_ + 1 : 1;
       refused_ = error.expected;
       if (refusals_ == most_refusals) error_ = LinkError::refused;
+      if (error.reason == WireError::bad_value && awaited_ == Question::watch && probe_.watches_several()) {
+        error_ = LinkError::cannot_watch;
+        return;
+      }
       break;
   }
   if (!may_lose()) error_ = LinkError::refused;

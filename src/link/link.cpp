@@ -11,7 +11,10 @@ std::string_view message_of(LinkError error) {
              "what is sent";
     case LinkError::wrong_version:
       return "the board speaks another version of the protocol: its firmware and passo must be of one version";
-    case LinkError::too_few_motors: return "the board has fewer motors than the machine has axes";
+    case LinkError::too_few_motors: return "the board has fewer motors than the machine";
+    case LinkError::cannot_set_up: return "the board cannot do what [inputs] and [outputs] of the machine file say";
+    case LinkError::cannot_watch:
+      return "the board cannot watch these limit switches at once: their pins are on several ports (docs/boards.md)";
     case LinkError::refused: return "the board refused what was sent to it";
     case LinkError::was_reset: return "the board was reset, and does not know any more where the motors are";
     case LinkError::stopped: return "the board has stopped its motors at once, and where they are is not certain";

@@ -45,9 +45,17 @@ void VirtualMachine::stand_at(const MotorSteps& positions) {
   hardware_.pulsed = positions;
 }
 
+void VirtualMachine::wire(const PinSetup& wiring) {
+  hardware_.wiring = wiring;
+  look_at_plant();
+}
+
 void VirtualMachine::receive(std::span<const std::uint8_t> bytes) {
   if (board_.idle()) waits_ = false;  // the board may have stopped before its event
-  for (const std::uint8_t byte : bytes) board_.receive(byte);
+  for (const std::uint8_t byte : bytes) {
+    board_.receive(byte);
+    if (std::exchange(hardware_.is_new_setup, false)) look_at_plant();
+  }
   if (board_.owes_report()) board_.report();
 }
 
@@ -99,7 +107,8 @@ void VirtualMachine::look_at_plant() {
 }
 
 void VirtualMachine::look_at_inputs() {
-  const unsigned inputs = hardware_.plant->inputs_at(hardware_.time());
+  const unsigned misread = hardware_.wiring.inputs ^ unsigned { hardware_.setup.inputs };
+  const unsigned inputs = hardware_.plant->inputs_at(hardware_.time()) ^ misread;
   if (inputs != told_) heed(inputs);
 }
 
@@ -114,6 +123,7 @@ void VirtualMachine::heed(unsigned now) {
   const bool pressed = (stops & input_emergency_stop) != 0;
   if (!pressed && (stops == 0 || board_.idle())) return;
   hardware_.switch_off();
+  if (pressed) hardware_.drivers_on = false;
   board_.stop_at_once(pressed ? FaultReason::emergency_stop : FaultReason::limit);
 }
 
@@ -124,6 +134,7 @@ void VirtualMachine::reset_board() {
   waits_ = false;
   hardware_.to_host.clear();
   hardware_.switch_off();
+  hardware_.setup = {};
   told_ = 0;
   look_at_plant();
 }
@@ -199,6 +210,7 @@ void VirtualMachine::Hardware::pulse_plant() {
   }
   if (!any) return;
   for (std::size_t m = 0; m < motors.size(); ++m) pulsed[m] = motors[m].position;
+  if (drivers_on != drivers_obey()) return;  // motors without current do not follow
   plant->pulse(time(), steps);
 }
 

@@ -27,6 +27,67 @@ std::string describe_home(const AxisDescription& axis, const char* unit) {
       home.rest(), fmt::arg("unit", unit));
 }
 
+std::string describe_second(const MachineDescription& machine, std::size_t index) {
+  const AxisDescription& axis = machine.axes[index];
+  if (!axis.second) return "";
+  std::string line = fmt::format("                second motor {}", machine.second_motor_of(index));
+  if (axis.second->inverted) line += ", inverted";
+  if (axis.home) {
+    line += fmt::format(", squared at limit {}, {:+g} {}", axis.second->input + 1, axis.second->square,
+                        is_rotary(axis.axis) ? "deg" : "mm");
+  }
+  return line + "\n";
+}
+
+// The pins that are on at another level than usual.
+std::string describe_pins(const PinsDescription& pins) {
+  std::string high;
+  std::string low;
+  const auto add = [](std::string& words, bool has, const std::string& word) {
+    if (has) words += (words.empty() ? "" : ", ") + word;
+  };
+  for (std::size_t i = 0; i < pins.limits_high.size(); ++i)
+    add(high, pins.limits_high[i], fmt::format("limit {}", i + 1));
+  add(high, pins.probe_high, "probe");
+  add(high, pins.door_high, "door");
+  add(high, pins.emergency_stop_high, "emergency stop");
+  add(high, pins.feed_hold_high, "feed hold");
+  add(high, pins.cycle_start_high, "cycle start");
+  add(high, pins.driver_enable_high, "drivers");
+  add(low, pins.step_low, "step");
+  add(low, pins.spindle_low, "spindle");
+  add(low, pins.spindle_reverse_low, "spindle reverse");
+  add(low, pins.mist_low, "mist");
+  add(low, pins.flood_low, "flood");
+  std::string out;
+  if (!high.empty()) out += fmt::format("pins            on when high: {}\n", high);
+  if (!low.empty()) out += fmt::format("pins            on when low: {}\n", low);
+  if (pins.drivers_off_after > Seconds(0)) {
+    out += fmt::format("drivers         off {:g} s after the host's last word\n", pins.drivers_off_after.value());
+  }
+  return out;
+}
+
+// "ZXY, one after the other", or "Z (XY), those in parentheses at once".
+std::string describe_homing(const MachineDescription& machine) {
+  if (machine.homing.empty()) return "";
+  std::string letters;
+  bool any = false;
+  for (std::size_t i = 0; i < machine.homing.size(); ++i) {
+    const auto same = [&](std::size_t k) {
+      return k < machine.homing_turns.size() && i < machine.homing_turns.size() &&
+             machine.homing_turns[k] == machine.homing_turns[i];
+    };
+    const bool before = i > 0 && same(i - 1);
+    const bool after = same(i + 1);
+    any = any || after;
+    if (after && !before) letters += '(';
+    letters += letter_of(machine.homing[i]);
+    if (before && !after) letters += ')';
+  }
+  return fmt::format("homing          {}, {}\n", letters, any ? "those in parentheses at once" : "one after the other");
+}
+
 std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
   std::string line = fmt::format(
@@ -70,12 +131,11 @@ std::string describe(const MachineDescription& machine) {
                   board.lowest_event_rate().value(), board.highest_event_rate.value(), board.step_pulse.value() * 1e6);
   out += describe_tool(machine.tool);
   out += describe_spindle(machine.spindle);
-  if (!machine.homing.empty()) {
-    out += "homing          ";
-    for (const Axis axis : machine.homing) out += letter_of(axis);
-    out += ", one after the other\n";
+  out += describe_pins(machine.pins);
+  out += describe_homing(machine);
+  for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) {
+    out += describe_axis(machine.axes[motor], motor) + describe_second(machine, motor);
   }
-  for (std::size_t motor = 0; motor < machine.axes.size(); ++motor) out += describe_axis(machine.axes[motor], motor);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "homing_reader.hpp"
+#include "pins_reader.hpp"
 #include "table_reader.hpp"
 #include "torque_reader.hpp"
 #include <fmt/format.h>
@@ -33,8 +34,6 @@ constexpr NumberKey silent_spindle_key{"spindle_off_after_s", 0, 25.5, "2"};
 constexpr NumberKey silent_mist_key{"mist_off_after_s", 0, 25.5, "2"};
 constexpr NumberKey silent_flood_key{"flood_off_after_s", 0, 25.5, "10"};
 constexpr NumberKey spindle_wait_key{"spindle_wait_s", 0, 1000, "5"};
-// While it works, a host is heard five times a second.
-constexpr double shortest_silence = 0.5;
 
 constexpr NumberKey turn_key{"steps_per_turn", 1, 1e6, "400"};
 constexpr NumberKey microsteps_key{"microsteps", 1, 1024, "16"};
@@ -42,6 +41,7 @@ constexpr NumberKey motor_key{"motor", 0, most_motors - 1, "0"};
 
 constexpr std::string_view torque_table = "torque";
 constexpr std::string_view home_table = "home";
+constexpr std::string_view second_table = "second_motor";
 
 // The keys of an axis that carry a unit in their names.
 struct AxisKeys {
@@ -99,11 +99,13 @@ class MachineReader {
   void read_probe(const TomlEntry& entry);
   void read_spindle(const TomlEntry& entry);
   void read_silence(const TomlEntry& entry);
+  void read_pins(const TomlEntry* inputs, const TomlEntry* outputs);
   void read_homing(const TomlEntry* entry);
   void read_axes(const TomlEntry& entry);
   void read_axis(const TomlEntry& entry, Axis axis);
   void read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
   std::optional<HomeDescription> read_home_of(TableReader& reader, const AxisDescription& axis);
+  void read_second_of(TableReader& reader, AxisDescription& axis);
   static void read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis);
   void read_acceleration(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) const;
   static std::optional<double> way_of_a_turn(const TableReader& reader, const AxisKeys& keys, Axis axis);
@@ -111,6 +113,7 @@ class MachineReader {
   void check_velocity(const TableReader& reader, const AxisKeys& keys, const AxisDescription& axis) const;
   void order_motors();
   void number_motors();
+  void number_second_motors();
 
   void finish(TableReader& reader) const { reader.finish(document_.complete, {"name", path_tolerance_key.name}); }
 
@@ -132,6 +135,8 @@ MachineDescription MachineReader::read() {
   const TomlEntry* probe = top.table("probe", "a table [probe]", Need::optional);
   const TomlEntry* spindle = top.table("spindle", "a table [spindle]", Need::optional);
   const TomlEntry* silence = top.table("silence", "a table [silence]", Need::optional);
+  const TomlEntry* inputs = top.table("inputs", "a table [inputs]", Need::optional);
+  const TomlEntry* outputs = top.table("outputs", "a table [outputs]", Need::optional);
   const TomlEntry* homing = top.table("homing", "a table [homing]", Need::optional);
   const TomlEntry* axes = top.table("axis", "a table for each axis, as in [axis.X]", Need::required);
   finish(top);
@@ -140,6 +145,7 @@ MachineDescription MachineReader::read() {
   if (probe != nullptr) read_probe(*probe);
   if (spindle != nullptr) read_spindle(*spindle);
   if (silence != nullptr) read_silence(*silence);
+  read_pins(inputs, outputs);
   if (axes != nullptr) read_axes(*axes);
   read_homing(homing);
   return std::move(machine_);
@@ -214,24 +220,25 @@ void MachineReader::read_spindle(const TomlEntry& entry) {
 
 void MachineReader::read_silence(const TomlEntry& entry) {
   TableReader reader(std::get<TomlTable>(entry.value.content), "silence", entry.place, reporter_);
-  const auto read_time = [&](const NumberKey& key, Seconds& time) {
-    const auto given = reader.number(key, Need::optional);
-    if (!given) return;
-    const double tenths = std::round(*given * 10);
-    const bool is_whole = std::abs(*given * 10 - tenths) < 1e-6;
-    if (*given != 0 && (*given < shortest_silence || !is_whole)) {
-      reader.error("machine.silence", key.name, fmt::format("{} = {:g}", reader.full_name(key.name), *given),
-                   fmt::format("{:g} to {:g} seconds in whole tenths, or 0 for never", shortest_silence, key.most));
-      return;
-    }
-    time = Seconds(tenths / 10);
-  };
   SilenceDescription& silence = machine_.silence;
-  read_time(silent_spindle_key, silence.spindle);
-  read_time(silent_mist_key, silence.mist);
-  read_time(silent_flood_key, silence.flood);
+  read_tenths(reader, silent_spindle_key, silence.spindle);
+  read_tenths(reader, silent_mist_key, silence.mist);
+  read_tenths(reader, silent_flood_key, silence.flood);
   if (const auto wait = reader.number(spindle_wait_key, Need::optional)) silence.spindle_wait = Seconds(*wait);
   finish(reader);
+}
+
+void MachineReader::read_pins(const TomlEntry* inputs, const TomlEntry* outputs) {
+  if (inputs != nullptr) {
+    TableReader reader(std::get<TomlTable>(inputs->value.content), "inputs", inputs->place, reporter_);
+    read_inputs(reader, machine_.pins);
+    finish(reader);
+  }
+  if (outputs != nullptr) {
+    TableReader reader(std::get<TomlTable>(outputs->value.content), "outputs", outputs->place, reporter_);
+    read_outputs(reader, machine_.pins);
+    finish(reader);
+  }
 }
 
 // Called when all axes are known.
@@ -240,7 +247,9 @@ void MachineReader::read_homing(const TomlEntry* entry) {
   if (entry != nullptr) {
     reader.emplace(std::get<TomlTable>(entry->value.content), "homing", entry->place, reporter_);
   }
-  machine_.homing = read_homing_order(reader ? &*reader : nullptr, machine_.axes, homes_are_readable_);
+  HomingOrder order = read_homing_order(reader ? &*reader : nullptr, machine_.axes, homes_are_readable_);
+  machine_.homing = std::move(order.axes);
+  machine_.homing_turns = std::move(order.turns);
   if (reader) finish(*reader);
 }
 
@@ -281,6 +290,7 @@ void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
   description.inverted = reader.flag("inverted").value_or(false);
   description.home = read_home_of(reader, description);
+  read_second_of(reader, description);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
     result.motor_place = reader.place_of(motor_key.name);
@@ -298,6 +308,15 @@ std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, 
   finish(own);
   if (!description) homes_are_readable_ = false;
   return description;
+}
+
+void MachineReader::read_second_of(TableReader& reader, AxisDescription& axis) {
+  const TomlEntry* second = reader.table(second_table, "a table [axis.Y.second_motor]", Need::optional);
+  if (second == nullptr) return;
+  TableReader own(std::get<TomlTable>(second->value.content), reader.full_name(second_table), second->place, reporter_);
+  axis.second = read_second_motor(own, axis);
+  finish(own);
+  if (!axis.second) homes_are_readable_ = false;
 }
 
 void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {
@@ -425,6 +444,25 @@ void MachineReader::order_motors() {
   for (const AxisEntry& entry : axes_) {
     std::optional<HomeDescription>& home = machine_.axes.emplace_back(entry.description).home;
     if (home && home->input < 0) home->input = static_cast<int>(machine_.axes.size()) - 1;
+  }
+  number_second_motors();
+}
+
+void MachineReader::number_second_motors() {
+  if (machine_.axes.size() <= most_motors && machine_.motor_count() > most_motors) {
+    reporter_.error("machine.motor", axes_.back().place,
+                    fmt::format("the machine has {} motors", machine_.motor_count()),
+                    fmt::format("at most {}, second motors counted", most_motors));
+  }
+  for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+    AxisDescription& axis = machine_.axes[i];
+    if (!axis.second) continue;
+    if (axis.second->input < 0) axis.second->input = machine_.second_motor_of(i);
+    if (!axis.home || axis.second->input != axis.home->input) continue;
+    reporter_.error(
+        "machine.homing", axes_[i].place,
+        fmt::format("the two motors of axis {} share limit switch {}", letter_of(axis.axis), axis.home->input),
+        "a switch of its own for each motor: input in [axis.X.home] and in [axis.X.second_motor]");
   }
 }
 

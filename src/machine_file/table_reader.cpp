@@ -156,6 +156,29 @@ std::optional<bool> TableReader::is_second_of(std::string_view code, std::string
   return std::nullopt;
 }
 
+std::vector<bool> TableReader::are_second_of(std::string_view code, std::string_view key, std::string_view first,
+                                             std::string_view second, std::size_t most) {
+  const TomlEntry* entry = ask(key, {}, Need::optional);
+  if (entry == nullptr) return {};
+  const std::string expected = fmt::format("a list of at most {}, each \"{}\" or \"{}\"", most, first, second);
+  const auto* list = std::get_if<TomlArray>(&entry->value.content);
+  if (list == nullptr) {
+    wrong_type(*entry, expected);
+    return {};
+  }
+  std::vector<bool> all;
+  for (const TomlValue& value : *list) {
+    const auto* word = std::get_if<std::string>(&value.content);
+    if (word == nullptr || (*word != first && *word != second) || all.size() == most) {
+      reporter_.error(code, value.place, fmt::format("{} has {} in its list", full_name(key), kind_of(value)),
+                      expected);
+      return {};
+    }
+    all.push_back(*word == second);
+  }
+  return all;
+}
+
 const TomlEntry* TableReader::table(std::string_view key, std::string_view what, Need need) {
   const TomlEntry* entry = ask(key, std::string(what), need);
   if (entry == nullptr) return nullptr;

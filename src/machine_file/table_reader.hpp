@@ -54,6 +54,9 @@ class TableReader {
   // The value must be one of two words. An optional value that is absent counts as the first word.
   std::optional<bool> is_second_of(std::string_view code, std::string_view key, std::string_view first,
                                    std::string_view second, Need need);
+  // A list of at most `most` such words; true where it is the second.
+  std::vector<bool> are_second_of(std::string_view code, std::string_view key, std::string_view first,
+                                  std::string_view second, std::size_t most);
   // A table inside this one. `what` describes it for messages.
   const TomlEntry* table(std::string_view key, std::string_view what, Need need);
 

@@ -258,8 +258,10 @@ bool ChordFitter::next(PathItem& item, double& deviation) {
   bool goes_on = false;
   if (ahead != nullptr && may_begin(*ahead)) {
     tolerance_ = ahead->tolerance.value();
+    // After a wider tolerance the line stays apart, as in LineMerger.
+    const bool stays_apart = mode_before_ == PathMode::continuous && tolerance_before_ > tolerance_;
     if (mode_before_ == PathMode::continuous) tolerance_ = std::min(tolerance_, tolerance_before_);
-    goes_on = goes_on_after(ahead_.first());
+    goes_on = !stays_apart && goes_on_after(ahead_.first());
   }
   const Fit fit = goes_on && since_corner_ >= clearance * tolerance_ ? longest_fit() : Fit{};
   if (fit.count > 0) {

@@ -31,6 +31,11 @@ constexpr std::array knots_for_swinging = {1.0, 2.0, 3.0, 4.5, 6.5};
 constexpr double most_reversal = 0.7;
 // With limits of jerk it swings then too, up to this change of the tangent. By trial.
 constexpr double too_sharp = 1.8;
+// A sharp corner to or from a slow feed (mm/s), where the feeds differ by more than this factor, does not swing: the
+// slow feed is the speed there, and a swing would only be a way more at that speed. By trial.
+constexpr double most_change_of_feed = 1.5;
+constexpr MmPerSecond slow_feed{10};
+constexpr double sharp_from = 1;
 // Knots for swinging are too far apart if none has room and the nodes are this share of a width apart.
 constexpr double too_far = 0.7;
 // How soon the weight of the bend falls, for no reversal; how it depends on the reversal; and the most. By trial.
@@ -39,6 +44,12 @@ constexpr double weight_fall_less = 2.2;
 constexpr double most_weight_fall = 0.9;
 constexpr std::array knots_for_slow_bending = {0.48, 1.0, 1.55, 2.3};
 constexpr std::array knots_for_swinging_slowly = {1.0, 2.2, 4.4, 5.0, 7.5};
+// A gentle corner, by its change of the tangent, is passed so fast that the spline swings to both sides before it. By
+// search for the least time of gentle corners: the weights even out the jerk of the swings.
+constexpr double gentle_below = 0.6;
+constexpr std::array knots_for_swinging_gently = {1.2, 2.05, 2.9, 3.7, 4.6, 5.5, 6.3, 7.5};
+constexpr double gentle_apart_from = 11;
+constexpr std::array change_weights_of_gentle = {0.72, 0.94, 0.84, 0.9, 1.2, 1.4, 1.1};
 constexpr double last_knot_reaches = 1.25;  // room of a node, in distances of its last knot
 constexpr double share_of_room = 0.9;       // knots beyond this share of the room are left out
 
@@ -62,6 +73,13 @@ const KnotPlacer::Spacing KnotPlacer::swinging_slowly = {.corner_width = 7,
                                                          .quickening = 0.3,
                                                          .sharp_from = 0.35,
                                                          .closer = &slow_bending};
+const KnotPlacer::Spacing KnotPlacer::swinging_gently = {.corner_width = 7,
+                                                         .knots = knots_for_swinging_gently,
+                                                         .quickening = 0.31,
+                                                         .sharp_from = 0.38,
+                                                         .apart_from = gentle_apart_from,
+                                                         .in_company = &swinging_slowly,
+                                                         .change_weights = change_weights_of_gentle};
 const KnotPlacer::Spacing KnotPlacer::inside = {.corner_width = 4, .knots = knots_for_least_bending};
 const KnotPlacer::Spacing KnotPlacer::swinging = {.corner_width = 7, .knots = knots_for_swinging, .closer = &inside};
 
@@ -94,10 +112,14 @@ bool KnotPlacer::follows_spindle(const Piece& before, const Piece& after) {
 const KnotPlacer::Spacing& KnotPlacer::spacing_of(const Cluster& cluster) const {
   const Piece& before = piece(cluster.first);
   const Piece& after = piece(cluster.last + 1);
-  const bool goes_to_and_fro = reversal(before, after) >= most_reversal &&
-                               (!bends_slowly_ || distance(before.last_tangent, after.first_tangent) >= too_sharp);
-  const bool swings = before.is_line() && after.is_line() && !follows_spindle(before, after) && !goes_to_and_fro;
-  if (bends_slowly_) return swings ? swinging_slowly : slow_bending;
+  const double turn = distance(before.last_tangent, after.first_tangent);
+  const bool goes_to_and_fro = reversal(before, after) >= most_reversal && (!bends_slowly_ || turn >= too_sharp);
+  const auto [slower, faster] = std::minmax(before.segment.speed, after.segment.speed);
+  const bool meets_slow_feed = turn >= sharp_from && slower <= slow_feed && faster > slower * most_change_of_feed;
+  const bool swings =
+      before.is_line() && after.is_line() && !follows_spindle(before, after) && !goes_to_and_fro && !meets_slow_feed;
+  if (bends_slowly_ && swings) return turn < gentle_below ? swinging_gently : swinging_slowly;
+  if (bends_slowly_) return slow_bending;
   return swings ? swinging : inside;
 }
 
@@ -203,15 +225,15 @@ bool KnotPlacer::extend(Cluster& cluster) {
   return true;
 }
 
-// The width of a node, but not farther than the nodes beside it.
-double KnotPlacer::room_of(const Node& node, const Node& before, const Node& after) {
-  return std::min({node.width, node.s - before.s, after.s - node.s});
+// How far the nearer one of the nodes beside a node is.
+double KnotPlacer::nearest_to(const Node& node, const Node& before, const Node& after) {
+  return std::min(node.s - before.s, after.s - node.s);
 }
 
 // The knots of a node that the room holds. If it is too small for the first of those for swinging, closer ones may be
 // needed: where the node is alone in the room, a stretch needs knots enough; and where the other node is not close, the
 // spline could not keep to the tube.
-KnotPlacer::Places KnotPlacer::places_of(const Node& node, double width, double room, bool alone) {
+KnotPlacer::Places KnotPlacer::places_of(const Node& node, double width, double room, double nearest, bool alone) {
   const auto within = [&](const Spacing& spacing, double w) {
     Places places{.spacing = &spacing, .width = w};
     while (w > 0 && places.count < spacing.knots.size() && places.offset(places.count + 1) < share_of_room * room) {
@@ -219,11 +241,12 @@ KnotPlacer::Places KnotPlacer::places_of(const Node& node, double width, double 
     }
     return places;
   };
-  const Places places = within(*node.spacing, width);
-  const Spacing* const closer = node.spacing->closer;
+  const bool in_company = nearest < node.spacing->apart_from * node.width;
+  const Places places = within(in_company ? *node.spacing->in_company : *node.spacing, width);
+  const Spacing* const closer = places.spacing->closer;
   if (places.count > 0 || closer == nullptr) return places;
   if (!alone && width < too_far * node.width) return places;
-  return within(*closer, width * (closer->corner_width / node.spacing->corner_width));
+  return within(*closer, width * (closer->corner_width / places.spacing->corner_width));
 }
 
 void KnotPlacer::fill_gap() {
@@ -232,8 +255,10 @@ void KnotPlacer::fill_gap() {
   const bool is_last = known_ == 3;
   knot_piece_ = std::max(knot_piece_, from.before);
   const double length = to.s - from.s;
-  const double width = from.width > 0 ? room_of(from, nodes_[0], to) : 0;
-  const double next_width = to.width > 0 ? room_of(to, from, nodes_[3]) : 0;
+  const double nearest = from.width > 0 ? nearest_to(from, nodes_[0], to) : 0;
+  const double next_nearest = to.width > 0 ? nearest_to(to, from, nodes_[3]) : 0;
+  const double width = std::min(from.width, nearest);
+  const double next_width = std::min(to.width, next_nearest);
 
   // Each node's share of the room, and its knots in there.
   double room = 0;
@@ -249,8 +274,8 @@ void KnotPlacer::fill_gap() {
   } else if (next_width > 0) {
     next_room = share_of_room * length;
   }
-  const Places own = places_of(from, width, room, next_width == 0);
-  const Places next = places_of(to, next_width, next_room, width == 0);
+  const Places own = places_of(from, width, room, nearest, next_width == 0);
+  const Places next = places_of(to, next_width, next_room, next_nearest, width == 0);
   const std::size_t knots = own.count + 1;  // with the node
   const std::size_t next_knots = next.count;
   const auto offset = [&](std::size_t i) { return own.offset(i); };
@@ -269,7 +294,7 @@ void KnotPlacer::fill_gap() {
   const bool exact = is_whole || (is_long && has_knots && in_one_piece && !between.is_fitted);
 
   if (in_stretch_ || width > 0 || !exact) {
-    for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, own, i));
+    for (std::size_t i = 0; i < knots; ++i) add_knot(from.s + offset(i), rate_at(from, own, i), own.change_weight(i));
   }
   if (exact) {
     if (in_stretch_) steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
@@ -280,7 +305,9 @@ void KnotPlacer::fill_gap() {
     steps_.push_back({.mark = Mark::exact_piece, .knot = {}});
   }
   if (!exact && between.is_fitted) add_knots_on_bend(first, last, spacing);
-  for (std::size_t i = next_knots; i > 0; --i) add_knot(to.s - next_offset(i), rate_at(to, next, i));
+  for (std::size_t i = next_knots; i > 0; --i) {
+    add_knot(to.s - next_offset(i), rate_at(to, next, i), next.change_weight(i - 1));
+  }
   if (is_last && in_stretch_) {
     add_knot(to.s);
     steps_.push_back({.mark = Mark::end_of_stretch, .knot = {}});
@@ -324,13 +351,18 @@ double KnotPlacer::weight_at(double s) const {
   return most > 0 ? most : 1;
 }
 
-void KnotPlacer::add_knot(double s, double rate) {
+void KnotPlacer::add_knot(double s, double rate, double change_weight) {
   while (s >= piece(knot_piece_).end() && reader_.has(knot_piece_ + 1)) ++knot_piece_;
   in_stretch_ = true;
   const Piece& at = piece(knot_piece_);
   const double along = s >= at.end() ? at.length : std::min(s - at.start, at.length);
   steps_.push_back({.mark = Mark::knot,
-                    .knot = {.s = s, .piece = knot_piece_, .along = along, .rate = rate, .weight = weight_at(s)}});
+                    .knot = {.s = s,
+                             .piece = knot_piece_,
+                             .along = along,
+                             .rate = rate,
+                             .weight = weight_at(s),
+                             .change_weight = change_weight}});
 }
 
 }  // namespace passo

@@ -32,9 +32,10 @@ namespace passo {
 struct Knot {
   double s = 0;  // s in the run
   std::uint64_t piece = 0;
-  double along = 0;   // s in the piece
-  double rate = 1;    // ds/dt, t being the spline's parameter; 1 beside exact pieces
-  double weight = 1;  // of the bend here
+  double along = 0;          // s in the piece
+  double rate = 1;           // ds/dt, t being the spline's parameter; 1 beside exact pieces
+  double weight = 1;         // of the bend here
+  double change_weight = 1;  // of the change of the bend, in the span after the knot
 };
 
 struct ExactPiece {
@@ -66,11 +67,16 @@ class KnotPlacer {
     std::span<const double> knots;  // in widths from the node
     // How much faster s goes on w times the change of the tangent away from a corner than at it.
     double quickening = 0;
-    double sharp_from = 1e-9;         // for a lesser change of the tangent s quickens less
-    const Spacing* closer = nullptr;  // for nodes that have no room for the first knot
+    double sharp_from = 1e-9;             // for a lesser change of the tangent s quickens less
+    const Spacing* closer = nullptr;      // for nodes that have no room for the first knot
+    double apart_from = 0;                // in widths: with a nearer node on either side, `in_company` places the knots
+    const Spacing* in_company = nullptr;  // of the same width
+    // Of the change of the bend, span by span from the node on. Empty: 1.
+    std::span<const double> change_weights = {};
   };
   static const Spacing slow_bending;
   static const Spacing swinging_slowly;
+  static const Spacing swinging_gently;
   static const Spacing swinging;
   static const Spacing inside;
   struct Node {
@@ -96,18 +102,22 @@ class KnotPlacer {
     std::size_t count = 0;  // so many of the spacing's knots
 
     double offset(std::size_t i) const { return i == 0 ? 0 : spacing->knots[i - 1] * width; }
+    // Of the span between the knots i and i + 1. The span behind the last knot has no weight of its own.
+    double change_weight(std::size_t i) const {
+      return i < count && i < spacing->change_weights.size() ? spacing->change_weights[i] : 1;
+    }
   };
-  static Places places_of(const Node& node, double width, double room, bool alone);
+  static Places places_of(const Node& node, double width, double room, double nearest, bool alone);
   bool find_node(Node& node);
   bool extend(Cluster& cluster);
   double width_of(const Cluster& cluster) const;
   double turn_of(const Cluster& cluster) const;
   static bool follows_spindle(const Piece& before, const Piece& after);
   static bool goes_on(const Piece& before, const Piece& after);
-  static double room_of(const Node& node, const Node& before, const Node& after);
+  static double nearest_to(const Node& node, const Node& before, const Node& after);
   void fill_gap();
   void add_knots_on_bend(double first, double last, double spacing);
-  void add_knot(double s, double rate = 1);
+  void add_knot(double s, double rate = 1, double change_weight = 1);
 
   const Spacing& spacing_of(const Cluster& cluster) const;
   static double reversal(const Piece& before, const Piece& after);

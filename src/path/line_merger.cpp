@@ -76,6 +76,12 @@ bool LineMerger::takes_in(const Segment& merged, const Segment& line, const Chor
   return !(length_in(chord.travel, group) < least_length * (programmed_ + line.curve.length().value()));
 }
 
+// The corner before this line is rounded within a wider tolerance than the line's own, and may use all of it on this
+// line. So the line stays apart from the next ones, which allow less.
+bool LineMerger::stays_apart(const Segment& line) const {
+  return mode_before_ == PathMode::continuous && tolerance_before_ > line.tolerance.value();
+}
+
 // At most half of what the junction before the line allows. The rest is left for rounding that junction.
 double LineMerger::merge_tolerance(const Segment& merged) const {
   double tolerance = merged.merge.value();
@@ -126,7 +132,8 @@ bool LineMerger::next(PathItem& item, double& deviation) {
   item = ahead_;
   auto& merged = std::get<Segment>(item);
   begin(merged);
-  while (taken_ < most_merged && pull() && is_line(ahead_) && extend(merged, deviation)) {
+  const bool alone = stays_apart(merged);
+  while (!alone && taken_ < most_merged && pull() && is_line(ahead_) && extend(merged, deviation)) {
   }
   if (taken_ > 1) merged.curve = Curve::line(merged.curve.start(), end_);
   mode_before_ = merged.mode;

@@ -54,6 +54,7 @@ class LineMerger {
   bool takes_in(const Segment& merged, const Segment& line, const Chord& chord) const;
   void begin(const Segment& merged);
   bool extend(Segment& merged, double& deviation);
+  bool stays_apart(const Segment& line) const;
   double merge_tolerance(const Segment& merged) const;
 
   Source<PathItem>& path_;

@@ -218,15 +218,16 @@ void TubeSpline::find_steps(std::int64_t k) {
   relaxation_.set_factors(k, factors);
 }
 
-// The sum that slow bending makes least is, over the spans k-2 to k+1, the width times |p'''|². p''' is the difference
-// of p'' at a span's ends, divided by the width. `change_pull` gives the sum's derivative by control k, divided by the
-// second derivative.
+// The sum that slow bending makes least is, over the spans k-2 to k+1, the width times |p'''|² times the span's weight.
+// p''' is the difference of p'' at a span's ends, divided by the width. `change_pull` gives the sum's derivative by
+// control k, divided by the second derivative.
 void TubeSpline::find_change_pull(std::int64_t k, Relaxation::Factors& factors) const {
   const std::array<double, 5> bend = {0, factors.bend[0], factors.bend[1], factors.bend[2], 0};  // at knots k-2 to k+2
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double change = bend[i + 1] - bend[i];
-    const double weight = change / at(k - 2 + static_cast<std::int64_t>(i)).pace.width;
+    const Site& span = at(k - 2 + static_cast<std::int64_t>(i));
+    const double weight = span.knot.change_weight * change / span.pace.width;
     factors.change_pull[i + 1] += weight;
     factors.change_pull[i] -= weight;
     sum += weight * change;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace passo::proof {
 namespace {
 
 using Complex = std::complex<double>;
+
+// A radius that grows by a smaller share of itself is constant.
+constexpr double rounding = 1e-12;
 
 double dot(const Point& a, const Point& b) {
   double sum = 0;
@@ -120,6 +124,14 @@ double ExactCurve::turning_of_all() const {
   return sum * length() / (3 * parts);
 }
 
+bool ExactCurve::is_circle() const {
+  if (curve_.shape() != Curve::Shape::arc) return false;
+  const Curve::ArcData& arc = curve_.arc_data();
+  if (std::abs(arc.end_radius - arc.start_radius) > rounding * arc.start_radius) return false;
+  return std::ranges::none_of(all_axes,
+                              [&](Axis axis) { return !in_plane(axis) && curve_.start()[axis] != curve_.end()[axis]; });
+}
+
 // A cubic's slope lies within the convex hull of its Bézier points.
 double ExactCurve::fastest_of_all() const {
   double squares = 0;
@@ -147,10 +159,22 @@ double ExactCurve::nearest_at_best(const Point& point, double from, double to) c
 }
 
 ExactCurve::Nearest ExactCurve::nearest(const Point& point, double from, double to) const {
+  if (circles_) return nearest_of_circle(point, from, to);
   if (!is_line()) return nearest_of_bent(point, from, to);
   const Point way = curve_.end() - curve_.start();
   const double share = dot(point - curve_.start(), way) / dot(way, way);
   const double s = std::clamp(share * length(), from, to);
+  return {.s = s, .distance = distance(point, place(s))};
+}
+
+// A circle's nearest place lies in the direction of the point. If the part does not reach that far, it is an end.
+ExactCurve::Nearest ExactCurve::nearest_of_circle(const Point& point, double from, double to) const {
+  const Curve::ArcData& arc = curve_.arc_data();
+  const double angle = std::atan2(point[arc.second] - arc.second_center, point[arc.first] - arc.first_center);
+  const double way_of_a_turn = 2 * std::numbers::pi * length() / std::abs(arc.sweep);
+  const double way = (angle - arc.start_angle) * length() / arc.sweep;
+  const double turns = std::round(((from + to) / 2 - way) / way_of_a_turn);
+  const double s = std::clamp(way + turns * way_of_a_turn, from, to);
   return {.s = s, .distance = distance(point, place(s))};
 }
 

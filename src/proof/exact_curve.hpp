@@ -19,7 +19,8 @@ struct Derivatives {
 
 class ExactCurve {
  public:
-  explicit ExactCurve(const Curve& curve) : curve_(curve), turning_(turning_of_all()), fastest_(fastest_of_all()) {}
+  explicit ExactCurve(const Curve& curve)
+      : curve_(curve), turning_(turning_of_all()), fastest_(fastest_of_all()), circles_(is_circle()) {}
 
   double length() const { return curve_.length().value(); }
   bool is_line() const { return curve_.shape() == Curve::Shape::line; }
@@ -46,11 +47,14 @@ class ExactCurve {
   double turning_of_all() const;
   double fastest_of_all() const;
   bool in_plane(Axis axis) const;
+  bool is_circle() const;
+  Nearest nearest_of_circle(const Point& point, double from, double to) const;
   Nearest nearest_of_bent(const Point& point, double from, double to) const;
 
   Curve curve_;
   double turning_;
   double fastest_;  // an upper bound of |dP/ds| over all axes
+  bool circles_;    // an arc of constant radius, and no axis moves beside its plane
 };
 
 double distance(const Point& a, const Point& b);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passo/wire/segment_parts.hpp"
+
 namespace passo::proof {
 namespace {
 
@@ -37,13 +39,15 @@ StepPeaks::StepPeaks(const ProofOptions& options, MotionProof& proof)
 void StepPeaks::watch(const BoardSegment& segment) {
   std::array<std::int64_t, max_motors> increments{};
   for (std::size_t m = 0; m < place_.size(); ++m) increments[m] = signed_increment(segment, m);
-  std::int64_t interval = segment.interval;
-  for (unsigned k = 0; k < segment.events; ++k) {
-    time_ += interval;
-    interval += segment.change;
-    while (next_sample_ <= time_) sample();
-    for (std::size_t m = 0; m < place_.size(); ++m) place_[m] += increments[m];
-  }
+  for_each_part(segment, [&](const PartTimes& part, unsigned events, unsigned /*before*/) {
+    std::int64_t interval = part.interval;
+    for (unsigned k = 0; k < events; ++k) {
+      time_ += interval;
+      interval += part.change;
+      while (next_sample_ <= time_) sample();
+      for (std::size_t m = 0; m < place_.size(); ++m) place_[m] += increments[m];
+    }
+  });
 }
 
 // After the last step the machine rests.

@@ -9,7 +9,6 @@ namespace {
 constexpr double turn_of_a_cell = 0.02;  // radians
 constexpr double fewest_cells = 64;      // in a curve, and in a line under falling limits
 constexpr std::size_t window = 65536;    // cells
-constexpr double fastest = 1e12;         // x where there is no limit
 // A jump of the velocity by less than this share of an axis's limit is rounding.
 constexpr double rounding = 1e-6;
 // The path rests where a kink may be passed only below this share of the lowest velocity limit.
@@ -33,16 +32,6 @@ double squares_of(const Row& slope) {
   return sum;
 }
 
-// The least distance from 0 of the parabola through three values at even distances.
-double least_through(double first, double second, double third) {
-  if (!(first * second > 0 && second * third > 0)) return 0;
-  const double least = std::min({std::abs(first), std::abs(second), std::abs(third)});
-  const double rise = third - first;
-  const double bend = first - 2 * second + third;
-  if (!(std::abs(rise) < 2 * std::abs(bend))) return least;
-  return std::min(least, std::abs(second - rise * rise / (8 * bend)));
-}
-
 // An axis that may start and stop at a velocity needs no ramp there, so its jerk bounds no time.
 std::vector<ProvenAxis> without_jumps(std::vector<ProvenAxis> axes) {
   for (ProvenAxis& axis : axes) {
@@ -60,6 +49,7 @@ TimeBound::TimeBound(const ProofOptions& options) : axes_(options.axes), ways_(w
     any_falls_ |= limits_.back().falls();
     any_jumps_ |= axis.start_stop > MmPerSecond(0);
   }
+  find_turning_pairs();
 }
 
 void TimeBound::watch(const PlannedMove& move) {
@@ -106,7 +96,9 @@ void TimeBound::add_curve(const Segment& segment) {
   }
   if (!joint_) x_ = start.rest_cap;
   add_to_line(segment, from);
+  if (joint_) kink = std::min(kink, bend_cap(joint_->place, from, scale));
   const std::size_t first = cells_.size();
+  const Place start_place = from;
   const bool one_cell = curve.is_line() && !any_falls_;
   const double cells = one_cell ? 1 : std::ceil(std::max(fewest_cells, curve.turning() / turn_of_a_cell));
   for (double i = 1; i <= cells; ++i) {
@@ -114,6 +106,7 @@ void TimeBound::add_curve(const Segment& segment) {
     add_cells(curve, from, to, feed);
     from = to;
   }
+  if (joint_) add_jumps(first, start_place);
   Cell& entry = cells_[first];
   entry.entry_scale = scale;
   entry.entry.cap = std::min({entry.entry.cap, kink, first > 0 ? cells_[first - 1].exit.cap * scale : fastest});
@@ -167,6 +160,7 @@ void TimeBound::add_cell(const ExactCurve& curve, const Place& from, const Place
     cell.way[i] = (from.slope[i] + 4 * middle.slope[i] + to.slope[i]) * cell.length / 6;
   }
   cells_.push_back(cell);
+  add_turns(curve, from, middle, to);
 }
 
 TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
@@ -182,7 +176,8 @@ TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
   std::size_t pair = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j, ++pair) {
-      place.turning[pair] = turning_at(place, i, j);
+      place.turn[pair] = place.bend[i] * place.slope[j] - place.bend[j] * place.slope[i];
+      place.turning[pair] = turning_at(place, i, j, place.turn[pair]);
       if (place.turning[pair] != 0) place.cap = std::min(place.cap, 1 / std::abs(place.turning[pair]));
     }
   }
@@ -191,10 +186,8 @@ TimeBound::Place TimeBound::place_at(const ExactCurve& curve, double s) const {
 
 // u = s̈ drops out of |q'ᵢ u + q''ᵢ x| ≤ Aᵢ and |q'ⱼ u + q''ⱼ x| ≤ Aⱼ: what is left is
 // |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ| x ≤ Aᵢ |q'ⱼ| + Aⱼ |q'ᵢ|. The right side falls as x grows, if a limit falls with the speed.
-double TimeBound::turning_at(const Place& place, std::size_t i, std::size_t j) const {
-  if (!ramps_[i].limits() || !ramps_[j].limits()) return 0;
-  const double turn = place.bend[i] * place.slope[j] - place.bend[j] * place.slope[i];
-  if (turn == 0) return 0;
+double TimeBound::turning_at(const Place& place, std::size_t i, std::size_t j, double turn) const {
+  if (!ramps_[i].limits() || !ramps_[j].limits() || turn == 0) return 0;
   const auto strength = [&](double x) {
     return limits_[i].at(place.slope[i] * std::sqrt(x)) * std::abs(place.slope[j]) +
            limits_[j].at(place.slope[j] * std::sqrt(x)) * std::abs(place.slope[i]);
@@ -207,6 +200,16 @@ double TimeBound::turning_at(const Place& place, std::size_t i, std::size_t j) c
     (std::abs(turn) * middle <= strength(middle) ? low : high) = middle;
   }
   return std::copysign(1 / high, turn);
+}
+
+// The least distance from 0 of the parabola through three values at even distances.
+double TimeBound::least_through(double first, double second, double third) {
+  if (!(first * second > 0 && second * third > 0)) return 0;
+  const double least = std::min({std::abs(first), std::abs(second), std::abs(third)});
+  const double rise = third - first;
+  const double bend = first - 2 * second + third;
+  if (!(std::abs(rise) < 2 * std::abs(bend))) return least;
+  return std::min(least, std::abs(second - rise * rise / (8 * bend)));
 }
 
 // Each |q'| is least at an end.
@@ -226,8 +229,10 @@ double TimeBound::cap_within(const Place& from, const Place& middle, const Place
 }
 
 TimeBound::Joint TimeBound::joint_at(const Place& place) const {
-  Joint joint{
-      .direction = place.slope, .steepness = std::sqrt(squares_of(place.slope)), .rest_cap = rest_cap(place.slope)};
+  Joint joint{.place = place,
+              .direction = place.slope,
+              .steepness = std::sqrt(squares_of(place.slope)),
+              .rest_cap = rest_cap(place.slope)};
   for (double& part : joint.direction) part = joint.steepness > 0 ? part / joint.steepness : 0;
   return joint;
 }
@@ -287,22 +292,30 @@ void TimeBound::plan_backwards(double last) {
   }
 }
 
+// The largest x at the end of a cell that is entered with this x.
+double TimeBound::exit_of(std::size_t cell, double entry, double at_end) const {
+  const bool is_last = cell + 1 == cells_.size();
+  const double next = is_last ? at_end : cells_[cell + 1].controllable / cells_[cell + 1].entry_scale;
+  return std::min(next, most_at(cells_[cell].exit, cells_[cell].entry, entry, cells_[cell]));
+}
+
 // Adds the time of the first `cells` cells, which are played.
 void TimeBound::settle(std::size_t cells) {
   const bool all = cells == cells_.size();
   if (cells_.empty()) return;
   const double at_end = all ? (joint_ ? joint_->rest_cap : 0) : cells_.back().exit.cap;
+  if (!turning_pairs_.empty()) lower_caps(at_end, all);
   plan_backwards(at_end);
   for (std::size_t i = 0; i < cells; ++i) {
     const Cell& cell = cells_[i];
     x_ = std::min(x_ * cell.entry_scale, cell.controllable);
-    const double next = i + 1 < cells_.size() ? cells_[i + 1].controllable / cells_[i + 1].entry_scale : at_end;
-    const double exit = std::min(next, most_at(cell.exit, cell.entry, x_, cell));
+    const double exit = exit_of(i, x_, at_end);
     if (ways_.any()) time_ = ways_.enter(rides_in(cell, x_, exit), time_);
     time_ += least_time(cell, x_, exit);
     x_ = exit;
   }
   cells_.erase(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(cells));
+  turns_.erase(turns_.begin(), turns_.begin() + static_cast<std::ptrdiff_t>(cells * turning_pairs_.size()));
 }
 
 // `steady`: the path rests without acceleration.

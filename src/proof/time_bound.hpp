@@ -13,7 +13,8 @@
 // the time of the whole cell at the largest x in it. What is lost is only that the axes may take turns within a cell;
 // so the bound can be a little too small, and never too large.
 //
-// Limits of jerk make the bound higher where an axis, or a straight line, goes from one place to another (JerkWays).
+// Limits of jerk make the bound higher where an axis, or a straight line, goes from one place to another (JerkWays),
+// and where the path bends (time_bound_turns.cpp).
 //
 // The path rests where the program demands it: at actions, exact stops and the ends, and where the direction jumps by
 // more than rounding. There x may be as large as the start-stop velocities of the axes allow. Memory: a window of
@@ -43,6 +44,7 @@ class TimeBound {
   Seconds time() const { return Seconds(time_); }
 
  private:
+  static constexpr double fastest = 1e12;      // x where there is no limit
   using Row = std::array<double, max_motors>;  // one number for each axis
   using Pairs = std::array<double, std::size_t{max_motors} * (max_motors - 1) / 2>;
   struct Place {
@@ -50,6 +52,7 @@ class TimeBound {
     Row slope{};      // q'
     Row bend{};       // q''
     Pairs turning{};  // of each pair of axes: 1/x of the largest x, with the sign of the turn
+    Pairs turn{};     // q''ᵢ q'ⱼ − q''ⱼ q'ᵢ of each pair
     double cap = 0;   // the largest x here
   };
   struct End {       // of a cell
@@ -66,7 +69,24 @@ class TimeBound {
     double standing = 0;      // an axis with a smaller q'² stands, but for rounding
     Row way{};                // Δq
   };
+  // Two axes that both have a limit of jerk.
+  struct TurningPair {
+    std::size_t i = 0;
+    std::size_t j = 0;
+    std::size_t place = 0;  // among all pairs
+  };
+  // What such a pair does in a cell. T is |q''ᵢ q'ⱼ − q''ⱼ q'ᵢ|, and T ṡ³ changes along the path.
+  struct Turn {
+    double entry = 0;   // T at the cell's start
+    double exit = 0;    // T at its end
+    double least = 0;   // T
+    double change = 0;  // the greatest change in the cell
+    // The greatest change at the cell's start, by rounding: jump ṡ + kink.
+    double jump = 0;
+    double kink = 0;
+  };
   struct Joint {  // the end of the last curve
+    Place place;
     Row direction{};
     double steepness = 0;  // |q'|
     double rest_cap = 0;   // the largest x with which the path can end here
@@ -75,6 +95,19 @@ class TimeBound {
   void add_curve(const Segment& segment);
   void add_cells(const ExactCurve& curve, const Place& from, const Place& to, double feed);
   void add_cell(const ExactCurve& curve, const Place& from, const Place& to, double feed);
+  static double least_through(double first, double second, double third);
+  void find_turning_pairs();
+  void add_turns(const ExactCurve& curve, const Place& from, const Place& middle, const Place& to);
+  Turn jump_of(const TurningPair& pair, const Place& start) const;
+  double bend_cap(const Place& before, const Place& after, double scale) const;
+  void add_jumps(std::size_t cell, const Place& start);
+  const Turn& turn_of(std::size_t cell, std::size_t pair) const { return turns_[cell * turning_pairs_.size() + pair]; }
+  double turn_at_entry(std::size_t cell, std::size_t pair) const;
+  double turn_at_exit(std::size_t cell, std::size_t pair) const;
+  double turn_at_joint(std::size_t cell, std::size_t pair) const;
+  void lower_where_it_turns(double at_end);
+  void lower_caps(double at_end, bool rests);
+  double exit_of(std::size_t cell, double entry, double at_end) const;
   void settle(std::size_t cells);
   void end_stretch(bool steady = true);
   void raise_by_line(bool steady);
@@ -85,7 +118,7 @@ class TimeBound {
 
   Place place_at(const ExactCurve& curve, double s) const;
   Place place_of_turn(const ExactCurve& curve, const Place& from, const Place& to, std::size_t axis, bool bend) const;
-  double turning_at(const Place& place, std::size_t i, std::size_t j) const;
+  double turning_at(const Place& place, std::size_t i, std::size_t j, double turn) const;
   double cap_within(const Place& from, const Place& middle, const Place& to) const;
   Joint joint_at(const Place& place) const;
   double kink_cap(const Joint& before, const Joint& after) const;
@@ -98,7 +131,9 @@ class TimeBound {
   std::vector<AxisRamp> ramps_;
   bool any_falls_ = false;
   bool any_jumps_ = false;  // some axis has a start-stop velocity
+  std::vector<TurningPair> turning_pairs_;
   std::vector<Cell> cells_;
+  std::vector<Turn> turns_;  // of each cell, one for each of those pairs
   std::optional<Joint> joint_;
   double x_ = 0;  // at the start of the first cell
   double time_ = 0;

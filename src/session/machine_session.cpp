@@ -9,6 +9,7 @@
 #include "panel.hpp"
 #include "work.hpp"
 
+#include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
 
 namespace passo {
@@ -31,9 +32,26 @@ constexpr bool is_of_work(LinkError error) {
   }
 }
 
+std::vector<MotorPair> motor_pairs(const MachineDescription& machine) {
+  std::vector<MotorPair> pairs;
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    if (!axis.second) continue;
+    const auto bit = [&](int input) { return static_cast<std::uint8_t>(axis.home ? 1U << unsigned(input) : 0U); };
+    pairs.push_back({.first = static_cast<std::uint8_t>(m),
+                     .second = machine.second_motor_of(m),
+                     .opposite = axis.second->inverted != axis.inverted,
+                     .first_switch = axis.home ? bit(axis.home->input) : std::uint8_t{0},
+                     .second_switch = bit(axis.second->input)});
+  }
+  return pairs;
+}
+
 Greeting with_machine(Greeting greeting, const MachineDescription& machine) {
   const auto tenths = [](Seconds time) { return static_cast<std::uint8_t>(std::lround(time.value() * 10)); };
-  greeting.motors = static_cast<std::uint8_t>(machine.axes.size());
+  greeting.motors = machine.motor_count();
+  greeting.setup = pin_setup(machine);
+  greeting.pairs = motor_pairs(machine);
   greeting.silence = {.spindle = tenths(machine.silence.spindle),
                       .mist = tenths(machine.silence.mist),
                       .flood = tenths(machine.silence.flood)};
@@ -159,7 +177,7 @@ void MachineSession::begin_reset() {
 // A board that knows the session and has lost no step has gone on counting. Then its counts tell the place.
 void MachineSession::find_place_again() {
   const BoardStatus& status = *board_.status();
-  const bool knows = status.session == options_.greeting.session && status.motors == machine_.axes.size() &&
+  const bool knows = status.session == options_.greeting.session && status.motors == machine_.motor_count() &&
                      (status.state & board_trusted) != 0 && (status.state & (board_manual | board_moves)) == 0;
   place_.reset();
   if (!knows || !zero_counts_) {
@@ -288,9 +306,13 @@ void MachineSession::note_place() {
     const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
     position_.place[steps.motors[m].axis] = exact / steps.motors[m].steps_per_unit;
   }
-  if (work_->finishing && !counts_agree()) return;
+  const bool agrees = !work_->finishing || counts_agree();
+  const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
+  // The second motor of an axis has turned alone: of the first one the counts know nothing more.
+  if (work_->homing != nullptr && board_.forget_shifts() && !is_homed) doubt_place();
+  if (!agrees) return;
   // The path is done when the last pull-off has been planned: it may have been stopped since.
-  if (work_->homing == nullptr || !work_->homing->done() || work_->drive->stopped()) return;
+  if (!is_homed) return;
   position_.place = home_place();
   if (position_.trust != Trust::unknown || homes_all_axes(machine_)) position_.trust = Trust::homed;
   mismatch_.reset();
@@ -335,6 +357,7 @@ void MachineSession::mind_board() {
   if (busy() && is_of_work(error)) return;  // the drive ends by itself
   trouble_ = error;
   trouble_words_ = message_of(error);
+  if (error == LinkError::cannot_set_up) trouble_words_ += ": it has no " + words_of_setup(board_.undone_setup());
   if (busy()) end_work();
   doubt_place();
   place_.reset();

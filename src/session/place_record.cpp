@@ -33,6 +33,10 @@ std::uint64_t place_fingerprint(const MachineDescription& machine) {
   for (const AxisDescription& axis : machine.axes) {
     fingerprint.add(std::uint64_t{static_cast<unsigned char>(letter_of(axis.axis))});
     fingerprint.add(axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit);
+    if (axis.second) {
+      fingerprint.add(std::uint64_t{axis.second->inverted});
+      fingerprint.add(axis.second->square);
+    }
     if (!axis.home) continue;
     fingerprint.add(axis.home->switch_at);
     fingerprint.add(std::uint64_t{axis.home->toward_high});

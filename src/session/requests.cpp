@@ -31,15 +31,11 @@ bool leaves_travel(const MachineDescription& machine, const Point& place) {
   });
 }
 
-unsigned bit_of(const HomeDescription& home) {
-  return unsigned{input_limit} << static_cast<unsigned>(home.input);
-}
-
 // The axes whose switch may be the closed one; a number where no axis has a switch on that input.
 std::string switch_words(const MachineDescription& machine, unsigned input) {
   std::string axes;
   for (const AxisDescription& axis : machine.axes) {
-    if (!axis.home || bit_of(*axis.home) != (unsigned{input_limit} << input)) continue;
+    if (!axis.home || (axis.home_switches() >> input & 1U) == 0) continue;
     axes += (axes.empty() ? "" : " or ") + std::string{letter_of(axis.axis)};
   }
   return axes.empty() ? "number " + std::to_string(input + 1) : "of " + axes;
@@ -105,7 +101,7 @@ std::optional<Refusal> MachineSession::closed_limit() const {
 std::optional<Refusal> MachineSession::refuse_way(const Point& way) const {
   for (const AxisDescription& axis : machine_.axes) {
     const double part = way[axis.axis];
-    if (!axis.home || part == 0 || (board_.inputs() & bit_of(*axis.home)) == 0) continue;
+    if (!axis.home || part == 0 || (board_.inputs() & axis.home_switches()) == 0) continue;
     if ((part > 0) != axis.home->toward_high) continue;
     return Refusal{.code = RefusalCode::limit_closed,
                    .message = std::string("the limit switch of ") + letter_of(axis.axis) +
@@ -187,6 +183,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
   }
   if (work.program != nullptr && watchers.operations) work.program->operations().watch(watchers.operations);
   if (work.program != nullptr && watchers.path) work.program->path().watch(watchers.path);
+  if (watchers.planned) drive.motion().watch(watchers.planned);
   if (watchers.motion && drive.refiller() == nullptr) drive.motion().watch(watchers.motion);
   if (watchers.items) drive.items().watch(watchers.items);
   drive.probe().watch([this, &work](const ProbeOutcome& outcome) {

@@ -10,6 +10,7 @@
 
 #include "passo/stepgen/step_generator.hpp"
 #include "passo/wire/board_segment.hpp"
+#include "passo/wire/plain_parts.hpp"
 
 namespace passo {
 
@@ -31,8 +32,14 @@ class BoardModel {
   BoardPlace place() const { return {.motors = position_, .tick = static_cast<std::uint16_t>(time_)}; }
 
   void play(const BoardSegment& segment) {
+    time_ += duration(segment, most_events);
+    if (segment.bend == 0) return move(segment);
+    for_each_plain_part(segment, [this](const BoardSegment& part) { move(part); });
+  }
+
+ private:
+  void move(const BoardSegment& segment) {
     const std::int64_t events = segment.events;
-    time_ += events * segment.interval + std::int64_t{segment.change} * (events * (events - 1) / 2);
     for (unsigned m = 0; m < motors_; ++m) {
       const bool down = (segment.directions >> m & 1U) != 0;
       const bool flipped = (segment.flips >> m & 1U) != 0;
@@ -43,7 +50,6 @@ class BoardModel {
     }
   }
 
- private:
   std::uint8_t motors_;
   std::int64_t time_ = whole_tick / 2;
   std::array<std::int64_t, max_motors> position_{};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "passo/wire/segment_parts.hpp"
+
 namespace passo {
 namespace {
 
@@ -14,8 +16,11 @@ double in_steps(const BoardSegment& segment, unsigned motor) {
 }
 
 std::string text_of(const BoardSegment& segment, const StepOptions& options) {
-  std::string text = fmt::format("segment {} events, {:.8g} ticks, change {:.8g}", segment.events,
-                                 segment.interval / 65536.0, segment.change / 65536.0);
+  std::string text =
+      fmt::format("segment {} events, {:.8g} ticks, ", unsigned{segment.events}, segment.interval / 65536.0);
+  text += is_root(segment.form)
+              ? fmt::format("root of growth {:.8g} in {}", segment.change / 2147483648.0, part_length(segment.form))
+              : fmt::format("change {:.8g}", segment.change / 65536.0);
   for (unsigned m = 0; m < options.motor_count; ++m) {
     const double increment = in_steps(segment, m);
     text += fmt::format("{} {} ", m == 0 ? "," : "", letter_of(options.motors[m].axis));

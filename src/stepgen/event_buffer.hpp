@@ -26,7 +26,7 @@ class EventBuffer {
   EventBuffer() = default;
   EventBuffer(const EventBuffer& other) { *this = other; }
   EventBuffer& operator=(const EventBuffer& other) {
-    // Copies only the part in use, because the whole buffer has 150 kilobytes.
+    // Copies only the part in use, because the whole buffer has 300 kilobytes.
     const auto copy = [&](const auto& from, auto& to, std::size_t end) {
       std::copy(from.begin() + static_cast<std::ptrdiff_t>(other.first_),
                 from.begin() + static_cast<std::ptrdiff_t>(end),
@@ -70,7 +70,7 @@ class EventBuffer {
   }
 
  private:
-  static constexpr std::size_t capacity = 2048;  // twice what a segment needs, so that events are seldom moved
+  static constexpr std::size_t capacity = 4096;  // twice what a segment needs, so that events are seldom moved
 
   void make_room() {
     std::copy(time_.begin() + static_cast<std::ptrdiff_t>(first_), time_.begin() + static_cast<std::ptrdiff_t>(last_),

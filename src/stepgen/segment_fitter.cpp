@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "passo/wire/segment_parts.hpp"
+
 namespace passo {
 namespace {
 
@@ -15,6 +17,13 @@ constexpr std::int64_t longest_interval = 65535 * whole_tick;
 // polynomial T3, moved so that the first zero is at the start.
 constexpr double first_node = 0.464;
 constexpr double second_node = 0.928;
+// What a part and an event cost a chip, in the board's shortest intervals: board_test.cpp plays just such parts. The
+// longest part has two to the power of this many events. At least so many parts are left to the rest, because the board
+// takes a series for the root.
+constexpr double cost_of_part = 46;
+constexpr double cost_of_event = 0.7;
+constexpr unsigned longest_root_part = 7;
+constexpr double parts_to_rest = 3;
 // A motor that moves less than this in one event stands still. In 1/65536 step.
 constexpr double still = 1e-4;
 
@@ -77,9 +86,15 @@ bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, cons
   const std::int64_t n = timing.events;
   const std::int64_t end = now + n * timing.interval + timing.change * (n * (n - 1) / 2);
   if (share_ == 0 && std::abs(end - events.time(timing.events - 1)) > exact) return false;
+  return part_holds(events, now, timing, 0);
+}
+
+// The same for one quadratic: `timing` begins at `now`, with the event number `first`.
+bool SegmentFitter::part_holds(const EventBuffer& events, std::int64_t now, const Timing& timing,
+                               unsigned first) const {
   std::int64_t interval = timing.interval;
   std::int64_t time = now;
-  for (unsigned k = 0; k < timing.events; ++k) {
+  for (unsigned k = first; k < first + timing.events; ++k) {
     time += interval;
     const std::int64_t off = std::abs(time - events.time(k));
     if (off > exact && (share_ == 0 || off > interval / share_)) return false;
@@ -91,11 +106,113 @@ bool SegmentFitter::times_hold(const EventBuffer& events, std::int64_t now, cons
          std::max<std::int64_t>(timing.interval, last) <= longest_interval;
 }
 
+// A root serves where the path speeds up or brakes evenly. It is not tried where events must be exact to the tick: then
+// there is no line to relieve.
 SegmentFitter::Timing SegmentFitter::fit_time(const EventBuffer& events, std::int64_t now, unsigned most) {
+  const Timing quadratic = fit_quadratic(events, now, most);
+  // Next to a rest a segment has at most two events, and soon after that many. So two events or less are no good guess.
+  if (quadratic.events > 2) guess_ = quadratic.events;
+  if (share_ == 0 || quadratic.events < 2 || quadratic.events == most) return quadratic;
+  const Timing root = fit_root(events, now, most, quadratic.events);
+  return root.events > quadratic.events ? root : quadratic;
+}
+
+// The number of events in the shortest part that a chip has time for, where events come that fast. More than any part
+// has: there is no time at all.
+double SegmentFitter::least_events_of_part(double interval) const {
+  const double spare = interval / static_cast<double>(shortest_interval_) - cost_of_event;
+  return spare > 0 ? cost_of_part / spare : std::numeric_limits<double>::infinity();
+}
+
+// Finds a long root of more than `least` events, if there is one.
+SegmentFitter::Timing SegmentFitter::fit_root(const EventBuffer& events, std::int64_t now, unsigned most,
+                                              unsigned least) const {
+  Timing longest;
+  unsigned too_many = most + 1;
+  for (unsigned n = most; n > least; n = n * 3 / 4) {
+    const std::optional<Timing> root = root_of(events, now, n);
+    if (root && root_holds(events, now, *root)) {
+      longest = *root;
+      break;
+    }
+    too_many = n;
+  }
+  // Between what holds and what does not.
+  for (int round = 0; round < 2 && longest.events > 0 && too_many - longest.events > 1; ++round) {
+    const unsigned n = (longest.events + too_many) / 2;
+    const std::optional<Timing> root = root_of(events, now, n);
+    if (root && root_holds(events, now, *root)) {
+      longest = *root;
+    } else {
+      too_many = n;
+    }
+  }
+  return longest;
+}
+
+bool SegmentFitter::root_holds(const EventBuffer& events, std::int64_t now, const Timing& root) const {
+  const BoardSegment segment{.events = static_cast<std::uint16_t>(root.events),
+                             .form = root.form,
+                             .interval = root.interval,
+                             .change = root.change};
+  bool holds = true;
+  for_each_part(segment, [&](const PartTimes& part, unsigned count, unsigned first) {
+    const Timing timing{.interval = part.interval, .change = part.change, .events = count};
+    holds = holds && part_holds(events, now, timing, first);
+    now += std::int64_t{count} * part.interval + std::int64_t{part.change} * (count * (count - 1) / 2);
+  });
+  return holds;
+}
+
+// The root that meets the events at two nodes. Event k of an even acceleration comes at a time t with k = v t - a t²/2,
+// which is linear in v and a. The board's parts are chords of the curve. So the nodes are aimed at a second time, by as
+// much beside the exact times as the first root was off.
+std::optional<SegmentFitter::Timing> SegmentFitter::root_of(const EventBuffer& events, std::int64_t now,
+                                                            unsigned n) const {
+  const unsigned k1 = n / 2;
+  const unsigned k2 = n;
+  if (k1 == 0) return {};
+  const auto exact1 = static_cast<double>(events.time(k1 - 1) - now);
+  const auto exact2 = static_cast<double>(events.time(k2 - 1) - now);
+  double t1 = exact1;
+  double t2 = exact2;
+  Timing root{.events = n};
+  for (int round = 0; round < 3; ++round) {
+    if (t1 <= 0 || t2 <= t1) return {};
+    const double v = (k1 * t2 / t1 - k2 * t1 / t2) / (t2 - t1);
+    const double a = 2 * (v * t2 - k2) / (t2 * t2);
+    if (v <= 0 || a == 0) return {};
+    const double rest = v * v / (2 * a);  // so many events ahead; negative: behind
+    const double nearest_rest = a > 0 ? rest - n : -rest;
+    const double fastest = 1 / std::sqrt(a > 0 ? v * v : v * v - 2 * a * n);  // the shortest interval
+    const double least_part = least_events_of_part(fastest);
+    unsigned k = 0;
+    while (k < longest_root_part && (1U << k) < least_part) ++k;
+    const double part = 1U << k;
+    if (part < least_part || part * parts_to_rest > nearest_rest || part * 2 > n) return {};
+    const double interval = 1 / std::sqrt(v * v - a);
+    if (!(interval >= 1 && interval <= longest_interval)) return {};
+    std::int64_t growth = nearest(part / rest * 2147483648.0);
+    if (std::abs(growth) > fine_change) growth = nearest(static_cast<double>(growth) / coarse_change) * coarse_change;
+    root.interval = static_cast<std::uint32_t>(interval + 0.5);
+    root.change = static_cast<std::int32_t>(growth);
+    root.form = static_cast<std::uint8_t>(root_form + k);
+    const BoardSegment segment{
+        .events = static_cast<std::uint16_t>(n), .form = root.form, .interval = root.interval, .change = root.change};
+    t1 += exact1 - static_cast<double>(duration(segment, static_cast<int>(k1)));
+    t2 += exact2 - static_cast<double>(duration(segment, static_cast<int>(k2)));
+  }
+  return root;
+}
+
+SegmentFitter::Timing SegmentFitter::fit_quadratic(const EventBuffer& events, std::int64_t now, unsigned most) {
   // A segment of one event always meets the event exactly, unless the event is too near or too far.
   const std::int64_t first = events.time(0) - now;
-  if (first > longest_interval) return {};
-  const Timing single{.interval = static_cast<std::uint32_t>(std::max(first, shortest_interval_)), .events = 1};
+  // An event may come early by a share of its interval.
+  const std::int64_t early = share_ == 0 ? 0 : longest_interval / share_;
+  if (first > longest_interval + early) return {};
+  const Timing single{.interval = static_cast<std::uint32_t>(std::clamp(first, shortest_interval_, longest_interval)),
+                      .events = 1};
 
   unsigned n = std::min(most, guess_ + guess_ / 4 + 4);
   for (; n > 1; n = std::min(n - 1, n * 3 / 4)) {
@@ -174,6 +291,29 @@ SegmentFitter::Advance SegmentFitter::within_bounds(std::int32_t place, std::int
   return {.increment = ceil_divide(ideal[straight] - place, straight), .events = static_cast<unsigned>(straight)};
 }
 
+// What is behind a turn is left to the next segment. From event `first` on the motor moves in direction `sign`.
+unsigned SegmentFitter::count_until_turn(const EventBuffer& events, unsigned motor, std::size_t first, int sign,
+                                         unsigned count) const {
+  const double* const places = events.places(motor);
+  const auto moves_on = [places, way = double(sign)](std::size_t k) {
+    return way * (places[k] - places[k - 1]) + still;
+  };
+  return static_cast<unsigned>(first_below(first + 1, count, moves_on)) - 1;
+}
+
+// Fills ideal_ up to the event after `count`. Plain loops over all events: the processor takes several at once.
+void SegmentFitter::find_due(const EventBuffer& events, unsigned motor, int sign, std::int64_t this_step,
+                             unsigned count) {
+  const double* const places = events.places(motor);
+  const auto ideal = [places, way = double(sign), from = static_cast<double>(this_step)](std::size_t k) {
+    return floor_to_int_32(way * places[k] - from);
+  };
+  std::int32_t* const due = ideal_.data();
+  for (std::size_t k = 1; k <= count; ++k) due[k] = ideal(k);
+  const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
+  due[count + 1] = goes_on ? ideal(count + 1) : due[count];
+}
+
 SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, unsigned motor, std::int64_t position,
                                                     unsigned count) {
   const double* places = events.places(motor);
@@ -183,21 +323,12 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   }
   if (first > count) return settle(position, places[count], count);
   const int direction = places[first] > places[first - 1] ? 1 : -1;
-  const double sign = direction;
-  // What is behind a turn is left to the next segment.
-  const auto moves_on = [places, sign](std::size_t k) { return sign * (places[k] - places[k - 1]) + still; };
-  count = static_cast<unsigned>(first_below(first + 1, count, moves_on)) - 1;
+  count = count_until_turn(events, motor, first, direction, count);
   const std::int64_t start = along(direction, position);
   const std::int64_t this_step = start & ~(whole_step - 1);
   const std::int32_t place = static_cast<std::int32_t>(start - this_step);
-  const auto ideal = [places, sign, from = static_cast<double>(this_step)](std::size_t k) {
-    return floor_to_int_32(sign * places[k] - from);
-  };
-  // Plain loops over all events: the processor takes several of them at once.
-  std::int32_t* const due = ideal_.data();
-  for (std::size_t k = 1; k <= count; ++k) due[k] = ideal(k);
-  const bool goes_on = events.size() > count && sign * (places[count + 1] - places[count]) > 0;
-  due[count + 1] = goes_on ? ideal(count + 1) : due[count];
+  find_due(events, motor, direction, this_step, count);
+  const std::int32_t* const due = ideal_.data();
   // Rounded up, so that a step exactly at an event is not missed by a few 65536ths.
   const auto last = static_cast<std::int32_t>(count);
   const std::int32_t straight = std::clamp<std::int32_t>(ceil_divide(due[count] - place, last), 0, whole_step);
@@ -211,6 +342,97 @@ SegmentFitter::Advance SegmentFitter::advance_other(const EventBuffer& events, u
   return advance;
 }
 
+// The bend of one motor for just so many events, in parts of 2^k events. The increments make a parabola of chords,
+// which is aimed between the bounds: half an event early.
+std::optional<SegmentFitter::Bent> SegmentFitter::bend_of(const EventBuffer& events, unsigned motor,
+                                                          std::int64_t position, unsigned count, unsigned k) {
+  const double* const places = events.places(motor);
+  const auto part = static_cast<std::int64_t>(1) << k;
+  const std::int64_t parts = count >> k;
+  if (parts < 2) return {};
+  const int sign = places[count] > places[0] ? 1 : -1;
+  if (sign * (places[1] - places[0]) < -still || count_until_turn(events, motor, 1, sign, count) < count) return {};
+  const std::int64_t start = along(sign, position);
+  const std::int64_t this_step = start & ~(whole_step - 1);
+  find_due(events, motor, sign, this_step, count);
+  const std::int32_t* const due = ideal_.data();
+
+  const auto slope_to = [&](std::int64_t m) {
+    const auto event = static_cast<std::size_t>(m * part);
+    const double early = (static_cast<double>(due[event + 1]) - due[event]) / 2;
+    return (due[event] + early - static_cast<double>(start - this_step)) / static_cast<double>(event);
+  };
+  const std::int64_t node = std::max<std::int64_t>(1, parts / 2);
+  const double slope1 = slope_to(node);
+  const double slope2 = slope_to(parts);
+  const std::int64_t change = nearest(2 * (slope2 - slope1) / static_cast<double>(parts - node));
+  const std::int64_t first = nearest(slope2 - static_cast<double>(change * (parts - 1)) / 2);
+  const std::int64_t last = first + change * ((count - 1) >> k);
+  if (std::min(first, last) < 1 || std::max(first, last) >= whole_step || std::abs(change) > 0x7fff) return {};
+
+  auto place = static_cast<std::int32_t>(start - this_step);
+  auto increment = static_cast<std::int32_t>(first);
+  std::int32_t spare = 0;  // negative where a step comes too late, or more than one event too early
+  for (std::int64_t from = 1; from <= count; from += part, increment += static_cast<std::int32_t>(change)) {
+    const std::int64_t to = std::min<std::int64_t>(count, from + part - 1);
+    for (std::int64_t e = from; e <= to; ++e) {
+      place += increment;
+      spare |= (step_of(place) - step_of(due[e])) | (step_of(due[e + 1]) - step_of(place));
+    }
+    if (spare < 0) return {};
+  }
+  return Bent{.motor = motor,
+              .advance = {.sign = sign, .increment = first, .events = count},
+              .change = change,
+              .form = static_cast<std::uint8_t>(k)};
+}
+
+// Where one motor has to bend, and one stands still. Changes the other motors' `advances` to serve as many events.
+std::optional<SegmentFitter::Bent> SegmentFitter::fit_bend(const EventBuffer& events, const Stretch& stretch,
+                                                           const BoardModel& board, const Timing& timing,
+                                                           Advances& advances) {
+  Advances longer = advances;
+  unsigned most = timing.events;
+  std::optional<unsigned> bent;
+  std::optional<unsigned> lender;
+  for (unsigned m = 0; m < motors_; ++m) {
+    if (m == stretch.master) continue;
+    longer[m] = advance_other(events, m, board.position(m), most);
+    if (longer[m].sign == 0 && longer[m].events == most) lender = m;
+    if (!bent || longer[m].events < longer[*bent].events) bent = m;
+  }
+  if (!lender || bent == lender) return {};
+  const BoardSegment times{.events = static_cast<std::uint16_t>(timing.events),
+                           .form = timing.form,
+                           .interval = timing.interval,
+                           .change = timing.change};
+  const std::int64_t last = duration(times, most_events) - duration(times, times.events - 1);
+  const double least_part = least_events_of_part(static_cast<double>(std::min<std::int64_t>(timing.interval, last)));
+  const unsigned least = longer[*bent].events;
+  for (unsigned n = most; n > least + least / 4; n = n * 3 / 4) {
+    bool others_serve = true;
+    for (unsigned m = 0; m < motors_ && others_serve; ++m) {
+      if (m == stretch.master || m == *bent) continue;
+      longer[m] = advance_other(events, m, board.position(m), n);
+      others_serve = longer[m].events == n && (m != *lender || longer[m].sign == 0);
+    }
+    if (!others_serve) continue;
+    const unsigned longest = is_root(timing.form) ? timing.form & ~root_form : longest_root_part;
+    for (unsigned k = longest; k > 0 && (1U << k) >= least_part; --k) {
+      std::optional<Bent> bend = bend_of(events, *bent, board.position(*bent), n, k);
+      if (bend) {
+        bend->lender = *lender;
+        if (is_root(timing.form)) bend->form = timing.form;
+        advances = longer;
+        advances[*bent] = bend->advance;
+        return bend;
+      }
+      if (is_root(timing.form)) break;
+    }
+  }
+  return {};
+}
+
 unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
                             BoardSegment& segment) {
   const std::uint8_t kept_directions = segment.directions;
@@ -218,7 +440,7 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
   const Timing timing = fit_time(events, board.time(), most);
   if (timing.events == 0) return 0;
 
-  std::array<Advance, max_motors> advances;
+  Advances advances;
   unsigned count = timing.events;
   advances[stretch.master] =
       advance_master(stretch, board.position(stretch.master), events.places(stretch.master)[1], count);
@@ -236,7 +458,14 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     }
   }
 
+  std::optional<Bent> bent;
+  if (bends_ && share_ != 0 && count < timing.events && advances[stretch.master].events == timing.events) {
+    bent = fit_bend(events, stretch, board, timing, advances);
+    if (bent) count = bent->advance.events;
+  }
+  const std::uint8_t form = bent ? bent->form : timing.form;
   segment = BoardSegment{.events = static_cast<std::uint16_t>(count),
+                         .form = count > 1 ? form : std::uint8_t{0},
                          .interval = timing.interval,
                          .change = count > 1 ? timing.change : 0};
   for (unsigned m = 0; m < motors_; ++m) {
@@ -245,8 +474,11 @@ unsigned SegmentFitter::fit(const EventBuffer& events, const Stretch& stretch, c
     const int sign = advances[m].sign != 0 ? advances[m].sign : (was_down ? -1 : 1);
     set_increment(segment, m, sign, advances[m].increment);
   }
-  // Next to a rest a segment has at most two events, and soon after that many. So two events or less are no good guess.
-  if (timing.events > 2) guess_ = timing.events;
+  if (bent) {
+    segment.bend = static_cast<std::uint8_t>(bent->motor | bent->lender << bend_shift<max_motors>);
+    const std::int64_t change = bent->advance.sign > 0 ? bent->change : -bent->change;
+    segment.increments[bent->lender] = static_cast<std::uint16_t>(change);
+  }
   return count;
 }
 

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "board_model.hpp"
 #include "event_buffer.hpp"
@@ -24,8 +25,8 @@ namespace passo {
 
 class SegmentFitter {
  public:
-  SegmentFitter(std::uint8_t motors, std::int64_t shortest_interval)
-      : motors_(motors), shortest_interval_(shortest_interval) {}
+  SegmentFitter(std::uint8_t motors, std::int64_t shortest_interval, bool bends)
+      : motors_(motors), shortest_interval_(shortest_interval), bends_(bends) {}
 
   // The greatest distance of an event from its exact time, in 1/65536 tick. Rounding to whole ticks adds half a tick.
   static constexpr std::int64_t exact = whole_tick * 9 / 20;
@@ -47,6 +48,7 @@ class SegmentFitter {
     std::uint32_t interval = 0;
     std::int32_t change = 0;
     unsigned events = 0;
+    std::uint8_t form = 0;
   };
   struct Advance {
     int sign = 0;  // 0: stands still
@@ -55,14 +57,38 @@ class SegmentFitter {
   };
 
   Timing fit_time(const EventBuffer& events, std::int64_t now, unsigned most);
+  Timing fit_quadratic(const EventBuffer& events, std::int64_t now, unsigned most);
+  Timing fit_root(const EventBuffer& events, std::int64_t now, unsigned most, unsigned least) const;
+  double least_events_of_part(double interval) const;
+  bool root_holds(const EventBuffer& events, std::int64_t now, const Timing& root) const;
+  std::optional<Timing> root_of(const EventBuffer& events, std::int64_t now, unsigned n) const;
   bool times_hold(const EventBuffer& events, std::int64_t now, const Timing& timing) const;
+  bool part_holds(const EventBuffer& events, std::int64_t now, const Timing& timing, unsigned first) const;
+  // A motor that moves in a bend: its first increment, and what each part adds to it.
+  struct Bent {
+    unsigned motor = 0;
+    unsigned lender = 0;
+    Advance advance;
+    std::int64_t change = 0;
+    std::uint8_t form = 0;
+  };
+  using Advances = std::array<Advance, max_motors>;
+
+  std::optional<Bent> fit_bend(const EventBuffer& events, const Stretch& stretch, const BoardModel& board,
+                               const Timing& timing, Advances& advances);
+  std::optional<Bent> bend_of(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count,
+                              unsigned k);
   Advance advance_master(const Stretch& stretch, std::int64_t position, double first_target, unsigned events) const;
   Advance advance_other(const EventBuffer& events, unsigned motor, std::int64_t position, unsigned count);
+  unsigned count_until_turn(const EventBuffer& events, unsigned motor, std::size_t first, int sign,
+                            unsigned count) const;
+  void find_due(const EventBuffer& events, unsigned motor, int sign, std::int64_t this_step, unsigned count);
   Advance settle(std::int64_t position, double place, unsigned count) const;
   Advance within_bounds(std::int32_t place, std::int32_t count) const;
 
   std::uint8_t motors_;
   std::int64_t shortest_interval_;
+  bool bends_;
   std::int64_t share_ = 0;
   unsigned longest_ = 255;
   unsigned guess_ = 255;  // the number of events in the last segment; the next number will be similar

@@ -20,7 +20,7 @@ class StepGenerator::Implementation {
         tick_rate_(options.clock.tick_rate),
         stream_(options),
         board_(options.motor_count),
-        fitter_(options.motor_count, stream_.shortest_interval()) {
+        fitter_(options.motor_count, stream_.shortest_interval(), options.bends) {
     for (unsigned m = 0; m < motors_; ++m) {
       board_.set_steps(m, std::llround(options.start[options.motors[m].axis] * options.motors[m].steps_per_unit));
     }
@@ -127,7 +127,7 @@ class StepGenerator::Implementation {
     }
     const std::int64_t gap = stream_.now() - board_.time();
     const std::int64_t shortest = stream_.shortest_interval();
-    if (!moves && gap < shortest) return false;
+    if (!moves && (gap < shortest || !exactness_.ends_in_time)) return false;
     if (gap > 65535 * whole_tick) return wait_until(stream_.now(), item);
     BoardSegment segment = without_steps(1, std::max(gap, shortest));
     for (unsigned m = 0; m < motors_; ++m) {

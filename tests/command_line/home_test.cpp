@@ -13,7 +13,8 @@ using testing::HasSubstr;
 class HomeCommand : public passo::test::ServedBoard {
  protected:
   // A machine of the Uno's whose switches are near; that of X as it is given.
-  std::string near_machine(const std::string& x = "direction = 'low'\nswitch_at_mm = -5.2\n") const {
+  static constexpr const char* x_switch = "direction = 'low'\nswitch_at_mm = -5.2\n";
+  std::string near_machine(const std::string& x = x_switch, const std::string& more = "") const {
     const std::string axis =
         "steps_per_mm = 640\nmax_velocity_mm_s = 100\nmax_acceleration_mm_s2 = 800\ntravel_mm = [-5, 5]\n";
     const std::string speeds = "seek_mm_s = 20\nlatch_mm_s = 2\npull_off_mm = 0.5\n";
@@ -24,7 +25,7 @@ class HomeCommand : public passo::test::ServedBoard {
     add("X", x);
     add("Y", "direction = 'low'\nswitch_at_mm = -5.2\n");
     add("Z", "direction = 'high'\nswitch_at_mm = 5.1\n");
-    return " -m " + write("near.toml", text);
+    return " -m " + write("near.toml", text + more);
   }
 };
 
@@ -51,6 +52,74 @@ TEST_F(HomeCommand, homes_an_emulated_board) {
   const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
   EXPECT_EQ(all["homed"], true);
   EXPECT_NEAR(all["position_mm"]["Z"], 4.6, 1.0 / 640);
+}
+
+TEST_F(HomeCommand, repeats_itself_and_tells_how_well_the_places_agree) {
+  const Outcome words = passo("home --repeat 3" + near_machine());
+  EXPECT_EQ(words.code, 0) << words.err;
+  EXPECT_THAT(words.out, HasSubstr("homed 3 times:\n"
+                                   "X: the mean place is 0.0 um from the first, the spread 0.0 um (0 steps)\n"));
+  const Outcome json = passo("home --repeat 3 --json" + near_machine());
+  const nlohmann::json all = nlohmann::json::parse(json.out, nullptr, false);
+  EXPECT_EQ(all["repeats"][2]["axis"], "Z");
+  EXPECT_EQ(all["repeats"][2]["spread_steps"], 0);
+  EXPECT_EQ(passo("home --repeat 0" + near_machine()).code, 2);
+}
+
+// Normally closed switches, an emergency stop that opens, drivers and steps that are on at the other level.
+TEST_F(HomeCommand, homes_with_inverted_pins) {
+  const std::string pins =
+      "[inputs]\nlimits = ['high', 'low', 'high']\nemergency_stop = 'high'\nfeed_hold = 'high'\n"
+      "[outputs]\ndriver_enable = 'high'\nstep = 'low'\nflood = 'low'\n";
+  for (const char* board : {"virtual", "sim:uno"}) {
+    const Outcome outcome = passo("home --json --board " + std::string(board) + near_machine(x_switch, pins));
+    if (outcome.err.find("was built without") != std::string::npos ||
+        outcome.err.find("is not there") != std::string::npos) {
+      GTEST_SKIP() << outcome.err;
+    }
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
+    EXPECT_EQ(all["homed"], true) << board;
+    EXPECT_NEAR(all["axes"][1]["way_mm"], -5.2, 1e-9);
+  }
+}
+
+TEST_F(HomeCommand, squares_a_gantry) {
+  const std::string gantry = "[axis.Y.second_motor]\ninverted = true\ninput = 4\nskew_mm = 0.4\nmost_skew_mm = 1\n";
+  for (const char* board : {"virtual", "sim:mega"}) {
+    const Outcome outcome = passo("home --json --board " + std::string(board) + near_machine(x_switch, gantry));
+    if (outcome.err.find("was built without") != std::string::npos ||
+        outcome.err.find("is not there") != std::string::npos) {
+      GTEST_SKIP() << outcome.err;
+    }
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json all = nlohmann::json::parse(outcome.out, nullptr, false);
+    EXPECT_NEAR(all["axes"][2]["squared_mm"], -0.4, 1.01 / 640) << board;
+  }
+}
+
+// The switches of the Uno are on one port, those of the Mega are not.
+TEST_F(HomeCommand, homes_two_axes_at_once_where_the_board_can_watch_both_switches) {
+  const std::string at_once = "[homing]\norder = 'Z (XY)'\n";
+  const Outcome uno = passo("home --json --board sim:uno" + near_machine(x_switch, at_once));
+  if (uno.err.find("was built without") != std::string::npos || uno.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << uno.err;
+  }
+  EXPECT_EQ(uno.code, 0) << uno.err;
+  EXPECT_NEAR(nlohmann::json::parse(uno.out, nullptr, false)["position_mm"]["Y"], -4.7, 1.0 / 640);
+  const Outcome mega = passo("home --json --board sim:mega" + near_machine(x_switch, at_once));
+  EXPECT_EQ(mega.code, 1);
+  EXPECT_THAT(mega.err, HasSubstr("cannot watch these limit switches at once"));
+}
+
+TEST_F(HomeCommand, refuses_a_board_without_a_pin_that_is_inverted) {
+  const Outcome outcome = passo("home --board sim:uno" + near_machine(x_switch, "[inputs]\ndoor = 'high'\n"));
+  if (outcome.err.find("was built without") != std::string::npos ||
+      outcome.err.find("is not there") != std::string::npos) {
+    GTEST_SKIP() << outcome.err;
+  }
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("[inputs] and [outputs] of the machine file say: it has no door"));
 }
 
 TEST_F(HomeCommand, tells_what_is_wrong_by_a_stable_code) {
@@ -123,7 +192,7 @@ TEST_F(HomeCommand, leaves_a_switch_inside_the_travel_a_limit) {
       for (const char* const homes : {" --home", ""}) {
         const Outcome outcome = passo("run " + program + homes + near_machine(home) + board);
         EXPECT_EQ(outcome.code, 1) << program << homes << board;
-        EXPECT_THAT(outcome.err, HasSubstr("stopped its motors at once")) << program << homes << board;
+        EXPECT_THAT(outcome.err, HasSubstr("the limit switch of X closed in line 1 of")) << program << homes << board;
       }
     }
   }

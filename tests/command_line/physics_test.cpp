@@ -49,10 +49,10 @@ TEST_F(Physics, is_told_in_the_summary) {
   EXPECT_THAT(run("").out, Not(HasSubstr("\nMotors")));
 }
 
-// A load of 60 N more than the motor has.
+// The weight is more than the motor holds.
 TEST_F(Physics, of_a_motor_that_is_too_weak_loses_steps_and_says_so) {
   std::string weak = machine_text(800);
-  weak.replace(weak.find("friction_n = 10"), 15, "weight_n = 480\n");
+  weak.replace(weak.find("friction_n = 10"), 15, "weight_n = 600\n");
   const Outcome outcome =
       passo("run " + write("p.ngc", "G21 G90\nG0 X30\nM2\n") + " -m " + write("m.toml", weak) + " --physics --json");
   EXPECT_EQ(outcome.code, 1);

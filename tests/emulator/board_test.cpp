@@ -63,10 +63,29 @@ TEST(Uno, turns_three_motors_at_140_kHz_while_it_is_fed) {
   expect_every_edge(bench.play(random_stream(random, 3, kind)), unavoidable);
 }
 
-// At its deepest: amid motion, asked for all it knows, and stopped by a switch.
+TEST(Uno, plays_roots_and_bends_in_parts_as_the_host_says) {
+  std::mt19937_64 random(test::seed());
+  BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  expect_every_edge(bench.play(random_stream(
+                        random, 3, {.shortest_interval = 410, .longest_interval = 420, .segments = 12, .part = 4})),
+                    unavoidable);
+  expect_every_edge(bench.play(random_stream(
+                        random, 3, {.shortest_interval = 246, .longest_interval = 255, .segments = 12, .part = 5})),
+                    unavoidable);
+  expect_every_edge(
+      bench.play(random_stream(
+          random, 3, {.shortest_interval = 122, .longest_interval = 130, .segments = 20, .part = 7, .ramp = 6})),
+      unavoidable);
+}
+
+// At its deepest: told of its pins, amid motion, asked for all it knows, and stopped by a switch.
 TEST(Uno, leaves_room_on_its_stack) {
   std::mt19937_64 random(test::seed());
   BoardBench bench(uno_under_test(PASSO_MOTION_UNO));
+  for (const PinSetup& setup : {PinSetup{.inputs = 7, .steps = 7, .outputs = 0x1f, .drivers_rest = 20}, PinSetup{}}) {
+    bench.set_up(setup);
+    bench.run(200'000);
+  }
   static_cast<void>(bench.play(random_stream(random, 3, {.shortest_interval = 114, .longest_interval = 300})));
   bench.start(random_stream(random, 3, {.shortest_interval = 200, .longest_interval = 900, .segments = 10}));
   for (int i = 0; i < 40; ++i) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/bad_line.hpp"
+#include "emulator/board_kind.hpp"
 #include "kit/in_full.hpp"
 #include "kit/stage_test.hpp"
 #include "pipeline/homing_kit.hpp"
@@ -20,12 +21,10 @@ using test::homing_machine;
 using test::StepLog;
 using test::switches_of;
 
-struct Kind {
-  const char* name;
-  const char* program;
-};
+using Kind = test::BoardKind;
 constexpr Kind uno{"uno", PASSO_MOTION_UNO};
 constexpr Kind mega{"mega", PASSO_MOTION_MEGA};
+constexpr Kind pico{"pico", PASSO_MOTION_PICO, 8};
 
 template <class Spoil>
 Homed home(const Kind& kind, const MachineDescription& machine, const std::vector<TravelSwitch>& switches,
@@ -37,7 +36,7 @@ Homed home(const Kind& kind, const MachineDescription& machine, const std::vecto
   (*board)->connect(plant);
   StepLog log;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
-    log.add(static_cast<std::int64_t>(cycle), static_cast<unsigned>(motor), down);
+    log.add(static_cast<std::int64_t>(cycle) / kind.cycles_of_tick, static_cast<unsigned>(motor), down);
   };
   BadLine line(**board);
   test::DrivenHoming homing(machine, {.board = &line});
@@ -61,10 +60,10 @@ int runs(int few) {
   return given != nullptr ? std::atoi(given) : few;
 }
 
-void is_exact_from_anywhere(const Kind& kind) {
+void is_exact_from_anywhere(const Kind& kind, int few = 4) {
   test::Random random;
   const MachineDescription machine = homing_machine();
-  const int trials = runs(4);
+  const int trials = runs(few);
   double overrun = 0;
   for (int i = 0; i < trials && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(kind.name + std::string(", trial ") + std::to_string(i));
@@ -127,6 +126,13 @@ TEST(EmulatedHoming, is_exact_from_anywhere_on_the_uno) {
 TEST(EmulatedHoming, is_exact_from_anywhere_on_the_mega) {
   is_exact_from_anywhere(mega);
 }
+// One axis at least stands on its switch while another one is homed.
+TEST(EmulatedHoming, of_the_pico_is_exact) {
+  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
+  is_exact_from_anywhere(pico, 1);
+  homes_by_one_pin(pico);
+  stops_at_a_switch_of_another_axis(pico);
+}
 TEST(EmulatedHoming, homes_by_switches_on_one_pin) {
   homes_by_one_pin(uno);
   homes_by_one_pin(mega);
@@ -143,6 +149,7 @@ TEST(EmulatedHomingInFull, is_exact_where_the_line_was_cut) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   cut_before_frames(uno, 3 * test::in_full());
   cut_before_frames(mega, 7 * test::in_full());
+  if (test::missing(pico).empty()) cut_before_frames(pico, 29 * test::in_full());
 }
 
 }  // namespace

@@ -9,15 +9,16 @@
 namespace passo {
 
 std::string PicoBench::missing(const std::string& program) {
-  const auto pico = EmulatedPico::start(program);
+  const auto pico = EmulatedPico::start(program, pico_bare);
   return pico ? std::string() : pico.error();
 }
 
-PicoBench::PicoBench(const std::string& program, std::uint8_t motors) : motors_(motors) {
-  auto pico = EmulatedPico::start(program);
+PicoBench::PicoBench(const std::string& program, std::uint8_t motors, const PicoPins& pins, PicoSocket socket)
+    : motors_(motors), pins_(pins) {
+  auto pico = EmulatedPico::start(program, pins, socket);
   if (!pico) throw std::runtime_error(pico.error());
   pico_ = std::move(*pico);
-  run(pico_clock_rate / 1000);  // it starts
+  run(socket == PicoSocket::usb ? pico_clock_rate / 20 : pico_clock_rate / 1000);  // it starts, and USB is greeted
 }
 
 void PicoBench::run(std::uint64_t cycles, std::uint32_t watched, std::uint32_t rises) {
@@ -137,16 +138,16 @@ EdgeCheck PicoBench::play(const std::vector<BoardSegment>& segments) {
 }
 
 std::vector<SeenSteps> PicoBench::seen(EdgeCheck& result) const {
-  std::vector<SeenSteps> seen(pico_bare.motors);
-  std::vector<std::uint64_t> rose(pico_bare.motors, 0);
-  std::vector<std::uint64_t> turned(pico_bare.motors, 0);
+  std::vector<SeenSteps> seen(pins_.motors);
+  std::vector<std::uint64_t> rose(pins_.motors, 0);
+  std::vector<std::uint64_t> turned(pins_.motors, 0);
   std::uint32_t levels = levels_before_;
   for (const PicoChange& change : changes_) {
     const std::uint32_t turned_over = change.levels ^ levels;
     levels = change.levels;
-    for (std::size_t m = 0; m < pico_bare.motors; ++m) {
-      const std::uint32_t step = gpio_bit(pico_bare.motor[m].step);
-      const std::uint32_t direction = gpio_bit(pico_bare.motor[m].direction);
+    for (std::size_t m = 0; m < pins_.motors; ++m) {
+      const std::uint32_t step = gpio_bit(pins_.motor[m].step);
+      const std::uint32_t direction = gpio_bit(pins_.motor[m].direction);
       if ((turned_over & direction) != 0) turned[m] = change.cycle;
       if ((turned_over & step) == 0) continue;
       if ((levels & step) != 0) {
@@ -167,7 +168,7 @@ EdgeCheck PicoBench::check(const std::vector<BoardSegment>& segments) const {
   EdgeCheck result;
   result.shortest_pulse = result.shortest_setup = std::numeric_limits<std::uint64_t>::max();
   std::vector<SeenSteps> expected = edges_of_model(segments, motors_, result.events);
-  expected.resize(pico_bare.motors);
+  expected.resize(pins_.motors);
   const std::vector<SeenSteps> seen = this->seen(result);
   std::optional<std::int64_t> earliest;
   std::optional<std::int64_t> latest;

@@ -27,7 +27,8 @@ class PicoBench {
   // Why there is no emulator, if there is none; empty: there is.
   static std::string missing(const std::string& program);
 
-  PicoBench(const std::string& program, std::uint8_t motors);
+  PicoBench(const std::string& program, std::uint8_t motors, const PicoPins& pins = pico_bare,
+            PicoSocket socket = PicoSocket::uart);
 
   using Item = std::variant<BoardSegment, BoardOutputs>;
   // Plays the items from rest to rest. Times in the result are in cycles.
@@ -59,6 +60,7 @@ class PicoBench {
   EdgeCheck check(const std::vector<BoardSegment>& segments) const;
 
   std::uint8_t motors_;
+  const PicoPins& pins_;
   std::unique_ptr<EmulatedPico> pico_;
   std::uint32_t levels_before_ = 0;
   std::vector<PicoChange> changes_;

@@ -42,6 +42,60 @@ TEST_F(Pico, says_what_it_is) {
   EXPECT_EQ(bench.status()->inputs, 0);
 }
 
+// The host of src/emulator/pico/usb_host.js greets the device as Linux does, and looks at each packet's number.
+TEST_F(Pico, speaks_by_usb_as_by_its_uart) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);
+  bench.start({});
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_EQ(bench.status()->motors, 3);
+  const StreamKind kind{.shortest_interval = 60, .longest_interval = 90, .shortest_segment = 100, .segments = 300};
+  expect_every_edge(bench.play(random_stream(random, 3, kind)));
+}
+
+TEST_F(Pico, leaves_the_line_to_who_spoke_first_until_he_is_silent) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);
+  const StreamKind kind{.shortest_interval = 60, .longest_interval = 90, .shortest_segment = 100, .segments = 20};
+  expect_every_edge(bench.play(random_stream(random, 3, kind)));
+  std::uint8_t question[largest_frame];
+  const std::uint8_t size = encode(Ask{.motors = 3}, 0, question);
+  const auto is_answered = [&] {
+    EXPECT_TRUE(bench.pico().send_by_other_line({question, size}));
+    bench.run(pico_clock_rate / 100);
+    return bench.status().has_value();
+  };
+  EXPECT_FALSE(is_answered());
+  expect_every_edge(bench.play(random_stream(random, 3, kind)));
+  bench.run(2 * pico_clock_rate);
+  EXPECT_TRUE(is_answered());
+}
+
+// Segments of five events a million times a second: no step is lost, but the board cannot make them in time.
+TEST_F(Pico, tells_when_its_events_come_too_late) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO, 3, pico_bare, PicoSocket::usb);
+  const auto slipped_after = [&](std::uint8_t events) {
+    const EdgeCheck check = bench.play(random_stream(random, 3,
+                                                     {.shortest_interval = 16,
+                                                      .longest_interval = 16,
+                                                      .shortest_segment = events,
+                                                      .longest_segment = events,
+                                                      .segments = 240,
+                                                      .ramp = 12}));
+    EXPECT_TRUE(check.finished);
+    EXPECT_EQ(check.wrong_count, 0U);
+    EXPECT_EQ(check.wrong_direction, 0U);
+    bench.ask();
+    bench.run(pico_clock_rate / 500);
+    return bench.status() && (bench.status()->state & board_slipped) != 0;
+  };
+  EXPECT_TRUE(slipped_after(5));
+  EXPECT_FALSE(slipped_after(200)) << "a hello begins anew";
+}
+
 TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
   std::mt19937_64 random(test::seed());
   for (const std::uint8_t motors : std::initializer_list<std::uint8_t>{1, 3, 6}) {
@@ -56,6 +110,23 @@ TEST_F(Pico, steps_as_the_host_says_at_every_rate_with_any_number_of_motors) {
       expect_every_edge(bench.play(random_stream(random, motors, kind)));
     }
   }
+}
+
+// More segments than the list holds, so that the line must keep up, too. Eight motors take the pins of the UART.
+TEST_F(Pico, turns_eight_motors_at_a_million_events_a_second) {
+  std::mt19937_64 random(test::seed());
+  PicoBench bench(PASSO_MOTION_PICO_EIGHT, 8, pico_eight, PicoSocket::usb);
+  StreamKind kind{
+      .shortest_interval = 16, .longest_interval = 20, .shortest_segment = 120, .segments = 400, .ramp = 12};
+  const EdgeCheck check = bench.play(random_stream(random, 8, kind));
+  EXPECT_TRUE(check.exact()) << check.steps << " of " << check.expected << " steps, finished " << check.finished;
+  EXPECT_EQ(check.error, 0);
+  EXPECT_EQ(check.complaints, 0U);
+  EXPECT_GE(check.shortest_pulse, microsecond / 2 - pico_cycles_of_tick);
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_EQ(bench.status()->state & board_slipped, 0);
 }
 
 }  // namespace

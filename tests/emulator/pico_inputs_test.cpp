@@ -136,6 +136,40 @@ TEST_F(PicoInputs, the_limit_switch_that_is_watched_captures_instead_of_stopping
   EXPECT_EQ(bench.fault()->reason, FaultReason::limit);
 }
 
+TEST_F(PicoInputs, a_switch_that_is_closed_when_motion_begins_stops_it_at_once) {
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  bench.start({});
+  bench.pico().draw_low(gpio_bit(pico_bare.limits[0]));
+  bench.run(pico_clock_rate / 100);
+  bench.start(long_run(5));
+  bench.run(pico_clock_rate / 100);
+  ASSERT_TRUE(bench.fault().has_value());
+  EXPECT_EQ(bench.fault()->reason, FaultReason::limit);
+  EdgeCheck ignored;
+  for (const SeenSteps& steps : bench.seen(ignored)) EXPECT_TRUE(steps.empty());
+}
+
+TEST_F(PicoInputs, outputs_go_off_one_by_one_when_the_host_is_silent) {
+  PicoBench bench(PASSO_MOTION_PICO, motors);
+  bench.start({});
+  std::uint8_t frame[largest_frame];
+  const Session session{.number = 7, .silence = {.spindle = 5, .mist = 0, .flood = 8}};
+  bench.send({frame, encode(session, 0, frame)});
+  bench.start({BoardOutputs{.switches = flood_on | mist_on | spindle_on, .spindle_rpm = 12'000}});
+  bench.run(pico_clock_rate / 10 * 4);
+  EXPECT_NEAR(bench.pico().duty(), 0.5, 0.01);
+  bench.run(pico_clock_rate / 10 * 3);
+  EXPECT_EQ(bench.pico().duty(), 0);
+  EXPECT_NE(bench.pico().levels() & gpio_bit(pico_bare.flood), 0U);
+  bench.run(pico_clock_rate / 10 * 3);
+  EXPECT_EQ(bench.pico().levels() & gpio_bit(pico_bare.flood), 0U);
+  EXPECT_NE(bench.pico().levels() & gpio_bit(pico_bare.mist), 0U);
+  bench.ask();
+  bench.run(pico_clock_rate / 500);
+  ASSERT_TRUE(bench.status().has_value());
+  EXPECT_NE(bench.status()->inputs & outputs_timed_out, 0);
+}
+
 TEST_F(PicoInputs, what_is_no_frame_moves_nothing) {
   std::mt19937_64 random(test::seed());
   PicoBench bench(PASSO_MOTION_PICO, motors);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emulator/bad_line.hpp"
+#include "emulator/board_kind.hpp"
 #include "kit/driven.hpp"
 #include "kit/example_machine.hpp"
 #include "kit/in_full.hpp"
@@ -25,12 +26,10 @@ using test::plate;
 using test::StepLog;
 using test::touches;
 
-struct Kind {
-  const char* name;
-  const char* program;
-};
+using Kind = test::BoardKind;
 constexpr Kind uno{"uno", PASSO_MOTION_UNO};
 constexpr Kind mega{"mega", PASSO_MOTION_MEGA};
+constexpr Kind pico{"pico", PASSO_MOTION_PICO, 8};
 
 // Slow enough for either.
 MachineDescription machine_of_both() {
@@ -51,7 +50,7 @@ LineProbing run(const Kind& kind, const MachineDescription& machine, const Spoil
   StepLog log;
   (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
     const auto bit = static_cast<std::uint8_t>(1U << motor);
-    const Ticks time{static_cast<std::int64_t>(cycle)};
+    const Ticks time{static_cast<std::int64_t>(cycle) / kind.cycles_of_tick};
     oracle.on_steps(time, bit, down ? bit : std::uint8_t{0});
     log.on_steps(time, bit, down ? bit : std::uint8_t{0});
   };
@@ -109,6 +108,11 @@ TEST(EmulatedProbing, finds_the_step_of_contact_on_the_uno) {
 TEST(EmulatedProbing, finds_the_step_of_contact_on_the_mega) {
   finds_the_step(mega);
 }
+TEST(EmulatedProbing, finds_the_step_of_contact_on_the_pico) {
+  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
+  finds_the_step(pico);
+  cut_before_frames(pico, 997);
+}
 TEST(EmulatedProbing, finds_it_where_the_line_was_cut) {
   cut_before_frames(uno, 97);
   cut_before_frames(mega, 211);
@@ -117,6 +121,7 @@ TEST(EmulatedProbingInFull, cut_before_every_frame) {
   if (test::in_full() == 0) GTEST_SKIP() << "takes minutes: PASSO_IN_FULL=1";
   cut_before_frames(uno, test::in_full());
   cut_before_frames(mega, 7 * test::in_full());
+  if (test::missing(pico).empty()) cut_before_frames(pico, 3 * test::in_full());
 }
 
 }  // namespace

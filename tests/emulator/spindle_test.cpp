@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "emulator/bad_line.hpp"
+#include "emulator/board_kind.hpp"
+#include "kit/in_full.hpp"
 #include "pipeline/spindle_kit.hpp"
 #include <gtest/gtest.h>
 
@@ -22,9 +24,12 @@ using test::Spread;
 using test::spread;
 using test::thread_program;
 
+using Kind = test::BoardKind;
+constexpr Kind mega{"mega", PASSO_MOTION_MEGA};
+constexpr Kind pico{"pico_lathe", PASSO_MOTION_PICO_LATHE, 8};
 constexpr double clock_rate = 16e6;
 
-MachineDescription lathe_on_mega(const SpindleDescription& spindle) {
+MachineDescription lathe_on_board(const SpindleDescription& spindle) {
   MachineDescription machine = test::example_machine("uno");
   machine.board.highest_event_rate = Hertz(100'000);
   machine.spindle = spindle;
@@ -45,9 +50,9 @@ struct TurnedPart {
 };
 
 template <class Spoil>
-TurnedPart turn(const std::string& program, const MachineDescription& machine, const Spoil& spoil) {
+TurnedPart turn(const Kind& kind, const std::string& program, const MachineDescription& machine, const Spoil& spoil) {
   TurnedPart result;
-  auto board = EmulatedBoard::start("mega", PASSO_MOTION_MEGA);
+  auto board = EmulatedBoard::start(kind.name, kind.program);
   EXPECT_TRUE(board);
   IdealPlant plant = plant_of(machine);
   (*board)->connect(plant);
@@ -57,7 +62,8 @@ TurnedPart turn(const std::string& program, const MachineDescription& machine, c
     if (motor != 2) return;
     const bool deeper = down != z.inverted;
     place += deeper ? -1 : 1;
-    const double turns = plant.spindle().turns_at(Seconds(static_cast<double>(cycle) / clock_rate));
+    const double tick = static_cast<double>(cycle) / static_cast<double>(kind.cycles_of_tick);
+    const double turns = plant.spindle().turns_at(Seconds(tick / clock_rate));
     if (deeper) result.cuts.push_back({place / z.steps_per_unit, turns});
   };
   BadLine line(**board);
@@ -73,17 +79,17 @@ TurnedPart turn(const std::string& program, const MachineDescription& machine, c
   return result;
 }
 
-TEST(MegaThread, has_its_pitch_though_the_spindle_ripples_by_5_percent) {
-  const TurnedPart result = turn(thread_program("600"), lathe_on_mega(rippling_disc()), [](BadLine&) {});
+void has_its_pitch(const Kind& kind) {
+  const TurnedPart result = turn(kind, thread_program("600"), lathe_on_board(rippling_disc()), [](BadLine&) {});
   EXPECT_FALSE(result.error) << message_of(*result.error);
   const double wander = spread(result.cuts, 1.5, -4, -19).mm(1.5);
   std::printf("along 10 turns the groove wanders %.4f mm\n", wander);
   EXPECT_LT(wander, 0.02);
 }
 
-TEST(MegaThread, passes_of_a_threading_cycle_lie_in_one_groove) {
+void passes_lie_in_one_groove(const Kind& kind) {
   const std::string program = "G21 G18 S600 M3\nG0 X5 Z0\nG76 P1.5 Z-9 I-1 J0.3 K0.9 R1.5 H0\nM5\nM2\n";
-  const TurnedPart result = turn(program, lathe_on_mega(rippling_disc()), [](BadLine&) {});
+  const TurnedPart result = turn(kind, program, lathe_on_board(rippling_disc()), [](BadLine&) {});
   EXPECT_FALSE(result.error) << message_of(*result.error);
   double worst = 0;
   std::size_t passes = 0;
@@ -97,6 +103,22 @@ TEST(MegaThread, passes_of_a_threading_cycle_lie_in_one_groove) {
   }
   std::printf("%zu passes lie within %.4f mm of each other\n", passes, worst);
   EXPECT_LT(worst, 0.02);
+}
+
+TEST(MegaThread, has_its_pitch_though_the_spindle_ripples_by_5_percent) {
+  has_its_pitch(mega);
+}
+TEST(MegaThread, passes_of_a_threading_cycle_lie_in_one_groove) {
+  passes_lie_in_one_groove(mega);
+}
+TEST(PicoThread, has_its_pitch_though_the_spindle_ripples_by_5_percent) {
+  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
+  has_its_pitch(pico);
+}
+TEST(PicoThreadInFull, passes_of_a_threading_cycle_lie_in_one_groove) {
+  if (test::in_full() == 0) GTEST_SKIP() << "takes long: PASSO_IN_FULL=1";
+  if (const std::string why = test::missing(pico); !why.empty()) GTEST_SKIP() << why;
+  passes_lie_in_one_groove(pico);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "passo/chip/uno_windings.hpp"
 #include "passo/firmware/player.hpp"
 #include "passo/wire/announcement.hpp"
+#include "passo/wire/plain_parts.hpp"
 
 namespace passo {
 namespace {
@@ -26,17 +27,17 @@ std::vector<SeenSteps> edges_of_model(const std::vector<BoardSegment>& segments,
   std::vector<SeenSteps> edges(motors);
   Player player(motors);
   std::int64_t now = 0;
-  for (const BoardSegment& segment : segments) {
-    player.load(segment);
-    while (!player.done()) {
+  const auto play = [&](const BoardSegment& part) {
+    for (player.load(part); !player.done();) {
       now += player.wait();
       ++events;
       const unsigned stepped = player.play();
       for (std::uint8_t m = 0; m < motors; ++m) {
-        if ((stepped >> m & 1) != 0) edges[m].push_back({.time = now, .down = (segment.directions >> m & 1) != 0});
+        if ((stepped >> m & 1) != 0) edges[m].push_back({.time = now, .down = (part.directions >> m & 1) != 0});
       }
     }
-  }
+  };
+  for (const BoardSegment& segment : segments) for_each_plain_part(segment, play);
   return edges;
 }
 
@@ -190,6 +191,11 @@ void BoardBench::name_session(const Session& session) {
   put_on_line({frame, encode(session, 0, frame)});
 }
 
+void BoardBench::set_up(const PinSetup& setup) {
+  std::uint8_t frame[largest_frame];
+  put_on_line({frame, encode(setup, 0, frame)});
+}
+
 void BoardBench::run(std::uint64_t cycles) {
   const std::uint64_t end = chip_->cycles() + cycles;
   while (chip_->cycles() < end) chip_->run_for(end - chip_->cycles());
@@ -336,6 +342,26 @@ EdgeCheck BoardBench::check(const std::vector<BoardSegment>& segments) {
   return result;
 }
 
+// Makes eight times as many events of the segment, in parts of 2^part events, at the same rates. A motor is bent, or
+// the intervals are a root's.
+static void bend(std::mt19937_64& random, BoardSegment& segment, std::uint8_t motors, std::uint8_t part) {
+  segment.events = static_cast<std::uint16_t>(std::min(8 * segment.events, int{most_events}));
+  segment.change /= 8;
+  segment.form = part;
+  if (random() % 2 == 0) {
+    // Slower and faster again, by a few percent: so many parts before the rest.
+    segment.form = static_cast<std::uint8_t>(root_form + part);
+    segment.change = 0x7f'ffff;
+  }
+  const auto lender = static_cast<unsigned>(random() % motors);
+  const unsigned bent = (lender + 1U) % motors;
+  const unsigned master = segment.flips & ~(1U << lender) & ~(1U << bent);
+  if (random() % 4 == 0 || master == 0) return;
+  segment.flips = static_cast<std::uint8_t>(segment.flips & ~(1U << lender));
+  segment.increments[lender] = static_cast<std::uint16_t>(random() % 2000);
+  segment.bend = static_cast<std::uint8_t>(bent | lender << bend_shift<max_motors>);
+}
+
 std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t motors, const StreamKind& kind) {
   const auto between = [&random](std::uint32_t least, std::uint32_t most) {
     return least + static_cast<std::uint32_t>(random() % (most - least + 1));
@@ -365,6 +391,7 @@ std::vector<BoardSegment> random_stream(std::mt19937_64& random, std::uint8_t mo
     segment.change = static_cast<std::int32_t>(change);
     if (!is_fine(segment.change)) segment.change -= segment.change % coarse_change;
     interval = static_cast<std::uint32_t>(interval + static_cast<std::int64_t>(segment.change) * segment.events);
+    if (kind.part > 0) bend(random, segment, motors, kind.part);
     segments.push_back(segment);
   }
   return segments;

@@ -93,6 +93,7 @@ class BoardBench {
   // Finds where the motors stand in their winding tables after motion that play() did not play.
   void follow_windings();
   void name_session(const Session& session);
+  void set_up(const PinSetup& setup);
   // Lets time pass, whatever the board says.
   void run(std::uint64_t cycles);
   // Asks the board for its status or something else. The answer comes while the board runs.
@@ -151,7 +152,8 @@ struct StreamKind {
   std::uint8_t shortest_segment = 20;  // events
   std::uint8_t longest_segment = 255;
   int segments = 100;
-  int ramp = 0;  // the first ones speed up from a fifth of the rate: nothing moves at its highest rate at once
+  std::uint8_t part = 0;  // segments have parts of 2^part events, with bends and roots. 0: one part
+  int ramp = 0;           // the first ones speed up from a fifth of the rate: nothing moves at its highest rate at once
   bool all_at_every_event = false;  // else one motor steps at every event, the others as it comes
   bool reversing = true;            // directions change from segment to segment
 };

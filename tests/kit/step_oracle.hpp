@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "passo/stepgen/step_generator.hpp"
+#include "passo/wire/plain_parts.hpp"
 
 namespace passo::oracle {
 
@@ -210,6 +211,29 @@ inline std::int64_t signed_increment(const BoardSegment& segment, unsigned m) {
   return flip ? raw - 65536 : 0;
 }
 
+// In 1/65536 tick.
+inline std::vector<std::int64_t> intervals_of(const BoardSegment& segment) {
+  std::vector<std::int64_t> intervals;
+  for_each_part(segment, [&](const PartTimes& part, unsigned events, unsigned /*before*/) {
+    for (unsigned k = 0; k < events; ++k) intervals.push_back(part.interval + k * std::int64_t{part.change});
+  });
+  return intervals;
+}
+
+// Roots and bends resolved, as the board plays them.
+inline std::vector<BoardItem> plain(const std::vector<BoardItem>& items) {
+  std::vector<BoardItem> parts;
+  for (const BoardItem& item : items) {
+    const auto* segment = std::get_if<BoardSegment>(&item);
+    if (segment == nullptr) {
+      parts.push_back(item);
+    } else {
+      for_each_plain_part(*segment, [&](const BoardSegment& part) { parts.emplace_back(part); });
+    }
+  }
+  return parts;
+}
+
 inline Playback play(const std::vector<BoardItem>& items, const StepOptions& options) {
   Playback result;
   result.steps.resize(options.motor_count);
@@ -233,7 +257,7 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
   };
   bool held_back = false;
   const double shortest = options.clock.tick_rate / options.clock.highest_event_rate;
-  for (const BoardItem& item : items) {
+  for (const BoardItem& item : plain(items)) {
     const auto* segment = std::get_if<BoardSegment>(&item);
     if (segment == nullptr) {
       end_interval(time >> 16);
@@ -250,11 +274,9 @@ inline Playback play(const std::vector<BoardItem>& items, const StepOptions& opt
       most = std::max(most, increment);
     }
     const bool has_master = alike == 1 && (most & (most - 1)) == 0 && segment->events > 2;
-    std::int64_t interval = segment->interval;
-    for (unsigned k = 0; k < segment->events; ++k) {
+    for (const std::int64_t interval : intervals_of(*segment)) {
       const std::int64_t before = time >> 16;
       time += interval;
-      interval += segment->change;
       const std::int64_t tick = time >> 16;
       const bool was_held_back = held_back;
       held_back = static_cast<double>(tick - before) <= shortest + 1;

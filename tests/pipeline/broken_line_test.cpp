@@ -142,7 +142,7 @@ class BrokenLineInFull : public test::InFull<testing::TestWithParam<std::string>
 
 TEST_P(BrokenLine, every_frame_boundary_in_part) {
   int recoveries = 0;
-  const int trials = cut_at_frame_boundaries(GetParam(), 1, 29 * test::one_in, {0.5}, recoveries);
+  const int trials = cut_at_frame_boundaries(GetParam(), 1, 11 * test::one_in, {0.5}, recoveries);
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);
   EXPECT_GT(recoveries, trials / 2);
 }

@@ -180,6 +180,20 @@ TEST(FeedChanges, cost_nothing_on_a_nearly_straight_path) {
   EXPECT_LT(ending.proof.times_bound(), 1.005);
 }
 
+// Chords with tight corners and a spline with a narrow bend, where jerk decides. The bound knew nothing of jerk in
+// bends: the motion took 1.68 and 1.85 times the bound.
+TEST(RandomMotion, is_nearly_the_fastest_where_jerk_in_bends_decides) {
+  for (const std::uint64_t number : {811503162U, 940716U}) {
+    SCOPED_TRACE("PASSO_SEED=" + std::to_string(number));
+    test::Random random = test::Random::of(number);
+    const test::RandomJob job(random);
+    const test::Ending ending = test::run(job.program, job.machine, {.live = {}});
+    for (const std::string& fault : ending.proof.faults()) ADD_FAILURE() << fault;
+    EXPECT_LT(ending.proof.times_bound(), 1.2);
+    EXPECT_GE(ending.proof.times_bound(), 1 - rounding);
+  }
+}
+
 // An override may make it faster than the program says, and nothing else.
 void expect_right_in_spite_of_acts(const test::RandomJob& job, test::Random& random, test::Acts& acts) {
   test::Meddling meddling{.random = random, .acts = acts, .highest_override = 2};

@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 #include "passo/base/result.hpp"
+#include "passo/emulator/emulated_board.hpp"
 
 namespace passo {
 namespace {
@@ -181,7 +182,7 @@ int keep_and_write(const Backup& backup, const Words& read_old, const Words& wri
 }  // namespace
 
 int board_flash(const BoardFlashArguments& arguments) {
-  if (arguments.board == "pico") return flash_by_copying(arguments);
+  if (is_pico(arguments.board)) return flash_by_copying(arguments);
   if (arguments.device.empty()) {
     return fail(exit_bad_program, "which serial line is the board at? As --device /dev/ttyACM0; see passo board list");
   }

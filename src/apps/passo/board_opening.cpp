@@ -32,7 +32,8 @@ std::string message_of_missing(const fs::path& image) {
   return image.string() + " is not there: scripts/test.sh builds the images; docs/boards.md says for which boards";
 }
 
-Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant) {
+Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddress& address, Plant* plant,
+                                                               const PinSetup& wiring) {
   if (address.kind != BoardAddress::Kind::emulated) {
     auto line = open_board(address);
     if (!line) return Failure{line.error()};
@@ -41,11 +42,12 @@ Result<std::unique_ptr<BoardPort>, std::string> open_addressed(const BoardAddres
   if (!is_emulated_board(address.place)) {
     return Failure{fmt::format("sim:{}: there is an emulator of {}", address.place, fmt::join(emulated_boards, ", "))};
   }
-  const fs::path image = built_image(address.place, address.place == "pico" ? ".uf2" : ".elf");
+  const fs::path image = built_image(address.place, is_pico(address.place) ? ".uf2" : ".elf");
   if (!fs::exists(image)) return Failure{message_of_missing(image)};
   auto board = EmulatedBoard::start(address.place, image);
   if (!board) return Failure{board.error()};
   if (plant != nullptr) (*board)->connect(*plant);
+  (*board)->wire(wiring);
   return std::unique_ptr<BoardPort>(std::move(*board));
 }
 

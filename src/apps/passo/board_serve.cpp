@@ -68,6 +68,7 @@ int board_serve(const BoardServeArguments& arguments) {
   IdealPlant plant;
   unsigned motors = usual_motors;
   BoardDescription board{.clock = Hertz(usual_clock), .highest_event_rate = Hertz(0)};
+  PinSetup wiring;
   if (!arguments.machine.empty()) {
     Diagnostics diagnostics;
     const std::optional<MachineDescription> description = load_machine_file(arguments.machine, diagnostics);
@@ -76,6 +77,7 @@ int board_serve(const BoardServeArguments& arguments) {
     plant = plant_of(*description);
     motors = std::max(motors, static_cast<unsigned>(description->axes.size()));
     board = description->board;
+    wiring = pin_setup(*description);
   }
   motors = arguments.motors.value_or(motors);
   const Hertz clock{arguments.clock.value_or(board.clock.value())};
@@ -84,6 +86,7 @@ int board_serve(const BoardServeArguments& arguments) {
   VirtualMachine machine(static_cast<std::uint8_t>(motors), clock, board.highest_event_rate,
                          static_cast<std::size_t>(board.held_items));
   machine.connect(plant);
+  machine.wire(wiring);
   note_signals();
   fmt::print("A virtual board of {} motors, {:.0f} ticks a second: tcp:127.0.0.1:{}\n", motors, clock.value(),
              (*server)->port());

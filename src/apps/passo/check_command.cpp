@@ -54,10 +54,10 @@ MotionProof prove(ProgramReader program, const MachineDescription& machine, cons
   constexpr unsigned turns_between_looks = 1024;
   MotionProver prover(proof_options(machine));
   ProgressDisplay progress(program.name());
-  VirtualMachine board(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
-                       machine.board.highest_event_rate);
+  VirtualMachine board(machine.motor_count(), machine.board.clock, machine.board.highest_event_rate);
   IdealPlant plant = plant_of(machine, options.start);
   board.connect(plant);
+  board.wire(pin_setup(machine));
   MachineSession session(machine, board, {.start = {.place = options.start, .trust = Trust::commanded}});
   while (session.state() == MachineState::offline) session.turn(endless);
   request::Start start{.program = std::move(program),

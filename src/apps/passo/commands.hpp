@@ -79,6 +79,7 @@ int jog(const JogArguments& arguments);
 struct HomeArguments {
   std::string machine;
   std::string board = "virtual";  // an address for parse_board_address()
+  int repeat = 1;                 // how many times; from 2 on, how well the places agree is reported
   bool json = false;
   bool quiet = false;
 };

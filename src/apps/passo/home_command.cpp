@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "homing_repeats.hpp"
 #include "homing_run.hpp"
 #include "opened_machine.hpp"
 #include "program_input.hpp"
@@ -16,17 +17,24 @@
 namespace passo {
 namespace {
 
-nlohmann::ordered_json to_json(const HomingReport& report) {
+nlohmann::ordered_json to_json(const HomingReport& report, const std::vector<AxisRepeats>& repeats) {
   nlohmann::ordered_json axes = nlohmann::ordered_json::array();
   nlohmann::ordered_json place = nlohmann::ordered_json::object();
   for (const HomedAxis& axis : report.axes) {
     const std::string letter{letter_of(axis.axis)};
     axes.push_back({{"axis", letter}, {"way_mm", axis.way}});
+    if (axis.squared) axes.back()["squared_mm"] = *axis.squared;
     place[letter] = axis.place;
   }
   nlohmann::ordered_json all = {{"homed", report.code.empty()}, {"time_s", report.time.value()}};
   all["axes"] = axes;
   all["position_mm"] = place;
+  for (const AxisRepeats& one : repeats) {
+    all["repeats"].push_back({{"axis", std::string{letter_of(one.axis)}},
+                              {"mean_um", one.mean},
+                              {"spread_um", one.spread},
+                              {"spread_steps", one.spread_steps}});
+  }
   if (report.code.empty()) return all;
   all["error"] = {{"code", report.code}, {"message", report.message}};
   if (report.axis) all["error"]["axis"] = std::string{letter_of(*report.axis)};
@@ -37,6 +45,8 @@ void print(const HomingReport& report) {
   for (const HomedAxis& axis : report.axes) {
     fmt::print("{}: its switch closed {:.3f} from where it stood; rests at {:.3f}\n", letter_of(axis.axis), axis.way,
                axis.place);
+    if (axis.squared)
+      fmt::print("{}: squared, its second motor moved by {:.3f}\n", letter_of(axis.axis), *axis.squared);
   }
   if (!report.code.empty()) return;
   fmt::print("homed in {:.1f} s: at rest in", report.time.value());
@@ -58,11 +68,18 @@ int home(const HomeArguments& arguments) {
   if (!opened) return code;
   brake_on_signals();
   if (!opened->greet(opened->any_greeting(), code)) return code;
-  const HomingReport report = home_machine(*opened, !arguments.quiet);
+  std::vector<HomingReport> reports;
+  do reports.push_back(home_machine(*opened, !arguments.quiet));
+  while (reports.back().code.empty() && reports.size() < static_cast<std::size_t>(arguments.repeat));
+  const HomingReport& report = reports.back();
+  std::vector<AxisRepeats> repeats;
+  if (arguments.repeat > 1 && report.code.empty()) repeats = repeats_of(reports, *machine);
   if (arguments.json) {
-    fmt::print("{}\n", to_json(report).dump(2));
+    fmt::print("{}\n", to_json(report, repeats).dump(2));
   } else if (!arguments.quiet) {
     print(report);
+    if (!repeats.empty()) fmt::print("homed {} times:\n", reports.size());
+    for (const AxisRepeats& one : repeats) fmt::print("{}\n", words_of(one));
   }
   if (report.code.empty()) return exit_done;
   const int failed = fail(exit_failed, words_of(report));

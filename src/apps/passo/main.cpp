@@ -115,10 +115,15 @@ CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
   CLI::App& command = *app.add_subcommand("home", "find where a machine stands, by its limit switches");
   add_machine(command, arguments.machine);
   add_board(command, arguments.board);
+  command
+      .add_option("--repeat", arguments.repeat,
+                  "home so many times, and tell how well the places of each axis agree (mean, spread)")
+      ->check(CLI::Range(1, 1000));
   command.add_flag("--json", arguments.json, "print it as JSON");
   command.add_flag("-q,--quiet", arguments.quiet, "only errors");
   command.footer(
       "Examples:\n  passo home -m router.toml                              the virtual machine, from machine zero\n"
+      "  passo home -m uno.toml --repeat 10                     how well the switches repeat\n"
       "  passo home -m uno.toml --board serial:/dev/ttyACM0     a real one\n"
       "Errors end in a stable code: [home.not-met], [home.still-closed], [home.unsteady], [home.stopped], "
       "[home.board],\n"

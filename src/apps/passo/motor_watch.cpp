@@ -5,6 +5,17 @@
 
 namespace passo {
 
+MotorWatch::MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins)
+    : plant_(plant), begins_(begins), planned_(begins), motors_(machine.motor_count()) {
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    const AxisDescription& axis = machine.axes[m];
+    motors_[m] = {.axis = &axis, .inverted = axis.inverted, .worst_line = 0};
+    if (axis.second) {
+      motors_[machine.second_motor_of(m)] = {.axis = &axis, .inverted = axis.second->inverted, .worst_line = 0};
+    }
+  }
+}
+
 void MotorWatch::plan(const MotionItem& item) {
   if (const auto* move = std::get_if<PlannedMove>(&item)) {
     planned_ += move->duration();
@@ -29,9 +40,9 @@ std::uint32_t MotorWatch::line_at(Seconds time) const {
 }
 
 void MotorWatch::look(Seconds now) {
-  for (std::size_t m = 0; m < worst_lines_.size(); ++m) {
+  for (std::size_t m = 0; m < motors_.size(); ++m) {
     const RotorRecord& record = plant_.record(m);
-    if (record.least_margin_at > looked_) worst_lines_[m] = line_at(record.least_margin_at);
+    if (record.least_margin_at > looked_) motors_[m].worst_line = line_at(record.least_margin_at);
   }
   while (lines_of_losses_.size() < plant_.losses().size()) {
     lines_of_losses_.push_back(line_at(plant_.losses()[lines_of_losses_.size()].time));
@@ -46,26 +57,24 @@ PhysicsSummary MotorWatch::finish(Seconds now) {
   look(now);
   const Truth truth = plant_.truth_at(now);
   PhysicsSummary summary;
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const AxisDescription& axis = machine_.axes[m];
+  for (std::size_t m = 0; m < motors_.size(); ++m) {
+    const AxisDescription& axis = *motors_[m].axis;
     const RotorRecord& record = plant_.record(m);
-    const double scale = axis.inverted ? -axis.steps_per_unit : axis.steps_per_unit;
-    const auto lost = static_cast<double>(record.lost);
+    const double scale = motors_[m].inverted ? -axis.steps_per_unit : axis.steps_per_unit;
     summary.motors.push_back({.axis = axis.axis,
-                              .lost_steps = axis.inverted ? -record.lost : record.lost,
-                              .lost = lost / scale,
+                              .lost_steps = motors_[m].inverted ? -record.lost : record.lost,
+                              .lost = static_cast<double>(record.lost) / scale,
                               .following_error = plant_.steps_per_full_step(m) * record.most_lag / axis.steps_per_unit,
                               .least_margin = record.least_margin,
-                              .line = worst_lines_[m],
+                              .line = motors_[m].worst_line,
                               .least_margin_at = record.least_margin_at - begins_,
                               .position = truth.positions[m] / scale});
   }
   for (std::size_t i = 0; i < plant_.losses().size(); ++i) {
     const StepLoss& loss = plant_.losses()[i];
-    const AxisDescription& axis = machine_.axes[loss.motor];
     summary.losses.push_back({.time = loss.time - begins_,
-                              .axis = axis.axis,
-                              .steps = axis.inverted ? -loss.steps : loss.steps,
+                              .axis = motors_[loss.motor].axis->axis,
+                              .steps = motors_[loss.motor].inverted ? -loss.steps : loss.steps,
                               .line = lines_of_losses_[i]});
   }
   return summary;

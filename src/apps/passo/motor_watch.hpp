@@ -17,8 +17,7 @@ namespace passo {
 class MotorWatch {
  public:
   // `begins`: the board's time when the program begins. `plant` and `machine` outlive the watch.
-  MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins)
-      : plant_(plant), machine_(machine), begins_(begins), planned_(begins), worst_lines_(machine.axes.size()) {}
+  MotorWatch(RotorPlant& plant, const MachineDescription& machine, Seconds begins);
 
   // What is planned, in order.
   void plan(const MotionItem& item);
@@ -28,6 +27,11 @@ class MotorWatch {
   PhysicsSummary finish(Seconds now);
 
  private:
+  struct Motor {
+    const AxisDescription* axis = nullptr;
+    bool inverted = false;
+    std::uint32_t worst_line = 0;  // of the least margin
+  };
   struct Planned {
     Seconds end{0};
     std::uint32_t line = 0;
@@ -35,12 +39,11 @@ class MotorWatch {
   std::uint32_t line_at(Seconds time) const;
 
   RotorPlant& plant_;
-  const MachineDescription& machine_;
   Seconds begins_;
   Seconds planned_;
   Seconds looked_{-1};
   std::deque<Planned> ahead_;
-  std::vector<std::uint32_t> worst_lines_;  // of each motor's least margin
+  std::vector<Motor> motors_;  // of the board, each axis's second motor after all the first ones
   std::vector<std::uint32_t> lines_of_losses_;
 };
 

@@ -66,7 +66,7 @@ MotorSteps zero_counts_of(const MachineDescription& machine, const BoardStatus& 
 
 OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWish& wish)
     : description_(machine),
-      machine_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
+      machine_(machine.motor_count(), machine.board.clock, machine.board.highest_event_rate,
                static_cast<std::size_t>(machine.board.held_items)) {
   if (wish.physics) {
     auto rotors = std::make_unique<RotorPlant>();
@@ -84,6 +84,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
   std::unique_ptr<OpenedMachine> opened(new OpenedMachine(machine, wish));
   if (wish.board == "virtual") {
     opened->machine_.connect(*opened->plant_);
+    opened->machine_.wire(pin_setup(machine));
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
     if (!wish.cut) {
       opened->session_ = std::make_unique<MachineSession>(machine, opened->machine_, SessionOptions{.start = at_zero});
@@ -114,7 +115,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     opened->place_file_.emplace(wish.board);
     opened->record_ = opened->place_file_->read();
   }
-  auto port = open_addressed(*address, opened->plant_.get());
+  auto port = open_addressed(*address, opened->plant_.get(), pin_setup(machine));
   if (!port) {
     code = fail(exit_failed, port.error());
     return nullptr;
@@ -196,7 +197,7 @@ bool OpenedMachine::ask_first(const std::string& address, bool may_move, int& co
   }
   // The greeting has kept its form in all versions: what does not answer a question may answer that.
   BoardSession greeting(*port_, {.answer_within = Seconds(0.25), .patience = Seconds(1)});
-  passo::greet(greeting, {.motors = static_cast<std::uint8_t>(description_.axes.size())});
+  passo::greet(greeting, {.motors = description_.motor_count()});
   const LinkError error = greeting.error().value_or(LinkError::wrong_version);
   const bool is_sent_away = error == LinkError::no_answer && greeting.hung_up();
   code = fail(exit_failed, fmt::format("{}: {}", address,

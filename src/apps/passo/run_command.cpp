@@ -188,8 +188,10 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   start.watchers.path = [&](const PathItem& item) { builder.watch_path(item); };
   start.watchers.motion = [&](const MotionItem& item) {
     const auto* move = std::get_if<PlannedMove>(&item);
-    run.motion.watch(item);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
+  };
+  start.watchers.planned = [&](const MotionItem& item) {
+    run.motion.watch(item);
     if (motors) motors->plan(item);
   };
   start.watchers.probe = [&](const ProbeOutcome& outcome) { count(outcome, machine, probes); };

@@ -18,13 +18,17 @@ volatile uint8_t halted;
 volatile uint16_t watch_port;
 volatile uint8_t watch_pins;
 volatile uint8_t watch_quiet;
-volatile uint8_t stop_low_b;
+volatile uint8_t stops_b;
 #ifdef __AVR_ATmega2560__
-volatile uint8_t stop_low_d;
-volatile uint8_t stop_low_e;
-volatile uint8_t stop_low_j;
+volatile uint8_t stops_d;
+volatile uint8_t stops_e;
+volatile uint8_t stops_j;
+volatile uint8_t quiet_b;
+volatile uint8_t quiet_d;
+volatile uint8_t quiet_e;
+volatile uint8_t quiet_j;
 #else
-volatile uint8_t stop_low_c;
+volatile uint8_t stops_c;
 #endif
 }
 

@@ -146,23 +146,27 @@ extern "C" {
       out %[pcifr], r24
       out %[eifr], r24
       in r24, %[pind]
-      com r24
-      lds r25, stop_low_d
+      lds r25, quiet_d
+      eor r24, r25
+      lds r25, stops_d
       and r24, r25
       brne 8f
       in r24, %[pine]
-      com r24
-      lds r25, stop_low_e
+      lds r25, quiet_e
+      eor r24, r25
+      lds r25, stops_e
       and r24, r25
       brne 8f
       lds r24, %[pinj]
-      com r24
-      lds r25, stop_low_j
+      lds r25, quiet_j
+      eor r24, r25
+      lds r25, stops_j
       and r24, r25
       brne 8f
       in r24, %[pinb]
-      com r24
-      lds r25, stop_low_b
+      lds r25, quiet_b
+      eor r24, r25
+      lds r25, stops_b
       and r24, r25
       brne 8f
       lds r25, armed

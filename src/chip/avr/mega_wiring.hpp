@@ -13,6 +13,7 @@ using SpindleDuty = Ocr4cl;
 using SpindleControl = Tccr4a;
 inline constexpr uint8_t spindle_connected = 1 << 3 | 1 << 0;
 inline constexpr uint8_t spindle_disconnected = 1 << 0;
+inline constexpr uint8_t spindle_inverting = 1 << 2;
 
 // PWM of 7.8 kHz at the spindle's pin, off at first: timer 4, eight bits, output C. The high byte goes through a
 // register that nothing else of this timer writes, so it stays 0.
@@ -25,10 +26,10 @@ inline void prepare_spindle() {
 
 // Sets the pins that stop the motors while `watched` is captured.
 inline void stop_on(uint16_t watched) {
-  stop_low_b = stops_beside<'B'>(watched);
-  stop_low_d = stops_beside<'D'>(watched);
-  stop_low_e = stops_beside<'E'>(watched);
-  stop_low_j = stops_beside<'J'>(watched);
+  stops_b = stops_beside<'B'>(watched);
+  stops_d = stops_beside<'D'>(watched);
+  stops_e = stops_beside<'E'>(watched);
+  stops_j = stops_beside<'J'>(watched);
 }
 
 // The interrupt reads these flags before every step; they have no interrupt of their own. Pins of ports D and E have a

@@ -29,6 +29,10 @@ struct Hardware {
   void enable() { Wiring::enable_motors(true); }
   bool switch_off(uint8_t switches) { return Wiring::switch_off(switches); }
   void watch();
+  PinSetup set_up(const PinSetup& wanted);
+  static uint8_t drivers_rest() { return Wiring::drivers_rest(); }
+  void release() { Wiring::enable_motors(false); }
+  static bool can_watch(uint8_t limits) { return are_on_one_port(limits); }
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
@@ -109,6 +113,19 @@ void start_watchdog() {
   SerialLine::breathe();
   watch_input();
   SerialLine::breathe();
+}
+
+// Called at rest. What the switches are under the new setup is known at once, because a hello may follow.
+[[gnu::noinline]] PinSetup Hardware::set_up(const PinSetup& wanted) {
+  SerialLine::breathe();
+  PinSetup done = Wiring::set_up(wanted);
+  SerialLine::breathe();
+  done.steps = MotorOutputs::set_idle(wanted.steps);
+  SerialLine::breathe();
+  reader.look(Wiring::inputs(), false);
+  board.set_inputs(reader.inputs());
+  watch();
+  return done;
 }
 
 // Whether the timer has overflowed since the last call.

@@ -48,15 +48,21 @@ extern volatile uint8_t halted;           // a pin stopped the motion
 extern volatile uint16_t watch_port;
 extern volatile uint8_t watch_pins;
 extern volatile uint8_t watch_quiet;
-// The pins of a port that stop everything when they are low.
+// The pins of a port that stop everything when their switches go on.
 #ifdef __AVR_ATmega2560__
-extern volatile uint8_t stop_low_b;
-extern volatile uint8_t stop_low_d;
-extern volatile uint8_t stop_low_e;
-extern volatile uint8_t stop_low_j;
+extern volatile uint8_t stops_b;
+extern volatile uint8_t stops_d;
+extern volatile uint8_t stops_e;
+extern volatile uint8_t stops_j;
+// The levels of a port's pins while their switches are off.
+extern volatile uint8_t quiet_b;
+extern volatile uint8_t quiet_d;
+extern volatile uint8_t quiet_e;
+extern volatile uint8_t quiet_j;
 #else
-extern volatile uint8_t stop_low_b;
-extern volatile uint8_t stop_low_c;
+extern volatile uint8_t stops_b;
+extern volatile uint8_t stops_c;
+// The quiet levels of ports B and C are in OCR0A and OCR0B: the Uno's memory has no byte left.
 #endif
 
 // Makes the next `events` events (at least one) of the segment and puts them into the ring. The first one keeps both

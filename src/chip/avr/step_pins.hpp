@@ -40,6 +40,16 @@ class StepPins {
     }
   }
 
+  // Sets the levels of the step pins between steps. Bit m: that of motor m is high. Returns what was set. At rest.
+  [[gnu::noinline]] static uint8_t set_idle(uint8_t high) {
+    for (uint8_t m = 0; m < pins.motors; ++m) {
+      const Pin pin = pins.motor[m].step;
+      volatile uint8_t* const registers = reinterpret_cast<volatile uint8_t*>(port_registers(pin.port));
+      if (((registers[2] & pin.mask()) != 0) != ((high >> m & 1) != 0)) registers[0] = pin.mask();
+    }
+    return high & ((1 << pins.motors) - 1);
+  }
+
  private:
   static constexpr auto motor_pins = motor_pins_by_port<step_port_count>(pins);
 };

@@ -8,18 +8,40 @@
 
 namespace passo::chip {
 
-template <char port>
-[[gnu::always_inline]] inline uint8_t low_pins() {
-  return static_cast<uint8_t>(~*reinterpret_cast<volatile uint8_t*>(port_registers(port)));
+// The levels of a port's pins while their switches are off.
+#ifdef __AVR_ATmega2560__
+inline constexpr char input_ports[] = {'B', 'D', 'E', 'J'};
+[[gnu::always_inline]] inline uint8_t quiet_levels(char port) {
+  return port == 'B' ? quiet_b : port == 'D' ? quiet_d : port == 'E' ? quiet_e : port == 'J' ? quiet_j : uint8_t{0xff};
+}
+[[gnu::always_inline]] inline void set_quiet_levels(char port, uint8_t levels) {
+  if (port == 'B') quiet_b = levels;
+  if (port == 'D') quiet_d = levels;
+  if (port == 'E') quiet_e = levels;
+  if (port == 'J') quiet_j = levels;
+}
+#else
+inline constexpr char input_ports[] = {'B', 'C'};
+[[gnu::always_inline]] inline uint8_t quiet_levels(char port) {
+  return port == 'B' ? Ocr0a::read() : Ocr0b::read();
+}
+[[gnu::always_inline]] inline void set_quiet_levels(char port, uint8_t levels) {
+  port == 'B' ? Ocr0a::write(levels) : Ocr0b::write(levels);
+}
+#endif
+
+// The pins of a port whose switches are on.
+[[gnu::always_inline]] inline uint8_t pins_that_are_on(char port) {
+  return static_cast<uint8_t>(*reinterpret_cast<volatile uint8_t*>(port_registers(port)) ^ quiet_levels(port));
 }
 
-// The pins of a limit switch, which may have two.
+// The pins of limit switches on a port.
 template <char port>
 [[gnu::always_inline]] inline uint8_t pins_of(uint16_t limit) {
   uint8_t mask = 0;
 #pragma clang loop unroll(full)
   for (uint8_t i = 0; i < most_axis_switches; ++i) {
-    const bool is_it = pins.limits[i].port == port && (limit & (input_limit << (i % 3))) != 0;
+    const bool is_it = pins.limits[i].port == port && (limit & (input_limit << i)) != 0;
     if (is_it) mask = static_cast<uint8_t>(mask | pins.limits[i].mask());
   }
   return mask;
@@ -32,31 +54,40 @@ template <char port>
   constexpr uint8_t stops = pins.stops_on(port);
   constexpr uint8_t limits = pins.limits_on(port);
   if (limits == 0 || (watched & input_probe) != 0) return stops;
-  return static_cast<uint8_t>(stops & ~(limits & low_pins<port>()) & ~pins_of<port>(watched));
+  return static_cast<uint8_t>(stops & ~(limits & pins_that_are_on(port)) & ~pins_of<port>(watched));
 }
 
-constexpr bool has_its_pins_on_one_port(uint8_t limit) {
-  const Pin second = pins.limits[limit + 3];
-  return !second.exists() || second.port == pins.limits[limit].port;
+// The interrupt looks at one port.
+[[gnu::noinline]] inline bool are_on_one_port(uint8_t limits) {
+  char port = 0;
+  bool good = limits >> most_axis_switches == 0;
+#pragma clang loop unroll(full)
+  for (uint8_t i = 0; i < most_axis_switches; ++i) {
+    if ((limits >> i & 1) == 0) continue;
+    const char own = pins.limits[i].port;
+    if (own == 0 || (port != 0 && own != port)) good = false;
+    port = own;
+  }
+  return good;
 }
-static_assert(has_its_pins_on_one_port(0) && has_its_pins_on_one_port(1) && has_its_pins_on_one_port(2));
 
-// Chooses what the interrupt waits for: that the input closes, or opens. Only while nothing is armed.
-[[gnu::noinline]] inline void choose_watch(uint16_t watched, bool closed) {
-  uint16_t port = port_registers(pins.probe.port);
+// Chooses what the interrupt waits for: that the input goes on, or off. Only while nothing is armed.
+[[gnu::noinline]] inline void choose_watch(uint16_t watched, bool is_on) {
+  char port = pins.probe.port;
   uint8_t mask = (watched & input_probe) != 0 ? pins.probe.mask() : uint8_t{0};
 #pragma clang loop unroll(full)
   for (uint8_t i = 0; i < most_axis_switches; ++i) {
-    if (!pins.limits[i].exists() || (watched & (input_limit << (i % 3))) == 0) continue;
-    port = port_registers(pins.limits[i].port);
+    if (!pins.limits[i].exists() || (watched & (input_limit << i)) == 0) continue;
+    port = pins.limits[i].port;
     mask = static_cast<uint8_t>(mask | pins.limits[i].mask());
   }
-  // If it is closed: the pins that close it.
-  const uint8_t high = *reinterpret_cast<volatile uint8_t*>(port);
-  if (closed) mask = static_cast<uint8_t>(mask & ~high);
-  watch_port = port;
+  const uint8_t quiet = quiet_levels(port);
+  const uint16_t address = port_registers(port);
+  // If it is on: the pins that put it on.
+  if (is_on) mask = static_cast<uint8_t>(mask & (*reinterpret_cast<volatile uint8_t*>(address) ^ quiet));
+  watch_port = address;
   watch_pins = mask;
-  watch_quiet = closed ? uint8_t{0} : uint8_t{0xff};
+  watch_quiet = is_on ? static_cast<uint8_t>(~quiet) : quiet;
 }
 
 }  // namespace passo::chip

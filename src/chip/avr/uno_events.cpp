@@ -119,13 +119,15 @@ extern "C" {
       ldi r24, 3
       out %[pcifr], r24
       in r24, %[pinb]
-      com r24
-      lds r25, stop_low_b
+      in r25, %[quiet_b]
+      eor r24, r25
+      lds r25, stops_b
       and r24, r25
       brne 8f
       in r24, %[pinc]
-      com r24
-      lds r25, stop_low_c
+      in r25, %[quiet_c]
+      eor r24, r25
+      lds r25, stops_c
       and r24, r25
       brne 8f
       lds r25, armed
@@ -169,7 +171,8 @@ extern "C" {
   )" ::[port] "n"(toggle_port),
       [pcifr] "n"(io(Pcifr::where)), [gpior0] "n"(io(Gpior0::where)), [gpior1] "n"(io(Gpior1::where)),
       [sreg] "n"(io(Sreg::where)), [ocrah] "n"(Ocr1ah::where), [ocral] "n"(Ocr1al::where), [timsk] "n"(Timsk1::where),
-      [pinb] "n"(0x03), [pinc] "n"(0x06), [special] "n"(1), [padding] "n"(padding), [stop] "n"(0),
+      [pinb] "n"(0x03), [pinc] "n"(0x06), [quiet_b] "n"(io(Ocr0a::where)), [quiet_c] "n"(io(Ocr0b::where)),
+      [special] "n"(1), [padding] "n"(padding), [stop] "n"(0),
       [plain] "n"(0xff & ~(pins.flag_special | pins.flag_stop)), [turns] "n"(turns_address),
       [turns_mask] "n"(turns_mask), [turning] "n"(turning_bits), [action] "n"(action_bits), [safe] "n"(safe_action),
       [port_b] "n"(0x05), [port_c] "n"(0x08), [duty] "n"(Ocr2a::where), [control] "n"(Tccr2a::where),

@@ -13,6 +13,7 @@ using SpindleDuty = Ocr2a;
 using SpindleControl = Tccr2a;
 inline constexpr uint8_t spindle_connected = 1 << 7 | 1 << 1 | 1 << 0;
 inline constexpr uint8_t spindle_disconnected = 1 << 1 | 1 << 0;
+inline constexpr uint8_t spindle_inverting = 1 << 6;
 
 // PWM of 7.8 kHz at the spindle's pin, off at first.
 inline void prepare_spindle() {
@@ -23,8 +24,8 @@ inline void prepare_spindle() {
 
 // Sets the pins that stop the motors while `watched` is captured.
 inline void stop_on(uint16_t watched) {
-  stop_low_b = stops_beside<'B'>(watched);
-  stop_low_c = stops_beside<'C'>(watched);
+  stops_b = stops_beside<'B'>(watched);
+  stops_c = stops_beside<'C'>(watched);
 }
 
 // The interrupt reads these flags before every step; they have no interrupt of their own.

@@ -35,16 +35,16 @@ constexpr uint8_t vectors_before = 11;
   Eifr::write(0xff);
 #endif
 }
-[[gnu::always_inline]] inline uint8_t low_of(char port, uint8_t mask) {
-  return static_cast<uint8_t>(~register_of(port, 0) & mask);
+[[gnu::always_inline]] inline uint8_t on_of(char port, uint8_t mask) {
+  return static_cast<uint8_t>(pins_that_are_on(port) & mask);
 }
 [[gnu::always_inline]] inline bool must_stop() {
 #ifdef __AVR_ATmega2560__
-  if ((low_of('D', stop_low_d) | low_of('E', stop_low_e) | low_of('J', stop_low_j)) != 0) return true;
+  if ((on_of('D', stops_d) | on_of('E', stops_e) | on_of('J', stops_j)) != 0) return true;
 #else
-  if (low_of('C', stop_low_c) != 0) return true;
+  if (on_of('C', stops_c) != 0) return true;
 #endif
-  return low_of('B', stop_low_b) != 0;
+  return on_of('B', stops_b) != 0;
 }
 
 [[gnu::always_inline]] inline bool watched_changed() {

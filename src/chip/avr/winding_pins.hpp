@@ -43,6 +43,9 @@ class WindingPins {
   static void queue(volatile uint8_t* turn, uint8_t /*motors*/) { *turn = 0; }
   static void make(const volatile uint8_t* /*turn*/) {}
 
+  // There are no step pins.
+  static uint8_t set_idle(uint8_t /*high*/) { return 0; }
+
   // Switches all windings off; each motor stays at its place. Only while the interrupt does not play.
   static void release() {
     clear_windings<0>();

@@ -34,6 +34,7 @@ struct PortPlans {
 class Wiring {
  public:
   static void prepare() {
+    set_quiet(0);
     enable_motors(false);
     prepare_ports();
     prepare_spindle();
@@ -44,18 +45,39 @@ class Wiring {
 #ifdef PASSO_WINDINGS
     if (!on) WindingPins::release();
 #endif
+    const bool high = on == is_inverted(inverted_enable);
 #pragma clang loop unroll(full)
-    for (const MotorPins& motor : pins.motor) set(motor.enable, !on);
+    for (const MotorPins& motor : pins.motor) set(motor.enable, high);
+  }
+
+  // Sets the levels of the pins as a host says, as far as there are such pins. Returns what was set. Only at rest.
+  [[gnu::noinline]] static PinSetup set_up(const PinSetup& wanted) {
+    PinSetup done;
+    done.inputs = set_quiet(wanted.inputs);
+    done.outputs = wanted.outputs & known_outputs();
+    done.drivers_rest = wanted.drivers_rest;
+    Twar::write(wanted.drivers_rest);
+    if (done.outputs == Twbr::read()) return done;
+    const Pin enable = pins.motor[0].enable;
+    const bool enabled = enable.exists() && is_high(enable) == is_inverted(inverted_enable);
+    Twbr::write(done.outputs);
+    if (enable.exists()) enable_motors(enabled);
+    switch_all_off();
+    return done;
+  }
+  static uint8_t drivers_rest() {
+    return Twar::read();
   }
 
   // The action that switches the outputs to this and keeps everything else on their ports.
   static OutputAction action_of(const BoardOutputs& outputs) {
     const bool turns = pins.spindle_pwm.exists() && (outputs.switches & spindle_on) != 0;
     const uint8_t duty = turns ? duty_of(outputs.spindle_rpm) : uint8_t{0};
+    const uint8_t connected = is_inverted(spindle_on) ? spindle_connected | spindle_inverting : spindle_connected;
     return {.first_port = port_with(output_ports[0], outputs.switches),
             .second_port = port_with(output_ports[1], outputs.switches),
             .duty = duty,
-            .control = duty != 0 ? spindle_connected : spindle_disconnected};
+            .control = duty != 0 ? connected : spindle_disconnected};
   }
   // Only while the interrupt does not play, because the interrupt does the same.
   [[gnu::always_inline]] static void act(const volatile OutputAction& action) {
@@ -69,12 +91,12 @@ class Wiring {
   [[gnu::noinline]] static bool switch_off(uint8_t switches) {
     bool was_on = false;
     if ((switches & spindle_on) != 0) {
-      was_on = pins.spindle_pwm.exists() && SpindleControl::read() == spindle_connected;
+      was_on = pins.spindle_pwm.exists() && SpindleControl::read() != spindle_disconnected;
       if (was_on) SpindleControl::write(spindle_disconnected);
-      if (switch_off(pins.spindle_relay)) was_on = true;
+      if (switch_off(pins.spindle_relay, spindle_on)) was_on = true;
     }
-    if ((switches & mist_on) != 0 && switch_off(pins.mist)) was_on = true;
-    if ((switches & flood_on) != 0 && switch_off(pins.flood)) was_on = true;
+    if ((switches & mist_on) != 0 && switch_off(pins.mist, mist_on)) was_on = true;
+    if ((switches & flood_on) != 0 && switch_off(pins.flood, flood_on)) was_on = true;
     return was_on;
   }
 
@@ -83,7 +105,7 @@ class Wiring {
     uint16_t on = 0;
 #pragma clang loop unroll(full)
     for (uint8_t i = 0; i < most_axis_switches; ++i) {
-      if (closed(pins.limits[i])) on |= static_cast<uint16_t>(input_limit << (i % 3));
+      if (closed(pins.limits[i])) on |= static_cast<uint16_t>(input_limit << i);
     }
     if (closed(pins.probe)) on |= input_probe;
     if (closed(pins.emergency_stop)) on |= input_emergency_stop;
@@ -96,7 +118,7 @@ class Wiring {
     return *reinterpret_cast<volatile uint8_t*>(port_registers(port) + which);
   }
   [[gnu::always_inline]] static bool closed(Pin pin) {
-    return pin.exists() && (port_register(pin.port, 0) & pin.mask()) == 0;
+    return pin.exists() && (pins_that_are_on(pin.port) & pin.mask()) != 0;
   }
   // A one written to PINx toggles the pin: no neighbour changes, even if the interrupt comes between.
   [[gnu::always_inline]] static void set(Pin pin, bool high) {
@@ -106,10 +128,58 @@ class Wiring {
   }
 
  private:
-  [[gnu::always_inline]] static bool switch_off(Pin pin) {
-    if (!pin.exists() || (port_register(pin.port, 2) & pin.mask()) == 0) return false;
-    set(pin, false);
+  // Bits of PinSetup's outputs. They are in a register that nobody else uses: the Uno's memory has no byte left.
+  [[gnu::always_inline]] static bool is_inverted(uint8_t output) {
+    return (Twbr::read() & output) != 0;
+  }
+  [[gnu::always_inline]] static bool is_high(Pin pin) {
+    return (port_register(pin.port, 2) & pin.mask()) != 0;
+  }
+
+  [[gnu::always_inline]] static bool switch_off(Pin pin, uint8_t output) {
+    if (!pin.exists() || is_high(pin) == is_inverted(output)) return false;
+    set(pin, is_inverted(output));
     return true;
+  }
+
+  static constexpr uint8_t known_outputs() {
+    uint8_t known = 0;
+    if (pins.spindle_pwm.exists() || pins.spindle_relay.exists()) known |= spindle_on;
+    if (pins.spindle_direction.exists()) known |= spindle_reverse;
+    if (pins.mist.exists()) known |= mist_on;
+    if (pins.flood.exists()) known |= flood_on;
+    if (pins.motor[0].enable.exists()) known |= inverted_enable;
+    return known;
+  }
+  // Sets which inputs are on when they are high. Returns those that there are.
+  [[gnu::noinline]] static uint16_t set_quiet(uint16_t inputs) {
+    constexpr struct {
+      Pin pin;
+      uint16_t which;
+    } all[] = {{pins.limits[0], input_limit << 0}, {pins.limits[1], input_limit << 1},
+               {pins.limits[2], input_limit << 2}, {pins.limits[3], input_limit << 3},
+               {pins.limits[4], input_limit << 4}, {pins.limits[5], input_limit << 5},
+               {pins.probe, input_probe},          {pins.door, input_door},
+               {pins.feed_hold, input_hold},       {pins.emergency_stop, input_emergency_stop},
+               {pins.cycle_start, input_start}};
+    uint16_t done = 0;
+#pragma clang loop unroll(full)
+    for (const char port : input_ports) {
+      uint8_t levels = 0xff;
+#pragma clang loop unroll(full)
+      for (const auto& input : all) {
+        if (input.pin.port != port || (inputs & input.which) == 0) continue;
+        levels = static_cast<uint8_t>(levels & ~input.pin.mask());
+        done |= input.which;
+      }
+      set_quiet_levels(port, levels);
+    }
+    return done;
+  }
+  [[gnu::noinline]] static void switch_all_off() {
+    port_register(output_ports[0], 2) = port_with(output_ports[0], 0);
+    port_register(output_ports[1], 2) = port_with(output_ports[1], 0);
+    SpindleControl::write(spindle_disconnected);
   }
 
   // The spindle's speed at full duty.
@@ -127,17 +197,20 @@ class Wiring {
   [[gnu::always_inline]] static uint8_t port_with(char port, uint8_t switches) {
     constexpr struct {
       Pin pin;
-      uint8_t which;
-    } outputs[] = {{pins.spindle_direction, spindle_reverse},
-                   {pins.spindle_relay, spindle_on},
-                   {pins.mist, mist_on},
-                   {pins.flood, flood_on}};
+      uint8_t output;
+      uint8_t which;  // 0: never on
+    } outputs[] = {{pins.spindle_direction, spindle_reverse, spindle_reverse},
+                   {pins.spindle_relay, spindle_on, spindle_on},
+                   {pins.spindle_pwm, spindle_on, 0},
+                   {pins.mist, mist_on, mist_on},
+                   {pins.flood, flood_on, flood_on}};
     uint8_t value = port_register(port, 2);
 #pragma clang loop unroll(full)
     for (const auto& output : outputs) {
       if (output.pin.port != port) continue;
       value = static_cast<uint8_t>(value & ~output.pin.mask());
-      if ((switches & output.which) != 0) value = static_cast<uint8_t>(value | output.pin.mask());
+      if (((switches & output.which) != 0) != is_inverted(output.output))
+        value = static_cast<uint8_t>(value | output.pin.mask());
     }
     return value;
   }

@@ -14,15 +14,18 @@ constexpr uint32_t cycles_a_second = 128'000'000;
 constexpr uint32_t clock = cycles_a_second / StepStream::cycles_of_tick;
 constexpr uint32_t baud = 1'000'000;
 constexpr uint8_t queue_capacity = 250;
-constexpr About about = {.firmware = 100, .highest_event_rate = 500'000, .baud = baud, .name = "pico"};
+constexpr About about = {.firmware = 100, .highest_event_rate = 1'000'000, .baud = baud, .name = PASSO_PICO_NAME};
 
 struct Hardware {
   void step(uint8_t, uint8_t) {}
   // All motion before is played.
   void outputs(const BoardOutputs& outputs) { PicoWiring::switch_outputs(outputs); }
+  static bool switch_off(uint8_t switches) { return PicoWiring::switch_off(switches); }
   void send(uint8_t byte) { line.send(byte); }
   uint8_t room() const { return line.room(); }
   void enable() { PicoWiring::enable_motors(true); }
+  static bool has_encoder() { return SpindleCounter::exists(); }
+  static SpindleCount spindle() { return SpindleCounter::count(); }
   void watch();
 
   PicoLine line;
@@ -68,18 +71,21 @@ void stop_at_once() {
   watch_input();
 }
 
-// True once in four milliseconds.
+// True once in so many microseconds.
+template <uint32_t microseconds>
 bool take_tick() {
   static uint32_t last = 0;
   const uint32_t now = TimerLow::read();
-  if (now - last < 4096) return false;
+  if (now - last < microseconds) return false;
   last = now;
   return true;
 }
 
 void look_at_inputs() {
-  const bool tick = take_tick();
+  const bool tick = take_tick<4'096>();
   if (PicoPlayer::halted()) return stop_at_once();
+  // A switch that was closed before the motion began has no edge that would tell the interrupt.
+  if (!board().idle() && PicoWiring::stops()) return stop_at_once();
   uint16_t raw = PicoWiring::inputs();
   const uint16_t watched = board().watched();
   const bool changed = PicoPlayer::captured();
@@ -106,21 +112,23 @@ void turn() {
   PicoLine& line = hardware.line;
   WatchdogLoad::write(2'000'000);  // a second; the chip counts each tick twice (errata RP2040-E1)
   line.poll();
-  for (uint32_t taken = 0; PicoLine::has_byte() && taken < 16; ++taken) board().receive(PicoLine::take());
-  PicoPlayer::refill();
+  for (uint32_t taken = 0; line.has_byte() && taken < 16; ++taken) board().receive(line.take());
+  // Before the first events of a motion are on their way.
   look_at_inputs();
+  if (take_tick<100'000>()) board().count_silence();
+  SpindleCounter::look();
   board().settle();
   PicoPlayer::end();
   PicoPlayer::refill();
-  if (board().owes_report() && line.can_send() && (board().owed() >= 3 || !PicoLine::has_byte())) board().report();
+  if (board().owes_report() && line.can_send() && (board().owed() >= 3 || !line.has_byte())) board().report();
 }
 
 // Sleeps until something happens, at most a quarter of a millisecond: at that rate the UART holds every byte.
 constexpr uint32_t cycles_of_sleep = 32'000;
 void sleep_if_idle() {
   if (!PicoPlayer::is_ahead() || PicoPlayer::halted() || PicoPlayer::captured() || board().owes_report()) return;
-  UartImsc::write(uart_received);
-  if (PicoLine::has_byte()) return;
+  PicoLine::wake_on_news();
+  if (hardware.line.has_byte() || UsbSerial::has_news()) return;
   asm volatile("wfi");
 }
 void start_sleep_timer() {
@@ -135,7 +143,20 @@ void leave_reset(uint32_t blocks) {
   }
 }
 
-// The chip at 128 MHz from its crystal of 12 MHz: 12 MHz * 128 / 6 / 2. So a tick of 16 MHz is eight cycles.
+template <class Pll>
+void start_pll(uint32_t reset, uint32_t times, uint32_t first_divisor, uint32_t second_divisor) {
+  leave_reset(reset);
+  Pll::Cs::write(1);
+  Pll::Fbdiv::write(times);
+  Pll::Pwr::clear(1U << 0 | 1U << 5);
+  while ((Pll::Cs::read() >> 31) == 0) {
+  }
+  Pll::Prim::write(first_divisor << 16 | second_divisor << 12);
+  Pll::Pwr::clear(1U << 3);
+}
+
+// The chip at 128 MHz from its crystal of 12 MHz: 12 MHz * 128 / 6 / 2. So a tick of 16 MHz is eight cycles. USB has
+// 48 MHz: 12 MHz * 100 / 5 / 5.
 void start_clocks() {
   XoscCtrl::write(0xaa0);
   XoscStartup::write(47);
@@ -148,18 +169,13 @@ void start_clocks() {
   ClkSysCtrl::write(0);
   while ((ClkSysSelected::read() & 1) == 0) {
   }
-  leave_reset(reset_pll_sys);
-  PllSysCs::write(1);
-  PllSysFbdiv::write(128);
-  PllSysPwr::clear(1U << 0 | 1U << 5);
-  while ((PllSysCs::read() >> 31) == 0) {
-  }
-  PllSysPrim::write(6U << 16 | 2U << 12);
-  PllSysPwr::clear(1U << 3);
+  start_pll<PllSys>(reset_pll_sys, 128, 6, 2);
   ClkSysCtrl::write(1);
   while ((ClkSysSelected::read() & 2) == 0) {
   }
   ClkPeriCtrl::write(1U << 11);
+  start_pll<PllUsb>(reset_pll_usb, 100, 5, 5);
+  ClkUsbCtrl::write(1U << 11);
   WatchdogTick::write(1U << 9 | 12);  // a microsecond
 }
 
@@ -182,6 +198,10 @@ void passo_refill_done() {
   passo::chip::StepStream::refill_done();
 }
 void passo_wake() {}
+// The loop does the work.
+void passo_usb_moved() {
+  passo::chip::UsbSerial::interrupt();
+}
 // The loop takes the byte.
 void passo_byte_came() {
   passo::chip::UartImsc::write(0);
@@ -193,7 +213,8 @@ void passo_switch_moved() {
 [[noreturn]] void passo_main() {
   using namespace passo::chip;
   start_clocks();
-  leave_reset(reset_dma | reset_io_bank0 | reset_pads_bank0 | reset_pio0 | reset_pwm | reset_timer | reset_uart0);
+  leave_reset(reset_dma | reset_io_bank0 | reset_pads_bank0 | reset_pio0 | reset_pwm | reset_timer | reset_uart0 |
+              reset_usbctrl);
   PicoWiring::prepare();
   StepStream::prepare(pins.first, pins.motor_pins());
   board_there = new (board_memory)

@@ -1,12 +1,19 @@
-// PicoLine: the serial line, UART0. The UART holds 32 bytes each way; what is to be sent waits in a ring beside it.
+// PicoLine: the serial line, by UART0 or by USB: the board answers on the line on which it is spoken to.
+//
+// Who speaks first has the line, and keeps it until two seconds have passed without a byte of his. Bytes of the other
+// line are dropped meanwhile, so a second program cannot cut into a running job.
 #pragma once
 
+#include "pico_player.hpp"
 #include "registers.hpp"
+#include "usb_serial.hpp"
 
 namespace passo::chip {
 
-class PicoLine {
+// UART0 holds 32 bytes each way; what is to be sent waits in a ring beside it.
+class UartLine {
  public:
+  static constexpr bool exists() { return pins.line_in != no_gpio; }
   // `clock` is the chip's.
   static void open(uint32_t clock, uint32_t baud) {
     const uint32_t divisor = clock * 4 / baud;  // in 64ths of sixteen cycles
@@ -24,7 +31,6 @@ class PicoLine {
     poll();
   }
   uint8_t room() const { return static_cast<uint8_t>(ring_mask - static_cast<uint8_t>(head_ - tail_)); }
-  bool can_send() const { return room() >= ring_mask / 2; }
   void poll() {
     while (head_ != tail_ && (UartFlags::read() & uart_full) == 0) UartData::write(ring_[tail_++ & ring_mask]);
   }
@@ -34,6 +40,56 @@ class PicoLine {
   uint8_t ring_[ring_mask + 1] = {};
   uint8_t head_ = 0;
   uint8_t tail_ = 0;
+};
+
+class PicoLine {
+ public:
+  void open(uint32_t clock, uint32_t baud) {
+    if (UartLine::exists()) UartLine::open(clock, baud);
+    UsbSerial::open();
+  }
+  void poll() {
+    if (UartLine::exists()) uart_.poll();
+    usb_.poll();
+    choose();
+  }
+  bool has_byte() const { return by_usb_ ? usb_.has_byte() : UartLine::has_byte(); }
+  uint8_t take() {
+    heard_at_ = TimerLow::read();
+    taken_ = true;
+    return by_usb_ ? usb_.take() : UartLine::take();
+  }
+  void send(uint8_t byte) { by_usb_ ? usb_.send(byte) : uart_.send(byte); }
+  uint8_t room() const { return by_usb_ ? usb_.room() : uart_.room(); }
+  bool can_send() const { return room() >= 63; }
+
+  // Lets a byte of either line wake the sleeping loop.
+  static void wake_on_news() {
+    if (UartLine::exists()) UartImsc::write(uart_received);
+    UsbSerial::wake_on_news();
+  }
+
+ private:
+  static constexpr uint32_t silence = 2'000'000;  // microseconds
+
+  void choose() {
+    const bool other_speaks = by_usb_ ? UartLine::exists() && UartLine::has_byte() : usb_.has_byte();
+    if (!other_speaks) return;
+    if (taken_ && TimerLow::read() - heard_at_ < silence) {
+      // Dropped.
+      for (uint32_t i = 0; i < usb_packet && (by_usb_ ? UartLine::has_byte() : usb_.has_byte()); ++i) {
+        by_usb_ ? UartLine::take() : usb_.take();
+      }
+      return;
+    }
+    by_usb_ = !by_usb_;
+  }
+
+  UartLine uart_;
+  UsbSerial usb_;
+  bool by_usb_ = !UartLine::exists();
+  bool taken_ = false;  // somebody has spoken
+  uint32_t heard_at_ = 0;
 };
 
 }  // namespace passo::chip

@@ -15,21 +15,40 @@
 
 namespace passo::chip {
 
-inline constexpr auto& pins = pico_bare;
+// The image is for this board.
+#ifndef PASSO_PICO_PINS
+#error "PASSO_PICO_PINS: a pin map of pico_pins.hpp"
+#endif
+inline constexpr const PicoPins& pins = PASSO_PICO_PINS;
 
 // The words' bits for each set of motors.
 struct PicoPinTables {
   static constexpr uint32_t all = (1U << pins.motors) - 1;
-  uint16_t steps[all + 1] = {};
+  uint32_t steps[all + 1] = {};  // as they lie in a word
   uint16_t directions[all + 1] = {};
   constexpr PicoPinTables() {
     for (uint32_t set = 0; set <= all; ++set) {
-      steps[set] = pins.steps_of(static_cast<uint8_t>(set));
+      steps[set] = static_cast<uint32_t>(pins.steps_of(static_cast<uint8_t>(set))) << 16;
       directions[set] = pins.directions_of(static_cast<uint8_t>(set));
     }
   }
 };
 inline constexpr PicoPinTables pin_tables;
+
+// What put_words.S does: so many events, from `carries` to `end`. It changes fraction and interval.
+struct WordJob {
+  uint32_t change;
+  uint32_t offset;
+  uint32_t fall;
+  const uint8_t* end;
+  uint32_t* to;
+  uint32_t fraction;
+  uint32_t interval;
+  const uint32_t* table;
+  uint32_t flips;
+  const uint8_t* carries;
+};
+extern "C" void passo_put_words(WordJob* job);
 
 class PicoPlayer {
  public:
@@ -42,7 +61,8 @@ class PicoPlayer {
     StepStream::restart(direction_pins_);
     motors_ = motors;
     begun_ = finished_ = left_ = 0;
-    slipped_ = fresh_ = pending_ = false;
+    slipped_ = pending_ = whole_ = false;
+    rest_ = 0;
     armed_ = false;
     captured_ = false;
     halted_ = false;
@@ -56,9 +76,13 @@ class PicoPlayer {
   static bool done() { return left_ == 0 && StepStream::dry(); }
 
   static void load(const Segment& segment) {
-    fresh_ = StepStream::dry();
     if (pending_) end_pulse(segment.interval >> 17);
+    const bool rests = StepStream::dry();
     StepStream::publish();
+    if (rests) {
+      rest_ = StepStream::published();
+      fell_ = 0;  // long ago
+    }
     segment_ = segment;
     left_ = segment.events;
     for (uint32_t m = 0; m < pins.motors; ++m) {
@@ -98,9 +122,11 @@ class PicoPlayer {
     if (begun_ == finished_) return false;
     const Item& item = items_[finished_ % most_begun];
     const uint32_t words = item.events == 0 ? 0 : 2U * item.events - 1;
-    return static_cast<int32_t>(words_played() - item.first - words) >= 0;
+    whole_ = static_cast<int32_t>(words_played() - item.first - words) >= 0;
+    return whole_;
   }
   static void forget() {
+    whole_ = false;
     const Item& item = items_[finished_++ % most_begun];
     for (uint32_t m = 0; m < pins.motors; ++m) {
       at_start_[m] = static_cast<uint16_t>(at_start_[m] + item.increments[m] * item.events);
@@ -119,7 +145,7 @@ class PicoPlayer {
     if (motor >= motors_) return 0;
     const Item& item = items_[finished_ % most_begun];
     const uint32_t bit = 1U << motor;
-    const uint32_t events = played();
+    const uint32_t events = whole_ ? item.events : played();
     const int32_t carries = static_cast<int32_t>((at_start_[motor] + item.increments[motor] * events) >> 16);
     const int32_t steps = (item.flips & bit) != 0 ? static_cast<int32_t>(events) - carries : carries;
     return static_cast<int16_t>((item.directions & bit) != 0 ? -steps : steps);
@@ -139,13 +165,12 @@ class PicoPlayer {
     const uint32_t played = StepStream::played();
     const uint32_t ahead = (StepStream::pushed() - played) / 2;
     if (ahead >= most_ahead_) return;
-    if (played == StepStream::published() && !fresh_) slipped_ = true;
+    look_for_slip(played);
     uint32_t count = most_ahead_ - ahead;
     if (count > most_at_once) count = most_at_once;
     if (count > left_) count = left_;
     make(count);
     left_ -= count;
-    fresh_ = false;
     pending_ = left_ == 0;
     StepStream::publish(pending_ ? 1 : 0);
   }
@@ -180,7 +205,7 @@ class PicoPlayer {
 
  private:
   static constexpr uint32_t most_begun = 32;
-  static constexpr uint32_t most_at_once = 48;
+  static constexpr uint32_t most_at_once = 128;
   static constexpr uint32_t ticks_ahead = 32'768;
   static constexpr uint32_t most_events_ahead = 2'048;
   static constexpr uint32_t longest_pulse = 32;  // ticks: 2 microseconds, enough for every driver
@@ -199,45 +224,87 @@ class PicoPlayer {
     return captured_ ? captured_at_ : played;
   }
 
-  // The pins fall after the last event of a segment. How soon they must depends on the next one.
+  // All that was published is played, and more belongs to the same motion: it comes too late.
+  static void look_for_slip(uint32_t played) {
+    if (played == StepStream::published() && played != rest_) slipped_ = true;
+  }
+
+  // The pins fall after the last event of a segment. How soon they must depends on the next one. Until then the event
+  // itself is kept back.
   static void end_pulse(uint32_t most) {
+    look_for_slip(StepStream::played());
     fell_ = most < longest_pulse ? most : longest_pulse;
     StepStream::push(fell_, direction_pins_);
     pending_ = false;
   }
 
+  // All carries first, then the words: a million events a second leave 128 cycles for each.
   [[gnu::noinline]] static void make(uint32_t count) {
-    const bool is_end = count == left_;
-    uint32_t interval = segment_.interval;
-    const uint32_t change = static_cast<uint32_t>(segment_.change);
-    const uint32_t flips = segment_.flips;
-    const uint32_t pulse = pulse_;
-    for (; count != 0; --count) {
-      fraction_ += interval & 0xffff;
-      const uint32_t ticks = (interval >> 16) + (fraction_ >> 16);
-      fraction_ &= 0xffff;
-      interval += change;
-      uint32_t carries = 0;
-      for (uint32_t m = 0; m < pins.motors; ++m) {
-        const uint32_t after = accumulators_[m] + increments_[m];
-        if (after < accumulators_[m]) carries |= 1U << m;
-        accumulators_[m] = after;
-      }
-      const uint32_t stepped = pin_tables.steps[(carries ^ flips) & PicoPinTables::all];
-      // The pins fell `pulse_` ticks after the event before, and a turn took its ticks.
-      StepStream::push(ticks - fell_ - turned_, direction_pins_ | stepped);
-      turned_ = 0;
-      fell_ = pulse;
-      if (count != 1 || !is_end) StepStream::push(pulse, direction_pins_);
+    for (uint32_t i = 0; i < count; i += 4) carries_[i / 4] = 0;
+    // The last motors first: each carry goes in at the lowest bit.
+    for (uint32_t pair = (motors_ + 1U) / 2; pair-- > 0;) carry(2 * pair, count);
+    const uint8_t* carries = reinterpret_cast<const uint8_t*>(carries_);
+    const uint32_t directions = static_cast<uint32_t>(direction_pins_) << 16;
+    const uint32_t fall = StepStream::word(pulse_, direction_pins_);
+    // The pins fell so many ticks after the event before, and a turn took its ticks.
+    uint32_t gone = fell_ + turned_;
+    // A new motion may begin sooner than the long pulse at the end of the one before allows. Then it begins later.
+    const uint32_t first = (segment_.interval >> 16) + (((segment_.interval & 0xffff) + fraction_) >> 16);
+    if (gone + StepStream::ticks_of_word > first) gone = first - StepStream::ticks_of_word;
+    for (uint32_t done = 0; done < count;) {
+      // A run ends where the ring does. The first event is a run of its own.
+      uint32_t run = done == 0 ? 1 : count - done;
+      uint32_t* const to = StepStream::space(run);
+      WordJob job{.change = static_cast<uint32_t>(segment_.change),
+                  .offset = directions - gone - StepStream::ticks_of_word,
+                  .fall = fall,
+                  .end = carries + done + run,
+                  .to = to,
+                  .fraction = fraction_,
+                  .interval = segment_.interval,
+                  .table = pin_tables.steps,
+                  .flips = segment_.flips & PicoPinTables::all,
+                  .carries = carries + done};
+      passo_put_words(&job);
+      fraction_ = job.fraction;
+      segment_.interval = job.interval;
+      StepStream::keep(run);
+      done += run;
+      gone = pulse_;
     }
-    segment_.interval = interval;
+    if (count == left_) StepStream::drop();
+    turned_ = 0;
+    fell_ = pulse_;
+  }
+
+  // Adds the increments of two motors, `count` times, and shifts their carries into `carries_`.
+  static void carry(uint32_t motor, uint32_t count) {
+    uint32_t first = accumulators_[motor];
+    uint32_t second = accumulators_[motor + 1];
+    const uint32_t by_first = increments_[motor];
+    const uint32_t by_second = increments_[motor + 1];
+    uint8_t* at = reinterpret_cast<uint8_t*>(carries_);
+    uint8_t* const end = at + count;
+#pragma clang loop unroll_count(4)
+    for (; at != end; ++at) {
+      uint32_t bits = *at;
+      asm("adds %[second], %[by_second]\n adcs %[bits], %[bits]\n adds %[first], %[by_first]\n adcs %[bits], %[bits]"
+          : [first] "+l"(first), [second] "+l"(second), [bits] "+l"(bits)
+          : [by_first] "l"(by_first), [by_second] "l"(by_second)
+          : "cc");
+      *at = static_cast<uint8_t>(bits);
+    }
+    accumulators_[motor] = first;
+    accumulators_[motor + 1] = second;
   }
 
   static inline Segment segment_;
   static inline uint32_t left_ = 0;  // events of the loaded segment that are not made yet
   static inline uint8_t motors_ = 0;
-  static inline uint32_t accumulators_[pins.motors] = {};  // in the upper half, so that the carry is the processor's
-  static inline uint32_t increments_[pins.motors] = {};
+  // In the upper half, so that the carry is the processor's. One more, so that they are pairs.
+  static inline uint32_t accumulators_[pins.motors + 1] = {};
+  static inline uint32_t increments_[pins.motors + 1] = {};
+  static inline uint32_t carries_[most_at_once / 4] = {};  // bytes, of the events that are being made
   static inline uint32_t fraction_ = 0x8000;
   static inline uint32_t pulse_ = 0;
   static inline uint32_t fell_ = 0;    // how many ticks after the last event the pins fell
@@ -245,11 +312,12 @@ class PicoPlayer {
   static inline uint32_t most_ahead_ = 0;
   static inline bool pending_ = false;  // the last event's pulse has no end yet
   static inline uint16_t direction_pins_ = 0;
-  static inline bool fresh_ = false;  // the motion begins from rest
+  static inline uint32_t rest_ = 0;  // words that were published when the motors last stood
   static inline bool slipped_ = false;
   static inline Item items_[most_begun];
   static inline uint32_t begun_ = 0;  // items ever begun
   static inline uint32_t finished_ = 0;
+  static inline bool whole_ = false;                   // the oldest item is done, and not forgotten yet
   static inline uint16_t at_start_[pins.motors] = {};  // the accumulators at the start of the oldest item
   static inline volatile bool armed_ = false;
   static inline volatile bool captured_ = false;

@@ -28,9 +28,11 @@ inline constexpr uint32_t reset_io_bank0 = 1U << 5;
 inline constexpr uint32_t reset_pads_bank0 = 1U << 8;
 inline constexpr uint32_t reset_pio0 = 1U << 10;
 inline constexpr uint32_t reset_pll_sys = 1U << 12;
+inline constexpr uint32_t reset_pll_usb = 1U << 13;
 inline constexpr uint32_t reset_pwm = 1U << 14;
 inline constexpr uint32_t reset_timer = 1U << 21;
 inline constexpr uint32_t reset_uart0 = 1U << 22;
+inline constexpr uint32_t reset_usbctrl = 1U << 24;
 
 // 2.15 Clocks, 2.16 crystal oscillator, 2.18 PLL
 using ClkRefCtrl = Register<0x40008030>;
@@ -38,13 +40,19 @@ using ClkRefSelected = Register<0x40008038>;
 using ClkSysCtrl = Register<0x4000803c>;
 using ClkSysSelected = Register<0x40008044>;
 using ClkPeriCtrl = Register<0x40008048>;
+using ClkUsbCtrl = Register<0x40008054>;
 using XoscCtrl = Register<0x40024000>;
 using XoscStatus = Register<0x40024004>;
 using XoscStartup = Register<0x4002400c>;
-using PllSysCs = Register<0x40028000>;
-using PllSysPwr = Register<0x40028004>;
-using PllSysFbdiv = Register<0x40028008>;
-using PllSysPrim = Register<0x4002800c>;
+template <uint32_t base>
+struct Pll {
+  using Cs = Register<base>;
+  using Pwr = Register<base + 4>;
+  using Fbdiv = Register<base + 8>;
+  using Prim = Register<base + 12>;
+};
+using PllSys = Pll<0x40028000>;
+using PllUsb = Pll<0x4002c000>;
 
 // 2.13 Power-on state machine, 2.12 chip-level reset, 4.7 watchdog, 4.6 timer
 using PsmWdsel = Register<0x40010008>;
@@ -79,6 +87,7 @@ inline constexpr uint32_t pad_input = 1U << 6;
 inline constexpr uint32_t pad_schmitt = 1U << 1;
 inline constexpr uint32_t pad_4_ma = 1U << 4;
 using GpioIn = Register<0xd0000004>;
+using GpioOut = Register<0xd0000010>;
 using GpioOutSet = Register<0xd0000014>;
 using GpioOutClear = Register<0xd0000018>;
 using GpioEnableSet = Register<0xd0000024>;
@@ -124,8 +133,34 @@ inline volatile uint32_t& pwm(uint32_t slice, uint32_t which) {
 }
 enum PwmRegister : uint32_t { pwm_csr, pwm_div, pwm_ctr, pwm_cc, pwm_top };
 
+// 4.1 USB device: its registers, and four kilobytes of memory that it shares with the processor: the last setup packet,
+// two words for each endpoint's directions, and the buffers (4.1.3.1).
+using UsbAddress = Register<0x50110000>;
+using UsbMain = Register<0x50110040>;
+using UsbSieControl = Register<0x5011004c>;
+using UsbSieStatus = Register<0x50110050>;
+using UsbBuffers = Register<0x50110058>;  // a bit for each endpoint and direction: the buffer is the processor's again
+using UsbStallArm = Register<0x50110068>;
+using UsbMuxing = Register<0x50110074>;
+using UsbPower = Register<0x50110078>;
+using UsbInterrupts = Register<0x50110090>;
+inline constexpr uint32_t usb_interrupt_per_buffer = 1U << 29;
+inline constexpr uint32_t usb_pull_up = 1U << 16;
+inline constexpr uint32_t usb_setup_received = 1U << 17;
+inline constexpr uint32_t usb_bus_reset = 1U << 19;
+inline constexpr uint32_t usb_memory = 0x50100000;
+inline constexpr uint32_t usb_memory_size = 4096;
+inline volatile uint32_t& usb_word(uint32_t offset) {
+  return *reinterpret_cast<volatile uint32_t*>(usb_memory + offset);
+}
+inline volatile uint8_t& usb_byte(uint32_t offset) {
+  return *reinterpret_cast<volatile uint8_t*>(usb_memory + offset);
+}
+
 // ARMv6-M: interrupts
 using NvicEnable = Register<0xe000e100>;
+using NvicDisable = Register<0xe000e180>;
+inline constexpr uint32_t irq_usb = 5;
 inline constexpr uint32_t irq_dma0 = 11;
 inline constexpr uint32_t irq_io_bank0 = 13;
 inline constexpr uint32_t irq_uart0 = 20;

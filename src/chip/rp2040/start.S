@@ -11,7 +11,11 @@
   .word passo_crash
   .endr
   .word passo_wake          // SysTick
-  .rept 11
+  .rept 5
+  .word passo_crash
+  .endr
+  .word passo_usb_moved     // 5: USBCTRL_IRQ
+  .rept 5
   .word passo_crash
   .endr
   .word passo_refill_done   // 11: DMA_IRQ_0

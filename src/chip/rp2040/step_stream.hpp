@@ -84,10 +84,27 @@ class StepStream {
   static uint32_t room() { return words - 1 - (head_ - played()); }
 
   // `ticks`: since the word before, four at least.
+  static constexpr uint32_t word(uint32_t ticks, uint32_t pins) { return (ticks - ticks_of_word) | pins << 16; }
   [[gnu::always_inline]] static void push(uint32_t ticks, uint32_t pins) {
-    ring_[head_ & (words - 1)] = (ticks - ticks_of_word) | pins << 16;
+    ring_[head_ & (words - 1)] = word(ticks, pins);
     head_ = head_ + 1;
   }
+  // To push many words at once: where they go, two for each of `pairs`, of which fewer may fit before the ring ends.
+  // They count as pushed when they are kept.
+  static uint32_t* space(uint32_t& pairs) {
+    const uint32_t place = head_ & (words - 1);
+    const uint32_t fit = (words - place) / 2;
+    if (pairs > fit) pairs = fit == 0 ? 1 : fit;
+    return fit == 0 ? across_ : ring_ + place;
+  }
+  static void keep(uint32_t pairs) {
+    if ((head_ & (words - 1)) == words - 1) {
+      ring_[words - 1] = across_[0];
+      ring_[0] = across_[1];
+    }
+    head_ = head_ + 2 * pairs;
+  }
+  static void drop() { head_ = head_ - 1; }
   // Words that the pins will follow: all that were pushed, except for the last `kept_back` ones.
   static uint32_t published() { return published_; }
   static void publish(uint32_t kept_back = 0) {
@@ -130,6 +147,7 @@ class StepStream {
   }
 
   [[gnu::section(".bss.ring")]] static inline uint32_t ring_[words];
+  static inline uint32_t across_[2];  // a pair of which one word is the ring's last
   static inline volatile uint32_t head_ = 0;
   static inline volatile uint32_t published_ = 0;
   static inline volatile uint32_t handed_ = 0;

@@ -7,6 +7,7 @@
 #include "kit/stage_test.hpp"
 
 #include "passo/base/tap.hpp"
+#include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 namespace {
@@ -90,9 +91,9 @@ class ListedBoard final : public Link {
     if (signed_steps < 0) ++reversals_;
     steps_ += signed_steps;
     const double events = segment->events;
-    const double time = events * segment->interval + events * (events - 1) / 2 * segment->change;
-    ticks_ += time / 65536;
-    const double last = (segment->interval + (events - 1) * segment->change) / 65536;
+    const std::int64_t time = duration(*segment, most_events);
+    ticks_ += static_cast<double>(time) / 65536;
+    const double last = static_cast<double>(time - duration(*segment, segment->events - 1)) / 65536;
     // The rate of steps in the last event: so slow that one can begin and end with it.
     speed_at_rest_ = made == 0 || made / events / last < most_at_rest;
   }

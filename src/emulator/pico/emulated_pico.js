@@ -1,26 +1,32 @@
-// node emulated_pico.js FIRMWARE.uf2: an emulated Raspberry Pi Pico in lock-step with the program that started it.
+// node emulated_pico.js FIRMWARE.uf2 usb|uart SPINDLE PULSES INDEX: an emulated Raspberry Pi Pico in lock-step with the program that started
+// it, which speaks to it by its USB socket (usb_host.js) or by its UART.
 //
 // Time passes only while a request is answered. Requests come on the standard input, answers go to the standard output,
 // all numbers little-endian:
 //
 //   request   u32 size of what follows; f64 the cycle until which to run; u32 pins that are drawn low; u32 pins to watch;
-//             u32 after how many rises of these to stop, or 0; u8 1: stop when the board has said a byte; f64
+//             u32 after how many rises of these to stop, or 0; u8 1: stop when the board has said a byte, 2: the
+//             bytes are for the UART, whatever is plugged in; f64
 //             pulses of the spindle's encoder now and f64 at that cycle, u32 pulses a turn, or 0; the bytes for the line
 //   answer    u32 size of what follows; f64 the cycle reached; u32 number of changes, for each f64 cycle, u32 levels
 //             of the outputs; f64 length of the spindle's pulse as a part of its period; u32 bytes lost in the UART;
 //             then the bytes that the board said
 //
+// SPINDLE, PULSES and INDEX are GPIOs: of the spindle's PWM, and of its encoder.
+//
 // A cycle is one of the chip's 128 MHz. rp2040js runs the state machines of the PIO beside the program's time; here they
-// are stepped in it, a tick every eight cycles, as the firmware sets their clock. Bytes take ten bits at the line's rate
-// of 1 Mbaud.
+// are stepped in it, a tick every eight cycles, as the firmware sets their clock. Bytes of the UART take ten bits at the
+// line's rate of 1 Mbaud.
 'use strict';
 const fs = require('fs');
 const { RP2040 } = require('rp2040js');
+const { UsbHost } = require('./usb_host.js');
 
 const cyclesOfTick = 8;
 const cyclesOfByte = 10 * 128;
 const nanosOfCycle = 1000 / 128;
 const bootAddress = 0x20041f00;
+const functionPwm = 4;
 
 function loadFlash(chip, path) {
   const file = fs.readFileSync(path);
@@ -44,7 +50,9 @@ function boot(chip) {
 }
 
 class Board {
-  constructor(path) {
+  constructor(path, line, spindle, pulses, index) {
+    this.spindle = spindle;
+    this.encoder = { pulses, index, halves: 1, next: Infinity };
     const quiet = () => {};
     this.chip = new RP2040();
     this.chip.logger = { debug: quiet, info: quiet, warn: quiet, error: quiet };
@@ -56,7 +64,8 @@ class Board {
     this.tick = 0;
     this.levels = 0;
     this.changes = [];
-    this.coming = [];
+    this.coming = []; // by USB
+    this.comingByUart = [];
     this.nextByte = 0;
     this.said = [];
     this.lineFree = 0;
@@ -75,13 +84,18 @@ class Board {
       this.lineFree = Math.max(this.lineFree, this.cycle) + cyclesOfByte;
       this.said.push({ byte, at: this.lineFree });
     };
+    // rp2040js lets no pin count, and takes the pins of other functions for the slice's.
+    const { pwm } = chip;
+    pwm.gpioRead = (index) => chip.gpio[index].functionSelect === functionPwm && chip.gpio[index].inputValue;
+    pwm.gpioOnInput = (index) => pwm.channels[(index >> 1) & 7].gpioBChanged();
+    this.usb = line === 'usb' ? new UsbHost(this) : null;
   }
 
   // Notes what the outputs are now.
   look() {
     let levels = 0;
     for (const pin of this.chip.gpio) {
-      if (pin.functionSelect !== 4 && pin.outputEnable && pin.outputValue) levels |= 1 << pin.index;
+      if (pin.functionSelect !== functionPwm && pin.outputEnable && pin.outputValue) levels |= 1 << pin.index;
     }
     levels >>>= 0;
     if (levels === this.levels) return;
@@ -103,14 +117,36 @@ class Board {
     }
   }
 
+  // The encoder turns evenly from `from` pulses now to `to` pulses at the cycle `end`. A pulse begins where their
+  // number is whole, and lasts half its time. The first pulse of each turn comes with the index, which is low.
+  turnEvenly(from, to, perTurn, end) {
+    const { encoder } = this;
+    Object.assign(encoder, { from, perTurn, begin: this.cycle, slope: (end - this.cycle) / (to - from) });
+    this.planEdge();
+  }
+  planEdge() {
+    const { encoder } = this;
+    const turns = encoder.perTurn !== 0 && encoder.slope > 0 && Number.isFinite(encoder.slope);
+    encoder.next = turns ? encoder.begin + (encoder.halves / 2 - encoder.from) * encoder.slope : Infinity;
+  }
+  turnEncoder() {
+    const { encoder } = this;
+    const { gpio } = this.chip;
+    const rises = encoder.halves % 2 === 0;
+    gpio[encoder.pulses].setInputValue(rises);
+    gpio[encoder.index].setInputValue(!rises || (encoder.halves / 2) % encoder.perTurn !== 0);
+    ++encoder.halves;
+    this.planEdge();
+  }
+
   feed() {
     if (this.cycle < this.nextByte) return;
     const uart = this.chip.uart[0];
     if (uart.rxFIFO.full) {
       ++this.lost;
-      this.coming.shift();
+      this.comingByUart.shift();
     } else {
-      uart.feedByte(this.coming.shift());
+      uart.feedByte(this.comingByUart.shift());
     }
     this.nextByte = this.cycle + cyclesOfByte;
   }
@@ -128,7 +164,8 @@ class Board {
       clock.tick(cycles * nanosOfCycle);
       this.cycle += cycles;
       this.stepPio(pio, machine);
-      if (this.coming.length !== 0) this.feed();
+      if (this.comingByUart.length !== 0) this.feed();
+      while (this.encoder.next <= this.cycle) this.turnEncoder();
       if (stopsAtByte && this.said.length !== 0 && this.said[0].at <= this.cycle) break;
     }
   }
@@ -138,7 +175,8 @@ class Board {
     const { clock } = this.chip;
     let until = end;
     if (clock.nextAlarm) until = Math.min(until, this.cycle + Math.ceil(clock.nanosToNextAlarm / nanosOfCycle));
-    if (this.coming.length !== 0) until = Math.min(until, this.nextByte);
+    if (this.comingByUart.length !== 0) until = Math.min(until, this.nextByte);
+    until = Math.min(until, Math.ceil(this.encoder.next));
     if (stopsAtByte && this.said.length !== 0) until = Math.min(until, this.said[0].at);
     if (machine.enabled && !machine.waiting) {
       const counted = machine.pc === 2 ? machine.x : 0;
@@ -175,8 +213,8 @@ class Board {
   }
 
   duty() {
-    const channel = this.chip.pwm.channels[7];
-    return (channel.cc >>> 16) / (channel.top + 1);
+    const channel = this.chip.pwm.channels[(this.spindle >> 1) & 7];
+    return ((this.spindle & 1 ? channel.cc >>> 16 : channel.cc) & 0xffff) / (channel.top + 1);
   }
 }
 
@@ -215,14 +253,18 @@ function answer(board) {
   writeFully(buffer);
 }
 
-const board = new Board(process.argv[2]);
+const board = new Board(process.argv[2], process.argv[3], ...process.argv.slice(4).map(Number));
 for (;;) {
   const request = readFully(readFully(4).readUInt32LE(0));
-  if (board.coming.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);
-  for (const byte of request.subarray(41)) board.coming.push(byte);
+  const byUart = !board.usb || (request[20] & 2) !== 0;
+  if (board.comingByUart.length === 0) board.nextByte = Math.max(board.nextByte, board.cycle + cyclesOfByte);
+  for (const byte of request.subarray(41)) (byUart ? board.comingByUart : board.coming).push(byte);
+  if (board.usb) board.usb.feed();
   board.setInputs(request.readUInt32LE(8));
   board.watched = request.readUInt32LE(12);
   board.rises = request.readUInt32LE(16);
-  board.run(request.readDoubleLE(0), request[20] !== 0);
+  const end = request.readDoubleLE(0);
+  board.turnEvenly(request.readDoubleLE(21), request.readDoubleLE(29), request.readUInt32LE(37), end);
+  board.run(end, (request[20] & 1) !== 0);
   answer(board);
 }

@@ -89,7 +89,7 @@ TEST_F(WatchTest, changes_at_rest_only) {
       << "another watch forgets nothing of this one";
 }
 
-TEST_F(WatchTest, only_one_limit_switch_can_be_named) {
+TEST_F(WatchTest, several_limit_switches_can_be_named_only_where_the_hardware_can_watch_them) {
   greet();
   bench_.replies.clear();
   send(Ask{.motors = 3, .question = Question::watch, .limit = 3}, std::uint8_t{0});

@@ -29,9 +29,9 @@ TEST(MotorTrials, find_the_textbooks_pull_out_where_the_rotor_does_not_swing) {
 
 TEST(MotorTrials, find_that_pull_in_ends_and_is_below_pull_out) {
   const MotorSetup setup = on_the_bench("two-on", 0.02);
-  EXPECT_GT(tried_pull_in(setup, Hertz(200)).value, 0.05);
+  EXPECT_GT(tried_pull_in(setup, Hertz(400)).value, 0.05);
   EXPECT_EQ(tried_pull_in(setup, Hertz(3000)).value, 0);
-  for (const double rate : {300.0, 600.0}) {
+  for (const double rate : {400.0, 500.0, 600.0}) {
     EXPECT_LE(tried_pull_in(setup, Hertz(rate)).value, tried_pull_out(setup, Hertz(rate)).value) << rate;
   }
 }

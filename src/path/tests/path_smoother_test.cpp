@@ -103,6 +103,18 @@ TEST_F(PathSmootherTest, a_corner_swings_to_the_outer_side_unless_an_axis_goes_b
   EXPECT_LT(above, 10);
 }
 
+// The corner is passed at the slow feed, where a swing would only be a way more.
+TEST_F(PathSmootherTest, a_corner_to_a_slow_feed_does_not_swing) {
+  go(10, 0);
+  go(10, 10).speed = MmPerSecond(5);
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending}) {
+    for (const Segment& segment : segments_of(smooth(path_, smoothness))) {
+      EXPECT_GT(segment.curve.extents().low[Axis::y], -0.2 * tolerance_);
+      EXPECT_LT(segment.curve.extents().high[Axis::x], 10 + 0.2 * tolerance_);
+    }
+  }
+}
+
 TEST_F(PathSmootherTest, a_line_in_pieces_is_one_line) {
   constexpr int pieces = 700;
   for (int i = 1; i <= pieces; ++i) go(12.0 * i / pieces, 9.0 * i / pieces);
@@ -138,6 +150,18 @@ TEST_F(PathSmootherTest, lines_merge_within_the_merge_tolerance_only) {
   EXPECT_EQ(count_with(0.0004), 1U);
   EXPECT_EQ(cubics(smoothed()), 0U);
   EXPECT_GT(count_with(0.015), 20U);
+}
+
+// A corner under a wide tolerance does not reach over the joint of two lines in one direction, whose own is narrow.
+TEST_F(PathSmootherTest, a_corner_keeps_to_the_narrow_tolerance_of_the_lines_after_it) {
+  tolerance_ = 0.2471;
+  go(-3.5393, -0.9461);
+  go(-3.6113, -0.9461);
+  tolerance_ = 0.0162;
+  go(-3.6113, -1.1475);
+  go(-3.6113, -1.6551);
+  for (const Smoothness smoothness : {Smoothness::least_bending, Smoothness::slow_bending})
+    expect_good(path_, smoothness);
 }
 
 TEST_F(PathSmootherTest, lines_of_different_feed_or_kind_do_not_merge) {

@@ -1,5 +1,6 @@
 // The least time under limits of jerk, against closed forms.
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "kit/stage_test.hpp"
@@ -25,21 +26,26 @@ ProvenAxis axis_with(Axis axis, double own_acceleration, double own_jerk) {
 const std::vector<ProvenAxis> both_limited = {axis_with(Axis::x, strongest, sharpest),
                                               axis_with(Axis::y, strongest, sharpest)};
 
-double bound_through(const std::vector<Point>& places, const std::vector<ProvenAxis>& axes = both_limited,
-                     double feed = 1000) {
+double bound_along(const std::vector<Curve>& curves, const std::vector<ProvenAxis>& axes = both_limited,
+                   double feed = 1000) {
   ProofOptions options;
   options.axes = axes;
   options.tick_rate = Hertz(1e6);
   MotionProver prover(options);
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    PlannedMove move{.segment = {.curve = Curve::line(places[i - 1], places[i]), .speed = MmPerSecond(feed)},
-                     .phases = {}};
+  for (const Curve& curve : curves) {
+    PlannedMove move{.segment = {.curve = curve, .speed = MmPerSecond(feed)}, .phases = {}};
     move.to = move.segment.curve.length();
     move.add({.duration = Seconds(move.to.value()), .velocity = MmPerSecond(1)});
     prover.watch(PathItem(move.segment));
     prover.watch(MotionItem(move));
   }
   return prover.finish().time_bound.value();
+}
+double bound_through(const std::vector<Point>& places, const std::vector<ProvenAxis>& axes = both_limited,
+                     double feed = 1000) {
+  std::vector<Curve> lines;
+  for (std::size_t i = 1; i < places.size(); ++i) lines.push_back(Curve::line(places[i - 1], places[i]));
+  return bound_along(lines, axes, feed);
 }
 
 // Where the highest speed is not reached.
@@ -84,6 +90,38 @@ TEST(JerkBound, lets_the_acceleration_go_on_where_the_path_turns_back) {
   const double one_way = (2 + std::sqrt(2.0)) * std::sqrt(top / sharpest);
   EXPECT_NEAR(bound_through({xyz(0, 0), xyz(length, 0), xyz(0, 0)}), 2 * one_way, 1e-9);
   EXPECT_LT(one_way, from_rest_to_rest(length));
+}
+
+// Where an arc begins, the acceleration across the path would jump from 0 to v²/r. A thousandth of the limit is
+// rounding, so v² is at most r/1000 times the limit. Each line then takes nearly as long as from rest to rest.
+TEST(JerkBound, knows_that_an_arc_is_not_entered_at_speed) {
+  const double radius = 5;
+  const double speed = std::sqrt(radius * strongest / 1000);
+  const Curve before = Curve::line(xyz(0, 0), xyz(8, 0));
+  const Curve arc = Curve::arc(xyz(8, 0), xyz(8 + radius, radius), Axis::x, Axis::y, 8, radius, std::numbers::pi / 2);
+  const Curve after = Curve::line(xyz(8 + radius, radius), xyz(8 + radius, radius + 8));
+  const double lines = 2 * (from_rest_to_rest(8) - 2 * speed / strongest - rise);
+  EXPECT_GT(bound_along({before, arc, after}), lines + radius * std::numbers::pi / 2 / 50);
+  EXPECT_LT(bound_along({before, arc, after}), 2 * from_rest_to_rest(8) + 1);
+}
+
+// A path whose bend grows evenly along the way, k s, and falls again: |d(k s v³)/ds| is at most the jerk along x and y.
+TEST(JerkBound, knows_how_fast_a_bend_may_grow) {
+  const double growth = 400;
+  const double length = 0.03;
+  const double rise_of_y = growth * length * length * length / 6;
+  const double slope = growth * length * length / 2;
+  const Curve in = Curve::cubic(xyz(0, 0), xyz(1, 0), xyz(length, rise_of_y), xyz(1, slope), Mm(length));
+  const Point middle = xyz(length, rise_of_y);
+  const Point end = xyz(2 * length, rise_of_y + 2 * slope * length - rise_of_y);
+  const Curve out = Curve::cubic(middle, xyz(1, slope), end, xyz(1, 2 * slope), Mm(length));
+  const Curve before = Curve::line(xyz(-20, 0), xyz(0, 0));
+  const Point away = xyz(1, 2 * slope) * (20 / std::hypot(1, 2 * slope));
+  const Curve after = Curve::line(end, xyz(end[Axis::x] + away[Axis::x], end[Axis::y] + away[Axis::y]));
+  const double fastest = std::cbrt(sharpest * (1 + 2 * slope) / growth);
+  // From rest to 100 mm/s, and down to that speed.
+  const double lines = 2 * (200 - fastest) / strongest;
+  EXPECT_GT(bound_along({before, in, out, after}), lines + 0.9 * 2 * length / fastest);
 }
 
 }  // namespace

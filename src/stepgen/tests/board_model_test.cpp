@@ -6,7 +6,8 @@
 #include "kit/seed.hpp"
 #include <gtest/gtest.h>
 
-#include "passo/firmware/player.hpp"
+#include "passo/firmware/board.hpp"
+#include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 namespace {
@@ -26,6 +27,27 @@ class Segments {
       if (between(0, 1) == 1) segment.flips = static_cast<std::uint8_t>(segment.flips | 1U << m);
       if (between(0, 1) == 1) segment.directions = static_cast<std::uint8_t>(segment.directions | 1U << m);
     }
+    return segment;
+  }
+  // In parts, the change of the interval a root, or a motor bent.
+  BoardSegment draw_in_parts(unsigned motors) {
+    BoardSegment segment = draw(motors);
+    segment.events = static_cast<std::uint16_t>(between(1, most_events));
+    segment.interval = static_cast<std::uint32_t>(between(1000 * whole_tick, 2000 * whole_tick));
+    segment.form = static_cast<std::uint8_t>(between(0, 15));
+    segment.change = static_cast<std::int32_t>(between(-whole_tick / 8, whole_tick / 8));
+    if (is_root(segment.form)) {
+      const std::int64_t parts = segment.events / part_length(segment.form) + 1;
+      segment.change = static_cast<std::int32_t>((std::int64_t{1} << 31) / (between(3, 100) + parts));
+      if (between(0, 1) == 1) segment.change = -segment.change;
+      if (!is_fine(segment.change)) segment.change -= segment.change % coarse_change;
+    }
+    if (between(0, 2) == 0) return segment;
+    const auto bent = static_cast<unsigned>(between(0, motors - 1));
+    const auto lender = static_cast<unsigned>(between(0, motors - 1));
+    if (bent == lender) return segment;
+    segment.bend = static_cast<std::uint8_t>(bent | lender << bend_shift<max_motors>);
+    segment.flips = static_cast<std::uint8_t>(segment.flips & ~(1U << lender));
     return segment;
   }
 
@@ -60,6 +82,54 @@ TEST(BoardModel, knows_to_the_last_bit_where_the_player_is_after_any_segments) {
           << "segment " << n << ", motor " << m;
     }
   }
+}
+
+// Counts steps and ticks, and says nothing.
+struct Counters {
+  std::array<std::int64_t, max_motors> steps{};
+  void step(std::uint8_t stepped, std::uint8_t directions) {
+    for (unsigned m = 0; m < max_motors; ++m) {
+      if ((stepped >> m & 1U) != 0) steps[m] += (directions >> m & 1U) != 0 ? -1 : 1;
+    }
+  }
+  void outputs(const BoardOutputs& /*outputs*/) {}
+  void send(std::uint8_t /*byte*/) {}
+  static std::uint8_t room() { return 0xFF; }
+};
+
+// A board with room for eight motors, and one as small as a chip's, which packs its segments.
+template <std::uint8_t motors>
+void compare_board_and_model() {
+  Counters counters;
+  Board<Counters, 32, Player, motors> board(counters, {.motors = motors, .clock = 16'000'000});
+  std::uint8_t frame[largest_frame];
+  const auto send = [&](std::uint8_t size) {
+    for (std::uint8_t i = 0; i < size; ++i) board.receive(frame[i]);
+  };
+  send(encode(Hello{.motors = motors}, 0, frame));
+  BoardModel model(motors);
+  Segments segments;
+  std::int64_t ticks = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const BoardSegment segment = segments.draw_in_parts(motors);
+    send(encode(segment, motors, static_cast<std::uint8_t>(n + 1), frame));
+    ASSERT_FALSE(board.idle()) << "segment " << n << " was refused";
+    model.play(segment);
+    while (!board.idle()) {
+      ticks += board.ticks_to_next_event();
+      board.on_event();
+    }
+    ASSERT_EQ(model.time() >> 16, ticks) << "segment " << n << ", form " << unsigned{segment.form};
+    for (unsigned m = 0; m < motors; ++m) {
+      ASSERT_EQ(model.position(m) >> 16, counters.steps[m]) << "segment " << n << ", motor " << m;
+    }
+  }
+}
+
+TEST(BoardModel, knows_where_a_board_is_after_segments_in_parts_with_roots_and_bends) {
+  compare_board_and_model<8>();
+  compare_board_and_model<4>();
+  compare_board_and_model<3>();
 }
 
 }  // namespace

@@ -181,8 +181,7 @@ TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
     const auto& segment = std::get<BoardSegment>(item);
     ++segments;
     ASSERT_LE(segment.events, longest_segment_of_all);
-    std::int64_t interval = segment.interval;
-    for (unsigned k = 0; k < segment.events; ++k, interval += segment.change) {
+    for (const std::int64_t interval : oracle::intervals_of(segment)) {
       time += interval;
       for (unsigned m = 0; m < 2; ++m) {
         const bool flipped = (segment.flips >> m & 1U) != 0;
@@ -200,7 +199,43 @@ TEST(StepGenerator, loose_times_take_few_segments_and_lose_no_step) {
   }
   EXPECT_EQ(place[0] >> 16, 3840);
   EXPECT_EQ(place[1] >> 16, 1120);
-  EXPECT_LE(segments, 14);
+  EXPECT_LE(segments, 7);
+}
+
+// Over a line: the bends of an arc are a few segments, and each step comes within one and a half intervals of its time.
+TEST(StepGenerator, loose_arcs_take_few_segments_and_lose_no_step) {
+  const StepOptions options = machine({640, 640, 640}, 140e3);
+  const std::vector<MotionItem> items = {
+      planned(Curve::arc(xyz(0, 0), xyz(0, 0), Axis::x, Axis::y, 30, 0, 2 * std::numbers::pi), 0, 60, 0, 600)};
+  test::ListSource<MotionItem> source(items);
+  StepGenerator generator(source, options);
+  generator.be_exact_to({.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all});
+  std::vector<BoardItem> board;
+  for (BoardItem item; generator.next(item);) board.push_back(item);
+  EXPECT_LE(board.size(), 120U);  // quadratics alone: 1,300
+
+  const oracle::Playback played = oracle::play(board, options);
+  for (unsigned m = 0; m < options.motor_count; ++m) {
+    const std::vector<oracle::ExactStep> exact = oracle::exact_steps(items, options, m);
+    const std::vector<oracle::PlayedStep>& steps = played.steps[m];
+    ASSERT_EQ(steps.size(), exact.size()) << m << " ends at " << played.counts[m];
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      ASSERT_EQ(steps[i].direction, exact[i].direction) << "motor " << m << " step " << i;
+      ASSERT_LE(std::fabs(static_cast<long double>(steps[i].tick) - exact[i].time),
+                1.5L * static_cast<long double>(steps[i].interval) + 1)
+          << "motor " << m << " step " << i;
+    }
+  }
+}
+
+TEST(StepGenerator, bends_no_motor_of_a_machine_with_two_motors_at_an_axis) {
+  StepOptions options = machine({640, 640, 640}, 140e3);
+  options.bends = false;
+  test::ListSource<MotionItem> source(
+      {planned(Curve::arc(xyz(0, 0), xyz(0, 0), Axis::x, Axis::y, 30, 0, 2 * std::numbers::pi), 0, 60, 0, 600)});
+  StepGenerator generator(source, options);
+  generator.be_exact_to({.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all});
+  for (BoardItem item; generator.next(item);) ASSERT_EQ(std::get<BoardSegment>(item).bend, 0);
 }
 
 TEST(BoardText, a_short_move_from_rest_to_rest_and_a_dwell_read_as_they_are_played) {

@@ -72,6 +72,7 @@ TEST(ItemSums, are_the_sum_of_words_and_the_sum_of_sums) {
   const BoardSegment segment{.events = 0x0302,
                              .directions = 4,
                              .flips = 5,
+                             .bend = 0x21,
                              .interval = 0x09080706,
                              .change = 0x0C0B0A,
                              .increments = {0x0E0D, 0x100F, 0x1211}};
@@ -79,7 +80,7 @@ TEST(ItemSums, are_the_sum_of_words_and_the_sum_of_sums) {
   const std::uint8_t size = encode(segment, motors, 0, frame);
   const Replace replace = announce(7, 300, {Bytes(frame, frame + size)});
   // The announcement, then type and payload two bytes at a time.
-  const unsigned words[] = {7, 300, 1, 0x0233, 0x0403, 0x0605, 0x0807, 0x0A09, 0x0C0B, 0x0E0D, 0x100F, 0x1211};
+  const unsigned words[] = {7, 300, 1, 0x0233, 0x0403, 0x0695, 0x0807, 0x0A09, 0x0C0B, 0x0E0D, 0x100F, 0x1211};
   unsigned first = replace.sums.first;
   unsigned second = replace.sums.second;
   for (const unsigned word : words) {

@@ -33,6 +33,8 @@ TEST(Message, a_segment_keeps_every_field_for_every_number_of_motors) {
     ASSERT_EQ(received.events, sent.events);
     ASSERT_EQ(received.directions, sent.directions);
     ASSERT_EQ(received.flips, sent.flips);
+    ASSERT_EQ(received.form, sent.form);
+    ASSERT_EQ(received.bend, sent.bend);
     ASSERT_EQ(received.interval, sent.interval);
     ASSERT_EQ(received.change, sent.change);
     for (unsigned m = 0; m < max_motors; ++m) ASSERT_EQ(received.increments[m], sent.increments[m]);

@@ -36,11 +36,13 @@ class RandomMessages {
     BoardSegment segment;
     segment.events = byte();
     segment.directions = byte();
-    segment.flips = byte();
+    segment.flips = motors > most_motors_beside_bend ? byte() : byte() & 0x0F;
     segment.interval = static_cast<std::uint32_t>(word()) << 16 | word();
     segment.change = static_cast<std::int32_t>(below(2 * fine_change + 1)) - fine_change;
     if (below(4) == 0) segment.change *= coarse_change;
     for (unsigned m = 0; m < motors; ++m) segment.increments[m] = word();
+    segment.form = static_cast<std::uint8_t>(below(16));
+    segment.bend = static_cast<std::uint8_t>(below(motors) | below(motors) << 4);
     return segment;
   }
 
@@ -92,7 +94,7 @@ class RandomMessages {
     std::array<std::uint8_t, largest_frame> frame{};
     std::uint8_t size = 0;
     const std::uint8_t sequence = byte();
-    switch (below(17)) {
+    switch (below(18)) {
       case 0: size = encode(Hello{.version = byte(), .motors = byte()}, sequence, frame.data()); break;
       case 1: size = encode(BoardOutputs{.switches = byte(), .spindle_rpm = word()}, sequence, frame.data()); break;
       case 2: {
@@ -129,6 +131,11 @@ class RandomMessages {
       }
       case 11: size = encode(about(), sequence, frame.data()); break;
       case 12: size = encode(turned(), sequence, frame.data()); break;
+      case 13: {
+        const PinSetup setup{.inputs = word(), .steps = byte(), .outputs = byte(), .drivers_rest = byte()};
+        size = encode(setup, sequence, frame.data());
+        break;
+      }
       default: size = encode(segment(motors), motors, sequence, frame.data()); break;
     }
     return {frame.begin(), frame.begin() + size};

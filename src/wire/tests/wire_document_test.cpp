@@ -25,6 +25,9 @@ std::vector<std::string> example_session() {
   std::vector<std::string> lines;
   std::uint8_t frame[largest_frame];
   const auto line = [&](std::uint8_t size) { lines.push_back(hex(frame, size)); };
+  const PinSetup setup{.inputs = input_limit | input_emergency_stop, .outputs = inverted_enable, .drivers_rest = 200};
+  line(encode(setup, 0, frame));
+  line(encode(setup, 0, frame));
   line(encode(Hello{.motors = 2}, 0, frame));
   line(encode(HelloReply{.motors = 4, .capacity = 32, .clock = 16'000'000}, 0, frame));
   line(encode(Session{.number = 0x1234, .silence = {.spindle = 20, .mist = 20, .flood = 20}}, 0, frame));

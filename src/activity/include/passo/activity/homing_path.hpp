@@ -1,4 +1,4 @@
-// HomingPath: finds out where a machine stands, by the limit switches of its axes, one axis after the other.
+// HomingPath: finds out where a machine stands, by the limit switches of its axes.
 //
 // An axis seeks its switch, backs off until the switch is open, comes back slowly, and pulls off. The point where the
 // switch closes during the slow return is the axis's place, to the step. Each of these moves is a probe move with that
@@ -6,9 +6,19 @@
 // a single message. All other limit switches stop the machine at once. If the switch is closed at the beginning, the
 // axis first backs off.
 //
+// Axes of the same turn first move together until one of them meets its switch. That one is homed alone; then the
+// others go on.
+//
+// An axis with two motors is squared before it latches. Each motor goes on alone to its own switch. Both back off
+// together. The second motor then falls behind a little, so that the first one's switch is sure to close first: so the
+// exact places of both switches are found, one by one, without racking the axis by more than that. In the path a motor
+// that moves alone moves its axis (TwinMotors): `goes_` tells where each of them truly is.
+//
 // The place of an axis is unknown until the axis is homed. Until then the path counts from where the machine stood.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -20,7 +30,14 @@
 
 namespace passo {
 
-enum class HomingStage : std::uint8_t { seek, back_off, latch, pull_off };
+enum class HomingStage : std::uint8_t {
+  seek,
+  look,    // of the axes that sought together, which one has met its switch
+  square,  // one of the axis's two motors moves alone
+  back_off,
+  latch,
+  pull_off,
+};
 
 enum class HomingFault : std::uint8_t {
   not_met,       // the switch did not close within 1.1 of the travel, or, on the slow return, within three times the
@@ -39,6 +56,8 @@ struct HomedAxis {
   Axis axis = Axis::x;
   double way = 0;    // from where the axis stood to where the switch closed
   double place = 0;  // where the axis rests, in machine coordinates
+  // How far the second motor was moved against the first one, in the axis's direction. Empty: there is none.
+  std::optional<double> squared = {};
 };
 
 class HomingPath final : public Activity {
@@ -63,6 +82,10 @@ class HomingPath final : public Activity {
 
  private:
   enum class Step : std::uint8_t { begin, move, end, judge };
+  // What a motor does alone, in this order.
+  enum class Alone : std::uint8_t { close_first, close_second, lag, find_second, adjust };
+  static constexpr std::size_t first_motor = 0;
+  static constexpr std::size_t second_motor = 1;
 
   const HomeDescription& home() const { return *axis_->home; }
   const ProbeOutcome& outcome() const { return *answers_.probe(); }
@@ -72,25 +95,50 @@ class HomingPath final : public Activity {
   // The place, a pull-off away from `place`, where the switch is to be open.
   double off(double place) const;
   Action action(Action::Kind kind, const Point& place) const;
-  void begin_axis();
+  bool is_pair() const { return axis_->second.has_value(); }
+  void begin_turn();
+  void seek_together();
+  void look_at(std::size_t which);
+  void begin_axis(const AxisDescription& axis);
   void begin(HomingStage stage, double target);
+  void begin_alone(Alone alone, double way);
+  void move_alone(double way);
   void judge();
+  void note_way(const Point& before);
+  void judge_together();
+  void judge_look();
+  void judge_alone();
+  void go_on_alone();
+  void fall_further_behind();
+  double farthest_beyond() const;
+  double apart_from_switches() const;
   void judge_approach();
   void judge_retreat();
   void retreat(HomingStage stage, double target);
   void turn_watch();
   void end_axis();
+  void fail(HomingFault fault) { fault_ = fault; }
 
   const MachineDescription& machine_;
   const MachineAnswers& answers_;
   Point start_;
+  std::vector<const AxisDescription*> turn_;  // the axes of this turn that are not homed yet
+  std::size_t looked_at_ = 0;                 // of these
+  bool together_ = false;                     // all of them seek at once
+  std::optional<Point> met_;                  // where they were when the first of them met its switch
   const AxisDescription* axis_ = nullptr;
   HomingStage stage_ = HomingStage::seek;
+  Alone alone_ = Alone::close_first;
+  bool settles_ = false;  // the motor that moved alone goes on to a whole step from the other
   Step step_ = Step::begin;
   bool until_closed_ = true;  // the move ends when the switch closes; else when it opens
-  double target_ = 0;
-  bool knows_switch_ = false;  // knows roughly where the switch closes
-  double found_ = 0;
+  Point target_;
+  MmPerSecond speed_{0};
+  std::uint8_t limits_ = 0;        // the switches that are watched
+  bool knows_switch_ = false;      // knows roughly where the switch closes
+  std::array<double, 2> goes_{};   // where the axis's motors are; with one motor, both are the axis
+  std::array<double, 2> found_{};  // where each of them was when its switch closed
+  double lag_ = 0;                 // how far the second motor falls behind before the latch
   int turns_ = 0;
   Point position_;  // where the machine rests
   std::vector<HomedAxis> homed_;

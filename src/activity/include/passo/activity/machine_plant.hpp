@@ -10,12 +10,19 @@
 #include "passo/plant/ideal_plant.hpp"
 #include "passo/plant/rotor_plant.hpp"
 #include "passo/plant/travel_switch.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
 // The limit switches by which a machine is homed. They close where the machine file says, in steps from machine zero.
 // They open `hysteresis` further off.
 std::vector<TravelSwitch> home_switches(const MachineDescription& machine, Mm hysteresis = Mm(0.05));
+
+// Where the motors of that plant stand at first, if the axes stand at `place`: second motors are ahead by their skew.
+MotorSteps truth_at(const MachineDescription& machine, const Point& place);
+
+// How the machine's switches and drivers are connected to its board's pins.
+PinSetup pin_setup(const MachineDescription& machine);
 
 SpindleModel spindle_model(const SpindleDescription& spindle);
 

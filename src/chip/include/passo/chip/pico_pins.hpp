@@ -22,12 +22,12 @@ struct PicoMotor {
   uint8_t direction = no_gpio;
 };
 
-template <uint8_t motor_count>
 struct PicoPins {
-  static constexpr uint8_t motors = motor_count;
+  static constexpr uint8_t most_motors = 8;
   static constexpr uint8_t window = 16;
+  uint8_t motors = 0;
   uint8_t first = 0;
-  PicoMotor motor[motor_count] = {};
+  PicoMotor motor[most_motors] = {};
   uint8_t enable = no_gpio;  // low: the drivers are on
   uint8_t limits[pico_limits] = {no_gpio, no_gpio, no_gpio};
   uint8_t probe = no_gpio;
@@ -38,20 +38,24 @@ struct PicoPins {
   uint8_t spindle_direction = no_gpio;
   uint8_t mist = no_gpio;
   uint8_t flood = no_gpio;
+  // The encoder at the spindle. A PWM slice counts the pulses, which only its second pin can: an odd one.
+  uint8_t encoder_pulses = no_gpio;
+  uint8_t encoder_index = no_gpio;
+  // A serial line beside USB.
   uint8_t line_out = no_gpio;
   uint8_t line_in = no_gpio;
 
   // Bits of the step or direction pins of `which` motors in a word for the state machine.
   constexpr uint16_t steps_of(uint8_t which) const {
     uint32_t bits = 0;
-    for (uint8_t m = 0; m < motor_count; ++m) {
+    for (uint8_t m = 0; m < motors; ++m) {
       if ((which >> m & 1) != 0) bits |= gpio_bit(motor[m].step) >> first;
     }
     return static_cast<uint16_t>(bits);
   }
   constexpr uint16_t directions_of(uint8_t which) const {
     uint32_t bits = 0;
-    for (uint8_t m = 0; m < motor_count; ++m) {
+    for (uint8_t m = 0; m < motors; ++m) {
       if ((which >> m & 1) != 0) bits |= gpio_bit(motor[m].direction) >> first;
     }
     return static_cast<uint16_t>(bits);
@@ -60,7 +64,8 @@ struct PicoPins {
   // ground.
   constexpr uint32_t motor_pins() const { return (uint32_t{steps_of(0xff)} | uint32_t{directions_of(0xff)}) << first; }
   constexpr uint32_t inputs() const {
-    uint32_t bits = gpio_bit(probe) | gpio_bit(emergency_stop) | gpio_bit(feed_hold) | gpio_bit(cycle_start);
+    uint32_t bits = gpio_bit(probe) | gpio_bit(emergency_stop) | gpio_bit(feed_hold) | gpio_bit(cycle_start) |
+                    gpio_bit(encoder_pulses) | gpio_bit(encoder_index);
     for (const uint8_t limit : limits) bits |= gpio_bit(limit);
     return bits;
   }
@@ -68,6 +73,9 @@ struct PicoPins {
   constexpr uint32_t switched() const {
     return gpio_bit(enable) | gpio_bit(spindle_direction) | gpio_bit(mist) | gpio_bit(flood);
   }
+
+  static constexpr uint8_t slice_of(uint8_t gpio) { return gpio / 2 % 8; }
+  constexpr bool has_encoder() const { return encoder_pulses != no_gpio; }
 
   // Whether every motor has its pins within the window, and no pin has two jobs.
   constexpr bool is_sound() const {
@@ -78,23 +86,29 @@ struct PicoPins {
       sound = sound && gpio < gpio_count && (taken & gpio_bit(gpio)) == 0;
       taken |= gpio_bit(gpio);
     };
-    for (const PicoMotor& one : motor) {
-      const uint8_t both[] = {one.step, one.direction};
+    sound = motors <= most_motors;
+    for (uint8_t m = 0; m < motors && m < most_motors; ++m) {
+      const uint8_t both[] = {motor[m].step, motor[m].direction};
       for (const uint8_t gpio : both) {
         sound = sound && gpio >= first && gpio < first + window;
         take(gpio);
       }
     }
     for (const uint8_t limit : limits) take(limit);
-    const uint8_t others[] = {enable, probe, emergency_stop, feed_hold, cycle_start, spindle_pwm, spindle_direction,
-                              mist,   flood, line_out,       line_in};
+    const uint8_t others[] = {enable, probe, emergency_stop, feed_hold,     cycle_start, spindle_pwm, spindle_direction,
+                              mist,   flood, encoder_pulses, encoder_index, line_out,    line_in};
     for (const uint8_t gpio : others) take(gpio);
+    if (encoder_pulses != no_gpio) {
+      const bool slice_is_free = spindle_pwm == no_gpio || slice_of(spindle_pwm) != slice_of(encoder_pulses);
+      sound = sound && (encoder_pulses & 1) != 0 && encoder_index != no_gpio && slice_is_free;
+    }
     return sound;
   }
 };
 
 // A bare Raspberry Pi Pico on a breadboard: six drivers, three limit switches.
-inline constexpr PicoPins<6> pico_bare = {
+inline constexpr PicoPins pico_bare = {
+    .motors = 6,
     .first = 2,
     .motor = {{2, 3}, {4, 5}, {6, 7}, {8, 9}, {10, 11}, {12, 13}},
     .enable = 14,
@@ -110,6 +124,52 @@ inline constexpr PicoPins<6> pico_bare = {
     .line_out = 0,
     .line_in = 1,
 };
-static_assert(pico_bare.is_sound(), "a pin has two jobs, or a motor's pins are too far apart");
+
+// The same with an encoder at the spindle, on the pins of the serial line.
+constexpr PicoPins with_encoder(PicoPins pins) {
+  pins.encoder_pulses = pins.line_in;
+  pins.encoder_index = pins.line_out;
+  pins.line_in = pins.line_out = no_gpio;
+  return pins;
+}
+inline constexpr PicoPins pico_lathe = with_encoder(pico_bare);
+
+// Eight drivers take all but ten pins: no serial line beside USB, and no buttons.
+inline constexpr PicoPins pico_eight = {
+    .motors = 8,
+    .first = 0,
+    .motor = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {8, 9}, {10, 11}, {12, 13}, {14, 15}},
+    .enable = 16,
+    .limits = {19, 20, 21},
+    .probe = 26,
+    .emergency_stop = 22,
+    .spindle_pwm = 17,
+    .spindle_direction = 18,
+    .mist = 28,
+    .flood = 27,
+};
+
+// A Pico on the carrier PicoBOB (Expatria Technologies) drives a breakout board that was made for a parallel port. Its
+// inputs are three switches, probe and emergency stop. Source of the wiring: grblHAL, boards/picobob_map.h.
+inline constexpr PicoPins picobob = {
+    .motors = 5,
+    .first = 9,
+    .motor = {{17, 9}, {18, 10}, {19, 11}, {20, 12}, {21, 13}},
+    .limits = {2, 1, 5},
+    .probe = 4,
+    .emergency_stop = 3,
+    .spindle_pwm = 14,
+    .flood = 16,
+};
+static_assert(pico_bare.is_sound() && pico_lathe.is_sound() && pico_eight.is_sound() && picobob.is_sound(),
+              "a pin has two jobs, a motor's pins are too far apart, or an encoder's cannot count");
+
+// The board's name, and its image's: motion_ and this name.
+struct PicoBoardPins {
+  const char* name;
+  const PicoPins& pins;
+};
+inline constexpr PicoBoardPins pico_boards[] = {
+    {"pico", pico_bare}, {"pico_lathe", pico_lathe}, {"pico_eight", pico_eight}, {"picobob", picobob}};
 
 }  // namespace passo

@@ -89,7 +89,7 @@ struct PinMap {
   uint8_t flag_special = 0;     // masks in the first step port
   uint8_t flag_stop = 0;
 
-  Pin limits[most_axis_switches] = {};  // of motors 0, 1, 2, then their second ones, at the other end of the travel
+  Pin limits[most_axis_switches] = {};  // limit switches 0 to 5, as BoardInput numbers them
   Pin probe = {};
   Pin emergency_stop = {};
   Pin door = {};

@@ -50,8 +50,9 @@ struct TailOptions {
   Exactness motion{.one_in = 64, .longest_segment = longest_segment_of_all};
   Exactness motion_in_few_places{.one_in = 2, .least_rate = Hertz(1'000), .longest_segment = longest_segment_of_all};
   // A segment that is off by a whole interval may brake twice as hard where it begins as where it ends.
-  Exactness tail{.one_in = 4, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
-  Exactness tail_in_few_places{.one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all};
+  Exactness tail{.one_in = 4, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all, .ends_in_time = false};
+  Exactness tail_in_few_places{
+      .one_in = 1, .least_rate = Hertz(0), .longest_segment = longest_segment_of_all, .ends_in_time = false};
 };
 
 class Refiller final : public Feed {

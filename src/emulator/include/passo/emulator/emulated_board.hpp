@@ -17,6 +17,7 @@
 #include "passo/base/result.hpp"
 #include "passo/link/board_port.hpp"
 #include "passo/plant/plant.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -26,8 +27,9 @@ class EmulatedBoard : public BoardPort {
   // sentence with the reason.
   static Result<std::unique_ptr<EmulatedBoard>, std::string> start(std::string_view kind, const std::string& program);
 
-  // The position of each motor, in steps from the start. A step is a rising edge, backwards while the direction pin is
-  // high, or the next pattern of the motor's windings.
+  // The position of each motor, in steps from the start. A step is an edge of the step pin to the level at which the
+  // pin is on, backwards while the direction pin is high, or the next pattern of the motor's windings. A driver that is
+  // not enabled makes no step.
   virtual std::vector<std::int64_t> positions() const = 0;
   // The function is called for each of these steps, in the order of the pins, with the cycle of the edge.
   std::function<void(std::uint64_t cycle, std::size_t motor, bool down)> on_step;
@@ -37,11 +39,19 @@ class EmulatedBoard : public BoardPort {
   // switches and of the encoder, where the board has such pins. Of the spindle's outputs, the plant gets only the
   // Mega's speed output. If somebody else changes the plant, the board sees the change in its next run().
   virtual void connect(Plant& plant) = 0;
+  // Says how the plant's switches and drivers are connected to the board's pins, at the start. Without this they are
+  // connected as usual (PinSetup).
+  virtual void wire(const PinSetup& /*wiring*/) {}
 };
 
 // All kinds of emulated boards: with drivers for step and direction, and with the windings on the board's own pins.
-inline constexpr std::array<std::string_view, 9> emulated_boards = {
-    "uno", "uno_two_on", "uno_wave", "uno_half_step", "mega", "mega_two_on", "mega_wave", "mega_half_step", "pico"};
+inline constexpr std::array<std::string_view, 12> emulated_boards = {
+    "uno",       "uno_two_on",     "uno_wave", "uno_half_step", "mega",       "mega_two_on",
+    "mega_wave", "mega_half_step", "pico",     "pico_lathe",    "pico_eight", "picobob"};
+// Whether it is a Pico, whose image is a UF2 file.
+constexpr bool is_pico(std::string_view kind) {
+  return kind.starts_with("pico");
+}
 constexpr bool is_emulated_board(std::string_view kind) {
   for (const std::string_view one : emulated_boards) {
     if (one == kind) return true;

@@ -47,6 +47,8 @@ class EmulatorProcess {
   void turn_encoder(const EncoderWay& way) { encoder_ = way; }
   // Runs until `cycle`. False if the emulator has died; then error() tells it. run(1, {}) shows whether it has started.
   bool run(std::uint64_t cycle, const Stops& stops);
+  // Puts bytes on the board's other line at once (Pico: the UART, though its line is USB).
+  bool send_by_other_line(std::span<const std::uint8_t> bytes);
   const std::string& error() const { return error_; }
 
   // Puts bytes on the line; they arrive one after the other while it runs.
@@ -64,6 +66,7 @@ class EmulatorProcess {
   const std::vector<std::uint8_t>& said() const { return said_; }
 
  private:
+  bool request(std::uint64_t cycle, const Stops& stops, std::uint8_t flags, std::span<const std::uint8_t> bytes);
   bool read_answer();
 
   pid_t process_ = -1;

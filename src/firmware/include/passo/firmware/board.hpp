@@ -4,7 +4,6 @@
 // use it. The main loop calls receive(), settle() and report(). The timer calls idle(), ticks_to_next_event() and
 // on_event(). A chip's player runs ahead instead: it makes the events of several items before their time, and an
 // interrupt of its own plays them; then only the main loop's side is used. Every player has the interface of Player.
-//
 // board_hardware.hpp describes Hardware.
 //
 // Invariant: frames are taken in the order of their sequence numbers, each once; none is taken after a gap. Items are
@@ -26,6 +25,7 @@
 #include "passo/firmware/player.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
+#include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 
@@ -54,16 +54,14 @@ class Board : private BoardVoice<Hardware> {
   bool owes_report() const { return owed_ != 0; }
   uint8_t owed() const { return owed_; }
   void report() {
-    if (!has_room(MessageType::credit)) {
-      if (owed_ == 0) owed_ = 1;
-      return;
-    }
-    owed_ = 0;
-    send(progress());
+    const bool can_send = has_room(MessageType::credit);
+    owed_ = can_send ? uint8_t{0} : owed_ == 0 ? uint8_t{1} : owed_;
+    if (can_send) send(progress());
   }
   // Call when the input pins have changed. Changes of inputs in `captured` are reported at once, with the motors' place
   // at this very event.
   void set_inputs(uint16_t inputs, uint16_t captured = 0) {
+    captured = watch_.that_count(captured, inputs_, inputs);
     inputs_ = inputs;
     if (motors_ == 0) return;
     // The watched input is reported separately: it may go off while another goes on.
@@ -87,10 +85,9 @@ class Board : private BoardVoice<Hardware> {
   // Call ten times a second: counts the host's silence (HostSilence). What is late is switched off at rest.
   void count_silence() {
     silence_.count();
-    const uint8_t late = manual_ == Manual::off && rests() ? silence_.late() : uint8_t{0};
-    if constexpr (requires { hardware_.switch_off(late); }) {
-      if (late != 0 && hardware_.switch_off(late)) silence_.note_off();
-    }
+    if (manual_ != Manual::off || !rests()) return;
+    if (switch_off(hardware_, silence_.late())) silence_.note_off();
+    if (trusted_ && lets_go(hardware_, silence_)) trusted_ = false;
   }
 
   // Manual mode: a person moves the machine (ManualMode), and a host may only ask questions. The place is another
@@ -165,6 +162,7 @@ class Board : private BoardVoice<Hardware> {
     switch (frame.type) {
       case MessageType::hello: return greet(frame);
       case MessageType::session: return name_session(frame);
+      case MessageType::pin_setup: return take_setup(frame);
       case MessageType::ask: return answer(frame);
       case MessageType::segment:
       case MessageType::outputs:
@@ -181,20 +179,29 @@ class Board : private BoardVoice<Hardware> {
     settle();
   }
 
+  [[gnu::noinline]] void take_setup(const WireFrame& frame) {
+    if (!idle()) return complain(WireError::unexpected);
+    PinSetup setup;
+    decode(frame, setup);
+    is_set_up_ = true;
+    send(set_up(hardware_, setup));
+  }
+
   void greet(const WireFrame& frame) {
     if (!idle()) return complain(WireError::unexpected);
     Hello hello;
     decode(frame, hello);
+    const bool agrees = hello.version == protocol_version;
     expected_ = static_cast<uint16_t>(frame.sequence + 1);
     complained_ = false;
     if (manual()) {
-      decoder_.set_motors(hello.version == protocol_version ? hello.motors : uint8_t{0});
+      decoder_.set_motors(agrees ? hello.motors : uint8_t{0});
       return send_hello_reply();
     }
+    if (!is_set_up_) set_up(hardware_, PinSetup{});
+    is_set_up_ = false;
     // A host that dislikes the answer will not go on. Until the two agree there are no segments.
-    motors_ = hello.version == protocol_version && hello.motors <= identity_.motors && hello.motors <= most_motors
-                  ? hello.motors
-                  : uint8_t{0};
+    motors_ = agrees && hello.motors <= identity_.motors && hello.motors <= most_motors ? hello.motors : uint8_t{0};
     decoder_.set_motors(motors_);
     watch(0);
     // Both sides count fractions of steps from the same start. Whole steps count on.
@@ -210,15 +217,10 @@ class Board : private BoardVoice<Hardware> {
     manual_ = Manual::off;
     send_hello_reply();
     // Not while the button is still pressed.
-    if (is_pressed()) stop_at_once(FaultReason::emergency_stop);
+    if ((inputs_ & input_emergency_stop) != 0) stop_at_once(FaultReason::emergency_stop);
   }
-  bool is_pressed() const { return (inputs_ & input_emergency_stop) != 0; }
   void enable() {
-    breathe();
-    if constexpr (requires { hardware_.enable(); }) {
-      if (!is_pressed()) hardware_.enable();
-    }
-    breathe();
+    if ((inputs_ & input_emergency_stop) == 0) passo::enable(hardware_);
   }
   void send_hello_reply() {
     send(HelloReply{.motors = identity_.motors, .capacity = places(), .clock = identity_.clock});
@@ -232,12 +234,12 @@ class Board : private BoardVoice<Hardware> {
     silence_.allow(session.silence);
   }
 
-  // Rare and large work, so functions of their own: all in one function would need more registers than a chip has.
+  // Rare and large work, so functions of their own: a chip has not enough registers for all in one.
   [[gnu::noinline]] void answer(const WireFrame& frame) {
     Ask ask;
     decode(frame, ask);
-    const bool one_limit = (ask.limit & (ask.limit - 1)) == 0;
-    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors || !one_limit) {
+    if (ask.version != protocol_version || ask.motors == 0 || ask.motors > max_motors ||
+        !can_watch(hardware_, ask.limit)) {
       return complain(WireError::bad_value);
     }
     breathe();
@@ -268,13 +270,12 @@ class Board : private BoardVoice<Hardware> {
   }
 
   [[gnu::noinline]] void tell_status(uint8_t motors, uint8_t question) {
-    unsigned state = trusted_ ? unsigned{board_trusted} : 0U;
+    unsigned state = watch_.state();
+    if (trusted_) state |= board_trusted;
     if (!idle()) state |= board_moves;
     if (player_.slipped()) state |= board_slipped;
     if (list_.gathering()) state |= board_replaces;
-    if (watch_.has_kept()) state |= board_kept;
     if (manual()) state |= board_manual;
-    if (watch_.limit() != 0) state |= board_homes;
     if (has_encoder(hardware_)) state |= board_encodes;
     BoardStatusFor<most_motors> status{.session = session_,
                                        .executed = executed_,
@@ -405,27 +406,59 @@ class Board : private BoardVoice<Hardware> {
     complained_ = false;
   }
 
-  // The player gets an item in parts of at most as many events as it can count. To the player each part is a segment.
-  static constexpr uint8_t longest_part = 0xFF;
-
+  // The player gets an item in parts (segment_parts.hpp). To the player each part is a segment.
   // Loads the next part of the item begun last, or the first part of the item after it.
   [[gnu::noinline]] void load() {
     const bool begins = to_load_ == 0;
     if (begins) ++begun_;
-    const auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
+    auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
     if (events == 0) return player_.pass(item.outputs());
-    if (events <= longest_part) return player_.load(item.segment);
-    part_ = item.segment;
+    if (item.segment.form == 0 && item.segment.bend == 0 && events <= longest_part) return player_.load(item.segment);
+    load_part(item.segment, begins);
+  }
+  [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
     breathe();
     if (begins) {
-      to_load_ = events;
+      part_ = segment;
+      breathe();
+      part_.form = 0;
+      to_load_ = segment.events;
     } else {
-      part_.interval += static_cast<uint32_t>(part_.change) * static_cast<uint16_t>(events - to_load_);
+      pass_part();
     }
-    part_.events = to_load_ < longest_part ? to_load_ : longest_part;
+    breathe();
+    const uint8_t length = part_length(segment.form);
+    part_.events = to_load_ < length ? to_load_ : length;
     to_load_ = static_cast<uint16_t>(to_load_ - part_.events);
+    breathe();
+    if (segment.bend != 0) bend(segment, begins);
+    if (is_root(segment.form)) grow(segment, begins);
+    breathe();
     player_.load(part_);
+  }
+  [[gnu::noinline]] void pass_part() { part_.interval += static_cast<uint32_t>(part_.change) * part_.events; }
+  // Gives the part the increment that a bent motor has there.
+  [[gnu::noinline]] void bend(const Segment& segment, bool begins) {
+    breathe();
+    const Bend bend = bend_of(segment);
+    part_.increments[bend.lender] = 0;
+    if (begins) return;
+    part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
+  }
+  // Gives the part the change that a root has there. The item keeps the growth of the part.
+  [[gnu::noinline]] void grow(Segment& segment, bool begins) {
+    breathe();
+    if (!begins) segment.change = next_growth<Breath>(segment.change);
+    breathe();
+    const int32_t twice = twice_factor<Breath>(segment.change);
+    breathe();
+    part_.change = root_change<Breath>(part_.interval, twice, segment.form & ~root_form);
+    breathe();
+    // A part that is too fast, which only a wrong host makes, is played as fast as may be.
+    if (identity_.template can_play<Breath>(part_, motors_)) return;
+    if (part_.interval < identity_.shortest_interval) part_.interval = identity_.shortest_interval;
+    part_.change = 0;
   }
 
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.
@@ -434,8 +467,9 @@ class Board : private BoardVoice<Hardware> {
     if (item.is_segment()) {
       count_steps();
       const uint16_t left = static_cast<uint16_t>(item.segment.events - done_of_front_);
-      done_of_front_ = static_cast<uint16_t>(done_of_front_ + longest_part);
-      if (left > longest_part) return;
+      const uint8_t length = part_length(item.segment.form);
+      done_of_front_ = static_cast<uint16_t>(done_of_front_ + length);
+      if (left > length) return;
     } else {
       hardware_.outputs(item.outputs());
     }
@@ -490,7 +524,7 @@ class Board : private BoardVoice<Hardware> {
   uint8_t owed_ = 0;       // items executed and other news since the last report
   ItemSums sums_;          // of the replacement being gathered, so far
   HostSilence silence_;
-  bool complained_ : 1 = false, trusted_ : 1 = true;  // in one byte: a chip has hardly one to spare
+  bool complained_ : 1 = false, trusted_ : 1 = true, is_set_up_ : 1 = false;  // in one byte: a chip has none to spare
   Manual manual_ = Manual::off;
   uint16_t inputs_ = 0;
   int32_t positions_[most_motors] = {};  // at the end of the last segment

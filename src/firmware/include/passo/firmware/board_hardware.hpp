@@ -6,6 +6,9 @@
 //   bool switch_off(uint8_t switches);                optional: switches these outputs (bits of OutputSwitch) off, at
 //                                                     rest; true if one was on
 //   void watch();                                     optional: another input is watched now (Board::watched())
+//   PinSetup set_up(const PinSetup&);                 optional: applies what it can, at rest, and returns that
+//   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; lets the motors go
+//   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
 //   static void breathe();                            optional: called between two pieces of work
 //   uint8_t room();                                   optional: the number of bytes that may be sent now
 //   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
@@ -14,6 +17,9 @@
 #pragma once
 
 #include <stdint.h>
+
+#include "passo/firmware/host_silence.hpp"
+#include "passo/wire/message.hpp"
 
 namespace passo {
 
@@ -28,6 +34,45 @@ struct BreathOf {
 template <class Hardware>
 [[gnu::always_inline]] inline bool has_encoder(Hardware& hardware) {
   if constexpr (requires { hardware.has_encoder(); }) return hardware.has_encoder();
+  return false;
+}
+
+template <class Hardware>
+[[gnu::always_inline]] inline void enable(Hardware& hardware) {
+  BreathOf<Hardware>{}();
+  if constexpr (requires { hardware.enable(); }) hardware.enable();
+  BreathOf<Hardware>{}();
+}
+
+// True if one of these outputs was on.
+template <class Hardware>
+[[gnu::always_inline]] inline bool switch_off(Hardware& hardware, uint8_t switches) {
+  if constexpr (requires { hardware.switch_off(switches); }) return switches != 0 && hardware.switch_off(switches);
+  return false;
+}
+
+// Lets the motors go if the host has been silent for as long as the setup says. True if it does.
+template <class Hardware>
+[[gnu::always_inline]] inline bool lets_go(Hardware& hardware, const HostSilence& silence) {
+  if constexpr (requires { hardware.release(); }) {
+    if (!silence.is_over(hardware.drivers_rest())) return false;
+    hardware.release();
+    return true;
+  }
+  return false;
+}
+
+template <class Hardware>
+[[gnu::always_inline]] inline PinSetup set_up(Hardware& hardware, const PinSetup& setup) {
+  if constexpr (requires { hardware.set_up(setup); }) return hardware.set_up(setup);
+  return {};
+}
+
+// Whether the switches of these bits can capture together.
+template <class Hardware>
+[[gnu::always_inline]] inline bool can_watch(Hardware& hardware, uint8_t limits) {
+  if ((limits & (limits - 1)) == 0) return true;
+  if constexpr (requires { hardware.can_watch(limits); }) return hardware.can_watch(limits);
   return false;
 }
 

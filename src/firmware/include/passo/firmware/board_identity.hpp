@@ -5,6 +5,7 @@
 
 #include "passo/wire/board_segment.hpp"
 #include "passo/wire/message.hpp"
+#include "passo/wire/segment_parts.hpp"
 
 namespace passo {
 
@@ -33,14 +34,14 @@ struct BoardIdentity {
   uint8_t places = 0xFF;  // for items, if fewer than there is memory for
 
   // Whether the segment has events, only for motors that exist, and is slow enough at its first and last interval, and
-  // so at all between.
+  // so at all between. Of a root only the first interval is looked at: each part is, when it is due.
   template <class Pause, class Segment>
   [[gnu::noinline]] bool can_play(const Segment& segment, uint8_t motors_there) const {
     const uint8_t used = segment.directions | segment.flips;
     if (segment.events == 0 || used >> motors_there != 0) return false;
     const uint32_t interval = segment.interval;
     if (interval < shortest_interval) return false;
-    if (segment.change == 0) return true;
+    if (segment.change == 0 || is_root(segment.form)) return true;
     const bool faster = segment.change < 0;
     const uint32_t given = static_cast<uint32_t>(segment.change);
     const uint32_t change = faster ? 0 - given : given;  // a coarse change may have no opposite in signed 32 bits

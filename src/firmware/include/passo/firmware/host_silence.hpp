@@ -28,6 +28,9 @@ class HostSilence {
     return late;
   }
 
+  // The host has been silent for so many tenths of a second; never for 0.
+  bool is_over(uint8_t allowed) const { return allowed != 0 && tenths_ >= allowed; }
+
   // Outputs were switched off, and no host has sent outputs since.
   void note_off() { off_ = true; }
   void forget_off() { off_ = false; }
@@ -36,7 +39,6 @@ class HostSilence {
 
  private:
   static constexpr uint8_t most = 0xFF;
-  bool is_over(uint8_t allowed) const { return allowed != 0 && tenths_ >= allowed; }
 
   uint8_t tenths_ = 0;  // of a second, since the host was heard
   Silence allowed_;     // as the last session said

@@ -1,7 +1,8 @@
-// InputWatch: the one input of a board that is captured, and the motors' place when it changed first.
+// InputWatch: the input of a board that is captured, and the motors' place when it changed first.
 //
-// The input is the probe, or the one limit switch that a host has named. That switch captures instead of stopping, so
-// that an axis can be homed by it. All other limit switches stop the motors. Portable.
+// The input is the probe, or the limit switches that a host has named. They capture instead of stopping, so that an
+// axis can be homed by them. All other limit switches stop the motors. Several switches that are named together count
+// as one, which is on while any of them is. Portable.
 #pragma once
 
 #include <stdint.h>
@@ -13,9 +14,16 @@ namespace passo {
 template <uint8_t most_motors>
 class InputWatch {
  public:
-  // `limit` is the bit of a limit switch; 0: the probe.
+  // `limit` has the bits of limit switches; 0: the probe.
   void watch(uint8_t limit) { limit_ = limit; }
   uint8_t limit() const { return limit_; }
+  // Those of the inputs in `changed` that count. Of several watched switches a change counts if it changes whether any
+  // of them is on.
+  uint16_t that_count(uint16_t changed, uint16_t before, uint16_t now) const {
+    const bool several = (limit_ & (limit_ - 1)) != 0;
+    if (!several || ((before & input()) != 0) != ((now & input()) != 0)) return changed;
+    return static_cast<uint16_t>(changed & ~input());
+  }
   // From now on the next change counts as the first one.
   void forget() { kept_ = Kept::nothing; }
 
@@ -25,7 +33,10 @@ class InputWatch {
     return static_cast<uint16_t>(input_emergency_stop | (all_limits & static_cast<uint8_t>(~limit_)));
   }
 
-  bool has_kept() const { return kept_ != Kept::nothing; }
+  // Bits of BoardState.
+  uint8_t state() const {
+    return static_cast<uint8_t>((kept_ != Kept::nothing ? board_kept : 0) | (limit_ != 0 ? board_homes : 0));
+  }
   // The input bits of a captured that reports what was kept.
   uint16_t kept_input() const {
     uint16_t input = captured_kept;

@@ -66,7 +66,7 @@ class ManualMode {
   static constexpr uint8_t looks_to_settle = 2;  // 24 ms
   static constexpr uint8_t looks_to_repeat = 33;
   static constexpr uint8_t pieces_ahead = 3;
-  static constexpr uint16_t stopping = input_emergency_stop | 7 * input_limit;
+  static constexpr uint16_t stopping = input_emergency_stop | 0xff * input_limit;
 
   [[gnu::noinline]] void look() {
     board_.breathe();

@@ -31,7 +31,7 @@ struct BoardItemSlot {
   bool is_segment() const { return segment.events != 0; }
   void keep(const BoardOutputs& outputs) {
     segment.events = 0;
-    segment.directions = outputs.switches;
+    segment.directions = outputs.switches & 0x0F;
     segment.interval = outputs.spindle_rpm;
   }
   BoardOutputs outputs() const {
@@ -68,7 +68,7 @@ class PlayList {
   bool empty() const { return front_ == none; }
   const Slot& front() const { return slots_[front_]; }
   // The item at `place`, counted from the front, without gathered ones. A walk.
-  const Slot& at(uint8_t place) const {
+  Slot& at(uint8_t place) {
     uint8_t slot = front_;
     for (; place != 0; --place) slot = slots_[slot].next;
     return slots_[slot];

@@ -29,6 +29,7 @@
 
 #include "passo/link/board_port.hpp"
 #include "passo/link/link.hpp"
+#include "passo/link/twin_motors.hpp"
 #include "passo/wire/decoder.hpp"
 #include "passo/wire/message.hpp"
 
@@ -43,9 +44,11 @@ struct LineCare {
 // How a host begins with a board.
 struct Greeting {
   std::uint8_t motors = 0;
-  std::uint16_t session = 0;  // identifies the session to the board; 0: none, for a line that loses nothing
-  std::uint8_t number = 0;    // the hello's number: where the counting of items begins
-  Silence silence = {};       // goes with the session: after what silence the board switches its outputs off
+  std::uint16_t session = 0;          // identifies the session to the board; 0: none, for a line that loses nothing
+  std::uint8_t number = 0;            // the hello's number: where the counting of items begins
+  Silence silence = {};               // goes with the session: after what silence the board switches its outputs off
+  std::vector<MotorPair> pairs = {};  // motors that turn an axis together; the host plans those before them only
+  PinSetup setup = {};                // what is connected to the board's pins; the board must be able to do all of it
 };
 
 class BoardSession final : public Link {
@@ -116,6 +119,11 @@ class BoardSession final : public Link {
   std::uint64_t frames_sent() const override { return frames_sent_; }
   std::uint64_t bytes_sent() const override { return bytes_sent_; }
   std::uint64_t frames_repeated() const { return frames_repeated_; }
+  // After an axis with two motors was homed, at rest: the counts of first motors are the board's own again, also in
+  // status(). True: they were not, because second motors have turned alone.
+  bool forget_shifts() { return status_ && twins_.forget_shifts(status_->positions); }
+  // What the board cannot do of the setup in the greeting, after LinkError::cannot_set_up.
+  PinSetup undone_setup() const;
   // The number of motors in the hello; 0 before the hello.
   std::uint8_t motors() const { return motors_; }
   // The board's answer to the hello. Empty: the board has not answered.
@@ -144,6 +152,8 @@ class BoardSession final : public Link {
   void forget_what_was();
   void say_hello();
   void say_session();
+  void take(const PinSetup& setup);
+  bool is_set_up() const { return set_up_ == setup_; }
   void look_at_greeting();
   bool hear(Seconds most);
   bool expects() const;
@@ -188,6 +198,9 @@ class BoardSession final : public Link {
   std::uint8_t greeting_ = 0;  // the hello's own number
   std::uint16_t session_ = 0;
   Silence silence_;
+  PinSetup setup_;
+  TwinMotors twins_;
+  PinSetup set_up_;     // as the board has answered
   Seconds greeted_{0};  // when the hello or the session's number was said last
   std::optional<HelloReply> board_;
   std::optional<About> about_;
@@ -230,5 +243,8 @@ class BoardSession final : public Link {
   std::uint64_t bytes_sent_ = 0;
   std::uint64_t frames_repeated_ = 0;
 };
+
+// The pins of a setup, as words: "door, limit 4". Limits are counted from 1.
+std::string words_of_setup(const PinSetup& setup);
 
 }  // namespace passo

@@ -23,6 +23,8 @@ enum class LinkError : std::uint8_t {
   no_progress,     // the board, or what is in its place, talks, and does nothing of what it was told
   wrong_version,   // the board speaks another protocol
   too_few_motors,  // the board has fewer motors than the machine
+  cannot_set_up,   // the board cannot do what the host says of its pins
+  cannot_watch,    // the board cannot watch these limit switches at once
   refused,         // the board did not take what was sent
   was_reset,       // the board has forgotten the session, and with it where the motors are
   stopped,         // the board has stopped its motors at once

@@ -39,6 +39,7 @@ class ProbeWatch {
   void confirm(const BoardStatus& status);
 
   std::uint8_t limit() const { return limit_; }
+  bool watches_several() const { return (limit_ & (limit_ - 1)) != 0; }
   // The bit of BoardInput that is watched.
   std::uint16_t input() const { return limit_ != 0 ? std::uint16_t{limit_} : std::uint16_t{input_probe}; }
   const ProbeReport& report() const { return report_; }

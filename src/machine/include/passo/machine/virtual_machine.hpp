@@ -43,6 +43,9 @@ class VirtualMachine final : public BoardPort {
   // Closes or opens switches of the plant, and heeds the change at once. `which`: bits of BoardInput, except the
   // probe's. If somebody else changes the plant, the machine sees the change in its next run().
   void set_switch(std::uint16_t which, bool closed);
+  // Says how the plant's switches and drivers are connected to the board's pins, at the start. A host that says nothing
+  // of it then finds closed switches open.
+  void wire(const PinSetup& wiring);
   // As its reset button: the board forgets all, the motors stop where they are, and the outputs are off.
   void reset_board();
 
@@ -61,6 +64,9 @@ class VirtualMachine final : public BoardPort {
   // Sets, at the start, the positions from which the machine's counters go on. Nothing moves. The board's own counters
   // begin at 0, as after a reset.
   void stand_at(const MotorSteps& positions);
+
+  // False: the motors hold nothing.
+  bool drivers_on() const { return hardware_.drivers_on == hardware_.drivers_obey(); }
 
   Ticks now() const { return Ticks{hardware_.now}; }
   MachineCounts counts() const;
@@ -81,6 +87,14 @@ class VirtualMachine final : public BoardPort {
     void switch_off();
     bool switch_off(std::uint8_t switches);
     void send(std::uint8_t byte) { to_host.push_back(byte); }
+    void enable() { drivers_on = true; }
+    void release() { drivers_on = false; }
+    PinSetup set_up(const PinSetup& wanted) {
+      is_new_setup = true;
+      return setup = wanted;
+    }
+    std::uint8_t drivers_rest() const { return setup.drivers_rest; }
+    static bool can_watch(std::uint8_t /*limits*/) { return true; }
     bool has_encoder() const { return plant->spindle().has_encoder(); }
     SpindleCount spindle() const;
     // Gives the plant the pulses that it has not been told yet.
@@ -95,6 +109,12 @@ class VirtualMachine final : public BoardPort {
     double seconds_a_tick = 0;
     std::vector<MachineObserver*> observers;
     Plant* plant = nullptr;
+    PinSetup setup;   // what the host has said of the pins
+    PinSetup wiring;  // what is true of them
+    bool drivers_on = true;
+    bool is_new_setup = false;
+    // Whether the drivers take the board's enable for what it is meant.
+    bool drivers_obey() const { return ((setup.outputs ^ wiring.outputs) & inverted_enable) == 0; }
     MotorSteps pulsed{};  // the positions up to which the plant has been told
     std::vector<std::uint8_t> to_host;
   };

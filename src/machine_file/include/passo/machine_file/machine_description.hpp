@@ -8,7 +8,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +37,15 @@ struct HomeDescription {
   double rest() const { return toward_high ? switch_at - pull_off : switch_at + pull_off; }
 };
 
+// The second motor of an axis that two motors turn together, as at a gantry. Homing squares the axis by two switches.
+struct SecondMotor {
+  bool inverted = false;  // true: this motor turns the other way
+  int input = -1;         // the number of its limit switch; below 0: not known yet, the motor's own is meant
+  double square = 0;      // added to its place: how far its switch closes too early for a square axis
+  double most_skew = 5;   // homing moves this motor no further than that against the other
+  double skew = 0;        // in the virtual machine: how far it is ahead of the other at first
+};
+
 // For a rotary axis degrees take the place of millimetres throughout.
 struct AxisDescription {
   Axis axis = Axis::x;
@@ -48,6 +59,13 @@ struct AxisDescription {
   MmPerSecond start_stop{0};       // the motor starts and stops at it in one step; 0: always from rest
   bool inverted = false;           // true: the motor turns the other way
   std::optional<HomeDescription> home = {};
+  std::optional<SecondMotor> second = {};
+
+  // The limit switches by which the axis is homed: bit i is switch i. Only for an axis with `home`.
+  std::uint8_t home_switches() const {
+    const unsigned own = 1U << static_cast<unsigned>(home->input);
+    return static_cast<std::uint8_t>(own | (second ? 1U << static_cast<unsigned>(second->input) : 0U));
+  }
 
   // Whether the acceleration follows the motor's torque.
   bool follows_torque() const { return motor && motor->limits_motion; }
@@ -101,6 +119,26 @@ struct SilenceDescription {
   Seconds spindle_wait{5};  // from the spindle's second start to motion, if the line comes back
 };
 
+// The levels of the board's pins, where they are not the usual ones: an input is on when it is low, an output when it
+// is high, and the drivers' enable when it is low.
+struct PinsDescription {
+  // True: on when the pin is high, as with a normally closed switch to ground.
+  std::array<bool, most_motors> limits_high{};
+  bool probe_high = false;
+  bool door_high = false;
+  bool emergency_stop_high = false;
+  bool feed_hold_high = false;
+  bool cycle_start_high = false;
+  bool driver_enable_high = false;
+  // True: on when the pin is low.
+  bool step_low = false;
+  bool spindle_low = false;
+  bool spindle_reverse_low = false;
+  bool mist_low = false;
+  bool flood_low = false;
+  Seconds drivers_off_after{0};  // at rest without a host, in whole tenths of a second; 0: never
+};
+
 struct MachineDescription {
   std::string name;
   Mm path_tolerance{0.01};
@@ -109,8 +147,23 @@ struct MachineDescription {
   ProbeDescription probe;
   SpindleDescription spindle;
   SilenceDescription silence;
-  std::vector<AxisDescription> axes;  // in the order of the board's motors
-  std::vector<Axis> homing = {};      // the axes that are homed, in the order of homing
+  PinsDescription pins;
+  std::vector<AxisDescription> axes;   // in the order of the board's motors
+  std::vector<Axis> homing = {};       // the axes that are homed, in the order of homing
+  std::vector<int> homing_turns = {};  // of each of them: axes with the same number seek their switches at once
+
+  // The motors of the board: one for each axis, then the second motors in the order of their axes.
+  std::uint8_t motor_count() const {
+    return static_cast<std::uint8_t>(axes.size() +
+                                     static_cast<std::size_t>(std::ranges::count_if(
+                                         axes, [](const AxisDescription& axis) { return axis.second.has_value(); })));
+  }
+  // The board's motor that is the second one of axis `index`. Only for an axis that has one.
+  std::uint8_t second_motor_of(std::size_t index) const {
+    std::size_t motor = axes.size();
+    for (std::size_t i = 0; i < index; ++i) motor += axes[i].second ? 1 : 0;
+    return static_cast<std::uint8_t>(motor);
+  }
 };
 
 // Reads and checks a machine file. All errors go to `diagnostics` (line, key, nearest key, what is missing), with codes

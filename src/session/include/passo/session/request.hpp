@@ -22,7 +22,8 @@ namespace passo {
 struct Watchers {
   std::function<void(const Operation&)> operations;
   std::function<void(const PathItem&)> path;
-  std::function<void(const MotionItem&)> motion;  // as planned; over a line as executed, after it was executed
+  std::function<void(const MotionItem&)> planned;  // as it is planned; over a line a part of it may never be played
+  std::function<void(const MotionItem&)> motion;   // the same; over a line as executed, after it was executed
   std::function<void(const BoardItem&)> items;
   std::function<void(const ProbeOutcome&)> probe;
   std::function<void(const LinkItem&)> executed;  // over a line: what the board has executed, tails included

@@ -41,7 +41,8 @@ struct StepOptions {
   std::array<Motor, max_motors> motors;
   std::uint8_t motor_count = 0;
   BoardClock clock;
-  Point start;  // machine position at the start; the motors' step counts begin at its whole steps
+  Point start;        // machine position at the start; the motors' step counts begin at its whole steps
+  bool bends = true;  // whether segments may bend. A bend serves one motor only, and not the second one of its axis
   std::optional<BoardPlace> place = {};  // where the board stands; empty: the board has just heard a hello at `start`
 };
 
@@ -60,9 +61,11 @@ struct Exactness {
   Hertz least_rate{10'000};
   // The most events of a segment. Segments that are exact to the tick seldom have more than 255.
   int longest_segment = 255;
+  // Whether motion that comes to rest ends at its exact time. If not, no event without a step waits for that time.
+  bool ends_in_time = true;
   friend bool operator==(const Exactness&, const Exactness&) = default;
 };
-inline constexpr int longest_segment_of_all = 1023;
+inline constexpr int longest_segment_of_all = 2047;
 
 class StepGenerator final : public Source<BoardItem> {
  public:

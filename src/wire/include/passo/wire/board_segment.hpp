@@ -1,8 +1,8 @@
 // BoardSegment: what the board plays. All motors share one event clock.
 //
 // Time. Intervals are ticks of the board's timer in 16.16 fixed point. The first event comes `interval` after the last
-// event of the segment before; each next interval is longer by `change`. The fraction of a tick carries on from segment
-// to segment.
+// event of the segment before; each next interval is longer by `change`. segment_parts.hpp has the other form, in which
+// the change grows. The fraction of a tick carries on from segment to segment.
 //
 // Place. Each motor has a position in 1/65536 of a step, and every event adds a signed increment of at most one step. A
 // step is a change of the position's whole part. The board keeps only the fraction (the accumulator: 16 bits, carried
@@ -28,20 +28,43 @@ inline constexpr uint8_t max_motors = 8;
 
 template <uint8_t motors>
 struct SegmentFor {
-  uint16_t events = 0;     // 1 to most_events
-  uint8_t directions = 0;  // bit m: motor m counts down
-  uint8_t flips = 0;       // bit m: flip motor m's carry
-  uint32_t interval = 0;   // 16.16 ticks
-  int32_t change = 0;      // 16.16 ticks an event: fine_change at most, or a multiple of coarse_change
+  // A board with little memory has two of these in a byte.
+  static constexpr uint8_t half = motors <= 4 ? 4 : 8;
+  uint16_t events = 0;            // 1 to most_events
+  uint8_t directions : half = 0;  // bit m: motor m counts down
+  uint8_t flips : half = 0;       // bit m: flip motor m's carry
+  uint8_t form : half = 0;        // parts, and how the intervals change: segment_parts.hpp
+  uint8_t bend : half = 0;        // which motor's increment changes: bend_of(). 0: none
+  uint32_t interval = 0;          // 16.16 ticks
+  // Even: 16.16 ticks an event. Root: the growth. Either is fine_change at most, or a multiple of coarse_change.
+  int32_t change = 0;
   uint16_t increments[motors] = {};
 };
 using BoardSegment = SegmentFor<max_motors>;
 
-inline constexpr uint16_t most_events = 0x7fff;
+inline constexpr uint16_t most_events = 0x7ff;
 // On the wire a change has 24 bits. A large change is sent without its last eight bits.
 inline constexpr int32_t fine_change = 0x7fffff;
 inline constexpr int32_t coarse_change = 0x100;
-inline constexpr uint16_t coarse_bit = 0x8000;  // set in the number of events if the change is a large one
+// In the number of events on the wire: set if the change is a large one, and the form.
+inline constexpr uint16_t coarse_bit = 0x8000;
+inline constexpr uint8_t form_place = 11;
+inline constexpr uint8_t root_form = 8;
+
+// A bend: the motor `bent` has another increment in each part, and the motor `lender`, which stands still, lends its
+// place: its increment is what is added. 0 bends none.
+struct Bend {
+  uint8_t bent = 0;
+  uint8_t lender = 0;
+};
+template <uint8_t motors>
+constexpr uint8_t bend_shift = motors <= 4 ? 2 : 4;
+template <uint8_t motors>
+constexpr Bend bend_of(const SegmentFor<motors>& segment) {
+  const uint8_t code = segment.bend;
+  return {.bent = static_cast<uint8_t>(code & ((1U << bend_shift<motors>)-1)),
+          .lender = static_cast<uint8_t>(code >> bend_shift<motors>)};
+}
 inline constexpr int32_t largest_change = fine_change * coarse_change;
 constexpr bool is_fine(int32_t change) {
   return change <= fine_change && change >= -fine_change;

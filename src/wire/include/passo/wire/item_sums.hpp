@@ -30,13 +30,15 @@ struct ItemSums {
   void add(const WireFrame& frame, uint8_t motors) {
     const uint8_t type = static_cast<uint8_t>(frame.type);
     const uint8_t* byte = frame.payload;
-    uint8_t left = payload_size(type, motors) / 2;  // with the type, the number of bytes is even
-    ItemSums sums = *this;                          // a copy, kept in registers
+    const uint8_t size = payload_size(type, motors);
+    uint8_t left = static_cast<uint8_t>(size - 1) / 2;  // words of payload alone
+    ItemSums sums = *this;                              // a copy, kept in registers
     sums.add(static_cast<uint16_t>(type | *byte++ << 8));
     for (; left != 0; --left, byte += 2) {
       Pause{}();
       sums.add(static_cast<uint16_t>(byte[0] | byte[1] << 8));
     }
+    if ((size & 1) == 0) sums.add(*byte);
     *this = sums;
   }
   // Adds what a replace announces: its own number, the item it replaces after, and the number of items.
@@ -53,7 +55,7 @@ struct ItemSums {
     return {.first = static_cast<uint16_t>(0U - first), .second = static_cast<uint16_t>(words * first - second)};
   }
   // The number of words of an item.
-  static constexpr unsigned words_of(uint8_t type, uint8_t motors) { return (payload_size(type, motors) + 1U) / 2; }
+  static constexpr unsigned words_of(uint8_t type, uint8_t motors) { return (payload_size(type, motors) + 2U) / 2; }
   static constexpr unsigned words_of_announcement = 3;
 };
 

@@ -6,6 +6,7 @@
 #include "passo/wire/board_segment.hpp"
 #include "passo/wire/encoder.hpp"
 #include "passo/wire/item_sums.hpp"
+#include "passo/wire/segment_message.hpp"
 #include "passo/wire/wire_frame.hpp"
 
 namespace passo {
@@ -37,6 +38,23 @@ struct Session {
   uint16_t number = 0;
   Silence silence = {};
 };
+
+// Host to board, before a hello: what is connected to the board's pins. It counts for that hello, and until a hello
+// without one. Board to host, as the answer: the setup that the board now has. What it cannot do is left out.
+//
+// As usual an input is on when it is low, and an output is on when it is high. The driver's enable is on when it is
+// low. A bit that is set means the opposite.
+struct PinSetup {
+  uint16_t inputs = 0;       // bits: BoardInput
+  uint8_t steps = 0;         // bit m: the step pin of motor m
+  uint8_t outputs = 0;       // bits: OutputSwitch, and inverted_enable
+  uint8_t drivers_rest = 0;  // after so many tenths of a second without host or motion drivers are off; 0: never
+
+  friend constexpr bool operator==(const PinSetup& a, const PinSetup& b) {
+    return a.inputs == b.inputs && a.steps == b.steps && a.outputs == b.outputs && a.drivers_rest == b.drivers_rest;
+  }
+};
+inline constexpr uint8_t inverted_enable = 0x10;
 
 // Host to board. The next `count` frames are items. They replace everything that the board holds after item `after`, as
 // soon as the last of them has come.
@@ -185,19 +203,6 @@ uint8_t encode(const Hello& hello, uint8_t sequence, uint8_t* frame) {
 }
 
 template <class Pause = NoPause>
-uint8_t encode(const BoardSegment& segment, uint8_t motors, uint8_t sequence, uint8_t* frame) {
-  Encoder<Pause> encoder(frame, MessageType::segment, sequence);
-  const bool fine = is_fine(segment.change);
-  encoder.put16(fine ? segment.events : static_cast<uint16_t>(segment.events | coarse_bit));
-  encoder.put8(segment.directions);
-  encoder.put8(segment.flips);
-  encoder.put32(segment.interval);
-  encoder.put24(static_cast<uint32_t>(fine ? segment.change : segment.change / coarse_change));
-  for (uint8_t motor = 0; motor < motors; ++motor) encoder.put16(segment.increments[motor]);
-  return encoder.finish();
-}
-
-template <class Pause = NoPause>
 uint8_t encode(const BoardOutputs& outputs, uint8_t sequence, uint8_t* frame) {
   Encoder<Pause> encoder(frame, MessageType::outputs, sequence);
   encoder.put8(outputs.switches);
@@ -222,6 +227,16 @@ uint8_t encode(const Session& session, uint8_t sequence, uint8_t* frame) {
   encoder.put8(session.silence.spindle);
   encoder.put8(session.silence.mist);
   encoder.put8(session.silence.flood);
+  return encoder.finish();
+}
+
+template <class Pause = NoPause>
+uint8_t encode(const PinSetup& setup, uint8_t sequence, uint8_t* frame) {
+  Encoder<Pause> encoder(frame, MessageType::pin_setup, sequence);
+  encoder.put16(setup.inputs);
+  encoder.put8(setup.steps);
+  encoder.put8(setup.outputs);
+  encoder.put8(setup.drivers_rest);
   return encoder.finish();
 }
 
@@ -327,46 +342,9 @@ uint8_t encode(const ErrorReport& error, uint8_t sequence, uint8_t* frame) {
   return encoder.finish();
 }
 
-constexpr uint16_t load16(const uint8_t* bytes) {
-  return static_cast<uint16_t>(bytes[0] | bytes[1] << 8);
-}
-constexpr uint32_t load32(const uint8_t* bytes) {
-  return load16(bytes) | static_cast<uint32_t>(load16(bytes + 2)) << 16;
-}
-
 // The caller has checked the frame's type.
 inline void decode(const WireFrame& frame, Hello& hello) {
   hello = {.version = frame.payload[0], .motors = frame.payload[1]};
-}
-
-// A function of its own, because of the registers that it needs on a chip.
-template <uint8_t room>
-[[gnu::noinline]] void load_increments(const uint8_t* bytes, uint8_t motors, SegmentFor<room>& segment) {
-  for (uint8_t motor = 0; motor < room; ++motor, bytes += 2) {
-    segment.increments[motor] = motor < motors ? load16(bytes) : uint16_t{0};
-  }
-}
-
-template <uint8_t room>
-[[gnu::noinline]] void load_times(const uint8_t* bytes, bool coarse, SegmentFor<room>& segment) {
-  segment.interval = load32(bytes);
-  // 24 bits with a sign. In the upper bits they are a large change. For a small one they are shifted down, sign
-  // included.
-  segment.change =
-      static_cast<int32_t>(static_cast<uint32_t>(load16(bytes + 4)) << 8 | static_cast<uint32_t>(bytes[6]) << 24);
-  if (!coarse) segment.change >>= 8;
-}
-
-// `motors` is at most `room`.
-template <uint8_t room>
-void decode(const WireFrame& frame, uint8_t motors, SegmentFor<room>& segment) {
-  const uint8_t* bytes = frame.payload;
-  const uint16_t events = load16(bytes);
-  segment.events = events & most_events;
-  segment.directions = bytes[2];
-  segment.flips = bytes[3];
-  load_times(bytes + 4, (events & coarse_bit) != 0, segment);
-  load_increments(bytes + segment_size, motors, segment);
 }
 
 inline void decode(const WireFrame& frame, BoardOutputs& outputs) {
@@ -396,6 +374,13 @@ inline void decode(const WireFrame& frame, Turned& turned) {
 inline void decode(const WireFrame& frame, Session& session) {
   session = {.number = load16(frame.payload),
              .silence = {.spindle = frame.payload[2], .mist = frame.payload[3], .flood = frame.payload[4]}};
+}
+
+inline void decode(const WireFrame& frame, PinSetup& setup) {
+  setup = {.inputs = load16(frame.payload),
+           .steps = frame.payload[2],
+           .outputs = frame.payload[3],
+           .drivers_rest = frame.payload[4]};
 }
 
 inline void decode(const WireFrame& frame, Replace& replace) {

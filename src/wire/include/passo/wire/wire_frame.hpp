@@ -16,7 +16,7 @@
 namespace passo {
 
 inline constexpr uint8_t sync_byte = 0xA5;
-inline constexpr uint8_t protocol_version = 6;
+inline constexpr uint8_t protocol_version = 7;
 
 // Words of the extended Hamming code (8,4): three bits must be wrong before one type passes for another.
 enum class MessageType : uint8_t {
@@ -36,10 +36,15 @@ enum class MessageType : uint8_t {
   fault = 0x96,
   about = 0x69,
   turned = 0xFF,
+  // both ways
+  pin_setup = 0x00,
 };
 
 inline constexpr uint8_t frame_overhead = 6;
-inline constexpr uint8_t segment_size = 11;  // without the part that repeats for each motor
+inline constexpr uint8_t segment_size =
+    11;  // without the part that repeats for each motor, and a bend beside the flips
+// With so many motors or fewer, the bend is in the upper half of the flips.
+inline constexpr uint8_t most_motors_beside_bend = 4;
 inline constexpr uint8_t status_size = 14;
 inline constexpr uint8_t captured_size = 5;
 inline constexpr uint8_t largest_payload = status_size + 4 * max_motors;
@@ -64,12 +69,14 @@ constexpr uint8_t payload_size(uint8_t type, uint8_t motors) {
     case MessageType::ask:
     case MessageType::credit: return 4;
     case MessageType::session:
+    case MessageType::pin_setup:
     case MessageType::fault: return 5;
     case MessageType::replace:
     case MessageType::hello_reply: return 7;
     case MessageType::turned: return 20;
     case MessageType::about: return 27;
-    case MessageType::segment: return with_motors(segment_size, 2);
+    case MessageType::segment:
+      return with_motors(motors > most_motors_beside_bend ? segment_size + 1U : segment_size, 2);
     case MessageType::status: return with_motors(status_size, 4);
     case MessageType::captured: return with_motors(captured_size, 4);
   }

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# scripts/board_table.sh [PROGRAM...]: how long jobs take over a line to an Uno and a Mega, beside the time that they take
+# without a line. Writes the table into docs/boards.md, between its marks; with PROGRAM, these programs only, just printed.
+#
+# The boards are virtual, with the places and the rates of the real ones, on a line of 500 kbaud. scripts/board_rates.sh
+# measures what the chips themselves keep up with.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+build=build/release
+passo=$PWD/$build/passo
+cmake --build "$build" --parallel "$(nproc)" --target passo >/dev/null
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# circles FEED: six circles of radius 30 and six of radius 18.
+circles() {
+  echo "G21 G90 G17 G64 S8000 M3 F$1"
+  for radius in 30 18; do
+    echo "G0 X$radius Y0"
+    for _ in 1 2 3 4 5 6; do echo "G3 X$radius Y0 I-$radius J0"; done
+  done
+  echo M2
+}
+for feed in 1200 2400 3600 6000; do circles "$feed" >"$work/circles-F$feed.ngc"; done
+{
+  echo "G21 G90"
+  for _ in 1 2 3; do printf 'G0 X80\nG0 X0\n'; done
+  echo M2
+} >"$work/rapids.ngc"
+{
+  echo "G21 G90 G64 S8000 M3 F13000"
+  for _ in 1 2; do
+    printf 'G1 %s\n' 'X300 Y200 Z-30' 'X-250 Y150 Z10' 'X100 Y-220 Z-50' 'X-300 Y-250 Z5' 'X280 Y-100 Z-40' \
+      'X-100 Y250 Z25' 'X250 Y230 Z-55'
+  done
+  echo M2
+} >"$work/moves-3d.ngc"
+
+# machine NAME PLACES RATE VELOCITY JERK: the router of examples/machines/uno.toml.
+machine() {
+  sed -e "s/^held_items = [0-9]*/held_items = $2/" -e "s/^max_event_rate_hz = [0-9_]*/max_event_rate_hz = $3/" \
+    -e "s/^max_velocity_mm_s = [0-9]*/max_velocity_mm_s = $4/" examples/machines/uno.toml >"$work/$1.toml"
+  [[ $5 = none ]] || sed -i "s/^\(max_acceleration_mm_s2 = .*\)/\1\nmax_jerk_mm_s3 = $5/" "$work/$1.toml"
+}
+machine Uno 31 140000 100 none
+machine Mega 100 110000 100 none
+machine Uno-jerk 31 140000 100 10000
+machine Mega-jerk 100 110000 100 10000
+machine Uno-fast 31 140000 218 none
+machine Mega-fast 100 110000 171 none
+
+# The value behind a word at a line's beginning.
+value() { awk -v word="$1" '$1 == word { print $2; exit }'; }
+seconds() { awk -F: '{ printf "%.2f", $1 * 60 + $2 }'; }
+
+# row PROGRAM MACHINE
+row() {
+  local alone line
+  alone=$("$passo" run "$1" -m "$work/$2.toml" 2>/dev/null)
+  line=$("$passo" run "$1" -m "$work/$2.toml" --cut-cable-at 9999:1 2>/dev/null)
+  local without with rests sent
+  without=$(value end <<<"$alone" | seconds)
+  with=$(value end <<<"$line" | seconds)
+  rests=$(sed -n 's/.*and rested \([a-z0-9]*\).*/\1/p' <<<"$line")
+  sent=$(awk '$1 == "sent" { print $2, $3; exit }' <<<"$line")
+  echo "| $(basename "${1%.*}") | ${2/-/, } | $without | $with |" \
+    "$(awk -v a="$without" -v b="$with" 'BEGIN { printf "%.3f", b / a }') | $rests | $sent |"
+}
+
+programs=("$@")
+((${#programs[@]} > 0)) || programs=("$work"/circles-F*.ngc "$work/rapids.ngc" examples/pocket.ngc examples/engrave.ngc examples/drill-board.ngc)
+table() {
+  echo "| program | board | without a line, s | over the line, s | ratio | rests for want of more | sent |"
+  echo "|---|---|---:|---:|---:|---|---:|"
+  for board in Uno Mega Uno-jerk Mega-jerk; do
+    for program in "${programs[@]}"; do row "$program" "$board"; done
+  done
+  (($# > 0)) || for board in Uno Mega; do row "$work/moves-3d.ngc" "$board-fast"; done
+}
+if (($# > 0)); then
+  table "$@"
+  exit
+fi
+table >"$work/table"
+awk -v table="$work/table" '
+  /^<!-- end of jobs -->$/ { skipping = 0 }
+  !skipping { print }
+  /^<!-- jobs -->$/ {
+    skipping = 1
+    while ((getline line < table) > 0) print line
+  }' docs/boards.md >"$work/new"
+cat "$work/new" >docs/boards.md
+cat "$work/table"

@@ -1,0 +1,104 @@
+// What a host says of the pins: it counts for the hello that follows, and the board answers what it can do.
+#include "board_bench.hpp"
+
+namespace passo {
+namespace {
+
+// A board that can invert its probe and the drivers' enable, and nothing else.
+struct PinBench : Bench {
+  PinSetup set_up(const PinSetup& wanted) {
+    setup = wanted;
+    setup.inputs &= input_probe;
+    setup.steps = 0;
+    setup.outputs &= inverted_enable;
+    return setup;
+  }
+  std::uint8_t drivers_rest() const { return setup.drivers_rest; }
+  void enable() { drivers_on = true; }
+  void release() { drivers_on = false; }
+
+  PinSetup setup;
+  bool drivers_on = true;
+};
+
+class PinSetupTest : public testing::Test {
+ protected:
+  template <class... What>
+  void send(const What&... what) {
+    std::uint8_t frame[largest_frame];
+    const std::uint8_t size = encode(what..., frame);
+    for (std::uint8_t i = 0; i < size; ++i) board_.receive(frame[i]);
+  }
+  void set_up(const PinSetup& setup) { send(setup, std::uint8_t{0}); }
+  void greet() { send(Hello{.motors = 3}, std::uint8_t{0}); }
+  void be_silent(int tenths) {
+    for (int i = 0; i < tenths; ++i) board_.count_silence();
+  }
+  bool is_trusted() {
+    bench_.replies.clear();
+    bench_.decoder.set_motors(max_motors);
+    send(Ask{.motors = max_motors}, std::uint8_t{1});
+    BoardStatus status;
+    decode(bench_.replies.back(), max_motors, status);
+    return (status.state & board_trusted) != 0;
+  }
+
+  PinBench bench_;
+  Board<PinBench, capacity> board_{bench_, {.motors = 4, .clock = 16'000'000}};
+};
+
+TEST_F(PinSetupTest, is_answered_by_what_the_board_can_do) {
+  set_up({.inputs = input_probe | input_door, .steps = 1, .outputs = inverted_enable | mist_on, .drivers_rest = 20});
+  ASSERT_EQ(bench_.replies.size(), 1U);
+  EXPECT_EQ(bench_.replies[0].type, MessageType::pin_setup);
+  PinSetup told;
+  decode(bench_.replies[0], told);
+  EXPECT_EQ(told, (PinSetup{.inputs = input_probe, .outputs = inverted_enable, .drivers_rest = 20}));
+}
+
+TEST_F(PinSetupTest, counts_for_one_hello) {
+  set_up({.inputs = input_probe});
+  greet();
+  EXPECT_EQ(bench_.setup.inputs, input_probe);
+  greet();
+  EXPECT_EQ(bench_.setup, PinSetup{}) << "another host, which says nothing of the pins";
+}
+
+TEST_F(PinSetupTest, is_refused_amid_motion) {
+  greet();
+  send(BoardSegment{.events = 5, .flips = 1, .interval = 10 << 16}, std::uint8_t{3}, std::uint8_t{1});
+  bench_.replies.clear();
+  set_up({.inputs = input_probe});
+  ASSERT_EQ(bench_.replies.size(), 1U);
+  EXPECT_EQ(bench_.replies[0].type, MessageType::error);
+  EXPECT_EQ(bench_.setup, PinSetup{});
+}
+
+TEST_F(PinSetupTest, drivers_go_off_when_the_host_is_silent_and_the_place_is_not_trusted_any_more) {
+  set_up({.drivers_rest = 20});
+  greet();
+  be_silent(19);
+  EXPECT_TRUE(is_trusted());
+  EXPECT_TRUE(bench_.drivers_on);
+  be_silent(1);
+  EXPECT_FALSE(bench_.drivers_on) << "a stranger who asks is no host";
+  EXPECT_FALSE(is_trusted());
+  set_up({.drivers_rest = 20});
+  greet();
+  EXPECT_TRUE(bench_.drivers_on);
+  EXPECT_TRUE(is_trusted());
+}
+
+TEST_F(PinSetupTest, drivers_stay_on_amid_motion_and_without_such_a_time) {
+  greet();
+  be_silent(1000);
+  EXPECT_TRUE(bench_.drivers_on);
+  set_up({.drivers_rest = 20});
+  greet();
+  send(BoardSegment{.events = 5, .flips = 1, .interval = 10 << 16}, std::uint8_t{3}, std::uint8_t{1});
+  be_silent(1000);
+  EXPECT_TRUE(bench_.drivers_on);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,59 @@
+#include "pins_reader.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+const char* const level_code = "machine.level";
+
+// While it works, a host is heard five times a second.
+constexpr double shortest_silence = 0.5;
+
+constexpr NumberKey drivers_off_key{"drivers_off_after_s", 0, 25.5, "20"};
+
+void read_high(TableReader& reader, std::string_view key, bool& is_high) {
+  is_high = reader.is_second_of(level_code, key, "low", "high", Need::optional).value_or(false);
+}
+void read_low(TableReader& reader, std::string_view key, bool& is_low) {
+  is_low = reader.is_second_of(level_code, key, "high", "low", Need::optional).value_or(false);
+}
+
+}  // namespace
+
+void read_inputs(TableReader& reader, PinsDescription& pins) {
+  const std::vector<bool> limits = reader.are_second_of(level_code, "limits", "low", "high", most_motors);
+  for (std::size_t i = 0; i < limits.size(); ++i) pins.limits_high[i] = limits[i];
+  read_high(reader, "probe", pins.probe_high);
+  read_high(reader, "door", pins.door_high);
+  read_high(reader, "emergency_stop", pins.emergency_stop_high);
+  read_high(reader, "feed_hold", pins.feed_hold_high);
+  read_high(reader, "cycle_start", pins.cycle_start_high);
+}
+
+void read_outputs(TableReader& reader, PinsDescription& pins) {
+  read_low(reader, "step", pins.step_low);
+  read_high(reader, "driver_enable", pins.driver_enable_high);
+  read_low(reader, "spindle", pins.spindle_low);
+  read_low(reader, "spindle_reverse", pins.spindle_reverse_low);
+  read_low(reader, "mist", pins.mist_low);
+  read_low(reader, "flood", pins.flood_low);
+  read_tenths(reader, drivers_off_key, pins.drivers_off_after);
+}
+
+void read_tenths(TableReader& reader, const NumberKey& key, Seconds& time) {
+  const auto given = reader.number(key, Need::optional);
+  if (!given) return;
+  const double tenths = std::round(*given * 10);
+  const bool is_whole = std::abs(*given * 10 - tenths) < 1e-6;
+  if (*given != 0 && (*given < shortest_silence || !is_whole)) {
+    reader.error("machine.silence", key.name, fmt::format("{} = {:g}", reader.full_name(key.name), *given),
+                 fmt::format("{:g} to {:g} seconds in whole tenths, or 0 for never", shortest_silence, key.most));
+    return;
+  }
+  time = Seconds(tenths / 10);
+}
+
+}  // namespace passo

@@ -1,0 +1,29 @@
+// Plain parts: a segment as the plain segments that a player plays for it, bends and roots resolved. For the host.
+//
+// Portable.
+#pragma once
+
+#include <cstdint>
+
+#include "passo/wire/segment_parts.hpp"
+
+namespace passo {
+
+// Calls `each` with a BoardSegment of 255 events at most, in order.
+template <class Each>
+void for_each_plain_part(const BoardSegment& segment, const Each& each) {
+  BoardSegment plain = segment;
+  plain.form = plain.bend = 0;
+  const Bend bend = bend_of(segment);
+  if (segment.bend != 0) plain.increments[bend.lender] = 0;
+  for_each_part(segment, [&](const PartTimes& times, std::uint16_t events, std::uint16_t before) {
+    std::uint16_t& bent = plain.increments[bend.bent];
+    if (segment.bend != 0 && before != 0) bent = static_cast<std::uint16_t>(bent + segment.increments[bend.lender]);
+    plain.events = events;
+    plain.interval = times.interval;
+    plain.change = times.change;
+    each(plain);
+  });
+}
+
+}  // namespace passo

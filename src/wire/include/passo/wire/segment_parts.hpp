@@ -1,0 +1,134 @@
+// SegmentParts: a segment as the board plays it, part by part. A part is a quadratic: its interval changes by the same
+// amount at each event.
+//
+// The form of a segment says how long its parts are, and how the change of the interval follows from part to part.
+//
+//   even    (form 0)              The change stays. Parts have 255 events, because a player counts in eight bits.
+//   root    (root_form + k)       Parts have 2^k events. Motion with a constant acceleration: the time is a square root
+//                                 of the way. The segment's `change` is a growth v, in 1/2^31.
+//
+// Root. Where j parts are left until the motion would rest, v = 1/j, and the interval of the part after this one is
+// longer by the factor sqrt(j / (j - 1)) = 1 / sqrt(1 - v). In speeding up, v = -1/j, where j parts have passed since
+// the rest. So one segment brakes from any speed, where quadratics need one for each halving of the way. Series stand
+// for the root and the quotient: host and board compute the same bits, without a division.
+//
+//   factor - 1 = v/2 + 3/8 v²        next v = v / (1 - v) = v + v² + v³
+//
+// Portable: integers only, 32 bits.
+#pragma once
+
+#include <stdint.h>
+
+#include "passo/wire/board_segment.hpp"
+#include "passo/wire/encoder.hpp"
+
+namespace passo {
+
+inline constexpr uint8_t longest_part = 0xFF;
+
+constexpr bool is_root(uint8_t form) {
+  return (form & root_form) != 0;
+}
+// The number of events in each part but the last.
+constexpr uint8_t part_length(uint8_t form) {
+  return form == 0 ? longest_part : static_cast<uint8_t>(1U << (form & ~root_form));
+}
+
+// a b / 2^32, from products of 16 bits: a chip has no others. The functions here are small, and not put together,
+// because of the registers that they need on a chip.
+[[gnu::noinline]] constexpr int16_t upper_of(int16_t high, uint16_t low) {
+  return static_cast<int16_t>((int32_t{high} * int32_t{low}) >> 16);
+}
+[[gnu::noinline]] constexpr int32_t sides_of(int32_t a, int32_t b) {
+  const int16_t one_side = upper_of(static_cast<int16_t>(a >> 16), static_cast<uint16_t>(b));
+  return int32_t{upper_of(static_cast<int16_t>(b >> 16), static_cast<uint16_t>(a))} + one_side;
+}
+[[gnu::noinline]] constexpr int32_t product_of(int16_t a, int16_t b) {
+  return int32_t{a} * int32_t{b};
+}
+// Pause{}() is called between the products, here and below.
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t high_product(int32_t a, int32_t b) {
+  const int32_t sides = sides_of(a, b);
+  Pause{}();
+  return sides + product_of(static_cast<int16_t>(a >> 16), static_cast<int16_t>(b >> 16));
+}
+// a b / 2^31: the product with a fraction.
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t times_fraction(int32_t a, int32_t b) {
+  return static_cast<int32_t>(static_cast<uint32_t>(high_product<Pause>(a, b)) << 1);
+}
+
+// Twice the factor less one, in 1/2^31.
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t twice_factor(int32_t growth) {
+  const int32_t squared = times_fraction<Pause>(growth, growth);
+  return growth + (squared >> 1) + (squared >> 2);
+}
+// The change at each event of a part of 2^k events that begins with that interval.
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t root_change(uint32_t interval, int32_t twice, uint8_t k) {
+  const uint32_t longer = static_cast<uint32_t>(high_product<Pause>(static_cast<int32_t>(interval >> 1), twice)) << 1;
+  return static_cast<int32_t>(longer) >> k;
+}
+template <class Pause = NoPause>
+[[gnu::noinline]] constexpr int32_t next_growth(int32_t growth) {
+  const uint32_t squared = static_cast<uint32_t>(times_fraction<Pause>(growth, growth));
+  Pause{}();
+  const uint32_t cubed = static_cast<uint32_t>(times_fraction<Pause>(static_cast<int32_t>(squared), growth));
+  return static_cast<int32_t>(static_cast<uint32_t>(growth) + squared + cubed);
+}
+
+// The times of the present part.
+struct PartTimes {
+  uint32_t interval = 0;  // of its first event
+  int32_t change = 0;
+  int32_t growth = 0;
+
+  template <uint8_t motors>
+  constexpr void begin(const SegmentFor<motors>& segment) {
+    interval = segment.interval;
+    growth = segment.change;
+    change =
+        is_root(segment.form) ? root_change(interval, twice_factor(growth), segment.form & ~root_form) : segment.change;
+  }
+  // Goes on to the part after this one.
+  constexpr void go_on(uint8_t form) {
+    interval += static_cast<uint32_t>(change) * part_length(form);
+    if (!is_root(form)) return;
+    growth = next_growth(growth);
+    change = root_change(interval, twice_factor(growth), form & ~root_form);
+  }
+};
+
+// Calls `each` with the times of each part, its number of events, and the number of events before it.
+template <uint8_t motors, class Each>
+constexpr void for_each_part(const SegmentFor<motors>& segment, const Each& each) {
+  PartTimes times;
+  times.begin(segment);
+  const uint16_t length = part_length(segment.form);
+  for (uint16_t done = 0; done < segment.events; times.go_on(segment.form)) {
+    const uint16_t left = static_cast<uint16_t>(segment.events - done);
+    const uint16_t events = left < length ? left : length;
+    each(times, events, done);
+    done = static_cast<uint16_t>(done + events);
+  }
+}
+
+// The time of the segment's first `most` events, in 1/65536 tick. For the host.
+template <uint8_t motors>
+constexpr int64_t duration(const SegmentFor<motors>& segment, int32_t most) {
+  const auto quadratic = [](int64_t interval, int64_t change, int64_t events) {
+    return events * interval + change * (events * (events - 1) / 2);
+  };
+  const int32_t all = segment.events;
+  if (segment.form == 0) return quadratic(segment.interval, segment.change, most < all ? most : all);
+  int64_t time = 0;
+  for_each_part(segment, [&](const PartTimes& part, int32_t events, int32_t before) {
+    if (most <= before) return;
+    time += quadratic(part.interval, part.change, most - before < events ? most - before : events);
+  });
+  return time;
+}
+
+}  // namespace passo
