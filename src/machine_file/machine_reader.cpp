@@ -367,10 +367,7 @@ void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys,
   }
   if (!axis.motor) return;
   if (!axis.motor->limits_motion) {
-    if (!constant) {
-      reader.missing(keys.acceleration.name, fmt::format("{} = {}, because limits_motion of [{}] is false",
-                                                         keys.acceleration.name, keys.acceleration.example, path));
-    }
+    if (!constant) reader.missing(keys.acceleration.name, "a constant limit, because limits_motion is false");
     return;
   }
   const MmPerSecond2 at_rest = axis.motor->acceleration_at(MmPerSecond(0));
