@@ -26,7 +26,7 @@ namespace {
 
 AccelerationCurve falling_limit(const AxisDescription& axis) {
   constexpr int samples = 4096;
-  if (!axis.motor) return {};
+  if (!axis.follows_torque()) return {};
   std::vector<AccelerationCurve::Sample> all;
   for (int i = 0; i <= samples; ++i) {
     const MmPerSecond speed = axis.velocity * (static_cast<double>(i) / samples);
@@ -37,7 +37,7 @@ AccelerationCurve falling_limit(const AxisDescription& axis) {
 
 // The exact curve. The referee does not rely on the planner's samples.
 std::function<MmPerSecond2(MmPerSecond)> proven_limit(const AxisDescription& axis) {
-  if (!axis.motor) return {};
+  if (!axis.follows_torque()) return {};
   return [axis](MmPerSecond speed) { return axis.acceleration_at(speed); };
 }
 

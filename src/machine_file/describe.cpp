@@ -7,7 +7,7 @@ namespace {
 
 // The acceleration at some speeds, where the motor's torque limits it.
 std::string describe_torque(const AxisDescription& axis, const char* unit) {
-  if (!axis.motor) return "";
+  if (!axis.follows_torque()) return "";
   std::string line = fmt::format("                {:g} of pull-out:", axis.motor->share);
   for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const MmPerSecond speed = part * axis.velocity;

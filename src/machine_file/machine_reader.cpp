@@ -368,6 +368,10 @@ void MachineReader::read_acceleration(TableReader& reader, const AxisKeys& keys,
               fmt::format("the scale of [axis.{}] by {} and {}", letter_of(axis.axis), turn_key.name, keys.gear.name));
   }
   if (!axis.motor) return;
+  if (!axis.motor->limits_motion) {
+    if (!constant) reader.missing(keys.acceleration.name, "a constant limit, because limits_motion is false");
+    return;
+  }
   const MmPerSecond2 at_rest = axis.motor->acceleration_at(MmPerSecond(0));
   axis.acceleration = constant ? std::min(axis.acceleration, at_rest) : at_rest;
   if (axis.velocity == MmPerSecond(0)) return;

@@ -32,6 +32,7 @@ constexpr NumberKey decay_key{"fast_decay_share", 0, 1, "0.5"};
 constexpr NumberKey detent_key{"detent_torque_nm", 0, 1e4, "0.02"};
 constexpr NumberKey weight_key{"weight_n", -1e6, 1e6, "30"};
 constexpr NumberKey share_key{"share_of_pull_out", 0.05, 1, "0.7"};
+constexpr NumberKey tolerance_key{"tolerance", 0, 0.5, "0.15"};
 
 const char* const torque_code = "machine.torque";
 
@@ -110,10 +111,14 @@ std::optional<AxisMotor> read_torque(TableReader& reader, bool rotary, std::opti
   NewtonMetres weight;
   if (!rotary) weight.value = reader.number(weight_key, Need::optional).value_or(0) * metres_per_mm / radians_per_unit;
   const auto share = reader.number(share_key, Need::optional);
+  const auto tolerance = reader.number(tolerance_key, Need::optional);
+  const auto limits_motion = reader.flag("limits_motion");
   if (!curve || !rotor_inertia || !unit_per_turn) return std::nullopt;
   return AxisMotor{.curve = std::move(*curve),
                    .load = load,
                    .share = share.value_or(0.7),
+                   .tolerance = tolerance.value_or(usual_tolerance),
+                   .limits_motion = limits_motion.value_or(true),
                    .radians_per_unit = radians_per_unit,
                    .driven = driven,
                    .detent = {detent.value_or(0)},

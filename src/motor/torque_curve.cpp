@@ -115,6 +115,12 @@ Result<TorqueCurve, MotorError> TorqueCurve::from_motor(const MotorData& data, c
   return TorqueCurve(data.rotor, DrivenWinding(data, drive));
 }
 
+TorqueCurve TorqueCurve::scaled(double factor) const {
+  TorqueCurve scaled = *this;
+  scaled.factor_ *= factor;
+  return scaled;
+}
+
 RadiansPerSecond TorqueCurve::speed_at(Hertz rate) const {
   return {rate.value() * 2 * std::numbers::pi / rotor_.steps_per_revolution};
 }
@@ -124,8 +130,8 @@ Hertz TorqueCurve::rate_at(RadiansPerSecond speed) const {
 }
 
 NewtonMetres TorqueCurve::pull_out(RadiansPerSecond speed) const {
-  if (const auto* winding = std::get_if<DrivenWinding>(&pull_out_)) return winding->pull_out(speed);
-  return {up_to_the_last_point(std::get<MonotoneCurve>(pull_out_), speed.value)};
+  if (const auto* winding = std::get_if<DrivenWinding>(&pull_out_)) return {factor_ * winding->pull_out(speed).value};
+  return {factor_ * up_to_the_last_point(std::get<MonotoneCurve>(pull_out_), speed.value)};
 }
 
 NewtonMetres TorqueCurve::pull_in(RadiansPerSecond speed, KilogramMetres2 load_inertia) const {
@@ -133,7 +139,7 @@ NewtonMetres TorqueCurve::pull_in(RadiansPerSecond speed, KilogramMetres2 load_i
   if (!pull_in_) return {computed_pull_in(speed.value, inertia)};
   // At the same energy and torque the rotor alone would start faster by this factor.
   const double alone = speed.value * std::sqrt(inertia / rotor_.inertia.value);
-  return std::min(NewtonMetres{up_to_the_last_point(*pull_in_, alone)}, pull_out(speed));
+  return std::min(NewtonMetres{factor_ * up_to_the_last_point(*pull_in_, alone)}, pull_out(speed));
 }
 
 double TorqueCurve::computed_pull_in(double speed, double inertia) const {

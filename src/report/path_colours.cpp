@@ -10,6 +10,8 @@ namespace {
 constexpr std::array<std::array<int, 3>, 6> palette = {
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 
+constexpr std::size_t full_load = 100;
+
 }  // namespace
 
 PathColours::PathColours(const PathRecorder& path, PathColour by)
@@ -24,6 +26,9 @@ std::size_t PathColours::classes() const {
 
 std::size_t PathColours::class_of(const PathRecorder::Vertex& vertex, double z) const {
   if (by_ == PathColour::tool) return vertex.tool % palette.size();
+  if (by_ == PathColour::margin) {
+    return std::min(SpeedColours::classes - 1, std::size_t{vertex.load} * SpeedColours::classes / full_load);
+  }
   if (by_ == PathColour::speed) return speeds_.class_of(double{vertex.speed});
   const double share = height_ > 0 ? std::clamp((top_ - z) / height_, 0.0, 1.0) : 1;
   return std::min(SpeedColours::classes - 1, static_cast<std::size_t>(share * SpeedColours::classes));

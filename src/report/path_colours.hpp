@@ -1,7 +1,8 @@
 // PathColours: which colour each piece of a recorded path has. Private to report/.
 //
-// Speeds and depths have the map of SpeedColours: fast is dark, and deep is dark. Tools have colours that the
-// colour-blind can tell apart (Okabe and Ito, 2008), without the two that hardly show on white paper.
+// Speeds, depths and loads have the map of SpeedColours: fast is dark, deep is dark, and little margin is dark. Tools
+// have colours that the colour-blind can tell apart (Okabe and Ito, 2008), without the two that hardly show on white
+// paper.
 #pragma once
 
 #include "speed_colours.hpp"

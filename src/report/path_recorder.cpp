@@ -147,7 +147,8 @@ void PathRecorder::add(const Point& point, double speed, Kind kind) {
                        .z = static_cast<float>(point[Axis::z] - base_[Axis::z]),
                        .speed = static_cast<float>(speed),
                        .kind = kind,
-                       .tool = tool_});
+                       .tool = tool_,
+                       .load = load_});
 }
 
 void PathRecorder::make_room() {

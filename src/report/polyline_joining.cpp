@@ -39,7 +39,7 @@ class Run {
     constexpr std::size_t longest = 64;
     if (next - anchor_ > longest) return false;
     const Vertex& vertex = vertices_[next];
-    if (vertex.tool != vertices_[next - 1].tool) return false;
+    if (vertex.tool != vertices_[next - 1].tool || vertex.load != vertices_[next - 1].load) return false;
     const double length = between(vertices_[next - 1], vertex).length();
     if (next > anchor_ + 1 && length > tolerance_ && length_ > tolerance_) {
       if (vertex.kind != kind_) return false;

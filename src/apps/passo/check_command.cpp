@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "check_page.hpp"
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "named_files.hpp"
@@ -98,6 +99,18 @@ int draw(const MotionRecorder& motion, const MotionProof& proof, const CheckArgu
   return done ? exit_done : fail(exit_failed, done.error().message);
 }
 
+int draw(const PathRecorder& path, const MachineDescription& machine, const CheckArguments& arguments) {
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.picture);
+  if (!file) return fail(exit_failed, file.error().message);
+  const PictureOptions options{.format = *picture_format_of(arguments.picture),
+                               .program = std::filesystem::path(arguments.program.program).filename().string(),
+                               .machine = machine.name,
+                               .colour = PathColour::margin};
+  Status<OutputError> done = draw_picture(path, options, *file);
+  if (done) done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
 // `machine` and `program` are good.
 int measure(const CheckArguments& arguments, const MachineDescription& machine, ProgramReader program,
             const InterpreterOptions& options, Seconds nominal, Diagnostics& findings) {
@@ -117,6 +130,10 @@ int measure(const CheckArguments& arguments, const MachineDescription& machine, 
 int check(const CheckArguments& arguments) {
   if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
     return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
+  }
+  const bool draws_margin = arguments.colour_by == "margin";
+  if (!arguments.colour_by.empty() && (!draws_margin || arguments.picture.empty() || arguments.motion)) {
+    return fail(exit_bad_program, "--colour-by margin is for a --picture without --motion");
   }
   Diagnostics diagnostics;
   const auto machine = load_machine_file(arguments.machine, diagnostics);
@@ -141,18 +158,31 @@ int check(const CheckArguments& arguments) {
   const auto watch_operations = [&](const Operation& operation) { messages.show(operation); };
   const ProgramCheck result =
       check_program(program->again(), *machine, *options, findings, watch_path, watch_operations);
-  if (result.good && (arguments.motion || !arguments.picture.empty())) {
+  if (result.good && (arguments.motion || (!arguments.picture.empty() && !draws_margin))) {
     display.finish();
     return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);
   }
+  if (!arguments.json) display.finish();
+  std::optional<CheckPage> page;
+  PathRecorder path;
+  if (result.good) page = judge(std::move(*program), *machine, *options, result, draws_margin ? &path : nullptr);
+  if (page && draws_margin) {
+    const int code = draw(path, *machine, arguments);
+    if (code != exit_done) return code;
+  }
   if (arguments.json) {
     const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    std::puts(as_json(findings, stops).dump(2, ' ', false, replace).c_str());
+    nlohmann::ordered_json json = as_json(findings, stops);
+    if (page) add_to(json, *page, *machine);
+    std::puts(json.dump(2, ' ', false, replace).c_str());
   } else {
-    display.finish();
     const char* const name = arguments.program.program.c_str();
     if (result.good) std::printf("%s: no errors\n", name);
     if (stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, stops.words().c_str());
+    if (page) std::fputs(to_text(*page, *machine).c_str(), stdout);
+  }
+  if (page && page->lost()) {
+    return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");
   }
   return result.good ? exit_done : exit_bad_program;
 }

@@ -88,8 +88,9 @@ int home(const HomeArguments& arguments);
 struct CheckArguments {
   ProgramArguments program;
   std::string machine;
-  bool motion = false;  // plans the path too, and measures the motion
-  std::string picture;  // of the motion; empty: none
+  bool motion = false;    // plans the path too, and measures the motion
+  std::string picture;    // of the motion; empty: none
+  std::string colour_by;  // "margin": the picture shows the path, coloured by the motors' margin; empty: the motion
   bool json = false;
 };
 int check(const CheckArguments& arguments);

@@ -64,6 +64,15 @@ TEST(Torque, never_rises_with_the_speed) {
   }
 }
 
+TEST(Torque, of_a_motor_that_is_only_checked_does_not_limit) {
+  const auto machine =
+      read(with_torque(points + "limits_motion = false\ntolerance = 0.1\n", "max_acceleration_mm_s2 = 9000"));
+  ASSERT_TRUE(machine.axes.at(0).motor);
+  EXPECT_EQ(machine.axes[0].motor->tolerance, 0.1);
+  EXPECT_EQ(machine.axes[0].acceleration_at(MmPerSecond(25)), MmPerSecond2(9000));
+  EXPECT_EQ(read(with_torque(points)).axes.at(0).motor->tolerance, usual_tolerance);
+}
+
 TEST(Torque, is_shown_at_a_few_speeds) {
   EXPECT_THAT(describe(read(with_torque(points, "max_acceleration_mm_s2 = 150"))),
               testing::HasSubstr("0.7 of pull-out: 150 mm/s2 at 0 mm/s, 150 mm/s2 at 6.25 mm/s, "));
@@ -90,6 +99,8 @@ TEST(Torque, tells_what_is_wrong_and_where) {
       {with_torque(winding + "drive = \"strong\"\n"), "machine.torque", "\"strong\""},
       {with_torque(winding + "full_steps_per_turn = 202\n"), "machine.torque", "1.9"},
       {with_torque(replaced(points, "rotor_inertia_g_cm2 = 300\n", "")), "machine.missing-key", "torque]"},
+      {with_torque(points + "limits_motion = false\n"), "machine.missing-key", "X]"},
+      {with_torque(points + "tolerance = 0.6\n"), "machine.out-of-range", "0.6"},
       {with_torque(points + "friction_nm = 0.6\n"), "machine.too-weak", "25"},
       {replaced(replaced(with_torque(points), screw, ""), "steps_per_turn = 400", "steps_per_mm = 100"),
        "machine.torque", "torque]"},

@@ -20,10 +20,16 @@ struct DrivenMotor {
   MotorDrive drive = {};
 };
 
+// The torque of a motor of the shelf differs from its data sheet by up to this share, where the file tells nothing
+// else.
+inline constexpr double usual_tolerance = 0.15;
+
 struct AxisMotor {
   TorqueCurve curve;
   Load load = {};  // everything that turns, except the rotor
   double share = 0.7;
+  double tolerance = usual_tolerance;
+  bool limits_motion = true;    // false: the axis has constant acceleration, and its motor is only checked
   double radians_per_unit = 0;  // radians of the shaft for each millimetre or degree of the axis
   std::optional<DrivenMotor> driven = {};
   NewtonMetres detent = {};

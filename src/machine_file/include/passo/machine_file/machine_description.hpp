@@ -65,7 +65,7 @@ struct AxisDescription {
   double travel_high = 0;
   MmPerSecond velocity{0};
   MmPerSecond2 acceleration{0};    // an upper limit; the motor may leave less
-  std::optional<AxisMotor> motor;  // the motor, where the file describes it: acceleration follows its torque
+  std::optional<AxisMotor> motor;  // the motor, where the file describes it
   MmPerSecond3 jerk{0};            // 0: no limit
   MmPerSecond start_stop{0};       // the motor starts and stops at it in one step; 0: always from rest
   bool inverted = false;           // true: the motor turns the other way
@@ -79,8 +79,10 @@ struct AxisDescription {
     return static_cast<std::uint8_t>(own | (second ? 1U << static_cast<unsigned>(second->input) : 0U));
   }
 
+  // Whether the acceleration follows the motor's torque.
+  bool follows_torque() const { return motor && motor->limits_motion; }
   MmPerSecond2 acceleration_at(MmPerSecond speed) const {
-    return motor ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;
+    return follows_torque() ? std::min(acceleration, motor->acceleration_at(speed)) : acceleration;
   }
 
   // The length of one step, and the steps a second at full velocity.

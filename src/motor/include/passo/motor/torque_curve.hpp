@@ -67,6 +67,9 @@ class TorqueCurve {
                                                      const std::vector<TorquePoint>& pull_in = {});
   static Result<TorqueCurve, MotorError> from_motor(const MotorData& data, const MotorDrive& drive);
 
+  // The same curve with all torques multiplied: that of a stronger or weaker motor of the same kind. `factor` > 0.
+  TorqueCurve scaled(double factor) const;
+
   const Rotor& rotor() const { return rotor_; }
   RadiansPerSecond speed_at(Hertz rate) const;
   Hertz rate_at(RadiansPerSecond speed) const;
@@ -93,6 +96,7 @@ class TorqueCurve {
   Rotor rotor_;
   std::variant<DrivenWinding, MonotoneCurve> pull_out_;
   std::optional<MonotoneCurve> pull_in_;  // for the rotor without a load
+  double factor_ = 1;                     // of all torques
 };
 
 }  // namespace passo

@@ -8,6 +8,7 @@
 // A job of any length takes most_vertices of 20 bytes (2 MB). A line takes about 0.3 µs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -30,7 +31,12 @@ class PathRecorder {
     float speed = 0;  // mm/s, of the piece that ends here
     Kind kind = Kind::jump;
     std::uint8_t tool = 0;  // an index into tools()
+    std::uint8_t load = 0;  // hundredths of load_of_next()'s value
   };
+  static constexpr double most_load = 2.5;
+
+  // How much of the torque that is surely there the motors need, from the next move on. 1: all of it.
+  void load_of_next(double load) { load_ = static_cast<std::uint8_t>(100 * std::min(load, most_load)); }
 
   // `machine_minus_work` is the work frame at this item, as an offset.
   void watch(const MotionItem& item, const Point& machine_minus_work);
@@ -69,6 +75,7 @@ class PathRecorder {
   bool any_feed_ = false;
   std::vector<std::int32_t> tools_ = {0};
   std::uint8_t tool_ = 0;
+  std::uint8_t load_ = 0;
   double fastest_feed_ = 0;
   Seconds time_{0};
   std::vector<Point> origins_;

@@ -1,5 +1,5 @@
 // A picture of the path: an isometric view and a flat view side by side. Feeds are coloured by their real speed, by
-// depth or by tool.
+// depth, by tool, or by how much of their torque the motors need.
 //
 // cairo makes both formats from the same drawing. An SVG stays under 10 MB for any recording.
 #pragma once
@@ -20,7 +20,7 @@ enum class PictureFormat : std::uint8_t { svg, png };
 // Chooses the format by the end of the name: ".svg" or ".png", in upper or lower case.
 std::optional<PictureFormat> picture_format_of(std::string_view path);
 
-enum class PathColour : std::uint8_t { speed, depth, tool };
+enum class PathColour : std::uint8_t { speed, depth, tool, margin };
 
 // The flat view. front: X to the right, Z up. side: Y to the right, Z up. lathe: Z to the right, X up. automatic: the
 // top view, but front or side (on a lathe: lathe) if nothing moves along Y or X.

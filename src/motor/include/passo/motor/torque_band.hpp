@@ -1,0 +1,62 @@
+// TorqueBand: between which two torques the true pull-out torque of a motor lies, at each speed.
+//
+// A motor of the shelf is weaker or stronger than its data sheet by its tolerance. A stronger magnet also has a higher
+// back-EMF, so at high speed the stronger motor may be the weaker one. Therefore the band is taken from both.
+//
+//   torque  .......
+//    |------.     `..   of_curve().high     The curves leave the rotor's own swinging out. A motor that runs at a
+//    |::::::`--.     `  of_curve().low      steady rate may begin to swing by itself and fall out of step far below
+//    |----.  .-`--.                         the curve. The trials of motor_trials.hpp show where: while_steady().
+//    |     `-'  while_steady()
+//    +------------------- speed
+//
+// The curves themselves differ from the full physics: docs/ramps/physics.md. The band includes that.
+//
+// Cost of the constructor: 80 trials, some milliseconds each. Afterwards a look takes below a microsecond.
+#pragma once
+
+#include <vector>
+
+#include "passo/motor/running_motor.hpp"
+#include "passo/motor/torque_curve.hpp"
+
+namespace passo {
+
+struct TorqueRange {
+  NewtonMetres low = {};
+  NewtonMetres high = {};
+};
+
+// The same motor with a weaker or stronger magnet: all torques and the back-EMF are multiplied. `factor` > 0.
+MotorSetup with_torque(const MotorSetup& setup, double factor);
+
+class TorqueBand {
+ public:
+  // `tolerance`, 0 to 0.5, is the share by which the true torque may differ from the setup's. Rates are tried up to
+  // `fastest`. The setup's parts have passed their checks.
+  TorqueBand(const MotorSetup& setup, double tolerance, RadiansPerSecond fastest);
+
+  // Pull-out of a motor that does not swing. `speed` ≥ 0.
+  TorqueRange of_curve(RadiansPerSecond speed) const;
+  // The low end for a motor that stays at about that speed, and so has the time to swing. Never above the curve's.
+  NewtonMetres while_steady(RadiansPerSecond speed) const;
+  // Whether swinging takes more than a tenth of the low end.
+  bool swings_at(RadiansPerSecond speed) const;
+
+  Hertz rate_at(RadiansPerSecond speed) const { return weak_.rate_at(speed); }
+  const Rotor& rotor() const { return weak_.rotor(); }
+
+ private:
+  struct Tried {
+    double speed = 0;
+    double torque = 0;  // friction and damping included
+  };
+
+  TorqueCurve weak_;
+  TorqueCurve strong_;
+  double factor_low_;
+  double factor_high_;
+  std::vector<Tried> tried_;  // speeds ascending
+};
+
+}  // namespace passo

@@ -1,0 +1,49 @@
+#include "passo/verdict/margin_words.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace passo {
+namespace {
+
+std::string with_commas(double value) {
+  std::string digits = fmt::format("{:.0f}", value);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
+
+// A limit to keep below, so its third digit is rounded down.
+std::string rounded_down(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return fmt::format("{:g}", std::floor(value / unit + 1e-9) * unit);
+}
+
+}  // namespace
+
+std::string cause_of(const MarginSpot& spot) {
+  std::string words = fmt::format("{} needs {:.3g} N\u00B7m at {} steps/s", letter_of(spot.axis), spot.needed.value,
+                                  with_commas(spot.rate.value()));
+  if (spot.want == Want::jump) words += " to catch the swing after a jump of its torque";
+  words += fmt::format(", {:.3g} to {:.3g} are there", spot.there.low.value, spot.there.high.value);
+  if (spot.want == Want::calm) words += ": the motor may swing there (mid-band instability)";
+  return words;
+}
+
+std::string cure_of(const MarginSpot& spot) {
+  if (spot.verdict == Verdict::safe) return "";
+  const char* unit = is_rotary(spot.axis) ? "deg" : "mm";
+  std::string words;
+  if (spot.safe_acceleration) {
+    words = fmt::format("a <= {} {}/s\u00B2", rounded_down(spot.safe_acceleration->value()), unit);
+  }
+  if (spot.safe_path_speed) {
+    if (!words.empty()) words += ", or ";
+    const double share = *spot.safe_path_speed / spot.path_speed;
+    words += spot.rapid ? fmt::format("velocity <= {} {}/s", rounded_down(share * spot.speed.value()), unit)
+                        : "F <= " + rounded_down(60 * spot.safe_path_speed->value());
+  }
+  return words.empty() ? "a stronger motor, or less load" : words;
+}
+
+}  // namespace passo

@@ -1,0 +1,85 @@
+// The page of `passo check` as a user sees it: time, ways and what the motors can do.
+#include "kit/command_line.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using passo::test::Outcome;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string with_motor(double acceleration, const std::string& more = "") {
+  return "name = \"checked\"\n[board]\nclock_hz = 16_000_000\nmax_event_rate_hz = 100_000\n"
+         "[axis.X]\nsteps_per_turn = 200\nmicrosteps = 8\nscrew_pitch_mm = 4\ntravel_mm = [-100, 100]\n"
+         "max_velocity_mm_s = 50\nmax_acceleration_mm_s2 = " +
+         std::to_string(acceleration) +
+         "\n[axis.X.torque]\nlimits_motion = false\nholding_torque_nm = 0.45\nrated_current_a = 1.7\n"
+         "resistance_ohm = 1.5\ninductance_mh = 2.8\nsupply_v = 24\nrotor_inertia_g_cm2 = 68\nload_mass_kg = 200\n"
+         "friction_n = 100\n" +
+         more;
+}
+
+class CheckMargin : public passo::test::CommandLine {
+ protected:
+  Outcome check(double acceleration, const std::string& options = "", const std::string& more = "") const {
+    return passo("check " + write("p.ngc", "G21 G90\nG0 X30\nG4 P2\nG1 X-30 F300\nG0 X0\nM2\n") + " -m " +
+                 write("m.toml", with_motor(acceleration, more)) + " " + options);
+  }
+};
+
+TEST_F(CheckMargin, of_a_gentle_machine_is_safe) {
+  const Outcome outcome = check(100);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("0:00:18 in motion, 0:00:02 of dwells\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("-30.000 to 30.000 mm of -100 to 100"));
+  EXPECT_THAT(outcome.out, HasSubstr("\nmotors          safe"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("doubtful:")));
+}
+
+TEST_F(CheckMargin, of_a_wild_machine_is_lost_with_cause_cure_and_code) {
+  const Outcome outcome = check(4'000);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("[check.steps-lost]"));
+  EXPECT_THAT(outcome.out, HasSubstr("lost: X needs "));
+  EXPECT_THAT(outcome.out, HasSubstr("a <= "));
+}
+
+TEST_F(CheckMargin, is_doubtful_where_only_a_strong_motor_does_it_and_passes) {
+  const Outcome outcome = check(1'000, "--json", "tolerance = 0.3\n");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["good"], true);
+  EXPECT_EQ(json["margin"]["verdict"], "doubtful");
+  const auto& worst = json["margin"]["worst_lines"][0];
+  EXPECT_EQ(worst["axis"], "X");
+  EXPECT_GT(worst["line"], 1);
+  EXPECT_LT(worst["low_nm"], worst["high_nm"]);
+  EXPECT_LT(worst["safe_acceleration"], 1'000);
+  EXPECT_NEAR(json["dwell_s"], 2, 1e-9);
+  EXPECT_EQ(json["axes"]["X"]["extents"][1], 30);
+}
+
+TEST_F(CheckMargin, is_drawn_along_the_path) {
+  const Outcome outcome = check(100, "--picture " + path("margin.svg") + " --colour-by margin");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(passo::test::read(path("margin.svg")), HasSubstr("<svg"));
+  EXPECT_EQ(check(100, "--colour-by margin").code, 2);
+  EXPECT_EQ(check(100, "--colour-by speed --picture " + path("speed.svg")).code, 2);
+}
+
+TEST_F(CheckMargin, agrees_with_the_physics_of_a_run) {
+  for (const double acceleration : {100.0, 4'000.0}) {
+    const Outcome verdict = check(acceleration);
+    EXPECT_EQ(passo("run " + path("p.ngc") + " -m " + path("m.toml") + " --physics --quiet").code, verdict.code);
+  }
+}
+
+TEST_F(CheckMargin, says_nothing_of_motors_that_the_machine_file_does_not_know) {
+  const Outcome outcome = passo("check " + write("p.ngc", "G21\nG0 X3\nM2\n") +
+                                " -m " PASSO_SOURCE_DIR "/examples/machines/router.toml --json");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(nlohmann::json::parse(outcome.out)["margin"].is_null());
+}
+
+}  // namespace
