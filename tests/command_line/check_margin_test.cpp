@@ -31,7 +31,7 @@ class CheckMargin : public passo::test::CommandLine {
 TEST_F(CheckMargin, of_a_gentle_machine_is_safe) {
   const Outcome outcome = check(100);
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("0:00:18 in motion, 0:00:02 of dwells\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("0:00:14 in motion, 0:00:02 of dwells\n"));
   EXPECT_THAT(outcome.out, HasSubstr("-30.000 to 30.000 mm of -100 to 100"));
   EXPECT_THAT(outcome.out, HasSubstr("\nmotors          safe"));
   EXPECT_THAT(outcome.out, Not(HasSubstr("doubtful:")));

@@ -33,10 +33,8 @@ namespace passo {
 // `most_motors` is the number of motors that a place for an item has room for.
 template <class Hardware, size_t queue_capacity = 32, class SegmentPlayer = Player, uint8_t most_motors = max_motors>
 class Board : private BoardVoice<Hardware> {
-  using BoardVoice<Hardware>::hardware_;
-  using BoardVoice<Hardware>::has_room;
-  using BoardVoice<Hardware>::send;
-  using BoardVoice<Hardware>::send_for_motors;
+  using BoardVoice<Hardware>::hardware_, BoardVoice<Hardware>::has_room;
+  using BoardVoice<Hardware>::send, BoardVoice<Hardware>::send_for_motors;
 
  public:
   Board(Hardware& hardware, const BoardIdentity& identity) : BoardVoice<Hardware>(hardware), identity_(identity) {
@@ -108,7 +106,6 @@ class Board : private BoardVoice<Hardware> {
   bool manual() const { return manual_ == Manual::on; }
   // Nothing is played, and nothing waits to be played.
   bool rests() const { return idle() && list_.empty() && !list_.gathering(); }
-  // The number of items in the list.
   uint8_t size() const { return list_.size(); }
   uint16_t inputs() const { return inputs_; }
   // Adds a segment in manual mode, after everything in the list.
@@ -407,11 +404,11 @@ class Board : private BoardVoice<Hardware> {
     complained_ = false;
   }
 
-  // Loads the next part of the item begun last, or the first part of the item after it. To the player each part is a
-  // segment.
+  // Loads the next part of the item begun last, or the first of the item after it. To the player a part is a segment.
   [[gnu::noinline]] void load() {
     const bool begins = parts_.are_done();
     if (begins) ++begun_;
+    breathe();
     auto& item = list_.at(static_cast<uint8_t>(begun_ - 1));
     const uint16_t events = item.segment.events;
     if (events == 0) return player_.pass(item.outputs());
@@ -419,8 +416,15 @@ class Board : private BoardVoice<Hardware> {
     load_part(item.segment, begins);
   }
   [[gnu::noinline]] void load_part(Segment& segment, bool begins) {
-    parts_.take(segment, begins, identity_, motors_);
+    parts_.take(segment, begins);
+    if (is_root(segment.form)) keep_playable(parts_.part());
     player_.load(parts_.part());
+  }
+  // A part that is too fast, which only a wrong host makes, is played as fast as may be.
+  [[gnu::noinline]] void keep_playable(Segment& part) {
+    if (identity_.template can_play<Breath>(part, motors_)) return;
+    if (part.interval < identity_.shortest_interval) part.interval = identity_.shortest_interval;
+    part.change = 0;
   }
 
   // The oldest item, or a part of it, is done. Outputs are switched here, at the event before them.

@@ -5,7 +5,6 @@
 
 #include <stdint.h>
 
-#include "passo/firmware/board_identity.hpp"
 #include "passo/wire/segment_parts.hpp"
 
 namespace passo {
@@ -20,11 +19,11 @@ class PartTaker {
   bool are_done() const { return left_ == 0; }
   void drop() { left_ = 0; }
   // Too large for a chip's stack.
-  const Segment& part() const { return part_; }
+  Segment& part() { return part_; }
 
   // Takes the next part of the segment, or the first one if it begins. A segment with a root keeps the growth of the
   // part in its change.
-  [[gnu::always_inline]] void take(Segment& segment, bool begins, const BoardIdentity& identity, uint8_t motors) {
+  [[gnu::always_inline]] void take(Segment& segment, bool begins) {
     Breath{}();
     if (begins) {
       part_ = segment;
@@ -40,7 +39,7 @@ class PartTaker {
     left_ = static_cast<uint16_t>(left_ - part_.events);
     Breath{}();
     if (segment.bend != 0) bend(segment, begins);
-    if (is_root(segment.form)) grow(segment, begins, identity, motors);
+    if (is_root(segment.form)) grow(segment, begins);
     Breath{}();
   }
 
@@ -55,18 +54,13 @@ class PartTaker {
     part_.increments[bend.bent] = static_cast<uint16_t>(part_.increments[bend.bent] + segment.increments[bend.lender]);
   }
   // Gives the part the change that a root has there.
-  [[gnu::noinline]] void grow(Segment& segment, bool begins, const BoardIdentity& identity, uint8_t motors) {
+  [[gnu::noinline]] void grow(Segment& segment, bool begins) {
     Breath{}();
     if (!begins) segment.change = next_growth<Breath>(segment.change);
     Breath{}();
     const int32_t twice = twice_factor<Breath>(segment.change);
     Breath{}();
     part_.change = root_change<Breath>(part_.interval, twice, segment.form & ~root_form);
-    Breath{}();
-    // A part that is too fast, which only a wrong host makes, is played as fast as may be.
-    if (identity.template can_play<Breath>(part_, motors)) return;
-    if (part_.interval < identity.shortest_interval) part_.interval = identity.shortest_interval;
-    part_.change = 0;
   }
 
   Segment part_;
