@@ -203,7 +203,9 @@ class RandomProgram {
   // so that the tool fits everywhere.
   void contour() {
     const std::array<const char*, 2> planes[] = {{"G17", "XYIJ"}, {"G18", "ZXKI"}};
-    const auto& [code, letters] = planes[below(2)];
+    const auto& plane = planes[below(2)];
+    const char* const code = plane[0];
+    const char* const letters = plane[1];
     double first = below(100) / 10.0;
     double second = below(100) / 10.0;
     double heading = below(628) / 100.0;
