@@ -20,6 +20,11 @@ constexpr std::uint64_t items_a_turn = 2000;
 // How many changes are kept until somebody takes them. Beyond that the oldest are dropped.
 constexpr std::size_t most_changes = 4096;
 
+// Planned motion of a program that comes line by line, which may be left before more of the program is read.
+constexpr Seconds least_committed{0.025};
+// How often a board is asked where it is.
+constexpr Seconds between_places{0.05};
+
 // True: the error is one of the work, found by a user of the link. The board itself is as it was.
 constexpr bool is_of_work(LinkError error) {
   switch (error) {
@@ -99,6 +104,7 @@ void MachineSession::turn(Seconds most) {
   }
   mind_board();
   look_at_panel();
+  look_at_place();
 }
 
 // Says hello. Before a second hello, asks the board for its status and its place.
@@ -122,6 +128,11 @@ void MachineSession::go_online(Seconds most) {
   if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
   if (board_.busy()) board_.poll(most);
   if (board_.busy() || board_.error()) return;
+  if (watches_counts() && !board_.status()) {
+    if (board_.settled()) board_.inquire(Question::status);
+    board_.poll(most);
+    if (!board_.status()) return;
+  }
   place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);
@@ -141,7 +152,7 @@ void MachineSession::stand_at(const KnownPosition& position) {
 }
 
 void MachineSession::count_from_here() {
-  if (!options_.over_a_line || !board_.status()) return;
+  if (!watches_counts() || !board_.status()) return;
   const MotorSteps steps = place_ ? steps_of(*place_) : steps_at(machine_, position_.place, position_.downs);
   zero_counts_.emplace();
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
@@ -207,6 +218,7 @@ void MachineSession::turn_work(Seconds most) {
     return;
   }
   mind_lease();
+  if (mind_lines(most)) return;
   const MotionDrive::Turn turn = work_->drive->advance();
   if (turn == MotionDrive::Turn::ended) return finish_work();
   mind_holds();
@@ -214,6 +226,31 @@ void MachineSession::turn_work(Seconds most) {
   const bool held = work_->drive->state() == MotionDrive::State::held;
   if (held && options_.over_a_line) most = std::min(most, Panel::in_a_hold);
   work_->drive->wait(most);
+}
+
+// Lets a program that comes line by line go on when there are lines. True: the turn was spent waiting for more lines,
+// so that the look-ahead sees them.
+bool MachineSession::mind_lines(Seconds most) {
+  OpenProgram* const lines = work_->lines;
+  if (lines == nullptr) return false;
+  MotionDrive& drive = *work_->drive;
+  if (drive.holds().has(HoldReason::await_line)) {
+    if (work_->drops) go_on_after_drop();
+    if (lines->is_to_begin(now())) drive.resume(HoldReason::await_line);
+    return false;
+  }
+  const bool may_wait = drive.state() == MotionDrive::State::running && !work_->drops && !options_.over_a_line;
+  if (!may_wait || !lines->expects_more(now()) || drive.committed() <= least_committed) return false;
+  mind_holds();
+  board_.poll(std::min(most, drive.committed() - least_committed));
+  return true;
+}
+
+// The machine rests, and the path was dropped up to here. The program goes on from where that is.
+void MachineSession::go_on_after_drop() {
+  work_->drops = false;
+  work_->lines->drop(work_->drive->dropped_to().value_or(work_->ahead));
+  answer_holds(Outcome::done);
 }
 
 // Stops the jog in time. The moves that one step commits may not end after the lease.
@@ -225,7 +262,7 @@ void MachineSession::mind_lease() {
 
 // Sets the state of a program by its strongest reason to rest.
 void MachineSession::mind_holds() {
-  if (work_->program == nullptr || !work_->drive) return;
+  if (!work_->is_program() || !work_->drive) return;
   const MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
   const bool held = drive.state() == MotionDrive::State::held;
@@ -233,10 +270,13 @@ void MachineSession::mind_holds() {
   if (holds.has(HoldReason::door)) {
     if (state_ != MachineState::door) move_to(MachineEvent::open_door);
   } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop}) ||
-             (held && holds.has(HoldReason::zero_feed) && !holds.has(HoldReason::tool_change))) {
+             (held && holds.has(HoldReason::zero_feed) &&
+              !holds.any_of({HoldReason::tool_change, HoldReason::await_line}))) {
     if (state_ != MachineState::hold) move_to(MachineEvent::hold);
   } else if (holds.has(HoldReason::tool_change)) {
     if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
+  } else if (holds.has(HoldReason::await_line)) {
+    if (state_ != MachineState::await_line) move_to(MachineEvent::want_line);
   } else if (state_ != MachineState::run && !drive.stopped()) {
     move_to(MachineEvent::resume);
   }
@@ -258,7 +298,7 @@ void MachineSession::note_tails() {
 // The drive has ended. Over a line, the board is asked where it stands. A limit switch that was closed may be open now.
 void MachineSession::finish_work() {
   note_tails();
-  const bool asks = options_.over_a_line || closed_limit();
+  const bool asks = watches_counts() || closed_limit();
   if (!asks || board_.error()) return end_work();
   work_->finishing = true;
   board_.inquire(Question::status);
@@ -380,7 +420,7 @@ void MachineSession::look_at_panel() {
     move_to(MachineEvent::close_door);
   }
   if (!runs) return;
-  if (work_->program == nullptr) {
+  if (!work_->is_program()) {
     if (pressed.hold || pressed.door) work_->drive->stop();
     return;
   }
@@ -391,6 +431,25 @@ void MachineSession::look_at_panel() {
     work_->drive->resume(HoldReason::door);
   }
   mind_holds();
+}
+
+// Asks the board where it is, and takes over what it has told.
+void MachineSession::look_at_place() {
+  if (!options_.tells_place) return;
+  if (!busy()) {
+    now_at_ = position_.place;
+    return;
+  }
+  if (board_.error() || !zero_counts_) return;
+  const StepOptions steps = passo::step_options(machine_);
+  for (std::size_t m = 0; m < machine_.axes.size() && board_.status(); ++m) {
+    const auto counted = static_cast<double>(std::int64_t{board_.status()->positions[m]} - (*zero_counts_)[m]);
+    const Motor& motor = steps.motors[m];
+    now_at_[motor.axis] = motor.place_at(counted, position_.downs.has(motor.axis));
+  }
+  if (work_->finishing || !board_.settled() || now() - place_asked_ < between_places) return;
+  place_asked_ = now();
+  board_.ask();
 }
 
 void MachineSession::move_to(MachineEvent event) {
@@ -432,6 +491,7 @@ MachineStatus MachineSession::status() const {
   status.time = now();
   status.state = state_;
   status.position = position_;
+  status.now_at = now_at_;
   status.ahead = position_.place;
   status.inputs = board_.inputs();
   status.overrides = overrides_;

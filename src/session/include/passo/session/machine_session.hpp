@@ -35,6 +35,7 @@ struct SessionOptions {
   bool over_a_line = false;
   LineCare care = {};
   Greeting greeting = {};    // the session sets `motors`
+  bool tells_place = false;  // the board is asked where it stands, also in motion, for MachineStatus::now_at
   KnownPosition start = {};  // where the machine stands, as far as the owner knows
 };
 
@@ -99,6 +100,8 @@ class MachineSession {
   // One function for each request.
   using Answer = Result<Ticket, Refusal>;
   Answer take(request::Start& start);
+  Answer take(request::Stream& stream);
+  Answer take(request::DropLines& drop);
   Answer take(request::Jog& jog);
   Answer take(request::RenewLease& renew);
   Answer take(request::Home& home);
@@ -139,11 +142,15 @@ class MachineSession {
   void note_place();
   Point home_place();
   [[nodiscard]] bool counts_agree();
+  bool mind_lines(Seconds most);
+  void go_on_after_drop();
   void mind_lease();
   void mind_holds();
   void note_tails();
   void mind_board();
   void look_at_panel();
+  void look_at_place();
+  bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);
   void note(MachineChange change);
@@ -165,6 +172,8 @@ class MachineSession {
   std::unique_ptr<Work> work_;  // what is going on, or what ended last
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
+  Point now_at_;  // as the board has told last, for tells_place
+  Seconds place_asked_{0};
   std::optional<LinkError> trouble_;
   std::string trouble_words_;
   std::deque<MachineChange> changes_;

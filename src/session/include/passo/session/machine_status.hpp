@@ -38,6 +38,7 @@ struct MachineStatus {
   HoldReasons holds;       // why the machine rests or brakes
   bool rests = true;       // no motion is under way
   KnownPosition position;  // at rest: where the machine stands; in motion: where it last rested
+  Point now_at;            // with SessionOptions::tells_place: where the board has last told that it is
   Point ahead;             // in motion: the end of what has been planned
   std::optional<ActivityKind> activity;
   std::optional<double> progress;  // of the activity, 0 to 1
