@@ -11,6 +11,7 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
+#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
@@ -438,18 +439,27 @@ void MachineSession::look_at_place() {
   if (!options_.tells_place) return;
   if (!busy()) {
     now_at_ = position_.place;
+    speed_now_ = MmPerSecond(0);
     return;
   }
   if (board_.error() || !zero_counts_) return;
+  if (board_.status() && board_.status_time() != place_heard_) hear_place();
+  if (work_->finishing || !board_.settled() || now() - place_asked_ < between_places) return;
+  place_asked_ = now();
+  board_.ask();
+}
+
+void MachineSession::hear_place() {
   const StepOptions steps = passo::step_options(machine_);
-  for (std::size_t m = 0; m < machine_.axes.size() && board_.status(); ++m) {
+  const Point before = now_at_;
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
     const auto counted = static_cast<double>(std::int64_t{board_.status()->positions[m]} - (*zero_counts_)[m]);
     const Motor& motor = steps.motors[m];
     now_at_[motor.axis] = motor.place_at(counted, position_.downs.has(motor.axis));
   }
-  if (work_->finishing || !board_.settled() || now() - place_asked_ < between_places) return;
-  place_asked_ = now();
-  board_.ask();
+  const Seconds since = board_.status_time() - place_heard_;
+  place_heard_ = board_.status_time();
+  speed_now_ = since > Seconds(0) ? Mm(distance(before, now_at_)) / since : speed_now_;
 }
 
 void MachineSession::move_to(MachineEvent event) {
@@ -492,6 +502,7 @@ MachineStatus MachineSession::status() const {
   status.state = state_;
   status.position = position_;
   status.now_at = now_at_;
+  status.speed_now = speed_now_;
   status.ahead = position_.place;
   status.inputs = board_.inputs();
   status.overrides = overrides_;

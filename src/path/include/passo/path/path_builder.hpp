@@ -59,7 +59,10 @@ class PathBuilder final : public Source<PathItem> {
   // Where the path has come to, in machine coordinates.
   const Point& position() const { return position_; }
   // Says that the path goes on from somewhere else. What was read of the path before is not part of it any more.
-  void stand_at(const Point& machine) { position_ = machine; }
+  void stand_at(const Point& machine) {
+    position_ = machine;
+    below_ = above_ = missing_ = AxisSet();
+  }
 
  private:
   bool next_operation();

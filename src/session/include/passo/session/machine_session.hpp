@@ -150,6 +150,7 @@ class MachineSession {
   void mind_board();
   void look_at_panel();
   void look_at_place();
+  void hear_place();
   bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);
@@ -173,6 +174,8 @@ class MachineSession {
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
   Point now_at_;  // as the board has told last, for tells_place
+  MmPerSecond speed_now_{0};
+  Seconds place_heard_{0};
   Seconds place_asked_{0};
   std::optional<LinkError> trouble_;
   std::string trouble_words_;
