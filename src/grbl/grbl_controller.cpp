@@ -106,7 +106,7 @@ void GrblController::stop_for(Waits waits) {
 // The program's place is the machine's whenever a stream begins.
 void GrblController::begin_stream() {
   if (session_.state() != MachineState::idle || resets_ || waits_ == Waits::homing) return;
-  if (program_.queued() > 0 || program_.asks()) ask(request::Stream{.program = &program_});
+  if (program_.is_to_begin(session_.now())) ask(request::Stream{.program = &program_});
 }
 
 bool GrblController::may_take_line() const {

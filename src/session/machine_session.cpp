@@ -23,6 +23,7 @@ constexpr std::size_t most_changes = 4096;
 
 // Planned motion of a program that comes line by line, which may be left before more of the program is read.
 constexpr Seconds least_committed{0.025};
+constexpr Seconds a_wait_for_lines{0.001};
 // How often a board is asked where it is.
 constexpr Seconds between_places{0.05};
 
@@ -241,9 +242,9 @@ bool MachineSession::mind_lines(Seconds most) {
     return false;
   }
   const bool may_wait = drive.state() == MotionDrive::State::running && !work_->drops && !options_.over_a_line;
-  if (!may_wait || !lines->expects_more(now()) || drive.committed() <= least_committed) return false;
+  if (!may_wait || !lines->expects_more(now()) || drive.committed() < least_committed) return false;
   mind_holds();
-  board_.poll(std::min(most, drive.committed() - least_committed));
+  board_.poll(std::min(most, a_wait_for_lines));
   return true;
 }
 

@@ -28,6 +28,7 @@ constexpr Seconds busy_look{0.002};
 constexpr Seconds idle_look{0.02};
 // A virtual machine that is later than this, because the computer was busy or asleep, does not catch up.
 constexpr Seconds most_late{0.2};
+constexpr Seconds hardly_late{1e-4};
 constexpr int most_turns = 5000;  // of one look
 
 struct HostAndPort {
@@ -132,7 +133,7 @@ class Daemon {
     }
     for (int turns = 0; turns < most_turns; ++turns) {
       const Seconds ahead = clock_.ahead_of(session_.now());
-      if (!(ahead > Seconds(0))) break;
+      if (ahead < hardly_late) break;
       session_.turn(ahead);
       grbl_.turn(session_.take_changes());
     }
