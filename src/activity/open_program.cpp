@@ -26,6 +26,17 @@ std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
   return {};
 }
 
+// In grbl, G20 and G21 count for the F of their own line too. So they are read before the rest of the line.
+std::string_view units_word(std::string_view line) {
+  for (const std::string_view word : {"G20", "G21"}) {
+    const std::size_t at = line.find(word);
+    if (at == std::string_view::npos) continue;
+    const char after = at + word.size() < line.size() ? line[at + word.size()] : ' ';
+    if ((after < '0' || after > '9') && after != '.') return word;
+  }
+  return {};
+}
+
 }  // namespace
 
 OpenProgram::OpenProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start)
@@ -119,6 +130,8 @@ std::optional<Diagnostic> OpenProgram::give(std::string_view line, Seconds now, 
 
 // Interprets a line, and queues what the line asks for.
 std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
+  const std::string_view units = units_word(line);
+  if (!units.empty() && line != units) static_cast<void>(read(units));
   const std::size_t kept = queue_.size();
   const Point place = builder_->position();
   diagnostics_.clear();

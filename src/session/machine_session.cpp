@@ -340,17 +340,23 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
   return {fault ? Outcome::failed : Outcome::done, std::move(fault)};
 }
 
+Point MachineSession::place_of(const BoardPlace& place, AxisSet downs) const {
+  Point point = position_.place;
+  const StepOptions steps = passo::step_options(machine_);
+  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
+    const double exact = static_cast<double>(place.motors[m]) / whole_step - 0.5;
+    const Motor& motor = steps.motors[m];
+    point[motor.axis] = motor.place_at(exact, downs.has(motor.axis));
+  }
+  return point;
+}
+
 // Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
 void MachineSession::note_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_ = work_->drive->place();
   position_.downs = work_->drive->downs();
-  const StepOptions steps = passo::step_options(machine_);
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
-    const Motor& motor = steps.motors[m];
-    position_.place[motor.axis] = motor.place_at(exact, position_.downs.has(motor.axis));
-  }
+  position_.place = place_of(*place_, position_.downs);
   const bool agrees = !work_->finishing || counts_agree();
   const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
   // The second motor of an axis has turned alone: of the first one the counts know nothing more.
@@ -443,8 +449,13 @@ void MachineSession::look_at_place() {
     speed_now_ = MmPerSecond(0);
     return;
   }
+  if (work_->drive && work_->drive->holds().has(HoldReason::await_line)) {
+    now_at_ = place_of(work_->drive->place(), work_->drive->downs());
+    speed_now_ = MmPerSecond(0);
+  }
   if (board_.error() || !zero_counts_) return;
-  if (board_.status() && board_.status_time() != place_heard_) hear_place();
+  const bool waits = work_->drive && work_->drive->holds().has(HoldReason::await_line);
+  if (!waits && board_.status() && board_.status_time() != place_heard_) hear_place();
   if (work_->finishing || !board_.settled() || now() - place_asked_ < between_places) return;
   place_asked_ = now();
   board_.ask();

@@ -132,6 +132,7 @@ class MachineSession {
   void find_place_again();
   void stand_at(const KnownPosition& position);
   void count_from_here();
+  Point place_of(const BoardPlace& place, AxisSet downs) const;
   MotorSteps steps_of(const BoardPlace& place) const;
 
   void turn_work(Seconds most);
