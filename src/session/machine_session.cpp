@@ -11,7 +11,6 @@
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/stage_options.hpp"
-#include "passo/geometry/euclid.hpp"
 
 namespace passo {
 namespace {
@@ -20,12 +19,6 @@ namespace {
 constexpr std::uint64_t items_a_turn = 2000;
 // How many changes are kept until somebody takes them. Beyond that the oldest are dropped.
 constexpr std::size_t most_changes = 4096;
-
-// Planned motion of a program that comes line by line, which may be left before more of the program is read.
-constexpr Seconds least_committed{0.025};
-constexpr Seconds a_wait_for_lines{0.001};
-// How often a board is asked where it is.
-constexpr Seconds between_places{0.05};
 
 // True: the error is one of the work, found by a user of the link. The board itself is as it was.
 constexpr bool is_of_work(LinkError error) {
@@ -230,31 +223,6 @@ void MachineSession::turn_work(Seconds most) {
   work_->drive->wait(most);
 }
 
-// Lets a program that comes line by line go on when there are lines. True: the turn was spent waiting for more lines,
-// so that the look-ahead sees them.
-bool MachineSession::mind_lines(Seconds most) {
-  OpenProgram* const lines = work_->lines;
-  if (lines == nullptr) return false;
-  MotionDrive& drive = *work_->drive;
-  if (drive.holds().has(HoldReason::await_line)) {
-    if (work_->drops) go_on_after_drop();
-    if (lines->is_to_begin(now())) drive.resume(HoldReason::await_line);
-    return false;
-  }
-  const bool may_wait = drive.state() == MotionDrive::State::running && !work_->drops && !options_.over_a_line;
-  if (!may_wait || !lines->expects_more(now()) || drive.committed() < least_committed) return false;
-  mind_holds();
-  board_.poll(std::min(most, a_wait_for_lines));
-  return true;
-}
-
-// The machine rests, and the path was dropped up to here. The program goes on from where that is.
-void MachineSession::go_on_after_drop() {
-  work_->drops = false;
-  work_->lines->drop(work_->drive->dropped_to().value_or(work_->ahead));
-  answer_holds(Outcome::done);
-}
-
 // Stops the jog in time. The moves that one step commits may not end after the lease.
 void MachineSession::mind_lease() {
   if (!work_->lease_end) return;
@@ -338,17 +306,6 @@ std::pair<Outcome, std::optional<ActivityFault>> MachineSession::judge_work() co
   if (work_->drive->stopped()) return {Outcome::stopped, {}};
   auto fault = work_->activity->fault();
   return {fault ? Outcome::failed : Outcome::done, std::move(fault)};
-}
-
-Point MachineSession::place_of(const BoardPlace& place, AxisSet downs) const {
-  Point point = position_.place;
-  const StepOptions steps = passo::step_options(machine_);
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const double exact = static_cast<double>(place.motors[m]) / whole_step - 0.5;
-    const Motor& motor = steps.motors[m];
-    point[motor.axis] = motor.place_at(exact, downs.has(motor.axis));
-  }
-  return point;
 }
 
 // Takes over the place at rest. If the board was lost, the place is not known until the board answers again.
@@ -439,39 +396,6 @@ void MachineSession::look_at_panel() {
     work_->drive->resume(HoldReason::door);
   }
   mind_holds();
-}
-
-// Asks the board where it is, and takes over what it has told.
-void MachineSession::look_at_place() {
-  if (!options_.tells_place) return;
-  if (!busy()) {
-    now_at_ = position_.place;
-    speed_now_ = MmPerSecond(0);
-    return;
-  }
-  if (work_->drive && work_->drive->holds().has(HoldReason::await_line)) {
-    now_at_ = place_of(work_->drive->place(), work_->drive->downs());
-    speed_now_ = MmPerSecond(0);
-  }
-  if (board_.error() || !zero_counts_) return;
-  const bool waits = work_->drive && work_->drive->holds().has(HoldReason::await_line);
-  if (!waits && board_.status() && board_.status_time() != place_heard_) hear_place();
-  if (work_->finishing || !board_.settled() || now() - place_asked_ < between_places) return;
-  place_asked_ = now();
-  board_.ask();
-}
-
-void MachineSession::hear_place() {
-  const StepOptions steps = passo::step_options(machine_);
-  const Point before = now_at_;
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const auto counted = static_cast<double>(std::int64_t{board_.status()->positions[m]} - (*zero_counts_)[m]);
-    const Motor& motor = steps.motors[m];
-    now_at_[motor.axis] = motor.place_at(counted, position_.downs.has(motor.axis));
-  }
-  const Seconds since = board_.status_time() - place_heard_;
-  place_heard_ = board_.status_time();
-  speed_now_ = since > Seconds(0) ? Mm(distance(before, now_at_)) / since : speed_now_;
 }
 
 void MachineSession::move_to(MachineEvent event) {
