@@ -25,6 +25,14 @@ void set_flags(int descriptor) {
   fcntl(descriptor, F_SETFD, FD_CLOEXEC);
 }
 
+// Without echo, and without changes to any byte. Whoever closes the terminal sets it back to what it was.
+void make_raw(int terminal) {
+  termios mode{};
+  tcgetattr(terminal, &mode);
+  cfmakeraw(&mode);
+  tcsetattr(terminal, TCSANOW, &mode);
+}
+
 // The first address of that name at which this computer can listen. A negative number: errno or `reason` tells why.
 int bound(const std::string& host, unsigned port, std::string& reason) {
   addrinfo hints{};
@@ -76,11 +84,9 @@ Result<std::unique_ptr<SenderLine>, std::string> SenderLine::open_terminal(const
   const int ours = posix_openpt(O_RDWR | O_NOCTTY);
   if (ours < 0 || grantpt(ours) != 0 || unlockpt(ours) != 0) return Failure{std::string(std::strerror(errno))};
   set_flags(ours);
-  termios mode{};
-  tcgetattr(ours, &mode);
-  cfmakeraw(&mode);
-  tcsetattr(ours, TCSANOW, &mode);
   const std::string theirs = ptsname(ours);
+  // A pseudo-terminal reports that nobody has it open only after somebody had.
+  if (const int once = ::open(theirs.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC); once >= 0) close(once);
   // A link that an earlier program has left is replaced; a file never is.
   std::array<char, 16> target{};
   if (readlink(link.c_str(), target.data(), target.size() - 1) > 0 &&
@@ -126,6 +132,7 @@ SenderLine::News SenderLine::look(bool reads) {
   if (is_terminal_) {
     const bool is_open = has_reader();
     news.came = is_open && !connected_;
+    if (news.came) make_raw(sender_);
     broken_ = broken_ || (!is_open && connected_);
     connected_ = connected_ || is_open;
   } else {
