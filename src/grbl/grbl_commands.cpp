@@ -11,8 +11,6 @@
 namespace passo {
 namespace {
 
-constexpr int first_g54_parameter = 5221;
-constexpr int last_g59_parameter = 5340;
 constexpr std::string_view beyond_travel = "travel.exceeded";
 constexpr std::size_t jog_words_from = 3;  // after "$J="
 
