@@ -27,6 +27,7 @@ struct MachineWish {
   std::optional<CableCut> cut = {};  // the virtual machine is at the end of a line that is cut
   std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
   bool physics = false;              // the motors of a virtual or emulated machine obey physics
+  bool tells_place = false;          // see SessionOptions
   bool may_move = false;             // another host may have left the board in motion
 };
 
