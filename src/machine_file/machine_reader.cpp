@@ -159,7 +159,10 @@ void MachineReader::read_board(const TomlEntry& entry) {
   auto rate = reader.number(event_rate_key, Need::required);
   const bool pulse_is_given = reader.has(step_pulse_key.name);
   const auto pulse = reader.number(step_pulse_key, Need::optional);
-  if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
+  if (const auto items = reader.whole_number(items_key, Need::optional)) {
+    board.held_items = static_cast<int>(*items);
+    board.held_items_are_given = true;
+  }
   finish(reader);
 
   if (clock && rate) {
