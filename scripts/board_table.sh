@@ -82,13 +82,6 @@ if (($# > 0)); then
   table "$@"
   exit
 fi
-table >"$work/table"
-awk -v table="$work/table" '
-  /^<!-- end of jobs -->$/ { skipping = 0 }
-  !skipping { print }
-  /^<!-- jobs -->$/ {
-    skipping = 1
-    while ((getline line < table) > 0) print line
-  }' docs/boards.md >"$work/new"
-cat "$work/new" >docs/boards.md
-cat "$work/table"
+table >"$work/jobs"
+scripts/put_tables.sh docs/boards.md "$work"
+cat "$work/jobs"

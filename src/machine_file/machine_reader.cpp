@@ -160,6 +160,7 @@ void MachineReader::read_board(const TomlEntry& entry) {
   const bool pulse_is_given = reader.has(step_pulse_key.name);
   const auto pulse = reader.number(step_pulse_key, Need::optional);
   if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
+  board.held_items_are_given = reader.has(items_key.name);
   finish(reader);
 
   if (clock && rate) {
@@ -177,8 +178,7 @@ void MachineReader::read_board(const TomlEntry& entry) {
     }
   }
   if (!rate) return;
-  board.highest_event_rate = Hertz(*rate);
-  event_rate_ = board.highest_event_rate;
+  event_rate_ = board.highest_event_rate = Hertz(*rate);
   if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
   board.step_pulse_is_given = pulse.has_value();
   // A driver wants a pause as long as the pulse.

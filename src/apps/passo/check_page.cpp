@@ -81,7 +81,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
                 const ProgramCheck& check, PathRecorder* path) {
   ProgressDisplay progress(program.name());
   Diagnostics findings;  // after a good check only what is known already
-  Program activity(std::move(program), machine, options, no_answers(), findings, check.nominal_time);
+  Program activity(program.again(), machine, options, no_answers(), findings, check.nominal_time);
   std::vector<Axis> axes;
   for (const AxisDescription& axis : machine.axes) axes.push_back(axis.axis);
   SummaryBuilder builder(axes);
@@ -109,6 +109,8 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   page.summary = builder.summary();
   page.margin = survey.verdict();
   page.knows_motors = !page.margin.axes.empty();
+  progress.clear();
+  page.line = line_cost(std::move(program), machine, options, check, page.summary.time());
   return page;
 }
 
@@ -119,6 +121,7 @@ std::string to_text(const CheckPage& page, const MachineDescription& machine) {
   if (summary.dwell_time > Seconds(0)) text += fmt::format(", {} of dwells", clock_words(summary.dwell_time));
   if (page.tool_changes > 0) text += fmt::format(", and {} tool changes", page.tool_changes);
   text += "\n";
+  if (page.line) text += to_text(*page.line);
   for (const AxisSummary& axis : summary.axes) text += axis_words(axis, description_of(machine, axis.axis));
   return text + motor_words(page);
 }
@@ -127,6 +130,7 @@ void add_to(nlohmann::ordered_json& json, const CheckPage& page, const MachineDe
   json["time_s"] = (page.summary.cutting_time + page.summary.rapid_time).value();
   json["dwell_s"] = page.summary.dwell_time.value();
   json["tool_changes"] = page.tool_changes;
+  json["line"] = page.line ? as_json(*page.line) : nlohmann::ordered_json();
   nlohmann::ordered_json axes = nlohmann::ordered_json::object();
   for (const AxisSummary& axis : page.summary.axes) {
     const AxisDescription& limits = description_of(machine, axis.axis);

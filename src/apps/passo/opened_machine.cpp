@@ -86,7 +86,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     opened->machine_.connect(*opened->plant_);
     opened->machine_.wire(pin_setup(machine));
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
-    if (!wish.cut) {
+    if (!wish.over_a_line) {
       opened->session_ = std::make_unique<MachineSession>(
           machine, opened->machine_, SessionOptions{.tells_place = wish.tells_place, .start = at_zero});
       // For its switches. Over a line, the greeting asks.
@@ -94,7 +94,7 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
       return opened;
     }
     opened->line_.emplace(opened->machine_, machine.board.clock, LineOptions());
-    opened->line_->cut(wish.cut->at, wish.cut->missing);
+    if (wish.cut) opened->line_->cut(wish.cut->at, wish.cut->missing);
     opened->session_ = std::make_unique<MachineSession>(
         machine, *opened->line_,
         SessionOptions{.over_a_line = true, .care = virtual_line, .greeting = {.session = 1}, .start = at_zero});
