@@ -103,7 +103,7 @@ bool RotorPlant::settle(Seconds most) {
 Truth RotorPlant::truth_at(Seconds time) {
   run_to(time);
   set_switches();
-  return {.positions = slides(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
+  return truth_now(time);
 }
 
 }  // namespace passo
