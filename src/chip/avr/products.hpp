@@ -1,7 +1,7 @@
 // Products: what wire/segment_parts.hpp asks of a product, by the chip's own multiplier of 8 bits.
 //
-// LLVM would call the library's product of 32 bits three times: 420 cycles for a high_product(). This takes 90, and a
-// part that brakes needs four of them. The results are the same, bit by bit: board_test.cpp compares the events.
+// LLVM would call the library's product of 32 bits three times: some 500 cycles for a high_product(). This takes 110, and
+// a part that brakes needs four of them. The results are the same, bit by bit: board_test.cpp compares the events.
 #pragma once
 
 #include <stdint.h>
