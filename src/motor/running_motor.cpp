@@ -38,23 +38,14 @@ MotorSetup measured_setup(const TorqueCurve& curve, const Excitation& excitation
   return setup;
 }
 
-// One step of the integration, and what the trapezoidal rule for R·i + L·di/dt = u makes of it:
-//   i' = (keep·i + push·u)
-struct RunningMotor::StepSize {
-  StepSize(double time, const RunningMotor& motor) : h(time) {
-    const double half = motor.resistance_ * h / (2 * motor.inductance_);
-    keep = (1 - half) / (1 + half);
-    push = h / motor.inductance_ / (1 + half);
-    fade = motor.viscous_ * h / (2 * motor.inertia_);
-    kick = h / motor.inertia_;
-  }
-
-  double h;
-  double keep;
-  double push;
-  double fade;
-  double kick;
-};
+RunningMotor::StepSize RunningMotor::size_of(double time) const {
+  const double half = resistance_ * time / (2 * inductance_);
+  return {.h = time,
+          .keep = (1 - half) / (1 + half),
+          .push = time / inductance_ / (1 + half),
+          .fade = viscous_ * time / (2 * inertia_),
+          .kick = time / inertia_};
+}
 
 RunningMotor::RunningMotor(const MotorSetup& setup)
     : teeth_(setup.motor.rotor.teeth()),
@@ -68,7 +59,6 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
       dry_(setup.load.friction.value),
       weight_(setup.weight.value),
       measured_(setup.measured),
-      excitation_(setup.excitation),
       steps_(setup.excitation.steps_per_full_step()),
       places_per_radian_(2 * steps_ / std::numbers::pi) {
   const MotorData winding = as_wound(setup.motor, setup.drive.winding);
@@ -80,6 +70,10 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
   const double ringing = std::sqrt(teeth_ * winding.holding_torque.value / inertia_);
   longest_ = std::min({longest_step, radians_of_ringing / ringing, part_of_time_constant * inductance_ / resistance_});
 
+  for (int place = 0; place < 4 * steps_; ++place) {
+    const WindingState state = setup.excitation.at(place);
+    shares_.push_back({.a = state.phase_a, .b = state.phase_b});
+  }
   excite();
   const double full = chops_ ? rated_ : supply_ / resistance_;
   current_a_ = share_a_ * full;
@@ -99,9 +93,24 @@ void RunningMotor::step(int way) {
 }
 
 void RunningMotor::excite() {
-  const WindingState state = excitation_.at(commanded_);
-  share_a_ = state.phase_a;
-  share_b_ = state.phase_b;
+  const auto turn = static_cast<std::int64_t>(shares_.size());
+  const Shares& shares = shares_[static_cast<std::size_t>((commanded_ % turn + turn) % turn)];
+  share_a_ = shares.a;
+  share_b_ = shares.b;
+}
+
+void RunningMotor::resume(std::int64_t commanded, double place, RadiansPerSecond speed, NewtonMetres mean_torque) {
+  commanded_ = commanded;
+  excite();
+  const double full = chops_ ? rated_ : supply_ / resistance_;
+  current_a_ = share_a_ * full;
+  current_b_ = share_b_ * full;
+  angle_ = (place + first_) / places_per_radian_;
+  until_exact_ = 0;
+  speed_ = speed.value;
+  gain_ = 0;
+  mean_torque_ = mean_torque.value;
+  rests_ = false;
 }
 
 void RunningMotor::set_resistance(NewtonMetres torque) {
@@ -111,10 +120,14 @@ void RunningMotor::set_resistance(NewtonMetres torque) {
 
 void RunningMotor::run(Seconds time) {
   if (rests_ || time.value() <= 0) return;
-  const double count = std::ceil(time.value() / longest_);
-  const StepSize size(time.value() / count, *this);
-  const auto steps = static_cast<std::int64_t>(count);
-  for (std::int64_t i = 1; i <= steps; ++i) {
+  if (time.value() != last_time_) {
+    last_time_ = time.value();
+    const double count = std::ceil(time.value() / longest_);
+    last_size_ = size_of(time.value() / count);
+    last_count_ = static_cast<std::int64_t>(count);
+  }
+  const StepSize& size = last_size_;
+  for (std::int64_t i = 1; i <= last_count_; ++i) {
     integrate(size);
     if (i % steps_between_looks != 0) continue;
     look_for_slip(in_motion);

@@ -154,6 +154,15 @@ struct BoardServeArguments {
 };
 int board_serve(const BoardServeArguments& arguments);
 
+struct ServeArguments {
+  std::string machine;  // empty: the example machine
+  std::string board = "virtual";
+  std::string grbl_tcp;            // HOST:PORT; with no line at all: 127.0.0.1:7071
+  std::string grbl_pty;            // where the link to the pseudo-terminal is to be
+  bool anybody_may_drive = false;  // the port may be reached from other computers
+};
+int serve(const ServeArguments& arguments);
+
 struct InterpolateArguments {
   std::string method;  // a name of method_names(); empty with `compare`
   std::string to;      // "10,4", in steps

@@ -28,6 +28,7 @@ struct MachineWish {
   std::optional<CableCut> cut = {};  // the line is cut; only with over_a_line
   std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
   bool physics = false;              // the motors of a virtual or emulated machine obey physics
+  bool tells_place = false;          // see SessionOptions
   bool may_move = false;             // another host may have left the board in motion
 };
 
