@@ -262,11 +262,12 @@ int check(const CheckArguments& arguments) {
   LoadTrack track;
   if (first.result.good) {
     const bool reports = !arguments.report.empty();
-    page = judge(std::move(*program), *machine, *options, first.result,
+    page = judge(program->again(), *machine, *options, first.result,
                  {.path = reports || !arguments.picture.empty() ? &path : nullptr, .track = reports ? &track : nullptr},
                  [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
   progress.clear();
+  if (page) page->line = line_cost(std::move(*program), *machine, *options, first.result, page->summary.time());
   const int written = write_files(arguments, *machine, first, page, path, track);
   if (written != exit_done) return written;
   print(arguments, *machine, first, page);

@@ -182,7 +182,7 @@ static double watch_in_phases(const PlannedMove& move, MarginSurvey& survey, Loa
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
                 const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress) {
   Diagnostics findings;  // after a good check only what is known already
-  Program activity(program.again(), machine, options, no_answers(), findings, check.nominal_time);
+  Program activity(std::move(program), machine, options, no_answers(), findings, check.nominal_time);
   std::vector<Axis> axes;
   AxisSet axis_set;
   for (const AxisDescription& axis : machine.axes) {
@@ -225,8 +225,6 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   page.speed = speeds.report();
   page.margin = survey.verdict();
   page.knows_motors = !page.margin.axes.empty();
-  progress.clear();
-  page.line = line_cost(std::move(program), machine, options, check, page.summary.time());
   return page;
 }
 

@@ -88,6 +88,7 @@ std::string figures(const CheckReport& report) {
   add("way at feed", fmt::format("{:.4g} m", page.summary.cutting_distance.value() / 1000));
   add("way in rapids", fmt::format("{:.4g} m", page.summary.rapid_distance.value() / 1000));
   html += "</dl>\n";
+  if (page.line) html += fmt::format("<pre>{}</pre>\n", html_text(to_text(*page.line)));
   if (!report.waits.empty()) html += fmt::format("<p>Waits for somebody at {}.</p>\n", html_text(report.waits));
   return html;
 }
