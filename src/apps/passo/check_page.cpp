@@ -225,7 +225,6 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   page.speed = speeds.report();
   page.margin = survey.verdict();
   page.knows_motors = !page.margin.axes.empty();
-  progress.clear();
   page.line = line_cost(std::move(program), machine, options, check, page.summary.time());
   return page;
 }
