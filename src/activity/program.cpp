@@ -46,9 +46,13 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       tools_(options.tools),
       interpreter_(std::move(program), options, diagnostics),
       mistakes_(machine, options.units, path_options_.file, diagnostics),
+      low_rapids_(machine, path_options_.file, diagnostics),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics) {
-  operations_.watch([this](const Operation& operation) { mistakes_.watch(operation); });
+  operations_.watch([this](const Operation& operation) {
+    mistakes_.watch(operation);
+    low_rapids_.watch(operation);
+  });
 }
 
 bool ProgramChecker::go_on(std::uint64_t items) {
@@ -74,6 +78,7 @@ bool ProgramChecker::take_item() {
 
 void ProgramChecker::finish() {
   done_ = true;
+  mistakes_.finish();
   if (after_a_probe_ == most_moves_after_a_probe) tell_end(diagnostics_, path_options_.file, item_);
   diagnostics_.doubt_errors({});
   check_.tools_change = interpreter_.tools() != tools_;

@@ -91,6 +91,7 @@ struct CheckArguments {
   bool motion = false;    // plans the path too, and measures the motion
   std::string picture;    // of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the motors' margin; empty: the motion
+  std::string report;     // .html; empty: none
   bool json = false;
 };
 int check(const CheckArguments& arguments);

@@ -230,11 +230,15 @@ int parse_and_run(int argc, char** argv) {
       "draw the motion: path and tolerance, speed over the way, acceleration and jerk (.svg or .png)");
   check_command.add_option("--colour-by", check_arguments.colour_by,
                            "margin: the picture shows the path instead, dark where the motors have little torque left");
+  check_command.add_option("-r,--report", check_arguments.report,
+                           "all of it as one page to read and to print, with pictures (FILE.html)");
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
   check_command.footer(
       "Examples:\n  passo check part.ngc -m router.toml             what is wrong with it\n"
       "  passo check part.ngc -m router.toml --motion    peaks, deviation, time and the least time there can be;\n"
       "                                                  exit code 1 if a limit is broken\n"
+      "  passo check part.ngc -m router.toml --report part.html    one page with pictures, for the screen and for "
+      "paper\n"
       "  passo check part.ngc -m router.toml --picture margin.svg --colour-by margin    where torque is short\n"
       "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
       "too");

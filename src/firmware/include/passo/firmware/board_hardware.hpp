@@ -24,15 +24,14 @@
 
 namespace passo {
 
-// Called between two pieces of work: hardware with a small buffer reads its line then. Hardware may have a product of its
-// own too.
+// Called between two pieces of work: hardware with a small buffer reads its line then. Hardware may have a product of
+// its own too.
 template <class Hardware>
 struct BreathOf {
-  [[gnu::always_inline]] static int32_t high_product(int32_t a, int32_t b)
-    requires requires { Hardware::high_product(a, b); }
-  {
-    return Hardware::high_product(a, b);
+  [[gnu::always_inline]] static int32_t high_product(int32_t a, int32_t b) requires requires {
+    Hardware::high_product(a, b);
   }
+  { return Hardware::high_product(a, b); }
   [[gnu::always_inline]] void operator()() const {
     if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
   }

@@ -15,9 +15,9 @@
 //   a pulse comes L·I·Δ/(U − K·|ω|) after the one before, or later     Δ: the electrical angle of a step
 //   |e| ≤ 0.8 radians at the end of each block                          U = min(V − R·I, decay·V)
 //
-// docs/ramps/physics.md derives the bound: while it holds, no step is lost, and the currents feed nothing back to the
-// rotor, so there is no mid-band instability. The drive must be a chopper with microsteps, or the motor a measured
-// curve with microsteps.
+// docs/ramps/physics.md derives the bound: while it holds, the currents feed nothing back to the rotor, so the drive
+// makes no mid-band instability, and the rotor is far from losing a step at the end of each block. The drive must be a
+// chopper with microsteps, or the motor a measured curve with microsteps.
 //
 // Times and places do not depend on how often somebody looks. Cost: docs/ramps/physics.md has a table.
 #pragma once
