@@ -190,9 +190,7 @@ bool take_tick() {
   SpindleCounter::look();
   line.poll();
   if (ChipPlayer::wants_more() && board.has_more()) board.settle();
-  // Bytes are in a hurry only if the list is empty. While it is not, a flood of them must not hold up the events.
-  const uint8_t most = ChipPlayer::wants_more() && !(board.has_more() && ChipPlayer::is_short()) ? 32 : 8;
-  for (uint8_t taken = 0; line.has_byte() && taken < most; ++taken) {
+  for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
     receive();
     SerialLine::breathe();
   }
