@@ -61,7 +61,7 @@ void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
     }
   }
   for (std::size_t m = fitted_; m < steps.size(); ++m) moving[m] += static_cast<double>(steps[m]);
-  set_switches();
+  set_switches(now_);
 }
 
 void RotorPlant::run_to(Seconds time) {
@@ -114,7 +114,7 @@ void RotorPlant::look_at_margin(Fitted& one) const {
 
 std::uint16_t RotorPlant::inputs_at(Seconds time) {
   run_to(time);
-  set_switches();
+  set_switches(now_);
   return switches().closed();
 }
 
@@ -126,13 +126,13 @@ bool RotorPlant::settle(Seconds most) {
     if (now_ >= end) return false;
     run_to(now_ + look);
   }
-  set_switches();
+  set_switches(now_);
   return true;
 }
 
 Truth RotorPlant::truth_at(Seconds time) {
   run_to(time);
-  set_switches();
+  set_switches(now_);
   return truth_now(time);
 }
 
