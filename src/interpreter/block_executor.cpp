@@ -214,7 +214,12 @@ bool BlockExecutor::run(std::span<const Step> steps) {
 bool BlockExecutor::move(CodeNumber number) {
   if (!drills(number)) drilling_.forget();
   state_.modal.set(motion, number);
+  const LetterSet in_doubt = reporter_.doubts().axes();
   const bool good = move_by(number);
+  const bool is_arc = number == code(2) || number == code(3);  // a wrong one leads to its end, too
+  if (good ? in_doubt.any() : is_arc) {
+    reporter_.doubts().set_axes(state_.modal.incremental() ? in_doubt : in_doubt - words_.present());
+  }
   if (cutter_.active()) {
     if (!good) cutter_.skip_to(state_.position);
     state_.cutter_shift = cutter_.shift(state_.position);

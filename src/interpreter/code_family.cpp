@@ -160,8 +160,19 @@ bool CodeFamily::spindle_word(SpindleChoice choice, SpindleRange& range) {
   return true;
 }
 
+bool CodeFamily::starts_in_doubt() const {
+  const LetterSet doubtful = reporter_.doubts().axes();
+  if (!doubtful.any()) return false;
+  const PlaneAxes axes = axes_of(state_.modal.plane());
+  return doubtful.has(letter_of(axes.first)) || doubtful.has(letter_of(axes.second));
+}
+
 bool CodeFamily::report_arc(const ArcCenter& arc) {
   const double unit = state_.length_unit();
+  if (arc.fault != ArcFault::none && starts_in_doubt()) {
+    reporter_.meet_again();
+    return false;
+  }
   switch (arc.fault) {
     case ArcFault::none: return true;
     case ArcFault::zero_radius:
