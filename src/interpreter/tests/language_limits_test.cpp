@@ -134,6 +134,7 @@ TEST(Limits, a_line_that_fails_does_not_cause_errors_that_tell_the_lack_of_it) {
 TEST(Limits, what_is_wrong_in_itself_is_told_behind_a_line_that_fails) {
   for (const char* const program :
        {"F9\nG12 X5\nG0 X5 Y0\nG2 X10 Y0 I2\nM2\n",  // the place is known again
+        "F9\nG12 X5\nG91 G2 X10 Y0 I2\nM2\n",        // an arc that does not depend on the place
         "F9\nG2 X10 Y0 I2\nG2 X20 Y0 I2\nM2\n",      // a wrong arc leads to its end
         "G0 X[5\nG1 X1\nM2\n", "G12\n#1=#<a>\nM2\n", "G12\no1 endif\nM2\n", "G12\no<s> call\nM2\n"}) {
     EXPECT_EQ(errors_of(program), 2U) << program << interpret_text(program).rendered();
