@@ -13,6 +13,7 @@ build_packages=(
   libtomlplusplus-dev        # machine files
   nlohmann-json3-dev         # reports
   libcairo2-dev libpng-dev   # pictures
+  libassimp-dev              # bodies in STL files
   fonts-dejavu-core          # letters in pictures
   pkg-config                 # finds cairo
   clang gcc-avr avr-libc binutils-avr  # the firmware for the Uno and the Mega: compiler; libgcc, start-up code, linker
