@@ -1,7 +1,7 @@
 // The program `passo`: reads the command line and calls the command.
 //
-// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp and study_options.cpp know CLI11, because CLI11
-// compiles slowly. Each command is in a file of its own.
+// Only this file, command_words.cpp, board_options.cpp, cam_options.cpp, study_options.cpp and tuning_options.cpp know
+// CLI11, because CLI11 compiles slowly. Each command is in a file of its own.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "program_input.hpp"
 #include "study_options.hpp"
+#include "tuning_options.hpp"
 #include <CLI/CLI.hpp>
 
 namespace {
@@ -32,6 +33,7 @@ constexpr const char* examples = R"(Examples:
   passo serve                                                 a virtual machine for senders: UGS, bCNC, cncjs
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
+  passo tune --machine router.toml -o tuned.toml              velocities, accelerations and jerks that its motors can do
   passo canon part.ngc                                        what it means, as canonical calls
   passo explain part.ngc:12                                   what line 12 does, and under which modes
   passo machine router.toml                                   what a machine file says
@@ -243,6 +245,9 @@ int parse_and_run(int argc, char** argv) {
       "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
       "too");
 
+  TuneArguments tune_arguments;
+  CLI::App& tune_command = add_tune_command(app, tune_arguments);
+
   CanonArguments canon_arguments;
   CLI::App& canon_command = *app.add_subcommand("canon", "print what a program means, as canonical calls");
   add_program(canon_command, canon_arguments.program);
@@ -307,6 +312,7 @@ int parse_and_run(int argc, char** argv) {
   if (home_command.parsed()) return home(home_arguments);
   if (serve_command.parsed()) return serve(serve_arguments);
   if (check_command.parsed()) return check(check_arguments);
+  if (tune_command.parsed()) return tune(tune_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);
   if (board_command.parsed()) return board_arguments.chosen();
