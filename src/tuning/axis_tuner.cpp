@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "calm_sweep.hpp"
 #include <fmt/format.h>
 
 #include "passo/activity/machine_plant.hpp"
@@ -107,6 +108,23 @@ double AxisTuner::torque_ends_at(const TorqueBand& band, double share, double to
   return end;
 }
 
+// The highest speed up to which no motor of the tolerance swings by itself, with steps in time and with late ones.
+double AxisTuner::calm_to(double top) const {
+  constexpr double below = 0.93;  // of the rate where the swing was seen
+  const double steps_per_unit = setup_.motor.rotor.steps_per_revolution * radians_per_unit_ / (2 * std::numbers::pi);
+  MotorSetup usual = setup_;
+  usual.load.friction_per_speed.value -= usual.damping.value;
+  usual.weight = {};
+  double calm = top;
+  for (const double strength : {1 - axis_.motor->tolerance, 1.0, 1 + axis_.motor->tolerance}) {
+    for (const double late : {0.0, 0.41}) {
+      const Hertz rate = calm_up_to(with_torque(usual, strength), Hertz(calm * steps_per_unit), late);
+      if (rate.value() < calm * steps_per_unit) calm = below * rate.value() / steps_per_unit;
+    }
+  }
+  return calm;
+}
+
 // The highest speed up to which the motor may stay at any speed.
 double AxisTuner::steady_up_to(const TorqueBand& band, double share, double top) const {
   double end = 0;
@@ -178,7 +196,8 @@ Result<AxisTuning, TuningRefusal> AxisTuner::propose(const TuningWish& wish) con
   }
   const double torque_end = torque_ends_at(band, share, top);
   if (torque_end < top) bound = TuningBound::torque;
-  top = torque_end;
+  top = calm_to(torque_end);
+  if (top < torque_end) bound = TuningBound::swing;
   constexpr int most_rounds = 40;
   constexpr double near = 0.97;   // of a bound: the bound is the reason
   constexpr double lower = 0.93;  // the next end that is tried

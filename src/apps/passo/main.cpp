@@ -41,6 +41,7 @@ constexpr const char* examples = R"(Examples:
   passo board list                                            what is on this computer's serial lines
   passo interpolate --compare --to 27,10                      how each classic method steps along a line
   passo motor --help                                          what a stepping motor can do at each speed
+  passo loop --compare --picture rules.svg                    PID for a motor with an encoder
   passo help run                                              every option of a command
   passo ramp --method exact --clock 1e6 --steps-per-rev 200 --accel 10 --steps 20    when a motor steps
   passo chords --curve arc --from 9,0 --to 0,9 --center 0,0   a curve as chords within a tolerance
@@ -292,6 +293,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App& ramp_command = add_ramp_command(app, ramp_arguments);
   MotorArguments motor_arguments;
   CLI::App& motor_command = add_motor_command(app, motor_arguments);
+  LoopArguments loop_arguments;
+  CLI::App& loop_command = add_loop_command(app, loop_arguments);
   WindingsArguments windings_arguments;
   CLI::App& windings_command = add_windings_command(app, windings_arguments);
   FollowerArguments follower_arguments;
@@ -319,6 +322,7 @@ int parse_and_run(int argc, char** argv) {
   if (cam_drill_command.parsed()) return cam_drill(cam_drill_arguments);
   if (interpolate_command.parsed()) return interpolate(interpolate_arguments);
   if (motor_command.parsed()) return motor(motor_arguments);
+  if (loop_command.parsed()) return loop(loop_arguments);
   if (ramp_command.parsed()) return ramp(ramp_arguments);
   if (windings_command.parsed()) return windings(windings_arguments);
   if (follower_command.parsed()) return follower_sim(follower_arguments);

@@ -7,7 +7,8 @@
 //
 // Torque falls with the speed, so a higher velocity costs acceleration. The criterion: the slowest velocity with which
 // a reference move (half of the travel, from rest to rest) takes at most 1 % longer than with any other one. At that
-// velocity and at all below, friction and weight leave the margin to a motor that may swing by itself, too.
+// velocity and at all below, the weakest, the usual and the strongest motor do not swing by themselves: a slow sweep
+// through all rates tries them.
 //
 // The jerk: an acceleration that rises within one period of the rotor's ringing leaves no ringing behind (the response
 // to a ramp of one period is at rest where the ramp ends). The weakest motor has the longest period.
@@ -84,6 +85,7 @@ class AxisTuner {
   double period_at(const TorqueBand& band, double share, double speed) const;
   double usable_at(const TorqueBand& band, double share, double speed) const;
   double torque_ends_at(const TorqueBand& band, double share, double top) const;
+  double calm_to(double top) const;
   double steady_up_to(const TorqueBand& band, double share, double top) const;
   Choice choose(const TorqueBand& band, double share, double way, double top) const;
   TorqueBand band_to(double speed) const;
