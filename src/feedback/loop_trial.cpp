@@ -122,7 +122,11 @@ LoopFigures figures_of(const std::vector<LoopMoment>& all, const LoopSetup& setu
   return figures;
 }
 
-std::optional<UltimateCycle> ultimate_cycle(const LoopSetup& setup) {
+std::optional<UltimateCycle> ultimate_cycle(const LoopSetup& whole) {
+  LoopSetup setup = whole;
+  // A large jump of the place would meet the limits of speed and torque, which hide the swing.
+  constexpr double small_turn = 0.05;
+  if (setup.controlled == Controlled::position) setup.to = std::min(std::abs(setup.to), small_turn);
   // From the weakest gain that could matter: full torque for a thousand times the jump.
   const double unit =
       setup.controlled == Controlled::speed
