@@ -24,6 +24,7 @@ void GrblController::connect() {
   input_.clear();
   offset_in_ = 0;
   overrides_in_ = 1;
+  pace_.reset();
   say(std::string(grbl_banner));
   if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
 }
@@ -38,6 +39,7 @@ void GrblController::disconnect() {
 }
 
 void GrblController::receive(std::string_view bytes) {
+  heard_at_ = session_.now();
   input_.receive(bytes, [this](std::uint8_t byte) { act(byte); });
 }
 
@@ -53,6 +55,7 @@ void GrblController::turn(const std::vector<MachineChange>& changes) {
     std::exchange(after_stop_, nullptr)();
   }
   if (resets_ && !session_.busy() && session_.state() != MachineState::offline) end_reset();
+  mind_jog_lease();
   begin_stream();
   take_lines();
 }

@@ -213,6 +213,7 @@ int serve(const ServeArguments& arguments) {
   const KnownPosition position = opened->session().status().position;
   InterpreterOptions dialect;
   dialect.dialect = Dialect::grbl;
+  dialect.more_grbl_axes = more_grbl_axes(*machine);
   OpenProgram program(*machine, dialect, position.place);
   GrblController grbl(*machine, opened->session(), program);
   fmt::print("{} on {}, for senders of Grbl 1.1:\n", machine->name,

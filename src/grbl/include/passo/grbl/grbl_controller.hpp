@@ -79,11 +79,18 @@ class GrblController {
   // Real-time commands.
   void act(std::uint8_t byte);
   void report_status();
+  void note_question();
+  void mind_jog_lease();
+  bool is_executing() const;
   void hold();
   void resume();
   void reset();
   void cancel_jog();
+  void open_door();
+  void stop_spindle();
+  void switch_coolant(bool flood);
   void change_feed(int percent);
+  void change_rapids(int percent);
   void change_spindle(int percent);
   void send_overrides();
 
@@ -145,6 +152,9 @@ class GrblController {
   int rapid_override_ = 100;
   int spindle_override_ = 100;
   std::string startup_[2];
+  Seconds heard_at_{0};  // any byte of the sender
+  Seconds asked_at_{0};  // for the status
+  std::optional<Seconds> pace_;
 };
 
 }  // namespace passo
