@@ -24,6 +24,7 @@ constexpr int most_override = 200;
 }  // namespace
 
 void GrblController::act(std::uint8_t byte) {
+  if (!drives_) return act_as_watcher(byte);
   switch (byte) {
     case '?': note_question(); return report_status();
     case '!': return jogs() ? cancel_jog() : hold();
@@ -47,6 +48,17 @@ void GrblController::act(std::uint8_t byte) {
     case 0x9E: return stop_spindle();
     case 0xA0: return switch_coolant(true);
     case 0xA1: return switch_coolant(false);
+    default: return;
+  }
+}
+
+// Everybody may hold. A reset greets, and stops nothing.
+void GrblController::act_as_watcher(std::uint8_t byte) {
+  switch (byte) {
+    case '?': return report_status();
+    case '!': ask(request::Hold{}); return;
+    case 0x84: ask(request::Hold{.for_door = true}); return;
+    case 0x18: return connect();
     default: return;
   }
 }

@@ -64,6 +64,9 @@ class GrblController {
   void connect();
   // The sender has gone: a jog ends, and a program is held until somebody resumes or resets it.
   void disconnect();
+  // Whether senders may move the machine now, or somebody else does. While they may not, lines that ask are answered,
+  // and all others refused; a hold is still taken. Call while nothing moves for the senders.
+  void let_drive(bool drives);
   void receive(std::string_view bytes);
   // False: the server is to stop reading until lines were taken.
   bool wants_more() const { return input_.wants_more(); }
@@ -78,6 +81,7 @@ class GrblController {
 
   // Real-time commands.
   void act(std::uint8_t byte);
+  void act_as_watcher(std::uint8_t byte);
   void report_status();
   void note_question();
   void mind_jog_lease();
@@ -144,6 +148,7 @@ class GrblController {
   bool must_touch_ = false;  // the probe move under way raises an alarm if nothing is touched
   bool alarm_ = false;       // locked, until $X, $H
   bool checks_ = false;      // $C
+  bool drives_ = true;       // senders may move the machine
   bool resets_ = false;      // the machine comes to rest for a reset
   int offset_in_ = 0;        // reports until the work offset is shown again; 0: in the next
   int overrides_in_ = 1;
