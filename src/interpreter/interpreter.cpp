@@ -40,6 +40,7 @@ class Interpreter::Implementation {
         block_(state_, parameters_, operations_, reporter_, answers),
         executor_(block_, symbols_) {
     parameters_.load(options.parameters);
+    if (options.open_ended) reporter_.judge_lines_alone();  // a sender is told of each line whether it is good
     executor_.start(options);
     diagnostics.look_up_rules_with(rule_of);
     if (options.dialect != Dialect::grbl) return;

@@ -160,6 +160,7 @@ class ProgramFlow final : public CallStack {
   bool recall();
   void look_at(Block& block);
   static bool may_be_control(std::string_view text);
+  static bool names_control(std::string_view text);
   bool is_readable(std::string_view text, std::uint32_t line);
   bool is_percent_end();
   bool closes_program(std::string_view text);

@@ -28,7 +28,7 @@ struct SessionOn {
   bool line = false;
   KnownPosition start = {.place = Point(), .trust = Trust::commanded};
   Point stands_at = {};  // in truth
-  std::vector<TouchBox> boxes = {};
+  std::vector<Touchable> touchables = {};
 };
 
 // A router that is homed in seconds.
@@ -53,7 +53,7 @@ class SessionRun {
         on_(on),
         board_(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock, machine.board.highest_event_rate,
                static_cast<std::size_t>(machine.board.held_items)),
-        plant_(plant_of(machine, on.stands_at, on.boxes)),
+        plant_(plant_of(machine, on.stands_at, on.touchables)),
         line_(board_, machine.board.clock, LineOptions{}),
         session_(description_, on.line ? static_cast<BoardPort&>(line_) : board_, options()) {
     board_.connect(plant_);

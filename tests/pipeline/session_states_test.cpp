@@ -246,7 +246,7 @@ TEST(SessionStates, a_probe_move_ends_at_what_it_touches) {
     SCOPED_TRACE(line ? "over a line" : "direct");
     TouchBox table;
     table.ranges[Axis::z].high = -3;
-    SessionRun run(test::short_router(), {.line = line, .boxes = {table}});
+    SessionRun run(test::short_router(), {.line = line, .touchables = {table}});
     run.make_ready();
     const Ticket ticket = run.taken(slow_probe());
     run.to_end();

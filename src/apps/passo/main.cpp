@@ -190,7 +190,8 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
   run_command.add_option("--touch", run_arguments.touches,
-                         "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
+                         "what the probe touches, as Z:-1.5, X10:60,Y10:50,Z:-2 or part.stl@X100,Y80,Z-20 (a block, an "
+                         "STL file, a height map)");
   add_board(run_command, run_arguments.board);
   run_command.add_flag("--home", run_arguments.home,
                        "the machine is homed first, and the program begins where it then stands");
