@@ -171,9 +171,13 @@ int board_serve(const BoardServeArguments& arguments);
 struct ServeArguments {
   std::string machine;  // empty: the example machine
   std::string board = "virtual";
-  std::string grbl_tcp;            // HOST:PORT; with no line at all: 127.0.0.1:7071
-  std::string grbl_pty;            // where the link to the pseudo-terminal is to be
-  bool anybody_may_drive = false;  // the port may be reached from other computers
+  std::string grbl_tcp;                 // HOST:PORT; with no line at all: 127.0.0.1:7071
+  std::string grbl_pty;                 // where the link to the pseudo-terminal is to be
+  bool anybody_may_drive = false;       // the port may be reached from other computers
+  std::string http;                     // HOST:PORT for programs and browsers; empty: none
+  std::string http_token;               // file with the token that they need
+  std::vector<std::string> http_names;  // by which others know this server, beside HOST
+  std::string page;                     // folder with a page for browsers
 };
 int serve(const ServeArguments& arguments);
 

@@ -147,11 +147,17 @@ CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
                      "LINK: a pseudo-terminal for senders that know serial ports alone");
   command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
                    "allow a HOST that other computers reach: the protocol has no password");
+  command.add_option("--http", arguments.http, "HOST:PORT for programs and browsers: HTTP and WebSocket");
+  command.add_option("--http-token", arguments.http_token,
+                     "FILE with a token that HTTP then asks for; needed where other computers reach HOST");
+  command.add_option("--http-name", arguments.http_names, "a NAME by which browsers know this server, as a proxy's");
+  command.add_option("--page", arguments.page, "DIR with a web page to serve");
   command.footer(
       "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
       "  passo serve -m router.toml                     your machine file, still virtual\n"
       "  passo serve -m uno.toml -b serial:/dev/ttyACM0     a real machine\n"
       "  passo serve --grbl-pty /tmp/ttyPasso           for senders that open a serial port\n"
+      "  passo serve --http 127.0.0.1:7080              for programs: curl 127.0.0.1:7080/api/v1/status\n"
       "  printf '?\\n$G\\n' | nc -q1 127.0.0.1 7071       what a sender sees\n"
       "In UGS: connection TCP, host 127.0.0.1, port 7071. In bCNC: port socket://127.0.0.1:7071. See "
       "docs/manual/serve.md");
@@ -187,7 +193,8 @@ int parse_and_run(int argc, char** argv) {
   run_command.add_option("--hold-at", run_arguments.holds, "hold at SECONDS and end; SECONDS:PAUSE goes on again");
   run_command.add_option("--override", run_arguments.overrides, "PERCENT@SECONDS: feed override from then on");
   run_command.add_option("--touch", run_arguments.touches,
-                         "AXIS LOW:HIGH,...: what the probe touches, as Z:-1.5 or X10:60,Y10:50,Z:-2");
+                         "what the probe touches, as Z:-1.5, X10:60,Y10:50,Z:-2 or part.stl@X100,Y80,Z-20 (a block, an "
+                         "STL file, a height map)");
   add_board(run_command, run_arguments.board);
   run_command.add_flag("--home", run_arguments.home,
                        "the machine is homed first, and the program begins where it then stands");

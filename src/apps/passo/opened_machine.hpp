@@ -12,7 +12,7 @@
 #include "mid_run_changes.hpp"
 #include "place_file.hpp"
 
-#include "passo/activity/touch_box.hpp"
+#include "passo/activity/touchable.hpp"
 #include "passo/machine/virtual_line.hpp"
 #include "passo/machine/virtual_machine.hpp"
 #include "passo/machine_file/machine_description.hpp"
@@ -26,7 +26,7 @@ struct MachineWish {
   std::string board = "virtual";               // as parse_board_address() has it
   bool over_a_line = false;                    // the virtual machine is at the end of a line
   std::optional<CableCut> cut = {};            // the line is cut; only with over_a_line
-  std::vector<TouchBox> boxes = {};            // boxes that the probe of a virtual or emulated board can touch
+  std::vector<Touchable> touchables = {};      // what the probe of a virtual or emulated board can touch
   bool physics = false;                        // the motors of a virtual or emulated machine obey physics
   std::vector<Disturbance> disturbances = {};  // only with physics
   bool tells_place = false;                    // see SessionOptions

@@ -460,9 +460,9 @@ int run(const RunArguments& arguments) {
   show(diagnostics);
   if (!machine) return exit_bad_machine;
 
-  const std::optional<std::vector<TouchBox>> boxes = read_touch_options(arguments.touches, *machine);
+  const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
   const auto disturbances = read_disturbances(arguments.disturbances, *machine);
-  if (!boxes || !disturbances) return exit_bad_program;
+  if (!things || !disturbances) return exit_bad_program;
   std::optional<ProgramReader> program = open_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
@@ -482,7 +482,7 @@ int run(const RunArguments& arguments) {
                      {.board = arguments.board,
                       .over_a_line = cut.has_value(),
                       .cut = cut,
-                      .boxes = *boxes,
+                      .touchables = *things,
                       .physics = arguments.physics,
                       .disturbances = *disturbances,
                       .may_move = arguments.resume},

@@ -99,6 +99,8 @@ class RotorPlant final : public FittedPlant {
   void turn(std::size_t motor, Seconds passed, std::int64_t steps);
   void mind_disturbances(Seconds time);
   void turn_with_encoder(std::size_t motor, Seconds passed, std::int64_t steps);
+  void take_places();
+  void look_at_places();
   void look_at(std::size_t motor, int stepped);
   void look_at_margin(Fitted& one) const;
   void look_at_loss(std::size_t motor);
@@ -111,7 +113,9 @@ class RotorPlant final : public FittedPlant {
   std::vector<bool> disturbs_;          // which of them do now
   Seconds next_disturbance_{HUGE_VAL};  // when one begins or ends next
   Seconds now_{0};
-  std::size_t fitted_ = 0;  // one more than the last motor that has physics
+  std::size_t fitted_ = 0;         // one more than the last motor that has physics
+  bool is_close_ = true;           // every rotor that turned is close to where it was told to go
+  std::int64_t quiet_pulses_ = 0;  // pulses until the switches must follow again
 };
 
 }  // namespace passo
