@@ -140,16 +140,30 @@ std::optional<MotorSetup> motor_setup(const AxisDescription& axis) {
   return setup;
 }
 
+namespace {
+
+// The encoder is on the shaft, so its counts are those of the motor's steps, whichever way the axis is wired.
+EncoderModel encoder_model(const AxisDescription& axis) {
+  const double turns_per_unit = axis.motor->radians_per_unit / (2 * std::numbers::pi);
+  return {.counts_per_step = axis.encoder->counts_per_turn * turns_per_unit / axis.steps_per_unit,
+          .most_error = axis.encoder->most_error * axis.steps_per_unit,
+          .closes_loop = axis.encoder->closes_loop};
+}
+
+}  // namespace
+
 void fit_rotors(RotorPlant& plant, const MachineDescription& machine) {
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     const AxisDescription& axis = machine.axes[m];
     const auto setup = motor_setup(axis);
     if (!setup) continue;
     plant.fit_motor(m, *setup);
+    if (axis.encoder) plant.fit_encoder(m, encoder_model(axis));
     if (!axis.second) continue;
     MotorSetup second = *setup;
     if (axis.second->inverted != axis.inverted) second.weight.value = -second.weight.value;
     plant.fit_motor(machine.second_motor_of(m), second);
+    if (axis.encoder) plant.fit_encoder(machine.second_motor_of(m), encoder_model(axis));
   }
 }
 

@@ -95,6 +95,13 @@ std::string describe_homing(const MachineDescription& machine) {
   return fmt::format("homing          {}, {}\n", letters, any ? "those in parentheses at once" : "one after the other");
 }
 
+std::string describe_encoder(const AxisDescription& axis, const char* unit) {
+  if (!axis.encoder) return "";
+  std::string line = fmt::format("                encoder with {} counts a turn", axis.encoder->counts_per_turn);
+  if (axis.encoder->most_error > 0) line += fmt::format(", at most {:g} {} behind", axis.encoder->most_error, unit);
+  return line + (axis.encoder->closes_loop ? ", closed loop\n" : "\n");
+}
+
 std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
   std::string line = fmt::format(
@@ -108,7 +115,8 @@ std::string describe_axis(const AxisDescription& axis, std::size_t motor) {
                         axis.start_stop_rate().value());
   }
   if (axis.inverted) line += ", inverted";
-  return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit) + describe_screw(axis, unit);
+  return line + "\n" + describe_torque(axis, unit) + describe_home(axis, unit) + describe_screw(axis, unit) +
+         describe_encoder(axis, unit);
 }
 
 std::string describe_tool(const ToolDescription& tool) {

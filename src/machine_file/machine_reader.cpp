@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "encoder_reader.hpp"
 #include "homing_reader.hpp"
 #include "pins_reader.hpp"
 #include "screw_reader.hpp"
@@ -284,14 +285,15 @@ void MachineReader::read_axes(const TomlEntry& entry) {
 void MachineReader::read_axis(const TomlEntry& entry, Axis axis) {
   TableReader reader(std::get<TomlTable>(entry.value.content), fmt::format("axis.{}", entry.key), entry.place,
                      reporter_);
-  AxisEntry result;
-  result.place = entry.place;
+  AxisEntry result{.description = {}, .motor = {}, .place = entry.place, .motor_place = {}};
   AxisDescription& description = result.description;
   description.axis = axis;
   read_motion(reader, is_rotary(axis) ? rotary_keys : linear_keys, description);
   description.inverted = reader.flag("inverted").value_or(false);
   description.home = read_home_of(reader, description);
-  description.screw = read_screw_of(reader, is_rotary(axis), reporter_, [this](TableReader& screw) { finish(screw); });
+  const auto end = [this](TableReader& inner) { finish(inner); };
+  description.screw = read_screw_of(reader, is_rotary(axis), reporter_, end);
+  description.encoder = read_encoder_of(reader, is_rotary(axis), reporter_, end);
   read_second_of(reader, description);
   if (const auto motor = reader.whole_number(motor_key, Need::optional)) {
     result.motor = static_cast<std::size_t>(*motor);
@@ -306,9 +308,9 @@ std::optional<HomeDescription> MachineReader::read_home_of(TableReader& reader, 
   const TomlEntry* home = reader.table(home_table, "a table [axis.X.home] with its switch", Need::optional);
   if (home == nullptr) return std::nullopt;
   TableReader own(std::get<TomlTable>(home->value.content), reader.full_name(home_table), home->place, reporter_);
-  const auto description = read_home(own, axis);
+  auto description = read_home(own, axis);
   finish(own);
-  if (!description) homes_are_readable_ = false;
+  homes_are_readable_ &= description.has_value();
   return description;
 }
 
@@ -340,13 +342,11 @@ void MachineReader::read_motion(TableReader& reader, const AxisKeys& keys, AxisD
 }
 
 void MachineReader::read_start_stop(TableReader& reader, const AxisKeys& keys, AxisDescription& axis) {
-  const auto velocity = reader.number(keys.start_stop, Need::optional);
-  if (!velocity) return;
-  axis.start_stop = MmPerSecond(*velocity);
+  axis.start_stop = MmPerSecond(reader.number(keys.start_stop, Need::optional).value_or(0));
   if (axis.velocity == MmPerSecond(0) || axis.start_stop <= axis.velocity) return;
   reader.error("machine.start-stop", keys.start_stop.name,
                fmt::format("axis {} would start at {:g} {}/s, and is never faster than {:g} {}/s", letter_of(axis.axis),
-                           *velocity, keys.unit, axis.velocity.value(), keys.unit),
+                           axis.start_stop.value(), keys.unit, axis.velocity.value(), keys.unit),
                fmt::format("{} = {:g} or less: {} is the limit", keys.start_stop.name, axis.velocity.value(),
                            keys.velocity.name));
 }

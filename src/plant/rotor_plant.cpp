@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "passo/wire/message.hpp"
+
 namespace passo {
 namespace {
 
@@ -16,6 +18,7 @@ constexpr double small_lag = 0.55;  // full steps
 
 void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
   motors_[motor].rotor.emplace(setup, integration_);
+  motors_[motor].setup = setup;
   motors_[motor].origin = positions()[motor];
   motors_[motor].full_step = 1.0 / setup.excitation.steps_per_full_step();
   motors_[motor].pull_out = setup.measured;
@@ -25,8 +28,30 @@ void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
   fitted_ = std::max(fitted_, motor + 1);
 }
 
+void RotorPlant::fit_encoder(std::size_t motor, const EncoderModel& model) {
+  motors_[motor].drive.emplace(model, *motors_[motor].setup);
+}
+
 void RotorPlant::set_resistance(std::size_t motor, NewtonMetres torque) {
   if (motors_[motor].rotor) motors_[motor].rotor->set_resistance(torque);
+}
+
+void RotorPlant::disturb(const Disturbance& disturbance) {
+  disturbances_.push_back(disturbance);
+  disturbs_.push_back(false);
+  next_disturbance_ = std::min(next_disturbance_, disturbance.from);
+}
+
+void RotorPlant::mind_disturbances(Seconds time) {
+  next_disturbance_ = Seconds(HUGE_VAL);
+  for (std::size_t i = 0; i < disturbances_.size(); ++i) {
+    const Disturbance& one = disturbances_[i];
+    const bool holds = one.from <= time && time < one.until;
+    if (holds != disturbs_[i]) set_resistance(one.motor, {holds ? one.torque.value : 0});
+    disturbs_[i] = holds;
+    if (time < one.from) next_disturbance_ = std::min(next_disturbance_, one.from);
+    if (holds) next_disturbance_ = std::min(next_disturbance_, one.until);
+  }
 }
 
 int RotorPlant::steps_per_full_step(std::size_t motor) const {
@@ -41,7 +66,7 @@ std::int64_t RotorPlant::events_to_next_change() const {
 // `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
 inline void RotorPlant::look_at(std::size_t motor, int stepped) {
   Fitted& one = motors_[motor];
-  const double after = one.rotor->lag();
+  const double after = one.drive ? one.drive->error() * one.full_step : one.rotor->lag();
   const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
   if (lag > one.record.most_lag) [[unlikely]] {
     one.record.most_lag = lag;
@@ -56,6 +81,8 @@ inline void RotorPlant::look_at(std::size_t motor, int stepped) {
 // Lets time pass for a motor, and then gives it its steps.
 inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t steps) {
   Fitted& one = motors_[motor];
+  if (one.drive) [[unlikely]]
+    return turn_with_encoder(motor, passed, steps);
   const bool rests = one.rotor->rests();
   if (rests && steps == 0) return;
   if (!rests && passed.value() > 0) one.rotor->run(passed);
@@ -66,8 +93,22 @@ inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t ste
   look_at(motor, steps == 0 ? 0 : way);
 }
 
+void RotorPlant::turn_with_encoder(std::size_t motor, Seconds passed, std::int64_t steps) {
+  Fitted& one = motors_[motor];
+  if (steps == 0 && one.drive->rests(*one.rotor)) return;
+  one.drive->run(*one.rotor, passed);
+  one.drive->pulse(*one.rotor, steps);
+  look_at(motor, 0);
+  if (!one.drive->is_alarmed() || following_fault_) return;
+  following_fault_ = {.time = now_, .motor = motor, .error = one.drive->error()};
+  set_switch(input_emergency_stop, true);
+  is_close_ = false;
+}
+
 void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
   const Seconds passed = pass_to(time);
+  if (time >= next_disturbance_) [[unlikely]]
+    mind_disturbances(time);
   MotorPositions& moving = moving_positions();
   is_close_ = true;
   for (std::size_t m = 0; m < fitted_; ++m) {
@@ -102,6 +143,8 @@ void RotorPlant::take_places() {
 
 void RotorPlant::run_to(Seconds time) {
   const Seconds passed = pass_to(time);
+  if (time >= next_disturbance_) [[unlikely]]
+    mind_disturbances(time);
   if (fitted_ == 0 || passed.value() <= 0) return;
   for (std::size_t m = 0; m < fitted_; ++m) {
     if (motors_[m].rotor) turn(m, passed, 0);
@@ -144,7 +187,9 @@ std::uint16_t RotorPlant::inputs_at(Seconds time) {
 
 bool RotorPlant::settle(Seconds most) {
   constexpr Seconds look{0.01};
-  const auto moves = [](const Fitted& one) { return one.rotor && !one.rotor->rests(); };
+  const auto moves = [](const Fitted& one) {
+    return one.rotor && !(one.drive ? one.drive->rests(*one.rotor) : one.rotor->rests());
+  };
   const Seconds end = now_ + most;
   while (std::ranges::any_of(motors_, moves)) {
     if (now_ >= end) return false;

@@ -72,6 +72,51 @@ TEST_F(Physics, needs_motors) {
   EXPECT_THAT(outcome.err, HasSubstr("[axis.X.torque]"));
 }
 
+// Something holds X for 50 ms, with more than the motor has.
+class Held : public Physics {
+ protected:
+  Outcome run_held(const std::string& encoder, const std::string& options = "") const {
+    return passo("run " + write("p.ngc", "G21 G90\nG0 X30\nG0 X-30\nG0 X0\nM2\n") + " -m " +
+                 write("m.toml", machine_text(800) + encoder) + " --physics --json --disturb X:3@1.5:0.05" + options);
+  }
+};
+
+TEST_F(Held, loses_steps_in_an_open_loop) {
+  const Outcome outcome = run_held("");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("[run.steps-lost]"));
+}
+
+TEST_F(Held, comes_back_in_a_closed_loop) {
+  const Outcome outcome = run_held("[axis.X.encoder]\ncounts_per_turn = 4000\nclosed_loop = true\n");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto motor = nlohmann::json::parse(outcome.out)["physics"]["motors"][0];
+  EXPECT_EQ(motor["lost_steps"], 0);
+  EXPECT_GT(motor["following_error_mm"], 0.5);
+}
+
+TEST_F(Held, stops_at_the_limit_of_the_following_error_and_tells_line_and_place) {
+  for (const char* loop : {"", "closed_loop = true\n"}) {
+    const Outcome outcome =
+        run_held(std::string("[axis.X.encoder]\ncounts_per_turn = 4000\nmost_following_error_mm = 0.25\n") + loop);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("axis X was 0.25"));
+    EXPECT_THAT(outcome.err, HasSubstr("from its commanded place (0.25 are allowed) in line 3 of "));
+    EXPECT_THAT(outcome.err, HasSubstr("near X"));
+    EXPECT_THAT(outcome.err, HasSubstr("[run.following-error]"));
+  }
+}
+
+TEST_F(Held, needs_physics_and_a_motor) {
+  EXPECT_EQ(
+      passo("run " + write("p.ngc", "M2\n") + " -m " + write("m.toml", machine_text(800)) + " --disturb X:3@1.5:0.05")
+          .code,
+      2);
+  for (const char* text : {"Y:1@1:1", "X", "X:1@1", "X:a@1:1", "X:-1@1:1"}) {
+    EXPECT_THAT(run_held("", std::string(" --disturb ") + text).err, HasSubstr("expected --disturb")) << text;
+  }
+}
+
 class Trial : public passo::test::CommandLine {
  protected:
   Outcome trial(const std::string& options) const {

@@ -42,25 +42,26 @@ struct ProgramArguments {
 struct RunArguments {
   ProgramArguments program;
   std::string machine;
-  std::vector<std::string> pictures;   // .svg or .png
-  std::string colour_by = "speed";     // of the feeds in pictures: speed, depth or tool
-  std::string view = "auto";           // the flat view of pictures: auto, top, front, side or lathe
-  bool no_rapids = false;              // in pictures
-  std::vector<std::string> traces;     // .vcd or .csv
-  std::string report;                  // a name that ends in .json, or any other name for text
-  std::uint64_t passes = 1;            // how often a main program that ends with M99 is run
-  std::vector<std::string> holds;      // SECONDS or SECONDS:SECONDS
-  std::vector<std::string> overrides;  // PERCENT@SECONDS
-  std::vector<std::string> touches;    // ranges LOW:HIGH of axes: "X10:60,Z:-2"
-  std::string cable_cut;               // SECONDS:SECONDS; empty: none
-  bool physics = false;                // the motors of a virtual or emulated machine obey physics
-  std::string board = "virtual";       // an address for parse_board_address()
-  std::string journal;                 // empty: usual_journal()
-  bool resume = false;                 // goes on where another run was interrupted
-  bool home = false;                   // homes the machine first; the program then begins where homing ends
-  bool from_here = false;              // the machine stands at machine zero, whatever was known
-  bool yes = false;                    // goes on at M0, M1 and M6 without asking
-  bool json = false;                   // prints the summary as JSON
+  std::vector<std::string> pictures;      // .svg or .png
+  std::string colour_by = "speed";        // of the feeds in pictures: speed, depth or tool
+  std::string view = "auto";              // the flat view of pictures: auto, top, front, side or lathe
+  bool no_rapids = false;                 // in pictures
+  std::vector<std::string> traces;        // .vcd or .csv
+  std::string report;                     // a name that ends in .json, or any other name for text
+  std::uint64_t passes = 1;               // how often a main program that ends with M99 is run
+  std::vector<std::string> holds;         // SECONDS or SECONDS:SECONDS
+  std::vector<std::string> overrides;     // PERCENT@SECONDS
+  std::vector<std::string> touches;       // ranges LOW:HIGH of axes: "X10:60,Z:-2"
+  std::string cable_cut;                  // SECONDS:SECONDS; empty: none
+  std::vector<std::string> disturbances;  // AXIS:NM@FROM:SECONDS; only with physics
+  bool physics = false;                   // the motors of a virtual or emulated machine obey physics
+  std::string board = "virtual";          // an address for parse_board_address()
+  std::string journal;                    // empty: usual_journal()
+  bool resume = false;                    // goes on where another run was interrupted
+  bool home = false;                      // homes the machine first; the program then begins where homing ends
+  bool from_here = false;                 // the machine stands at machine zero, whatever was known
+  bool yes = false;                       // goes on at M0, M1 and M6 without asking
+  bool json = false;                      // prints the summary as JSON
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

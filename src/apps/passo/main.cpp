@@ -209,6 +209,8 @@ int parse_and_run(int argc, char** argv) {
                          "SECONDS:MISSING: over a serial line, which is cut then and back after MISSING seconds");
   run_command.add_flag("--physics", run_arguments.physics,
                        "the motors obey physics, from the machine file's [axis.X.torque], and may lose steps");
+  run_command.add_option("--disturb", run_arguments.disturbances,
+                         "AXIS:NM@FROM:SECONDS: with --physics, what holds an axis for a time, as X:0.8@1.5:0.2");
   run_command.add_flag("-y,--yes", run_arguments.yes, "go on at M0, M1 and M6 without asking");
   run_command.add_flag("--json", run_arguments.json, "print the summary as JSON");
   run_command.add_flag("-q,--quiet", run_arguments.quiet, "no progress and no summary");

@@ -47,6 +47,7 @@ void MotorWatch::look(Seconds now) {
   while (lines_of_losses_.size() < plant_.losses().size()) {
     lines_of_losses_.push_back(line_at(plant_.losses()[lines_of_losses_.size()].time));
   }
+  if (fault_line_ == 0 && plant_.following_fault()) fault_line_ = line_at(plant_.following_fault()->time);
   looked_ = now;
   while (ahead_.size() > 1 && ahead_.front().end < now) ahead_.pop_front();
 }
@@ -57,6 +58,7 @@ PhysicsSummary MotorWatch::finish(Seconds now) {
   look(now);
   const Truth truth = plant_.truth_at(now);
   PhysicsSummary summary;
+  summary.fault_line = fault_line_;
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     const AxisDescription& axis = *motors_[m].axis;
     const RotorRecord& record = plant_.record(m);

@@ -45,6 +45,7 @@ class MotorWatch {
   std::deque<Planned> ahead_;
   std::vector<Motor> motors_;  // of the board, each axis's second motor after all the first ones
   std::vector<std::uint32_t> lines_of_losses_;
+  std::uint32_t fault_line_ = 0;  // of the following error beyond its limit
 };
 
 }  // namespace passo

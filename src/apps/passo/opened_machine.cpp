@@ -76,7 +76,9 @@ OpenedMachine::OpenedMachine(const MachineDescription& machine, const MachineWis
     plant_ = std::make_unique<IdealPlant>();
   }
   fit(*plant_, machine, Point(), wish.touchables);
-  if (rotors_ != nullptr) fit_rotors(*rotors_, machine);
+  if (rotors_ == nullptr) return;
+  fit_rotors(*rotors_, machine);
+  for (const Disturbance& disturbance : wish.disturbances) rotors_->disturb(disturbance);
 }
 
 std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& machine, const MachineWish& wish,

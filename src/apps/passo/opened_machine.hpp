@@ -23,13 +23,14 @@
 namespace passo {
 
 struct MachineWish {
-  std::string board = "virtual";           // as parse_board_address() has it
-  bool over_a_line = false;                // the virtual machine is at the end of a line
-  std::optional<CableCut> cut = {};        // the line is cut; only with over_a_line
-  std::vector<Touchable> touchables = {};  // what the probe of a virtual or emulated board can touch
-  bool physics = false;                    // the motors of a virtual or emulated machine obey physics
-  bool tells_place = false;                // see SessionOptions
-  bool may_move = false;                   // another host may have left the board in motion
+  std::string board = "virtual";               // as parse_board_address() has it
+  bool over_a_line = false;                    // the virtual machine is at the end of a line
+  std::optional<CableCut> cut = {};            // the line is cut; only with over_a_line
+  std::vector<Touchable> touchables = {};      // what the probe of a virtual or emulated board can touch
+  bool physics = false;                        // the motors of a virtual or emulated machine obey physics
+  std::vector<Disturbance> disturbances = {};  // only with physics
+  bool tells_place = false;                    // see SessionOptions
+  bool may_move = false;                       // another host may have left the board in motion
 };
 
 class OpenedMachine {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "disturb_option.hpp"
 #include "homing_run.hpp"
 #include "line_cost.hpp"
 #include "line_watch.hpp"
@@ -337,6 +338,8 @@ bool suits_the_board(const RunArguments& arguments) {
     words = "--touch is for the virtual machine and emulated boards";
   } else if (arguments.physics && keeps_journal(arguments)) {
     words = "--physics is for the virtual machine and emulated boards; a real machine has its own";
+  } else if (!arguments.disturbances.empty() && !arguments.physics) {
+    words = "--disturb needs --physics: without it the motors do what they are told, whatever holds them";
   } else if (arguments.from_here && arguments.resume) {
     words = "--resume knows where the job began, so --from-here has no place beside it";
   }
@@ -349,8 +352,9 @@ int end_run(const Run& run, const Answered& answered, const RunSummary& summary,
             LengthUnits machine_units) {
   MachineSession& session = run.opened.session();
   if (session.status().trouble == LinkError::stopped) {
+    const std::uint32_t line = summary.physics ? summary.physics->fault_line : 0;
     return fail(exit_failed,
-                "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion));
+                "the board: " + stop_words(run.opened, run.machine, run.arguments.program.program, run.motion, line));
   }
   if (session.status().trouble) return fail(exit_failed, "the board: " + session.trouble_words());
   if (answered.fault && answered.fault->code.starts_with("board.")) {
@@ -457,7 +461,8 @@ int run(const RunArguments& arguments) {
   if (!machine) return exit_bad_machine;
 
   const std::optional<std::vector<Touchable>> things = read_touch_options(arguments.touches, *machine);
-  if (!things) return exit_bad_program;
+  const auto disturbances = read_disturbances(arguments.disturbances, *machine);
+  if (!things || !disturbances) return exit_bad_program;
   std::optional<ProgramReader> program = open_program(arguments.program);
   std::optional<InterpreterOptions> options = machine_options(arguments.program);
   if (!program || !options) return exit_bad_program;
@@ -479,6 +484,7 @@ int run(const RunArguments& arguments) {
                       .cut = cut,
                       .touchables = *things,
                       .physics = arguments.physics,
+                      .disturbances = *disturbances,
                       .may_move = arguments.resume},
                      std::move(*program), std::move(*options), *changes);
 }

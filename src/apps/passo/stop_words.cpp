@@ -44,23 +44,42 @@ Point counted_place(OpenedMachine& opened, const MachineDescription& machine) {
 struct ClosedSwitch {
   std::string words;   // the subject of a sentence
   std::string remedy;  // what to do first
+  const char* code = "board.stopped";
 };
 
 ClosedSwitch closed_switch(const BoardStatus& status, const MachineDescription& machine) {
-  if ((status.inputs & input_emergency_stop) != 0) return {"the emergency stop was pressed", "release it"};
+  if ((status.inputs & input_emergency_stop) != 0)
+    return {.words = "the emergency stop was pressed", .remedy = "release it"};
   for (unsigned input = 0; input < max_motors; ++input) {
     if ((status.inputs & (unsigned{input_limit} << input)) == 0) continue;
     const auto axis = std::ranges::find_if(machine.axes, [&](const AxisDescription& one) {
       return one.home && static_cast<unsigned>(one.home->input) == input;
     });
     if (axis == machine.axes.end()) {
-      return {fmt::format("limit switch {} closed", input + 1), "jog off it (passo jog)"};
+      return {.words = fmt::format("limit switch {} closed", input + 1), .remedy = "jog off it (passo jog)"};
     }
     const char letter = letter_of(axis->axis);
-    return {fmt::format("the limit switch of {} closed", letter),
-            fmt::format("jog off it (passo jog {}{}2)", letter, axis->home->toward_high ? '-' : '+')};
+    return {.words = fmt::format("the limit switch of {} closed", letter),
+            .remedy = fmt::format("jog off it (passo jog {}{}2)", letter, axis->home->toward_high ? '-' : '+')};
   }
-  return {"a limit switch or the emergency stop closed, and is open again", "look at its wiring"};
+  return {.words = "a limit switch or the emergency stop closed, and is open again", .remedy = "look at its wiring"};
+}
+
+// An axis whose drive has given its alarm. Only of motors with physics; empty: none has.
+std::optional<ClosedSwitch> following_error(OpenedMachine& opened, const MachineDescription& machine) {
+  const RotorPlant* const rotors = opened.rotors();
+  if (rotors == nullptr || !rotors->following_fault()) return std::nullopt;
+  const FollowingFault& fault = *rotors->following_fault();
+  std::size_t index = fault.motor;
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    if (machine.axes[m].second && machine.second_motor_of(m) == fault.motor) index = m;
+  }
+  const AxisDescription& axis = machine.axes[index];
+  return ClosedSwitch{.words = fmt::format("axis {} was {:.3g} {} from its commanded place ({:g} are allowed)",
+                                           letter_of(axis.axis), std::abs(fault.error) / axis.steps_per_unit,
+                                           is_rotary(axis.axis) ? "degrees" : "mm", axis.encoder->most_error),
+                      .remedy = "find out what holds the axis",
+                      .code = "run.following-error"};
 }
 
 }  // namespace
@@ -93,20 +112,20 @@ std::uint32_t LatestMotion::line_at(const Point& place) const {
 }
 
 std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program,
-                       const LatestMotion& motion) {
+                       const LatestMotion& motion, std::uint32_t known_line) {
   const std::string closed = closed_switches(opened.session().board());
   const auto& status = opened.session().board().status();
   if (!status) return std::string(message_of(LinkError::stopped)) + " [board.stopped]";
   const Point place = counted_place(opened, machine);
-  const std::uint32_t line = motion.line_at(place);
-  const ClosedSwitch what = closed_switch(*status, machine);
+  const std::uint32_t line = known_line != 0 ? known_line : motion.line_at(place);
+  const ClosedSwitch what = following_error(opened, machine).value_or(closed_switch(*status, machine));
   const bool homes = !machine.homing.empty();
   return fmt::format(
       "{}{}: the motors stopped at once near {}, and steps may be lost. To go on, {}, {}{} "
-      "[board.stopped]{}",
+      "[{}]{}",
       what.words, line == 0 ? "" : fmt::format(" in line {} of {}", line, program), place_words(machine, place),
       what.remedy, homes ? "home the machine (passo home)" : "put the machine where --from-here is true",
-      program.empty() ? "" : ", and run the program from its beginning", closed);
+      program.empty() ? "" : ", and run the program from its beginning", what.code, closed);
 }
 
 }  // namespace passo

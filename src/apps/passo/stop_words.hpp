@@ -32,7 +32,8 @@ class LatestMotion {
 
 // For a board that has stopped its motors at once: a sentence without a full stop, with a code. Ends the conversation
 // with the board, because it asks which switches are closed. `program`: its name; empty: no program moved the machine.
+// `known_line`: where that was, if it is known otherwise than by the place.
 std::string stop_words(OpenedMachine& opened, const MachineDescription& machine, const std::string& program = {},
-                       const LatestMotion& motion = {});
+                       const LatestMotion& motion = {}, std::uint32_t known_line = 0);
 
 }  // namespace passo

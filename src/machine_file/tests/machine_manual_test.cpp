@@ -57,10 +57,26 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   const std::string manual = content_of(manual_path);
   // All keys, as the program itself lists them to users who guess.
   std::string keys;
-  for (const char* table :
-       {"", "[board]\n", "[tool]\n", "[probe]\n", "[spindle]\n", "[silence]\n", "[homing]\n", "[inputs]\n",
-        "[outputs]\n", "[axis.X]\n", "[axis.A]\n", "[axis.X.torque]\n", "[axis.X.home]\n", "[axis.A.home]\n",
-        "[axis.X.second_motor]\n", "[axis.A.second_motor]\n", "[axis.X.screw]\n", "[axis.A.screw]\n"}) {
+  for (const char* table : {"",
+                            "[board]\n",
+                            "[tool]\n",
+                            "[probe]\n",
+                            "[spindle]\n",
+                            "[silence]\n",
+                            "[homing]\n",
+                            "[inputs]\n",
+                            "[outputs]\n",
+                            "[axis.X]\n",
+                            "[axis.A]\n",
+                            "[axis.X.torque]\n",
+                            "[axis.X.home]\n",
+                            "[axis.A.home]\n",
+                            "[axis.X.second_motor]\n",
+                            "[axis.A.second_motor]\n",
+                            "[axis.X.screw]\n",
+                            "[axis.A.screw]\n",
+                            "[axis.X.encoder]\n",
+                            "[axis.A.encoder]\n"}) {
     Diagnostics diagnostics;
     EXPECT_FALSE(parse_machine(std::string(table) + "qqqqqqqqqqqqqqqqqqqqqqqqqqqqqq = 1\n", "m.toml", diagnostics));
     for (const Diagnostic& diagnostic : diagnostics.all()) {
@@ -78,8 +94,8 @@ TEST(MachineManual, explains_every_key_that_a_message_may_name_and_each_code) {
   }
   EXPECT_GE(seen.size(), 49U);
 
-  for (const char* source : {"machine_file", "machine_reader", "table_reader", "homing_reader", "pins_reader",
-                             "screw_reader", "toml_document", "torque_reader"}) {
+  for (const char* source : {"encoder_reader", "machine_file", "machine_reader", "table_reader", "homing_reader",
+                             "pins_reader", "screw_reader", "toml_document", "torque_reader"}) {
     const std::string code = content_of("src/machine_file/" + std::string(source) + ".cpp");
     for (std::size_t i = code.find("\"machine."); i != std::string::npos; i = code.find("\"machine.", i + 1)) {
       const std::string name = code.substr(i + 1, code.find('"', i + 1) - i - 1);

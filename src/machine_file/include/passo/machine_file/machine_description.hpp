@@ -51,6 +51,14 @@ struct ScrewDescription {
   bool is_compensated = true;      // false: only the virtual machine behaves so
 };
 
+// The encoder on the motor's shaft of an axis, and what the axis's drive does with it. The virtual machine's motors
+// with physics have such drives; a real drive is set up by itself.
+struct EncoderDescription {
+  int counts_per_turn = 0;   // of the motor's shaft
+  double most_error = 0;     // from the commanded place, mm or degrees; beyond it the machine stops. 0: no limit
+  bool closes_loop = false;  // the drive brings the rotor back
+};
+
 // The second motor of an axis that two motors turn together, as at a gantry. Homing squares the axis by two switches.
 struct SecondMotor {
   bool inverted = false;  // true: this motor turns the other way
@@ -75,6 +83,7 @@ struct AxisDescription {
   std::optional<HomeDescription> home = {};
   std::optional<ScrewDescription> screw = {};
   std::optional<SecondMotor> second = {};
+  std::optional<EncoderDescription> encoder = {};
 
   // The limit switches by which the axis is homed: bit i is switch i. Only for an axis with `home`.
   std::uint8_t home_switches() const {

@@ -10,10 +10,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "passo/motor/bounded_motor.hpp"
+#include "passo/plant/encoder_drive.hpp"
 #include "passo/plant/fitted_plant.hpp"
 
 namespace passo {
@@ -25,10 +27,25 @@ struct StepLoss {
   std::int64_t steps = 0;  // of the driver, lost by this event; negative: the rotor ran ahead
 };
 
+// Something holds a motor for a time, whichever way it turns.
+struct Disturbance {
+  std::size_t motor = 0;
+  NewtonMetres torque = {};
+  Seconds from{0};
+  Seconds until{0};
+};
+
+// A drive with an encoder found the rotor too far from its commanded place.
+struct FollowingFault {
+  Seconds time{0};
+  std::size_t motor = 0;
+  double error = 0;  // steps of the driver; positive: the rotor was behind
+};
+
 // What one motor did in a run.
 struct RotorRecord {
   std::int64_t lost = 0;  // steps of the driver; positive: the rotor stands too low
-  double most_lag = 0;    // full steps from the rotor to the commanded place, either way
+  double most_lag = 0;    // full steps from the rotor to the commanded place, either way; with an encoder as counted
   Seconds most_lag_at{0};
   double least_margin = 1;  // the share of the pull-out torque that was left; below 0: none
   Seconds least_margin_at{0};
@@ -42,8 +59,13 @@ class RotorPlant final : public FittedPlant {
 
   // Gives a motor its physics, before a board drives the plant.
   void fit_motor(std::size_t motor, const MotorSetup& setup);
+  // Gives that motor's drive an encoder, after fit_motor().
+  void fit_encoder(std::size_t motor, const EncoderModel& model);
   // A torque of the work against the motion of a motor, from now on.
   void set_resistance(std::size_t motor, NewtonMetres torque);
+
+  // The same from a time to another one. Takes effect at the first pulse or look then.
+  void disturb(const Disturbance& disturbance);
 
   void pulse(Seconds time, const MotorSteps& steps) override;
   std::int64_t events_to_next_change() const override;
@@ -55,14 +77,18 @@ class RotorPlant final : public FittedPlant {
   // Of the motor's driver. 0: the motor has no physics.
   int steps_per_full_step(std::size_t motor) const;
   const RotorRecord& record(std::size_t motor) const { return motors_[motor].record; }
+  // The first following error beyond its limit. From then on the drive's alarm presses the board's emergency stop.
+  const std::optional<FollowingFault>& following_fault() const { return following_fault_; }
   // The first losses, in the order of time.
   const std::vector<StepLoss>& losses() const { return losses_; }
 
  private:
   struct Fitted {
     std::optional<BoundedMotor> rotor;
-    double origin = 0;     // of the rotor's place 0
-    double full_step = 1;  // of a step of the driver
+    std::optional<MotorSetup> setup;
+    std::optional<EncoderDrive> drive;  // with an encoder
+    double origin = 0;                  // of the rotor's place 0
+    double full_step = 1;               // of a step of the driver
     std::optional<TorqueCurve> pull_out;
     Seconds margin_due{0};  // when the margin is looked at next
     RotorRecord record;
@@ -71,6 +97,8 @@ class RotorPlant final : public FittedPlant {
   void run_to(Seconds time);
   Seconds pass_to(Seconds time);
   void turn(std::size_t motor, Seconds passed, std::int64_t steps);
+  void mind_disturbances(Seconds time);
+  void turn_with_encoder(std::size_t motor, Seconds passed, std::int64_t steps);
   void take_places();
   void look_at_places();
   void look_at(std::size_t motor, int stepped);
@@ -80,6 +108,10 @@ class RotorPlant final : public FittedPlant {
   Integration integration_;
   std::array<Fitted, max_motors> motors_;
   std::vector<StepLoss> losses_;
+  std::optional<FollowingFault> following_fault_;
+  std::vector<Disturbance> disturbances_;
+  std::vector<bool> disturbs_;          // which of them do now
+  Seconds next_disturbance_{HUGE_VAL};  // when one begins or ends next
   Seconds now_{0};
   std::size_t fitted_ = 0;         // one more than the last motor that has physics
   bool is_close_ = true;           // every rotor that turned is close to where it was told to go

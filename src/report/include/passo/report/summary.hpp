@@ -102,6 +102,7 @@ struct TailSummary {
 
 // What the motors truly did, where physics was asked for.
 struct PhysicsSummary {
+  std::uint32_t fault_line = 0;  // where an axis was too far from its commanded place; 0: nowhere
   struct Motor {
     Axis axis = Axis::x;
     std::int64_t lost_steps = 0;  // of the driver; positive: the axis stands too low
