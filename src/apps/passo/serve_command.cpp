@@ -66,6 +66,9 @@ std::optional<MachineDescription> load_machine(const std::string& file) {
 int serve(const ServeArguments& arguments) {
   const std::optional<MachineDescription> machine = load_machine(arguments.machine);
   if (!machine) return exit_bad_machine;
+  if (!arguments.data.empty() && arguments.http.empty()) {
+    return fail(exit_bad_program, "--data keeps the jobs of --http, which is missing [serve.data]");
+  }
   int code = exit_done;
   ServeDaemon::Lines lines;
   if (!open_lines(arguments, lines, code)) return code;
