@@ -110,7 +110,8 @@ class Interpreter::Implementation {
             options.sub_folders,
             options.dialect,
             !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB")),
-            options.open_ended};
+            options.open_ended,
+            options.more_grbl_axes.c_str()};
   }
 
   // One block: none, one or several operations. False: the next line was not given yet.

@@ -24,9 +24,10 @@
 
 namespace passo::test {
 
-inline InterpreterOptions in_grbl() {
+inline InterpreterOptions in_grbl(const MachineDescription& machine) {
   InterpreterOptions options;
   options.dialect = Dialect::grbl;
+  options.more_grbl_axes = more_grbl_axes(machine);
   return options;
 }
 
@@ -39,7 +40,7 @@ class GrblRun {
                static_cast<std::size_t>(machine.board.held_items)),
         plant_(plant_of(machine, start.place, touchables)),
         session_(description_, board_, {.tells_place = true, .start = start}),
-        program_(description_, in_grbl(), start.place),
+        program_(description_, in_grbl(description_), start.place),
         grbl_(description_, session_, program_) {
     board_.connect(plant_);
     while (session_.state() == MachineState::offline) session_.turn(Seconds(0.01));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -101,6 +102,14 @@ class SessionRun {
   std::string refusal_of(Request wanted) {
     const auto answer = ask(std::move(wanted));
     return answer ? std::string() : std::string(code_of(answer.error().code));
+  }
+
+  // Streams a line of a program that never ends.
+  void stream(const std::string& line) {
+    lines_ = std::make_unique<OpenProgram>(description_, InterpreterOptions(), Point());
+    const auto wrong = lines_->take(line, now());
+    EXPECT_FALSE(wrong) << wrong->message;
+    taken(request::Stream{.program = lines_.get()});
   }
 
   void turn(Seconds most = Seconds(0.02)) {
@@ -201,6 +210,7 @@ class SessionRun {
   VirtualMachine board_;
   IdealPlant plant_;
   VirtualLine line_;
+  std::unique_ptr<OpenProgram> lines_;
   MachineSession session_;
   MachineState last_ = MachineState::offline;
   std::map<Ticket, Seconds> waiting_;  // and when they were asked

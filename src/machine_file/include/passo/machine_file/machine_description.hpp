@@ -183,6 +183,9 @@ struct MachineDescription {
   }
 };
 
+// The bytes of a machine file, at most a little more than it may have. Empty, with a diagnostic: it cannot be read.
+std::optional<std::string> machine_file_text(const std::string& path, Diagnostics& diagnostics);
+
 // Reads and checks a machine file. All errors go to `diagnostics` (line, key, nearest key, what is missing), with codes
 // "machine.*". Returns nothing if there was any error.
 std::optional<MachineDescription> load_machine_file(const std::string& path, Diagnostics& diagnostics);
