@@ -2,6 +2,7 @@
 // and is not reported: nothing is wrong where it is found.
 #pragma once
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
