@@ -124,7 +124,7 @@ Outcome play(const MachineDescription& machine, const std::string& text, Draw& d
   for (std::size_t m = 0; m < machine.axes.size(); ++m) {
     plant.fit_motor(m, with_torque(*motor_setup(machine.axes[m]), draw.between(1 - tolerance, 1 + tolerance)));
   }
-  MarginSurvey survey(surveyed_motors(machine));
+  MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
   VirtualMachine board(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
                        machine.board.highest_event_rate);
   board.connect(plant);

@@ -38,6 +38,11 @@ MotorSetup measured_setup(const TorqueCurve& curve, const Excitation& excitation
   return setup;
 }
 
+TorqueCurve pull_out_curve(const MotorSetup& setup) {
+  if (setup.measured) return *setup.measured;
+  return *TorqueCurve::from_motor(setup.motor, setup.drive);
+}
+
 // One step of the integration, and what the trapezoidal rule for R·i + L·di/dt = u makes of it:
 //   i' = (keep·i + push·u)
 struct RunningMotor::StepSize {
@@ -45,7 +50,7 @@ struct RunningMotor::StepSize {
     const double half = motor.resistance_ * h / (2 * motor.inductance_);
     keep = (1 - half) / (1 + half);
     push = h / motor.inductance_ / (1 + half);
-    fade = motor.viscous_ * h / (2 * motor.inertia_);
+    fade = (motor.viscous_ + motor.hand_) * h / (2 * motor.inertia_);
     kick = h / motor.inertia_;
   }
 
@@ -104,6 +109,20 @@ void RunningMotor::excite() {
   share_b_ = state.phase_b;
 }
 
+void RunningMotor::carry(RadiansPerSecond speed) {
+  if (hand_ == 0) {
+    hand_ = 2 * std::sqrt(teeth_ * constant_ * rated_ * inertia_);
+    speed_ = speed.value;
+    gain_ = 0;
+  }
+  hand_speed_ = speed.value;
+  rests_ = false;
+}
+
+void RunningMotor::let_go() {
+  hand_ = hand_speed_ = 0;
+}
+
 void RunningMotor::set_resistance(NewtonMetres torque) {
   resisting_ = torque.value;
   rests_ = false;
@@ -132,7 +151,8 @@ void RunningMotor::integrate(const StepSize& size) {
   torque_ = made - detent_ * 4 * sine_ * cosine_ * (cosine_ * cosine_ - sine_ * sine_);
   mean_torque_ += (torque_ - mean_torque_) * std::min(size.h / averaging, 1.0);
 
-  const double free = (speed_ * (1 - size.fade) + (torque_ - weight_) * size.kick) / (1 + size.fade);
+  const double pull = torque_ - weight_ + hand_ * hand_speed_;
+  const double free = (speed_ * (1 - size.fade) + pull * size.kick) / (1 + size.fade);
   const double dry = (dry_ + resisting_) * size.kick;
   // A rotor that runs away, as under a weight that the motor does not hold, gets no faster than the integration can
   // see.

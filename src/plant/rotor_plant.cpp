@@ -9,10 +9,7 @@ namespace passo {
 void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
   motors_[motor].rotor.emplace(setup);
   motors_[motor].origin = positions()[motor];
-  motors_[motor].pull_out = setup.measured;
-  if (!setup.measured) {
-    if (auto curve = TorqueCurve::from_motor(setup.motor, setup.drive)) motors_[motor].pull_out = std::move(*curve);
-  }
+  motors_[motor].pull_out = pull_out_curve(setup);
   any_ = true;
 }
 

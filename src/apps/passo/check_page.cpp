@@ -85,7 +85,7 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   std::vector<Axis> axes;
   for (const AxisDescription& axis : machine.axes) axes.push_back(axis.axis);
   SummaryBuilder builder(axes);
-  MarginSurvey survey(surveyed_motors(machine));
+  MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
   CheckPage page;
   std::uint64_t segments = 0;
   activity.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });

@@ -1,0 +1,205 @@
+#include "passo/verdict/tolerance_trial.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "passo/motor/torque_band.hpp"
+
+namespace passo {
+namespace {
+
+constexpr double always_played = 20;        // s of each axis
+constexpr double most_played = 60;          // s
+constexpr double after_a_new_kind = 0.05;   // s: a swing grows or fades
+constexpr float known = 0.5;                // s: a kind that was played so long is known
+constexpr double of_steady_motion = 1;      // s: a motor that swings by itself is out of step by then
+constexpr double until_at_rest = 0.5;       // s
+constexpr double to_settle = 0.3;           // s: a weight turns the rotor
+constexpr double carried = 0.012;           // s: several times L/R, and a period of the ringing
+constexpr double between_samples = 50e-6;   // s; between them a place is in proportion
+constexpr double between_looks = 1e-3;      // s: a swing takes longer
+constexpr double latest = 1e-4;             // s: events are seldom further apart
+
+}  // namespace
+
+// A place over time: c0 + c1·t + c2·t² + c3·t³, in steps of the driver or in lines of the grid of the board's events.
+struct ToleranceTrial::Path {
+  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
+
+  double at(double t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
+  double speed_at(double t) const { return c1 + t * (2 * c2 + t * 3 * c3); }
+};
+
+ToleranceTrial::ToleranceTrial(const MotorSetup& setup, double tolerance, double radians_per_unit,
+                               RadiansPerSecond fastest)
+    : steps_per_unit_(radians_per_unit * setup.motor.rotor.steps_per_revolution *
+                      setup.excitation.steps_per_full_step() / (2 * std::numbers::pi)),
+      radians_per_unit_(radians_per_unit),
+      fastest_(fastest.value) {
+  for (std::size_t i = 0; i < motor_count; ++i) {
+    const double place = 2 * static_cast<double>(i) / (motor_count - 1) - 1;  // −1 … 1
+    setups_.push_back(with_torque(setup, 1 + tolerance * place));
+  }
+  motors_.reserve(motor_count);
+}
+
+TrialFinding ToleranceTrial::play(const AxisPiece& piece) {
+  const double duration = piece.duration.value();
+  TrialFinding finding;
+  if (!(duration > 0)) return {.judged = true};
+  float& of_kind = played_of_kind(piece);
+  const bool is_new = of_kind < known;
+  to_play_ = is_new ? after_a_new_kind : to_play_ - duration;
+  const bool goes_on = played_ < always_played || (played_ < most_played && to_play_ > 0);
+  if (!goes_on) stop();
+  if (goes_on && motors_.empty()) begin(piece);
+  load_before_ = piece.load;
+  acceleration_before_ = (piece.speed_to - piece.speed_from) / duration;
+  if (motors_.empty()) return {.judged = !is_new};
+
+  const unsigned out_before = out_;
+  stood_ = 0;
+  most_swing_ = 0;
+  const double scale = steps_per_unit_;
+  double time = duration;
+  double way = scale * (piece.to - piece.from);
+  if (duration > of_steady_motion && std::abs(piece.speed_to - piece.speed_from) < 1e-9 * std::abs(piece.speed_to)) {
+    const double period = 4.0 * motors_[0].steps_per_full_step();
+    const double speed = std::abs(way) / duration;
+    const double periods = std::floor((duration - of_steady_motion) * speed / period);
+    time -= periods * period / speed;
+    const double left_out = std::copysign(periods * period, way);
+    way -= left_out;
+    origin_ += left_out;
+  }
+  const double first = scale * piece.speed_from;
+  const double last = scale * piece.speed_to;
+  const Path path{.c0 = scale * piece.to - way - origin_,
+                  .c1 = first,
+                  .c2 = (3 * way / time - 2 * first - last) / time,
+                  .c3 = (first + last - 2 * way / time) / (time * time)};
+  follow(path, {.c0 = piece.grid_from, .c1 = (piece.grid_to - piece.grid_from) / duration}, time, false);
+  played_ += time;
+  of_kind += static_cast<float>(time);
+  finding.judged = true;
+  finding.lost = std::popcount(out_ & ~out_before);
+  finding.most_swing = most_swing_;
+  return finding;
+}
+
+TrialFinding ToleranceTrial::stand(Seconds time) {
+  load_before_ = 0;
+  acceleration_before_ = 0;
+  if (motors_.empty()) return {.judged = true};
+  const unsigned out_before = out_;
+  most_swing_ = 0;
+  const double left = std::max(until_at_rest - stood_, 0.0);
+  stood_ += time.value();
+  if (pending_ > 0) pass(pending_);
+  for (double run = std::min(time.value(), left); run > 0; run -= between_looks) pass(std::min(run, between_looks));
+  const TrialFinding finding{
+      .judged = true, .lost = std::popcount(out_ & ~out_before), .most_swing = most_swing_};
+  if (stood_ >= until_at_rest) stop();
+  return finding;
+}
+
+// How long pieces of that kind were played.
+float& ToleranceTrial::played_of_kind(const AxisPiece& piece) {
+  const auto bin_of = [](double load) {
+    constexpr double bins_per_load = 8;
+    return std::min(static_cast<std::size_t>(std::min(load, 10.0) * bins_per_load), loads - 1);
+  };
+  const double speed = std::max(std::abs(piece.speed_from), std::abs(piece.speed_to)) * radians_per_unit_;
+  constexpr double bins_an_octave = 6;
+  const double octaves = std::log2(std::max(fastest_, 1e-9) / std::max(speed, 1e-9));
+  const auto slowness = static_cast<std::size_t>(std::clamp(bins_an_octave * octaves, 0.0, double{speeds - 1}));
+  return kinds_[(bin_of(piece.load) * loads + bin_of(load_before_)) * speeds + slowness];
+}
+
+void ToleranceTrial::begin(const AxisPiece& piece) {
+  stop();
+  for (const MotorSetup& setup : setups_) motors_.emplace_back(setup);
+  origin_ = std::round(steps_per_unit_ * piece.from);
+  if (setups_[0].weight.value != 0) {
+    for (RunningMotor& motor : motors_) motor.run(Seconds(to_settle));
+  }
+  const double full_step = motors_[0].steps_per_full_step();
+  if (std::abs(piece.speed_from) * steps_per_unit_ * carried > full_step) carry_to(piece);
+}
+
+// Brings the motors into the motion in which the piece begins.
+void ToleranceTrial::carry_to(const AxisPiece& piece) {
+  const double scale = steps_per_unit_;
+  const double speed = scale * piece.speed_from;
+  const double acceleration = scale * acceleration_before_;
+  const Path path{.c0 = scale * piece.from - speed * carried + acceleration * carried * carried / 2,
+                  .c1 = speed - acceleration * carried,
+                  .c2 = acceleration / 2,
+                  .c3 = 0};
+  origin_ = std::round(path.c0);
+  follow({path.c0 - origin_, path.c1, path.c2, path.c3}, {}, carried, true);
+  for (RunningMotor& motor : motors_) motor.let_go();
+  out_ = 0;
+}
+
+void ToleranceTrial::follow(const Path& path, const Path& grid, double duration, bool carried_along) {
+  const double events = std::abs(grid.c1);  // a second
+  const double parts = std::ceil(duration / between_samples);
+  const double part = duration / parts;
+  double before = path.at(0);
+  for (double i = 1; i <= parts; ++i) {
+    if (carried_along) {
+      const double speed = path.speed_at((i - 1) * part) / steps_per_unit_ * radians_per_unit_;
+      for (RunningMotor& motor : motors_) motor.carry({speed});
+    }
+    const double here = path.at(i * part);
+    const int way = here > before ? 1 : -1;
+    double spent = 0;
+    for (double border = static_cast<double>(commanded_) + 0.5 * way; way * (here - border) > 0; border += way) {
+      double at = here == before ? 0 : std::clamp((border - before) / (here - before), 0.0, 1.0) * part;
+      if (events > 0) {
+        const double line = (grid.c1 > 0 ? 1 : -1) * grid.at((i - 1) * part + at);
+        at += std::min((std::ceil(line) - line) / events, latest);
+      }
+      pending_ += at - spent;
+      spent = at;
+      if (pending_ > 0) pass(pending_);
+      step(way);
+    }
+    pending_ += part - spent;
+    if (pending_ > between_looks) pass(pending_);
+    before = here;
+  }
+}
+
+void ToleranceTrial::step(int way) {
+  commanded_ += way;
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    if ((out_ >> i & 1) == 0) motors_[i].step(way);
+  }
+}
+
+void ToleranceTrial::pass(double time) {
+  pending_ = 0;
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    if ((out_ >> i & 1) != 0) continue;
+    RunningMotor& motor = motors_[i];
+    motor.run(Seconds(time));
+    most_swing_ = std::max(most_swing_, std::abs(motor.lag()));
+    if (motor.slipped() == 0) continue;
+    out_ |= 1U << i;
+    ever_lost_ |= 1U << i;
+  }
+}
+
+void ToleranceTrial::stop() {
+  motors_.clear();
+  out_ = 0;
+  commanded_ = 0;
+  pending_ = 0;
+  stood_ = 0;
+}
+
+}  // namespace passo
