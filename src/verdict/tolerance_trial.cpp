@@ -10,17 +10,17 @@
 namespace passo {
 namespace {
 
-constexpr double always_played = 20;        // s of each axis
-constexpr double most_played = 60;          // s
-constexpr double after_a_new_kind = 0.05;   // s: a swing grows or fades
-constexpr float known = 0.5;                // s: a kind that was played so long is known
-constexpr double of_steady_motion = 1;      // s: a motor that swings by itself is out of step by then
-constexpr double until_at_rest = 0.5;       // s
-constexpr double to_settle = 0.3;           // s: a weight turns the rotor
-constexpr double carried = 0.012;           // s: several times L/R, and a period of the ringing
-constexpr double between_samples = 50e-6;   // s; between them a place is in proportion
-constexpr double between_looks = 1e-3;      // s: a swing takes longer
-constexpr double latest = 1e-4;             // s: events are seldom further apart
+constexpr double always_played = 60;       // s of each axis
+constexpr double most_played = 120;        // s
+constexpr double after_a_new_kind = 0.05;  // s: a swing grows or fades
+constexpr float known = 0.5;               // s: a kind that was played so long is known
+constexpr double of_steady_motion = 1;     // s: a motor that swings by itself is out of step by then
+constexpr double until_at_rest = 0.5;      // s
+constexpr double to_settle = 0.3;          // s: a weight turns the rotor
+constexpr double carried = 0.012;          // s: several times L/R, and a period of the ringing
+constexpr double between_samples = 50e-6;  // s; between them a place is in proportion
+constexpr double between_looks = 1e-3;     // s: a swing takes longer
+constexpr double latest = 1e-4;            // s: events are seldom further apart
 
 }  // namespace
 
@@ -38,9 +38,8 @@ ToleranceTrial::ToleranceTrial(const MotorSetup& setup, double tolerance, double
                       setup.excitation.steps_per_full_step() / (2 * std::numbers::pi)),
       radians_per_unit_(radians_per_unit),
       fastest_(fastest.value) {
-  for (std::size_t i = 0; i < motor_count; ++i) {
-    const double place = 2 * static_cast<double>(i) / (motor_count - 1) - 1;  // −1 … 1
-    setups_.push_back(with_torque(setup, 1 + tolerance * place));
+  for (const double strength : {(1 - reserve) * (1 - tolerance), 1.0, 1 + tolerance}) {
+    setups_.push_back(with_torque(setup, strength));
   }
   motors_.reserve(motor_count);
 }
@@ -99,8 +98,7 @@ TrialFinding ToleranceTrial::stand(Seconds time) {
   stood_ += time.value();
   if (pending_ > 0) pass(pending_);
   for (double run = std::min(time.value(), left); run > 0; run -= between_looks) pass(std::min(run, between_looks));
-  const TrialFinding finding{
-      .judged = true, .lost = std::popcount(out_ & ~out_before), .most_swing = most_swing_};
+  const TrialFinding finding{.judged = true, .lost = std::popcount(out_ & ~out_before), .most_swing = most_swing_};
   if (stood_ >= until_at_rest) stop();
   return finding;
 }

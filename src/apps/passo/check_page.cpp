@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "passo/activity/stage_options.hpp"
+#include "passo/drive/backlash_options.hpp"
 #include "passo/report/summary_builder.hpp"
 #include "passo/trajectory/planner.hpp"
 #include "passo/verdict/margin_words.hpp"
@@ -93,7 +94,10 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
     builder.watch_path(item);
     if (std::holds_alternative<Segment>(item)) ++segments;
   });
-  Planner planner(activity, motion_limits(machine));
+  StepOptions steps = step_options(machine);
+  steps.start = options.start;
+  BacklashTaker path_with_rests(activity, backlash_options(steps, false));
+  Planner planner(path_with_rests, motion_limits(machine));
   constexpr unsigned items_between_looks = 1024;
   MotionItem item;
   // A loop that only a probe ends goes on as far as the check has followed it.

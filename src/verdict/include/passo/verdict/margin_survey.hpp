@@ -2,7 +2,7 @@
 //
 // Two looks at the same motion. The physics gives the verdict, and the formula the cause and the cure:
 //
-//   ToleranceTrial   plays the motion with five motors of the tolerance
+//   ToleranceTrial   plays the motion with the weakest, the usual and the strongest motor of the tolerance
 //   formula          needed = (J_rotor + J_load)·α + friction·sign(ω) + damping·ω + weight     against pull-out at |ω|
 //
 //   safe      all motors keep their steps, and none swings further than 1.4 full steps from the field
