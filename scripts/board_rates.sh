@@ -12,15 +12,8 @@ if (($# > 0)); then
   "$build/tests/emulator/board_rates" "$@"
   exit
 fi
-table=$(mktemp)
-trap 'rm -f "$table" "$table.new"' EXIT
-"$build/tests/emulator/board_rates" >"$table"
-awk -v table="$table" '
-  /^<!-- end of rates -->$/ { skipping = 0 }
-  !skipping { print }
-  /^<!-- rates -->$/ {
-    skipping = 1
-    while ((getline line < table) > 0) print line
-  }' docs/boards.md >"$table.new"
-cat "$table.new" >docs/boards.md
-cat "$table"
+tables=$(mktemp -d)
+trap 'rm -rf "$tables"' EXIT
+"$build/tests/emulator/board_rates" >"$tables/rates"
+scripts/put_tables.sh docs/boards.md "$tables"
+cat "$tables/rates"

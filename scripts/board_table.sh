@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # scripts/board_table.sh [PROGRAM...]: how long jobs take over a line to an Uno and a Mega, beside the time that they take
 # without a line. Writes the table into docs/boards.md, between its marks; with PROGRAM, these programs only, just printed.
+# Where they are at hand, the programs of ../shared/peers/motion-mm come after that, in a table that is printed only.
 #
 # The boards are virtual, with the places and the rates of the real ones, on a line of 500 kbaud. scripts/board_rates.sh
 # measures what the chips themselves keep up with.
@@ -82,13 +83,13 @@ if (($# > 0)); then
   table "$@"
   exit
 fi
-table >"$work/table"
-awk -v table="$work/table" '
-  /^<!-- end of jobs -->$/ { skipping = 0 }
-  !skipping { print }
-  /^<!-- jobs -->$/ {
-    skipping = 1
-    while ((getline line < table) > 0) print line
-  }' docs/boards.md >"$work/new"
-cat "$work/new" >docs/boards.md
-cat "$work/table"
+table >"$work/jobs"
+scripts/put_tables.sh docs/boards.md "$work"
+cat "$work/jobs"
+programs=(../shared/peers/motion-mm/*.nc)
+if [[ -e ${programs[0]} ]]; then
+  echo
+  table printed
+else
+  echo "board_table.sh: there is no ../shared/peers/motion-mm: no table of its programs" >&2
+fi

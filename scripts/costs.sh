@@ -37,13 +37,5 @@ compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt")
   }' "$new/csv"
 } >"$new/host"
 
-# Between <!-- NAME --> and <!-- end of NAME --> comes the file NAME.
-awk -v directory="$new" '
-  /^<!-- end of .* -->$/ { skipping = 0 }
-  !skipping { print }
-  /^<!-- (chip|host) -->$/ {
-    skipping = 1
-    while ((getline line < (directory "/" $2)) > 0) print line
-  }' "$document" >"$new/document"
-cat "$new/document" >"$document"
+scripts/put_tables.sh "$document" "$new"
 cat "$new/chip" "$new/host"

@@ -77,14 +77,7 @@ document=docs/motion.md
 table examples "$machine" >"$new/examples"
 table examples "$new/smooth.toml" >"$new/smooth"
 rest_table >"$new/rests"
-awk -v directory="$new" '
-  /^<!-- end of .* -->$/ { skipping = 0 }
-  !skipping { print }
-  /^<!-- (examples|smooth|rests) -->$/ {
-    skipping = 1
-    while ((getline line < (directory "/" $2)) > 0) print line
-  }' "$document" >"$new/document"
-cat "$new/document" >"$document"
+scripts/put_tables.sh "$document" "$new"
 for part in examples smooth rests; do
   cat "$new/$part"
   echo

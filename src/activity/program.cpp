@@ -4,28 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "passo/activity/nominal_time.hpp"
 #include "passo/activity/stage_options.hpp"
 
 namespace passo {
 namespace {
-
-// The highest speed on the path, at most `speed`, at which no axis with such slopes is faster than it can be.
-double speed_within(const Point& slopes, double speed, const MotionLimits& limits) {
-  for (const Axis axis : all_axes) {
-    if (slopes[axis] > 0) speed = std::min(speed, limits.velocity[axis].value() / slopes[axis]);
-  }
-  return speed;
-}
-
-// How long an item takes at its programmed speed, within the axes' top speeds but without ramps.
-Seconds nominal_time_of(const PathItem& item, const MotionLimits& limits) {
-  if (const auto* action = std::get_if<Action>(&item)) return action->dwell;
-  const auto& segment = std::get<Segment>(item);
-  double speed = speed_within(segment.curve.steepest_bound(), segment.speed.value(), limits);
-  // The exact slopes cost the trigonometry of an arc. They count only where the bound is felt.
-  if (speed < segment.speed.value()) speed = speed_within(segment.curve.steepest(), segment.speed.value(), limits);
-  return speed > 0 ? segment.curve.length() / MmPerSecond(speed) : Seconds(0);
-}
 
 // How many moves after a probe move the check follows.
 constexpr std::uint64_t most_moves_after_a_probe = 10'000'000;
@@ -63,9 +46,13 @@ ProgramChecker::ProgramChecker(ProgramReader program, const MachineDescription& 
       tools_(options.tools),
       interpreter_(std::move(program), options, diagnostics),
       mistakes_(machine, options.units, path_options_.file, diagnostics),
+      low_rapids_(machine, path_options_.file, diagnostics),
       operations_(interpreter_),
       builder_(operations_, path_options_, diagnostics) {
-  operations_.watch([this](const Operation& operation) { mistakes_.watch(operation); });
+  operations_.watch([this](const Operation& operation) {
+    mistakes_.watch(operation);
+    low_rapids_.watch(operation);
+  });
 }
 
 bool ProgramChecker::go_on(std::uint64_t items) {
@@ -91,6 +78,7 @@ bool ProgramChecker::take_item() {
 
 void ProgramChecker::finish() {
   done_ = true;
+  mistakes_.finish();
   if (after_a_probe_ == most_moves_after_a_probe) tell_end(diagnostics_, path_options_.file, item_);
   diagnostics_.doubt_errors({});
   check_.tools_change = interpreter_.tools() != tools_;

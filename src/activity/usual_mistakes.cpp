@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "operation_warning.hpp"
 #include <fmt/format.h>
 
 namespace passo {
@@ -39,15 +40,43 @@ void UsualMistakes::watch(const Operation& operation) {
     probes_ |= is_any_of<StraightProbe>(what);
     return move(operation);
   }
-  if (is_any_of<ChangeTool, SetToolNumber>(what)) probes_ = false;
+  if (is_any_of<ChangeTool, SetToolNumber>(what)) change_tool();
+  if (const auto* tool = std::get_if<SelectTool>(&what)) return select(operation, tool->tool);
   if (const auto* turn = std::get_if<TurnSpindle>(&what)) return turn_spindle(operation, turn->direction);
   if (const auto* pause = std::get_if<Dwell>(&what)) return dwell(operation, pause->time);
   if (const auto* speed = std::get_if<SetSpindleSpeed>(&what)) {
     speed_ = speed->revolutions_per_minute;
     if (speed_ > 0) turned_at_zero_.reset();
+    if (speed_ > 0 && !has_spindle_) idle_speed(operation);
   } else if (is_any_of<SetLengthUnits>(what) && operation.source.line > 0) {
     knows_units_ = true;  // line 0: the interpreter says its own units before the program begins
   }
+}
+
+// A speed has no effect on a spindle that is switched on and off.
+void UsualMistakes::idle_speed(const Operation& operation) {
+  if (std::exchange(told_idle_speed_, true)) return;
+  diagnostics_.add_certain(warning(operation, "path.idle-speed",
+                                   "S has no effect here: the machine only switches its spindle on and off",
+                                   "tool.max_rpm in the machine file, if the machine sets the spindle's speed"));
+}
+
+void UsualMistakes::change_tool() {
+  probes_ = false;
+  changes_tools_ = true;
+  idle_tool_.reset();
+}
+
+// T alone selects a tool. Programs often select the next tool early, so only a program without any change is wrong.
+void UsualMistakes::select(const Operation& operation, std::int32_t tool) {
+  if (changes_tools_ || idle_tool_ || tool == 0) return;
+  idle_tool_ =
+      warning(operation, "path.idle-tool", fmt::format("T{} has no effect: the program never changes its tool", tool),
+              "M6 after the T word");
+}
+
+void UsualMistakes::finish() {
+  if (idle_tool_) diagnostics_.add_certain(*std::exchange(idle_tool_, std::nullopt));
 }
 
 void UsualMistakes::dwell(const Operation& operation, Seconds time) {
@@ -88,15 +117,7 @@ void UsualMistakes::feed(const Operation& operation) {
 
 Diagnostic UsualMistakes::warning(const Operation& operation, std::string code, std::string message,
                                   std::string expected) const {
-  return {.severity = Severity::warning,
-          .code = std::move(code),
-          .file = operation.file.empty() ? file_ : std::string(operation.file),
-          .place = {.line = operation.source.line,
-                    .column = operation.word.column,
-                    .length = std::max(operation.word.length, 1U)},
-          .message = std::move(message),
-          .expected = std::move(expected),
-          .text = std::string(operation.text)};
+  return operation_warning(operation, file_, std::move(code), std::move(message), std::move(expected));
 }
 
 }  // namespace passo

@@ -17,6 +17,7 @@ constexpr bool is_for_outputs(const Action& action, bool waits_for_operator) {
     case Kind::probe_begin:
     case Kind::probe_end:
     case Kind::await_index:
+    case Kind::await_line:
     case Kind::tap_turns:
     case Kind::feed_hold: return false;
     default: return !(waits_for_operator && is_program_stop(action));

@@ -16,8 +16,8 @@ namespace {
 constexpr double no_feed = 0.01;
 
 // The holds that somebody has to take back. A hold for a feed of zero ends by itself when the feed rises.
-constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door, HoldReason::program_stop,
-                                  HoldReason::tool_change, HoldReason::stop};
+constexpr HoldReasons asked_holds{HoldReason::operator_hold, HoldReason::door,       HoldReason::program_stop,
+                                  HoldReason::tool_change,   HoldReason::await_line, HoldReason::stop};
 
 BacklashOptions backlash_of(StepOptions steps, const DriveOptions& options) {
   if (options.begin_at) steps.downs = AxisSet();
@@ -197,6 +197,7 @@ void MotionDrive::act(const Action& action) {
     case Action::Kind::probe_end: return end_probe(action);
     case Action::Kind::await_index: return await_index(action);
     case Action::Kind::tap_turns: return turn_tap(action);
+    case Action::Kind::await_line: return await_line();
     default: return wait_for_operator(action);
   }
 }
@@ -264,6 +265,19 @@ void MotionDrive::wait_for_operator(const Action& action) {
   });
 }
 
+// Pulled only when all before is executed, so the machine rests.
+void MotionDrive::await_line() {
+  holds_.add(HoldReason::await_line);
+  rest_in_hold();
+}
+
+void MotionDrive::drop() {
+  if (state_ != State::running && state_ != State::holding) return;
+  dropped_to_.reset();
+  feed_->brake();
+  change_holds(HoldReason::drop, true);
+}
+
 void MotionDrive::done() {
   if (!waits_for_) return;
   const bool was_tool = waits_for_->kind == Action::Kind::tool_change;
@@ -307,11 +321,12 @@ void MotionDrive::tell_planner() {
 
 // The motion has come to rest. If the hold was taken back meanwhile, the machine does not stay at rest.
 void MotionDrive::come_to_rest() {
-  if (holds_.any_of({HoldReason::probe_contact, HoldReason::tap})) {
+  if (holds_.any_of({HoldReason::probe_contact, HoldReason::tap, HoldReason::drop})) {
     planner_.drop_to_action();
-    if (const auto rest = feed_->drop()) end_of_probe_ = rest;
+    if (const auto rest = feed_->drop()) end_of_probe_ = dropped_to_ = rest;
     holds_.remove(HoldReason::probe_contact);
     holds_.remove(HoldReason::tap);
+    holds_.remove(HoldReason::drop);
     tell_planner();
   }
   if (holds_.any_of(lasting_holds)) rest_in_hold();

@@ -1,14 +1,13 @@
 // The emulated Uno and Mega at the end of a serial line: EmulatedBoard for their kinds. The chip is in
 // passo-emulate-avr, a program of its own (src/emulator/avr).
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "process_board.hpp"
 #include <fmt/format.h>
 
 #include "passo/chip/mega_ramps.hpp"
@@ -18,14 +17,11 @@
 #include "passo/emulator/emulated_avr.hpp"
 #include "passo/emulator/emulated_board.hpp"
 #include "passo/emulator/emulated_pico.hpp"
-#include "passo/plant/ideal_plant.hpp"
 
 namespace passo {
 namespace {
 
 constexpr double clock_rate = 16e6;
-// How long, in seconds, an endless run() waits for a silent board.
-constexpr double longest_silence = 10;
 
 struct Kind {
   const char* mcu;
@@ -73,10 +69,10 @@ struct Motor {
   DriveMode drive = DriveMode::two_on;
 };
 
-class AvrBoard final : public EmulatedBoard {
+class AvrBoard final : public ProcessBoard {
  public:
   AvrBoard(const Kind& kind, std::string emulator, std::string program)
-      : has_encoder_(kind.has_encoder), positions_(kind.motors.size(), 0) {
+      : ProcessBoard(clock_rate, kind.motors.size()), has_encoder_(kind.has_encoder) {
     PinNumbers numbers;
     for (const MotorPins& pins : kind.motors) {
       Motor motor{.step = numbers.bit_of(pins.step),
@@ -85,87 +81,47 @@ class AvrBoard final : public EmulatedBoard {
                   .drive = pins.drive};
       for (std::size_t f = 0; f < winding_count; ++f) {
         motor.windings[f] = numbers.bit_of(pins.windings[f]);
-        stepping_ |= motor.windings[f];
         windings_ |= motor.windings[f];
       }
-      stepping_ |= motor.step;
+      steps_ |= motor.step;
       motors_.push_back(motor);
     }
     spindle_turns_back_ = numbers.bit_of(kind.spindle_direction);
     for (const auto& [which, pin] : kind.switches) switches_.emplace_back(which, numbers.bit_of(pin));
     words_ = {std::move(emulator), kind.mcu, std::move(program), numbers.text()};
-    start();
+    start_emulator();
   }
 
-  void receive(std::span<const std::uint8_t> bytes) override { chip_->send(bytes); }
-
-  bool run(Seconds most) override {
-    const double seconds = std::clamp(most.value(), 0.0, longest_silence);
-    const std::uint64_t end = chip_->cycle() + static_cast<std::uint64_t>(seconds * clock_rate);
-    look_at_plant(elapsed());
-    while (said_.empty() && chip_->cycle() < end) {
-      const std::int64_t events = plant_->events_to_next_change();
-      const auto rises = static_cast<std::uint32_t>(
-          events == Plant::never ? 0 : std::min<std::int64_t>(events, std::numeric_limits<std::int32_t>::max()));
-      run_until(end, {.at_byte = true, .watched = stepping_, .rises = rises});
-    }
-    return !said_.empty();
-  }
-
-  std::span<const std::uint8_t> replies() override {
-    taken_ = std::exchange(said_, {});
-    return taken_;
-  }
-
-  Seconds elapsed() const override { return time_of(chip_->cycle()); }
-  std::vector<std::int64_t> positions() const override { return positions_; }
   void connect(Plant& plant) override {
-    plant_ = &plant;
     if (has_encoder_ && plant.spindle().has_encoder()) start_with_encoder(plant.spindle().model());
-    look_at_plant(elapsed());
+    ProcessBoard::connect(plant);
   }
   void wire(const PinSetup& wiring) override {
     wiring_ = wiring;
-    set_pins(plant_->inputs_at(elapsed()));
+    set_pins(plant().inputs_at(elapsed()));
   }
 
  private:
-  static Seconds time_of(std::uint64_t cycle) { return Seconds(static_cast<double>(cycle) / clock_rate); }
-
-  void start() {
-    chip_ = std::make_unique<EmulatorProcess>(
-        words_, fmt::format("{} has ended: is {} a program for the {}?", words_[0], words_[2], words_[1]));
-    // The first answer shows that the program is there and boots.
-    run_until(1, {});
+  void start_emulator() {
+    start(std::make_unique<EmulatorProcess>(
+              words_, fmt::format("{} has ended: is {} a program for the {}?", words_[0], words_[2], words_[1])),
+          steps_ | windings_);
   }
   // The emulator works out the same spindle as the plant: the commands come from the chip.
   void start_with_encoder(const SpindleModel& model) {
     words_.push_back(fmt::format("encoder={},{},{},{},{},{}", model.counts_per_turn, model.run_up, model.droop,
                                  model.ripple, model.ripple_rate, std::countr_zero(spindle_turns_back_)));
-    start();
-  }
-  void run_until(std::uint64_t cycle, const EmulatorProcess::Stops& stops) {
-    if (!chip_->run(cycle, stops)) throw std::runtime_error(chip_->error());
-    follow();
-    said_.insert(said_.end(), chip_->said().begin(), chip_->said().end());
+    start_emulator();
   }
 
-  // Counts the steps of the last run, and looks how the spindle is commanded.
-  void follow() {
-    for (const PinChange& change : chip_->changes()) {
-      const std::uint32_t before = std::exchange(levels_, change.levels);
-      if (((before ^ change.levels) & stepping_) != 0) count_steps(change, before);
-    }
+  double commanded_rpm() const override {
     const bool back = is_high(spindle_turns_back_) != ((wiring_.outputs & spindle_reverse) != 0);
     const bool low_is_on = (wiring_.outputs & spindle_on) != 0;
-    const double duty = low_is_on ? 1 - chip_->duty() : chip_->duty();
-    const double rpm = (back ? -1 : 1) * duty * full_rpm;
-    if (rpm != rpm_) plant_->command_spindle(elapsed(), rpm_ = rpm);
-    look_at_plant(elapsed());
+    const double duty = low_is_on ? 1 - chip().duty() : chip().duty();
+    return (back ? -1 : 1) * duty * full_rpm;
   }
-  void count_steps(const PinChange& change, std::uint32_t before) {
+  void count_steps(const PinChange& change, std::uint32_t before) override {
     const std::uint32_t turned = change.levels ^ before;
-    pulses_ = {};
     for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
       const Motor& pins = motors_[motor];
       const bool low_steps = (wiring_.steps >> motor & 1U) != 0;
@@ -173,30 +129,16 @@ class AvrBoard final : public EmulatedBoard {
       if (steps && is_enabled(pins)) count(change.cycle, motor, is_high(pins.direction));
       if (windings_ != 0) follow_windings(change, motor);
     }
-    if (std::ranges::any_of(pulses_, [](std::int64_t pulses) { return pulses != 0; })) {
-      plant_->pulse(time_of(change.cycle), pulses_);
-    }
   }
-  void look_at_plant(Seconds time) {
-    const std::uint16_t inputs = plant_->inputs_at(time);
-    if (inputs != inputs_) set_pins(inputs);
-  }
-  void set_pins(std::uint16_t inputs) {
-    inputs_ = inputs;
+  void set_pins(std::uint16_t inputs) override {
     std::uint32_t low = 0;
     for (const auto& [which, pin] : switches_) {
       if (((inputs ^ wiring_.inputs) & which) != 0) low |= pin;
     }
-    chip_->draw_low(low);
+    chip().draw_low(low);
   }
-  bool is_high(std::uint32_t pin) const { return (levels_ & pin) != 0; }
   bool is_enabled(const Motor& pins) const {
     return pins.enable == 0 || is_high(pins.enable) == ((wiring_.outputs & inverted_enable) != 0);
-  }
-  void count(std::uint64_t cycle, std::size_t motor, bool down) {
-    positions_[motor] += down ? -1 : 1;
-    pulses_[motor] += down ? -1 : 1;
-    if (on_step) on_step(cycle, motor, down);
   }
   // If a motor's windings are on two ports, there is a moment between the two writes. The pattern of that moment is in
   // no table.
@@ -206,29 +148,19 @@ class AvrBoard final : public EmulatedBoard {
     for (unsigned f = 0; f < winding_count; ++f) {
       if ((change.levels & motors_[motor].windings[f]) != 0) pattern |= 1U << f;
     }
-    const auto place = static_cast<std::uint8_t>(positions_[motor]);
+    const auto place = static_cast<std::uint8_t>(position(motor));
     if (pattern == table.at(static_cast<std::uint8_t>(place + 1))) return count(change.cycle, motor, false);
     if (pattern == table.at(static_cast<std::uint8_t>(place - 1))) count(change.cycle, motor, true);
   }
 
   bool has_encoder_;
   std::vector<Motor> motors_;
-  std::uint32_t stepping_ = 0;  // the pins that make steps
+  std::uint32_t steps_ = 0;
   std::uint32_t windings_ = 0;
   std::uint32_t spindle_turns_back_ = 0;
   std::vector<std::pair<BoardInput, std::uint32_t>> switches_;
   std::vector<std::string> words_;
-  std::unique_ptr<EmulatorProcess> chip_;
-  IdealPlant own_plant_;
-  Plant* plant_ = &own_plant_;
-  std::uint16_t inputs_ = 0;  // the inputs that the plant told last
-  PinSetup wiring_;           // how the plant is connected to the pins
-  double rpm_ = 0;
-  std::vector<std::int64_t> positions_;
-  MotorSteps pulses_{};  // the pulses of the current change
-  std::uint32_t levels_ = 0;
-  std::vector<std::uint8_t> said_;
-  std::vector<std::uint8_t> taken_;
+  PinSetup wiring_;  // how the plant is connected to the pins
 };
 
 }  // namespace

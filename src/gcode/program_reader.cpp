@@ -318,6 +318,20 @@ ProgramReader ProgramReader::from_text(std::string name, std::string text) {
   return ProgramReader(std::move(state));
 }
 
+ProgramReader ProgramReader::from_lines(std::string name) {
+  return from_text(std::move(name), {});
+}
+
+void ProgramReader::give_line(std::string_view text) {
+  State& state = *state_;
+  state.offset += state.filled;
+  state.buffer.assign(text.begin(), text.end());
+  state.buffer.push_back('\n');
+  state.filled = state.buffer.size();
+  state.cursor = 0;
+  state.line_feed = state.find_line_feed();
+}
+
 bool ProgramReader::next_line(std::string_view& text, std::uint32_t& line, Diagnostics& diagnostics) {
   State& state = *state_;
   if (state.sought) state.go_to(*state.sought);

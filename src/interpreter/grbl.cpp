@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "passo/gcode/expression.hpp"
+#include "passo/interpreter/grbl_errors.hpp"
 
 namespace passo {
 namespace {
@@ -425,15 +426,19 @@ bool accept_as_grbl(Block& block, const ProgramState& state, Reporter& reporter)
   return true;
 }
 
-std::string grbl_error(std::string_view code) {
-  int number = 0;
+std::optional<int> grbl_error_number(std::string_view code) {
   for (const Translation& line : translations) {
-    if (line.code == code) number = line.number;
+    if (line.code == code) return line.number;
   }
   for (const Error& error : errors) {
-    if (error.code == code || error.number == number) return fmt::format("grbl error:{}, {}", error.number, error.what);
+    if (error.code == code) return error.number;
   }
   return {};
+}
+
+std::string grbl_error(std::string_view code) {
+  const auto number = grbl_error_number(code);
+  return number ? fmt::format("grbl error:{}, {}", *number, error_of(*number).what) : std::string();
 }
 
 }  // namespace passo

@@ -1,5 +1,6 @@
 #include "passo/interpreter/interpreter.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include "block_executor.hpp"
@@ -49,8 +50,7 @@ class Interpreter::Implementation {
   bool next(Operation& operation) {
     while (operations_.empty()) {
       if (executor_.awaits_probe()) executor_.take_probe_outcome();
-      if (finished_) return false;
-      step();
+      if (finished_ || !step()) return false;
     }
     operation = operations_.front();
     flow_.count_operation(std::visit(IsWork(), operation.what));
@@ -72,6 +72,28 @@ class Interpreter::Implementation {
 
   std::uint64_t offset() const { return flow_.offset(); }
 
+  void give_line(std::string_view text) { flow_.give_line(text); }
+  bool ended() const { return finished_ || executor_.ended(); }
+  void keep_motion() { kept_motion_ = state_.modal[ModalGroup::motion]; }
+  void take_back_motion() { state_.modal.set(ModalGroup::motion, kept_motion_); }
+  void stand_at(const Point& machine) { state_.position = state_.frame.work_from_machine(machine); }
+  ModesInForce modes() const {
+    ModesInForce modes;
+    constexpr ModalGroup shown[] = {ModalGroup::motion,       ModalGroup::work_system, ModalGroup::plane,
+                                    ModalGroup::length_units, ModalGroup::distance,    ModalGroup::feed_mode};
+    for (const ModalGroup group : shown) modes.codes.push_back(spelling('G', state_.modal[group]));
+    modes.spindle = state_.spindles[0].direction;
+    modes.speed = state_.spindles[0].speed;
+    modes.mist = state_.mist;
+    modes.flood = state_.flood;
+    modes.tool = std::max(state_.selected_tool, state_.tool);
+    modes.feed = state_.feed;
+    modes.inches = state_.modal.inches();
+    modes.frame = state_.frame;
+    modes.position = state_.machine_position();
+    return modes;
+  }
+
   void watch(BlockWatcher& watcher) {
     watcher_ = &watcher;
     flow_.watch(watcher);
@@ -86,27 +108,44 @@ class Interpreter::Implementation {
             options.main_passes,
             options.sub_folders,
             options.dialect,
-            !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB"))};
+            !(options.settings && options.settings->is_on("RS274NGC", "DISABLE_FANUC_STYLE_SUB")),
+            options.open_ended};
   }
 
-  // One block: none, one or several operations.
-  void step() {
-    if (LatheCodes* const lathe = executor_.wants_contour()) return read_contour(*lathe);
-    if (executor_.busy()) {
-      if (!flow_.may_go_on_with_cycle(executor_.repeated())) return executor_.drop_cycle();
-      executor_.go_on();
-      return follow_jump();
+  // One block: none, one or several operations. False: the next line was not given yet.
+  bool step() {
+    if (LatheCodes* const lathe = executor_.wants_contour()) {
+      read_contour(*lathe);
+    } else if (executor_.busy()) {
+      go_on_with_cycle();
+    } else if (const Block* const block = executor_.ended() ? nullptr : flow_.next()) {
+      execute(*block);
+    } else if (const auto line = flow_.take_left_sub()) {
+      executor_.leave_sub({*line, -1});
+    } else if (flow_.waits_for_line() && !executor_.ended()) {
+      return false;
+    } else {
+      finish();
     }
-    const Block* const block = executor_.ended() ? nullptr : flow_.next();
-    text_ = block != nullptr ? block->text : std::string_view();
-    if (block != nullptr) {
-      executor_.execute(*block);
-      if (executor_.busy()) flow_.begin_cycle();
-      follow_jump();
-      if (watcher_ != nullptr) watcher_->after(state_);
-      return;
-    }
-    if (const auto line = flow_.take_left_sub()) return executor_.leave_sub({*line, -1});
+    return true;
+  }
+
+  void go_on_with_cycle() {
+    if (!flow_.may_go_on_with_cycle(executor_.repeated())) return executor_.drop_cycle();
+    executor_.go_on();
+    follow_jump();
+  }
+
+  void execute(const Block& block) {
+    text_ = block.text;
+    executor_.execute(block);
+    if (executor_.busy()) flow_.begin_cycle();
+    follow_jump();
+    if (watcher_ != nullptr) watcher_->after(state_);
+  }
+
+  void finish() {
+    text_ = {};
     finished_ = true;
     if (!executor_.ended() && flow_.end() == ProgramFlow::End::file && !reporter_.full()) {
       reporter_.warning("gcode.no-end", {1, 1}, "the program ends without M2, M30 or '%'", "M2 in its last line");
@@ -156,6 +195,7 @@ class Interpreter::Implementation {
   BlockExecutor executor_;
   std::string_view text_;  // of the block at hand
   bool finished_ = false;
+  CodeNumber kept_motion_ = 0;
   BlockWatcher* watcher_ = nullptr;
 };
 
@@ -178,6 +218,30 @@ const ToolTable& Interpreter::tools() const {
 
 void Interpreter::watch(BlockWatcher& watcher) {
   implementation_->watch(watcher);
+}
+
+void Interpreter::give_line(std::string_view text) {
+  implementation_->give_line(text);
+}
+
+bool Interpreter::ended() const {
+  return implementation_->ended();
+}
+
+void Interpreter::keep_motion() {
+  implementation_->keep_motion();
+}
+
+void Interpreter::take_back_motion() {
+  implementation_->take_back_motion();
+}
+
+void Interpreter::stand_at(const Point& machine) {
+  implementation_->stand_at(machine);
+}
+
+ModesInForce Interpreter::modes() const {
+  return implementation_->modes();
 }
 
 std::uint64_t Interpreter::offset() const {

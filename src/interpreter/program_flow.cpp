@@ -62,6 +62,7 @@ const Block* ProgramFlow::next() {
     }
     switch (read()) {
       case Read::end:
+        if (options_.open_ended) return nullptr;
         while (any_open()) {
           report_unclosed(open_.back());
           open_.pop_back();

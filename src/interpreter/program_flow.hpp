@@ -50,6 +50,7 @@ class ProgramFlow final : public CallStack {
     std::vector<std::string> sub_folders;  // after the program's own
     Dialect dialect = Dialect::linuxcnc;
     bool numbered_programs = true;  // false: [RS274NGC]DISABLE_FANUC_STYLE_SUB
+    bool open_ended = false;        // the lines come one by one, with give_line()
   };
   enum class End : std::uint8_t { none, file, percent, error };
 
@@ -59,6 +60,10 @@ class ProgramFlow final : public CallStack {
   // The next block to execute. Null: the program ends, or an O-word left a sub (take_left_sub), or the contour of
   // call_for_contour() ends.
   const Block* next();
+  // Only with `open_ended`, when next() has returned null.
+  void give_line(std::string_view text) { files_.front()->reader.give_line(text); }
+  // True: the next line was not given yet.
+  bool waits_for_line() const { return options_.open_ended && end_ == End::none; }
   // Tells whether a sub was just left, and the line of its call.
   std::optional<std::uint32_t> take_left_sub() { return std::exchange(left_sub_, std::nullopt); }
   // Makes the jump that the block just executed asks for: M98, M99 or a macro. main_ends: there was an M99 in the main

@@ -77,7 +77,7 @@ bool ProgramFlow::parse(std::string_view text, std::uint32_t line) {
   reporter_.pass_on(faults_);
   doubt_label();
   if (kept != nullptr) KeptBlocks::drop(*kept);
-  unreadable.insert(line);
+  if (!options_.open_ended) unreadable.insert(line);  // such a line never comes again
   return false;
 }
 

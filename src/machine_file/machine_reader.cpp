@@ -157,9 +157,10 @@ void MachineReader::read_board(const TomlEntry& entry) {
   BoardDescription& board = machine_.board;
   const auto clock = reader.number(clock_key, Need::required);
   auto rate = reader.number(event_rate_key, Need::required);
-  const bool pulse_is_given = reader.has(step_pulse_key.name);
   const auto pulse = reader.number(step_pulse_key, Need::optional);
   if (const auto items = reader.whole_number(items_key, Need::optional)) board.held_items = static_cast<int>(*items);
+  board.held_items_are_given = reader.has(items_key.name);
+  read_windings(reader, board);
   finish(reader);
 
   if (clock && rate) {
@@ -177,13 +178,12 @@ void MachineReader::read_board(const TomlEntry& entry) {
     }
   }
   if (!rate) return;
-  board.highest_event_rate = Hertz(*rate);
-  event_rate_ = board.highest_event_rate;
+  event_rate_ = board.highest_event_rate = Hertz(*rate);
   if (pulse) board.step_pulse = Seconds(*pulse * 1e-6);
   board.step_pulse_is_given = pulse.has_value();
   // A driver wants a pause as long as the pulse.
   const double longest_us = 1e6 / (2 * *rate);
-  if ((pulse || !pulse_is_given) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
+  if ((pulse || !reader.has(step_pulse_key.name)) && board.step_pulse.value() * 1e6 > longest_us * (1 + 1e-9)) {
     reader.error("machine.step-pulse", step_pulse_key.name,
                  fmt::format("a step pulse of {:g} us and as long a pause do not fit between {:g} events a second",
                              board.step_pulse.value() * 1e6, *rate),

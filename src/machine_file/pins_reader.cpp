@@ -43,6 +43,18 @@ void read_outputs(TableReader& reader, PinsDescription& pins) {
   read_tenths(reader, drivers_off_key, pins.drivers_off_after);
 }
 
+void read_windings(TableReader& reader, BoardDescription& board) {
+  const auto name = reader.text("windings", "half-step", Need::optional);
+  if (!name) return;
+  const auto excitation = Excitation::named(*name);
+  if (excitation && !excitation->is_sine()) {
+    board.windings = *excitation;
+  } else {
+    reader.error("machine.windings", "windings", fmt::format("windings = \"{}\"", *name),
+                 "\"two-on\", \"wave\" or \"half-step\": a pin is on or off");
+  }
+}
+
 void read_tenths(TableReader& reader, const NumberKey& key, Seconds& time) {
   const auto given = reader.number(key, Need::optional);
   if (!given) return;

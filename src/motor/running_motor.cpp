@@ -43,23 +43,14 @@ TorqueCurve pull_out_curve(const MotorSetup& setup) {
   return *TorqueCurve::from_motor(setup.motor, setup.drive);
 }
 
-// One step of the integration, and what the trapezoidal rule for R·i + L·di/dt = u makes of it:
-//   i' = (keep·i + push·u)
-struct RunningMotor::StepSize {
-  StepSize(double time, const RunningMotor& motor) : h(time) {
-    const double half = motor.resistance_ * h / (2 * motor.inductance_);
-    keep = (1 - half) / (1 + half);
-    push = h / motor.inductance_ / (1 + half);
-    fade = (motor.viscous_ + motor.hand_) * h / (2 * motor.inertia_);
-    kick = h / motor.inertia_;
-  }
-
-  double h;
-  double keep;
-  double push;
-  double fade;
-  double kick;
-};
+RunningMotor::StepSize RunningMotor::size_of(double time) const {
+  const double half = resistance_ * time / (2 * inductance_);
+  return {.h = time,
+          .keep = (1 - half) / (1 + half),
+          .push = time / inductance_ / (1 + half),
+          .fade = (viscous_ + hand_) * time / (2 * inertia_),
+          .kick = time / inertia_};
+}
 
 RunningMotor::RunningMotor(const MotorSetup& setup)
     : teeth_(setup.motor.rotor.teeth()),
@@ -73,7 +64,6 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
       dry_(setup.load.friction.value),
       weight_(setup.weight.value),
       measured_(setup.measured),
-      excitation_(setup.excitation),
       steps_(setup.excitation.steps_per_full_step()),
       places_per_radian_(2 * steps_ / std::numbers::pi) {
   const MotorData winding = as_wound(setup.motor, setup.drive.winding);
@@ -85,6 +75,10 @@ RunningMotor::RunningMotor(const MotorSetup& setup)
   const double ringing = std::sqrt(teeth_ * winding.holding_torque.value / inertia_);
   longest_ = std::min({longest_step, radians_of_ringing / ringing, part_of_time_constant * inductance_ / resistance_});
 
+  for (int place = 0; place < 4 * steps_; ++place) {
+    const WindingState state = setup.excitation.at(place);
+    shares_.push_back({.a = state.phase_a, .b = state.phase_b});
+  }
   excite();
   const double full = chops_ ? rated_ : supply_ / resistance_;
   current_a_ = share_a_ * full;
@@ -104,9 +98,24 @@ void RunningMotor::step(int way) {
 }
 
 void RunningMotor::excite() {
-  const WindingState state = excitation_.at(commanded_);
-  share_a_ = state.phase_a;
-  share_b_ = state.phase_b;
+  const auto turn = static_cast<std::int64_t>(shares_.size());
+  const Shares& shares = shares_[static_cast<std::size_t>((commanded_ % turn + turn) % turn)];
+  share_a_ = shares.a;
+  share_b_ = shares.b;
+}
+
+void RunningMotor::resume(std::int64_t commanded, double place, RadiansPerSecond speed, NewtonMetres mean_torque) {
+  commanded_ = commanded;
+  excite();
+  const double full = chops_ ? rated_ : supply_ / resistance_;
+  current_a_ = share_a_ * full;
+  current_b_ = share_b_ * full;
+  angle_ = (place + first_) / places_per_radian_;
+  until_exact_ = 0;
+  speed_ = speed.value;
+  gain_ = 0;
+  mean_torque_ = mean_torque.value;
+  rests_ = false;
 }
 
 void RunningMotor::carry(RadiansPerSecond speed) {
@@ -114,6 +123,7 @@ void RunningMotor::carry(RadiansPerSecond speed) {
     hand_ = 2 * std::sqrt(teeth_ * constant_ * rated_ * inertia_);
     speed_ = speed.value;
     gain_ = 0;
+    last_time_ = 0;  // the hand's damping counts from now on
   }
   hand_speed_ = speed.value;
   rests_ = false;
@@ -121,6 +131,7 @@ void RunningMotor::carry(RadiansPerSecond speed) {
 
 void RunningMotor::let_go() {
   hand_ = hand_speed_ = 0;
+  last_time_ = 0;
 }
 
 void RunningMotor::set_resistance(NewtonMetres torque) {
@@ -130,10 +141,14 @@ void RunningMotor::set_resistance(NewtonMetres torque) {
 
 void RunningMotor::run(Seconds time) {
   if (rests_ || time.value() <= 0) return;
-  const double count = std::ceil(time.value() / longest_);
-  const StepSize size(time.value() / count, *this);
-  const auto steps = static_cast<std::int64_t>(count);
-  for (std::int64_t i = 1; i <= steps; ++i) {
+  if (time.value() != last_time_) {
+    last_time_ = time.value();
+    const double count = std::ceil(time.value() / longest_);
+    last_size_ = size_of(time.value() / count);
+    last_count_ = static_cast<std::int64_t>(count);
+  }
+  const StepSize& size = last_size_;
+  for (std::int64_t i = 1; i <= last_count_; ++i) {
     integrate(size);
     if (i % steps_between_looks != 0) continue;
     look_for_slip(in_motion);

@@ -74,7 +74,7 @@ bool BacklashTaker::next(PathItem& item) {
 bool BacklashTaker::pull(PathItem& item) {
   if (ended_ || !path_.next(item)) return false;
   if (const auto* action = std::get_if<Action>(&item)) {
-    asks_ = asks_ || action->kind == Action::Kind::probe_end;
+    asks_ = asks_ || action->kind == Action::Kind::probe_end || action->kind == Action::Kind::await_line;
     if (action->kind != Action::Kind::await_index) return true;
     before_segment_ = *action;
     if (!path_.next(item)) {

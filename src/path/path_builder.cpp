@@ -85,7 +85,7 @@ bool PathBuilder::next(PathItem& item) {
   }
   bool has_item = take_chord(item) || take_spline_piece(item) || take_probe_step(item) || take_tap_step(item);
   while (!has_item && next_operation()) has_item = take(operation_, item);
-  if (!has_item) switch_off();
+  if (!has_item && !options_.open_ended) switch_off();
   // A change of the outputs, and the wait for the index, come before the item in hand. At the end of the operations
   // there is no item in hand.
   const bool switches = outputs() != handed_on_;

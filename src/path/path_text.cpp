@@ -53,6 +53,7 @@ std::string name_of(const Action& action) {
     case Action::Kind::probe_begin: return action.probe_toward ? "probe until touched" : "probe until free";
     case Action::Kind::probe_end: return "probe move ends";
     case Action::Kind::await_index: return "await the spindle's index";
+    case Action::Kind::await_line: return "await a line";
     case Action::Kind::tap_turns: return "tap and spindle turn round";
     case Action::Kind::program_end: break;
   }

@@ -8,8 +8,4 @@ void IdealPlant::pulse(Seconds /*time*/, const MotorSteps& steps) {
   set_switches();
 }
 
-Truth IdealPlant::truth_at(Seconds time) {
-  return {.positions = slides(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
-}
-
 }  // namespace passo

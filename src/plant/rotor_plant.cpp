@@ -5,12 +5,19 @@
 #include <utility>
 
 namespace passo {
+namespace {
+
+constexpr Seconds short_time{0.2e-3};
+constexpr Seconds between_margins{1e-3};  // the torque is averaged over 3 ms
+
+}  // namespace
 
 void RotorPlant::fit_motor(std::size_t motor, const MotorSetup& setup) {
-  motors_[motor].rotor.emplace(setup);
+  motors_[motor].rotor.emplace(setup, integration_);
   motors_[motor].origin = positions()[motor];
+  motors_[motor].full_step = 1.0 / setup.excitation.steps_per_full_step();
   motors_[motor].pull_out = pull_out_curve(setup);
-  any_ = true;
+  fitted_ = std::max(fitted_, motor + 1);
 }
 
 void RotorPlant::set_resistance(std::size_t motor, NewtonMetres torque) {
@@ -23,60 +30,83 @@ int RotorPlant::steps_per_full_step(std::size_t motor) const {
 
 // The rotors move also between pulses, so every event counts.
 std::int64_t RotorPlant::events_to_next_change() const {
-  return any_ ? 1 : steps_to_next_switch();
+  return fitted_ > 0 ? 1 : steps_to_next_switch();
+}
+
+// Lets time pass for a motor, and then gives it its steps.
+inline void RotorPlant::turn(std::size_t motor, Seconds passed, std::int64_t steps) {
+  Fitted& one = motors_[motor];
+  const bool rests = one.rotor->rests();
+  if (rests && steps == 0) return;
+  if (!rests && passed.value() > 0) one.rotor->run(passed);
+  const int way = steps > 0 ? 1 : -1;
+  for (std::int64_t left = std::abs(steps); left > 0; --left) one.rotor->step(way);
+  moving_positions()[motor] = one.origin + one.rotor->place();
+  // Where the bound holds, the look after the next pulse is enough.
+  if (steps == 0 && one.rotor->is_reduced() && passed < short_time) return;
+  look_at(motor, steps == 0 ? 0 : way);
 }
 
 void RotorPlant::pulse(Seconds time, const MotorSteps& steps) {
-  run_to(time);
+  const Seconds passed = pass_to(time);
   MotorPositions& moving = moving_positions();
-  for (std::size_t m = 0; m < steps.size(); ++m) {
-    if (steps[m] == 0) continue;
-    if (!motors_[m].rotor) {
+  for (std::size_t m = 0; m < fitted_; ++m) {
+    if (motors_[m].rotor) {
+      turn(m, passed, steps[m]);
+    } else {
       moving[m] += static_cast<double>(steps[m]);
-      continue;
     }
-    const int way = steps[m] > 0 ? 1 : -1;
-    for (std::int64_t left = std::abs(steps[m]); left > 0; --left) motors_[m].rotor->step(way);
-    look_at(m);
   }
+  for (std::size_t m = fitted_; m < steps.size(); ++m) moving[m] += static_cast<double>(steps[m]);
   set_switches();
 }
 
 void RotorPlant::run_to(Seconds time) {
-  const Seconds passed = time - std::exchange(now_, std::max(now_, time));
-  if (!any_ || passed.value() <= 0) return;
-  MotorPositions& moving = moving_positions();
-  for (std::size_t m = 0; m < motors_.size(); ++m) {
-    Fitted& one = motors_[m];
-    if (!one.rotor || one.rotor->rests()) continue;
-    one.rotor->run(passed);
-    moving[m] = one.origin + one.rotor->place();
-    look_at(m);
+  const Seconds passed = pass_to(time);
+  if (fitted_ == 0 || passed.value() <= 0) return;
+  for (std::size_t m = 0; m < fitted_; ++m) {
+    if (motors_[m].rotor) turn(m, passed, 0);
   }
   move_slides();
 }
 
-void RotorPlant::look_at(std::size_t motor) {
+Seconds RotorPlant::pass_to(Seconds time) {
+  const Seconds passed = time - now_;
+  now_ = std::max(now_, time);
+  return passed;
+}
+
+// `stepped`: the pulse that the motor has just got, if any. Before the pulse the lag was another one.
+void RotorPlant::look_at(std::size_t motor, int stepped) {
   Fitted& one = motors_[motor];
-  const double lag = std::abs(one.rotor->lag());
-  if (lag > one.record.most_lag) {
+  const double after = one.rotor->lag();
+  const double lag = std::max(std::abs(after), std::abs(after - stepped * one.full_step));
+  if (lag > one.record.most_lag) [[unlikely]] {
     one.record.most_lag = lag;
     one.record.most_lag_at = now_;
   }
-  if (one.pull_out) {
-    const RadiansPerSecond speed{std::abs(one.rotor->speed().value)};
-    const double torque = std::abs(one.rotor->mean_torque().value);
-    const double most = one.pull_out->pull_out(speed).value;
-    const double margin = torque < 2 * most ? 1 - torque / most : -1;
-    if (margin < one.record.least_margin) {
-      one.record.least_margin = margin;
-      one.record.least_margin_at = now_;
-    }
-  }
+  if (now_ >= one.margin_due) [[unlikely]]
+    look_at_margin(one);
+  if (!one.rotor->is_reduced() && one.rotor->slipped() != one.record.lost) look_at_loss(motor);
+}
+
+void RotorPlant::look_at_loss(std::size_t motor) {
+  Fitted& one = motors_[motor];
   const std::int64_t lost = one.rotor->slipped() - one.record.lost;
-  if (lost == 0) return;
   one.record.lost += lost;
   if (losses_.size() < most_losses) losses_.push_back({.time = now_, .motor = motor, .steps = lost});
+}
+
+void RotorPlant::look_at_margin(Fitted& one) const {
+  one.margin_due = now_ + between_margins;
+  if (!one.pull_out) return;
+  const RadiansPerSecond speed{std::abs(one.rotor->speed().value)};
+  const double torque = std::abs(one.rotor->mean_torque().value);
+  const double most = one.pull_out->pull_out(speed).value;
+  const double margin = torque < 2 * most ? 1 - torque / most : -1;
+  if (margin >= one.record.least_margin) return;
+  one.record.least_margin = margin;
+  one.record.least_margin_at = now_;
 }
 
 std::uint16_t RotorPlant::inputs_at(Seconds time) {
@@ -100,7 +130,7 @@ bool RotorPlant::settle(Seconds most) {
 Truth RotorPlant::truth_at(Seconds time) {
   run_to(time);
   set_switches();
-  return {.positions = slides(), .spindle_turns = spindle().turns_at(time), .inputs = switches().closed()};
+  return truth_now(time);
 }
 
 }  // namespace passo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "characters.hpp"
 #include <cairo-svg.h>
 #include <cairo.h>
 
@@ -26,20 +27,6 @@ cairo_surface_t* make_surface(const PictureOptions& options, OutputFile& file) {
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, options.width * scale, options.height * scale);
   cairo_surface_set_device_scale(surface, scale, scale);
   return surface;
-}
-
-// The number of bytes of the UTF-8 character at the start of `text`; 0 if there is none.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return byte(0) < 0x20 || byte(0) == 0x7f ? 0 : 1;
-  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) < 0xc2 || byte(0) > 0xf4 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80U) return 0;
-  }
-  const bool overlong = (byte(0) == 0xe0 && byte(1) < 0xa0) || (byte(0) == 0xf0 && byte(1) < 0x90);
-  const bool outside = (byte(0) == 0xed && byte(1) >= 0xa0) || (byte(0) == 0xf4 && byte(1) >= 0x90);
-  return overlong || outside ? 0 : length;
 }
 
 // File names may hold any bytes. cairo would stop drawing at the first byte that is no character.

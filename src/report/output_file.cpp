@@ -42,6 +42,7 @@ struct OutputFile::State {
   std::string shown;                       // as the user named it
   std::string path;                        // the path without symbolic links
   std::unique_ptr<NamelessFile> nameless;  // null: the file is written directly
+  std::string* text = nullptr;             // takes the bytes instead of a file
   int descriptor = -1;
   int error = 0;  // errno of the first failure
   std::uint64_t size = 0;
@@ -74,6 +75,7 @@ struct OutputFile::State {
   }
 
   void flush() {
+    if (text != nullptr) text->append(std::exchange(buffer, {}));
     const char* next = buffer.data();
     std::size_t left = buffer.size();
     while (left > 0 && error == 0) {
@@ -124,6 +126,12 @@ Result<OutputFile, OutputError> OutputFile::open(const std::string& path) {
     error = state->open_nameless(exists ? &existing : nullptr);
   }
   if (error != 0) return Failure{state->failure(error)};
+  return OutputFile(std::move(state));
+}
+
+OutputFile OutputFile::into(std::string& text) {
+  auto state = std::make_unique<State>();
+  state->text = &text;
   return OutputFile(std::move(state));
 }
 

@@ -82,23 +82,24 @@ double draw_tools(Canvas& canvas, const PathRecorder& path, double x, double y) 
 
 void draw_legend(Canvas& canvas, const PathRecorder& path, const Scene& scene, const Area& area) {
   const double middle = area.y + area.height / 2;
+  const double between = std::min(70.0, 0.06 * area.width);
   double x = area.x;
-  const Area bar{area.x, middle - 6, 520, 12};
+  const Area bar{area.x, middle - 6, std::min(520.0, 0.4 * area.width), 12};
   const PathColour by = scene.colours.by();
   if (path.fastest_feed() > MmPerSecond(0) && by == PathColour::tool) {
     x = draw_tools(canvas, path, x, middle);
   } else if (path.fastest_feed() > MmPerSecond(0) && by == PathColour::speed) {
     draw_bar(canvas, "Feed, actual speed in mm/min", 0, path.fastest_feed().value() * seconds_per_minute, bar);
-    x = bar.right() + 70;
+    x = bar.right() + between;
   } else if (path.fastest_feed() > MmPerSecond(0) && by == PathColour::margin) {
     draw_bar(canvas, "Feed, needed torque in % of what is surely there", 0, 100, bar);
-    x = bar.right() + 70;
+    x = bar.right() + between;
   } else if (path.fastest_feed() > MmPerSecond(0)) {
     const double high = path.feed_extents().high[Axis::z] - scene.zero[Axis::z];
     const double low = path.feed_extents().low[Axis::z] - scene.zero[Axis::z];
     if (high > low) {
       draw_bar(canvas, "Feed, Z in mm", high, low, bar);
-      x = bar.right() + 70;
+      x = bar.right() + between;
     } else {
       const std::string words = fmt::format("Feed, all at Z {} mm", length_text(high));
       canvas.line({x, middle}, {x + 26, middle},
@@ -110,9 +111,10 @@ void draw_legend(Canvas& canvas, const PathRecorder& path, const Scene& scene, c
   if (scene.rapids) {
     Pen pen = rapid_pen();
     pen.width = 1.2;
-    canvas.line({x, middle}, {x + 48, middle}, pen);
-    canvas.text({x + 60, middle}, "Rapid", caption);
-    x += 60 + canvas.text_width("Rapid", caption) + 60;
+    const double sample = std::min(48.0, 0.06 * area.width);
+    canvas.line({x, middle}, {x + sample, middle}, pen);
+    canvas.text({x + sample + 12, middle}, "Rapid", caption);
+    x += sample + 12 + canvas.text_width("Rapid", caption) + std::min(60.0, 0.06 * area.width);
   }
   canvas.disc({x, middle}, 3, label.colour);
   canvas.text({x + 14, middle}, path.origins().size() > 1 ? "Work zeros" : "Work zero", caption);
@@ -141,6 +143,26 @@ Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions&
   draw_isometric_view(canvas, scene, {margin, upper, views * 0.54, height - upper - lower + 30});
   draw_flat_view(canvas, scene, view, {margin + views * 0.54 + 90, upper, views * 0.46 - 90, height - upper - lower});
   if (!path.empty()) draw_legend(canvas, path, scene, {margin, height - 84, views, 60});
+  return canvas.finish();
+}
+
+Status<OutputError> draw_view(const PathRecorder& path, PictureView which, const PictureOptions& options,
+                              OutputFile& file) {
+  Canvas canvas(options, file);
+  const double width = options.width;
+  const double height = options.height;
+  const Scene scene(path, options);
+  canvas.fill({0, 0, width, height}, paper);
+  constexpr double edge = 12;
+  if (which == PictureView::isometric) {
+    draw_isometric_view(canvas, scene, {edge, 36, width - 2 * edge, height - 36 - edge});
+    return canvas.finish();
+  }
+  const FlatView view = options.view == FlatView::automatic ? natural_view(path, options.is_lathe) : options.view;
+  constexpr double for_labels = 64;
+  constexpr double for_legend = 120;
+  draw_flat_view(canvas, scene, view, {for_labels, 36, width - for_labels - edge, height - 36 - for_legend});
+  if (!path.empty()) draw_legend(canvas, path, scene, {for_labels, height - 66, width - for_labels - edge, 60});
   return canvas.finish();
 }
 

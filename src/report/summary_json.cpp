@@ -84,6 +84,10 @@ void add_board(const RunSummary& summary, const BoardSummary& board, Json& json)
     json["board"]["held_items"] = board.held_items;
     json["board"]["rests"] = board.rests;
   }
+  if (board.without_line) {
+    json["board"]["cost_of_line_s"] = board.cost_of_line().value();
+    json["board"]["cost_of_line_share"] = board.cost_of_line() / *board.without_line;
+  }
 }
 
 Json places(const RunSummary& summary, const std::vector<double>& values) {

@@ -134,6 +134,10 @@ class Text {
       line("holds", counted(static_cast<std::uint64_t>(board.held_items), "item"),
            fmt::format("  and rested {} for want of more", so_often(board.rests)));
     }
+    if (board.without_line) {
+      line("line", duration(board.cost_of_line()),
+           fmt::format("  longer than without it: {:.2g} %", 100 * (board.cost_of_line() / *board.without_line)));
+    }
   }
 
   void holds(const RunSummary& summary) {

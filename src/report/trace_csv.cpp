@@ -5,18 +5,33 @@
 #include <utility>
 
 namespace passo {
+namespace {
+
+char column(const TraceMotor& motor) {
+  return static_cast<char>(letter_of(motor.axis) - 'A' + 'a');
+}
+
+}  // namespace
 
 TraceCsv::TraceCsv(const TraceOptions& options, TraceSink sink)
     : buffer_(std::move(sink)),
       ticks_a_second_(static_cast<std::uint64_t>(std::llround(options.clock.value()))),
-      motors_(static_cast<unsigned>(options.motors.size())) {
+      motors_(static_cast<unsigned>(options.motors.size())),
+      windings_(options.windings) {
   assert(motors_ <= max_motors);
   buffer_.put('t');
   for (unsigned m = 0; m < motors_; ++m) {
     const TraceMotor& motor = options.motors[m];
     buffer_.put(',');
-    buffer_.put(static_cast<char>(letter_of(motor.axis) - 'A' + 'a'));
+    buffer_.put(column(motor));
     if (motor.inverted) inverted_ = static_cast<std::uint8_t>(inverted_ | 1U << m);
+  }
+  for (unsigned m = 0; windings_.exist() && m < motors_; ++m) {
+    for (unsigned f = 0; f < TraceWindings::outputs; ++f) {
+      for (const char letter : {',', column(options.motors[m]), '_', 'f', static_cast<char>('1' + f)}) {
+        buffer_.put(letter);
+      }
+    }
   }
   buffer_.put('\n');
 }
@@ -30,7 +45,18 @@ void TraceCsv::on_steps(Ticks time, std::uint8_t stepped, std::uint8_t direction
     if ((stepped & down) >> m & 1U) buffer_.put('-');
     buffer_.put(static_cast<char>('0' + (stepped >> m & 1U)));
   }
+  if (windings_.exist()) put_windings(stepped, directions);
   buffer_.put('\n');
+}
+
+void TraceCsv::put_windings(std::uint8_t stepped, std::uint8_t directions) {
+  for (unsigned m = 0; m < motors_; ++m) {
+    if ((stepped >> m & 1U) != 0) windings_.step(m, (directions >> m & 1U) != 0);
+    for (unsigned f = 0; f < TraceWindings::outputs; ++f) {
+      buffer_.put(',');
+      buffer_.put(windings_.is_on(m, f) ? '1' : '0');
+    }
+  }
 }
 
 void TraceCsv::put_seconds(std::uint64_t ticks) {

@@ -45,7 +45,10 @@ std::uint64_t TraceVcd::Scale::units(std::uint64_t ticks) const {
 }
 
 TraceVcd::TraceVcd(const TraceOptions& options, TraceSink sink)
-    : buffer_(std::move(sink)), scale_(options.clock), motors_(static_cast<unsigned>(options.motors.size())) {
+    : buffer_(std::move(sink)),
+      scale_(options.clock),
+      motors_(static_cast<unsigned>(options.motors.size())),
+      windings_(options.windings) {
   assert(motors_ <= max_motors);
   const double pulse = options.step_pulse.value() * 1e12 / static_cast<double>(scale_.picoseconds);
   step_pulse_ = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(pulse)));
@@ -62,10 +65,24 @@ void TraceVcd::put_header(const TraceOptions& options) {
   }
   for (unsigned i = 0; i < switch_names.size(); ++i) put_variable(1, output_wire(i), switch_names[i]);
   put_variable(rpm_bits, output_wire(rpm_output), "spindle_rpm");
+  const auto each_winding = [&](const auto& visit) {
+    for (unsigned m = 0; windings_.exist() && m < motors_; ++m) {
+      for (unsigned f = 0; f < TraceWindings::outputs; ++f) visit(m, f);
+    }
+  };
+  each_winding([&](unsigned m, unsigned f) {
+    const std::string name = {letter_of(options.motors[m].axis), '_', 'F', static_cast<char>('1' + f)};
+    put_variable(1, winding_wire(m, f), name);
+  });
   buffer_.put("$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n");
   for (unsigned wire = 0; wire < output_wire(rpm_output); ++wire) put_bit(wire, false);
   put_rpm(0);
+  each_winding([&](unsigned m, unsigned f) { put_bit(winding_wire(m, f), false); });
   buffer_.put("$end\n");
+}
+
+unsigned TraceVcd::winding_wire(unsigned motor, unsigned output) const {
+  return output_wire(rpm_output) + 1 + TraceWindings::outputs * motor + output;
 }
 
 void TraceVcd::put_variable(unsigned bits, unsigned wire, std::string_view name) {
@@ -120,6 +137,12 @@ void TraceVcd::on_steps(Ticks time, std::uint8_t stepped, std::uint8_t direction
   for (unsigned m = 0; m < motors_; ++m) {
     if ((turned >> m & 1U) != 0) put_bit(direction_wire(m), (directions >> m & 1U) != 0);
     if ((stepped >> m & 1U) != 0) put_bit(step_wire(m), true);
+    if ((stepped >> m & 1U) != 0 && windings_.exist()) {
+      const unsigned switched = windings_.step(m, (directions >> m & 1U) != 0);
+      for (unsigned f = 0; f < TraceWindings::outputs; ++f) {
+        if ((switched >> f & 1U) != 0) put_bit(winding_wire(m, f), windings_.is_on(m, f));
+      }
+    }
   }
   high_ = stepped;
   rose_at_ = at;

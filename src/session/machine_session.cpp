@@ -99,6 +99,7 @@ void MachineSession::turn(Seconds most) {
   }
   mind_board();
   look_at_panel();
+  look_at_place();
 }
 
 // Says hello. Before a second hello, asks the board for its status and its place.
@@ -122,6 +123,11 @@ void MachineSession::go_online(Seconds most) {
   if (std::exchange(switches_off_, false)) board_.send(BoardOutputs{});
   if (board_.busy()) board_.poll(most);
   if (board_.busy() || board_.error()) return;
+  if (watches_counts() && !board_.status()) {
+    if (board_.settled()) board_.inquire(Question::status);
+    board_.poll(most);
+    if (!board_.status()) return;
+  }
   place_.reset();
   stand_at(position_);
   move_to(MachineEvent::ready);
@@ -141,7 +147,7 @@ void MachineSession::stand_at(const KnownPosition& position) {
 }
 
 void MachineSession::count_from_here() {
-  if (!options_.over_a_line || !board_.status()) return;
+  if (!watches_counts() || !board_.status()) return;
   const MotorSteps steps = place_ ? steps_of(*place_) : steps_at(machine_, position_.place, position_.downs);
   zero_counts_.emplace();
   for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
@@ -207,6 +213,7 @@ void MachineSession::turn_work(Seconds most) {
     return;
   }
   mind_lease();
+  if (mind_lines(most)) return;
   const MotionDrive::Turn turn = work_->drive->advance();
   if (turn == MotionDrive::Turn::ended) return finish_work();
   mind_holds();
@@ -225,7 +232,7 @@ void MachineSession::mind_lease() {
 
 // Sets the state of a program by its strongest reason to rest.
 void MachineSession::mind_holds() {
-  if (work_->program == nullptr || !work_->drive) return;
+  if (!work_->is_program() || !work_->drive) return;
   const MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
   const bool held = drive.state() == MotionDrive::State::held;
@@ -233,10 +240,13 @@ void MachineSession::mind_holds() {
   if (holds.has(HoldReason::door)) {
     if (state_ != MachineState::door) move_to(MachineEvent::open_door);
   } else if (holds.any_of({HoldReason::operator_hold, HoldReason::program_stop}) ||
-             (held && holds.has(HoldReason::zero_feed) && !holds.has(HoldReason::tool_change))) {
+             (held && holds.has(HoldReason::zero_feed) &&
+              !holds.any_of({HoldReason::tool_change, HoldReason::await_line}))) {
     if (state_ != MachineState::hold) move_to(MachineEvent::hold);
   } else if (holds.has(HoldReason::tool_change)) {
     if (state_ != MachineState::tool_change) move_to(MachineEvent::want_tool);
+  } else if (holds.has(HoldReason::await_line)) {
+    if (state_ != MachineState::await_line) move_to(MachineEvent::want_line);
   } else if (state_ != MachineState::run && !drive.stopped()) {
     move_to(MachineEvent::resume);
   }
@@ -258,7 +268,7 @@ void MachineSession::note_tails() {
 // The drive has ended. Over a line, the board is asked where it stands. A limit switch that was closed may be open now.
 void MachineSession::finish_work() {
   note_tails();
-  const bool asks = options_.over_a_line || closed_limit();
+  const bool asks = watches_counts() || closed_limit();
   if (!asks || board_.error()) return end_work();
   work_->finishing = true;
   board_.inquire(Question::status);
@@ -303,12 +313,7 @@ void MachineSession::note_place() {
   if (board_.error() && !is_of_work(*board_.error())) return;
   place_ = work_->drive->place();
   position_.downs = work_->drive->downs();
-  const StepOptions steps = passo::step_options(machine_);
-  for (std::size_t m = 0; m < machine_.axes.size(); ++m) {
-    const double exact = static_cast<double>(place_->motors[m]) / whole_step - 0.5;
-    const Motor& motor = steps.motors[m];
-    position_.place[motor.axis] = motor.place_at(exact, position_.downs.has(motor.axis));
-  }
+  position_.place = place_of(*place_, position_.downs);
   const bool agrees = !work_->finishing || counts_agree();
   const bool is_homed = work_->homing != nullptr && work_->homing->done() && !work_->drive->stopped();
   // The second motor of an axis has turned alone: of the first one the counts know nothing more.
@@ -380,7 +385,7 @@ void MachineSession::look_at_panel() {
     move_to(MachineEvent::close_door);
   }
   if (!runs) return;
-  if (work_->program == nullptr) {
+  if (!work_->is_program()) {
     if (pressed.hold || pressed.door) work_->drive->stop();
     return;
   }
@@ -432,6 +437,8 @@ MachineStatus MachineSession::status() const {
   status.time = now();
   status.state = state_;
   status.position = position_;
+  status.now_at = now_at_;
+  status.speed_now = speed_now_;
   status.ahead = position_.place;
   status.inputs = board_.inputs();
   status.overrides = overrides_;

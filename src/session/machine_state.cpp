@@ -6,9 +6,9 @@ namespace passo {
 
 std::string_view name_of(MachineEvent event) {
   constexpr std::array<std::string_view, event_count> names = {
-      "ready",        "begin run",  "begin jog", "begin home",  "begin probe", "begin check",
-      "hold",         "resume",     "want tool", "open door",   "close door",  "end",
-      "stop at once", "lose board", "reset",     "fall asleep", "wake"};
+      "ready", "begin run",    "begin jog",  "begin home", "begin probe", "begin check",
+      "hold",  "resume",       "want tool",  "want line",  "open door",   "close door",
+      "end",   "stop at once", "lose board", "reset",      "fall asleep", "wake"};
   return names[static_cast<std::size_t>(event)];
 }
 

@@ -170,10 +170,36 @@ MachineSession::Answer MachineSession::take(request::Start& start) {
   return begin(MachineEvent::begin_run, std::move(work));
 }
 
+// The program outlives the stream, and so do its modes. So what the program has left on is switched on again.
+MachineSession::Answer MachineSession::take(request::Stream& stream) {
+  if (auto refused = refuse(MachineEvent::begin_run)) return Failure{*refused};
+  if (auto refused = closed_limit(); refused && !stream.program->jogs()) return Failure{*refused};
+  auto work = std::make_unique<Work>();
+  work->lines = stream.program;
+  work->activity = std::make_unique<OpenRun>(*stream.program, machine_);
+  work->watchers = std::move(stream.watchers);
+  DriveOptions options = drive_options();
+  options.spindle_wait = machine_.silence.spindle_wait;
+  options.waits_for_operator = true;
+  put_on_drive(*work, options, true);
+  return begin(MachineEvent::begin_run, std::move(work));
+}
+
+MachineSession::Answer MachineSession::take(request::DropLines&) {
+  if (!busy() || work_->lines == nullptr) return refusal(RefusalCode::nothing_runs, "no lines are queued");
+  const Ticket ticket = ++last_ticket_;
+  waiting_holds_.push_back(ticket);
+  work_->lines->drop(position_.place);
+  work_->drops = true;
+  work_->drive->drop();
+  return ticket;
+}
+
 // Puts the work's activity on a drive, and connects all watchers.
 void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool knows_ahead) {
-  work.drive = std::make_unique<MotionDrive>(*work.activity, motion_limits(machine_), step_options(), board_,
-                                             work.answers, options);
+  AnswerBook& answers = work.lines != nullptr ? work.lines->answers() : work.answers;
+  work.drive =
+      std::make_unique<MotionDrive>(*work.activity, motion_limits(machine_), step_options(), board_, answers, options);
   MotionDrive& drive = *work.drive;
   Watchers& watchers = work.watchers;
   work.ahead = position_.place;
@@ -196,7 +222,7 @@ void MachineSession::put_on_drive(Work& work, const DriveOptions& options, bool 
     if (watchers.executed) refiller->watch_executed(watchers.executed);
     if (watchers.rests) refiller->watch_rests(watchers.rests);
   }
-  if (work.program == nullptr) return;
+  if (!work.is_program()) return;
   if (overrides_.feed != 1) drive.set_feed_override(overrides_.feed);
   if (overrides_.adaptive_feed != 1) drive.set_adaptive_feed(overrides_.adaptive_feed);
   if (overrides_.spindle != 1) drive.set_spindle_override(overrides_.spindle);
@@ -271,7 +297,7 @@ MachineSession::Answer MachineSession::take(request::Check& check) {
 MachineSession::Answer MachineSession::take(request::Hold&) {
   if (!busy() || state_ == MachineState::check) return refusal(RefusalCode::nothing_runs, "nothing moves");
   const Ticket ticket = ++last_ticket_;
-  if (work_->program == nullptr) {
+  if (!work_->is_program()) {
     work_->drive->stop();
   } else {
     work_->drive->hold();
@@ -283,7 +309,7 @@ MachineSession::Answer MachineSession::take(request::Hold&) {
 }
 
 MachineSession::Answer MachineSession::take(request::Resume&) {
-  if (!busy() || work_->program == nullptr) return refusal(RefusalCode::nothing_runs, "no program is held");
+  if (!busy() || !work_->is_program()) return refusal(RefusalCode::nothing_runs, "no program is held");
   MotionDrive& drive = *work_->drive;
   const HoldReasons holds = drive.holds();
   if (drive.stopped() || !holds.any_of({HoldReason::operator_hold, HoldReason::door})) {
@@ -314,7 +340,7 @@ MachineSession::Answer MachineSession::take(request::Override& change) {
   overrides_.feed = change.feed.value_or(overrides_.feed);
   overrides_.adaptive_feed = change.adaptive_feed.value_or(overrides_.adaptive_feed);
   overrides_.spindle = change.spindle.value_or(overrides_.spindle);
-  if (busy() && work_->program != nullptr) {
+  if (busy() && work_->is_program()) {
     MotionDrive& drive = *work_->drive;
     if (change.feed) drive.set_feed_override(*change.feed);
     if (change.adaptive_feed) drive.set_adaptive_feed(*change.adaptive_feed);

@@ -18,6 +18,9 @@ class MachineSession::Work {
   Work(const Work&) = delete;
   Work& operator=(const Work&) = delete;
 
+  // Whether this is a program, which may be held and goes on.
+  bool is_program() const { return program != nullptr || lines != nullptr; }
+
   Ticket ticket = 0;
   bool ended = false;
   bool stopped = false;    // somebody asked to stop
@@ -35,7 +38,9 @@ class MachineSession::Work {
   AnswerBook answers;
   Watchers watchers;
   std::unique_ptr<Activity> activity;
-  Program* program = nullptr;  // the activity, if it is a program
+  Program* program = nullptr;    // the activity, if it is a program
+  OpenProgram* lines = nullptr;  // the program behind the activity, if it comes line by line
+  bool drops = false;            // what is queued is being dropped
   HomingPath* homing = nullptr;
   std::unique_ptr<MotionDrive> drive;
   std::unique_ptr<ProgramChecker> checker;  // for a check, which has no activity

@@ -143,6 +143,9 @@ void MarginSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
   for (int i = 0; i <= count; ++i) {
     const Seconds t = phase.duration * (static_cast<double>(i) / count);
     looks_.emplace_back(move, phase, t, now_ + t);
+    if (i == 0) continue;
+    find_leader(looks_[looks_.size() - 2], looks_.back());
+    looks_.back().leader = leader_;
   }
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     if (curve.shape() == Curve::Shape::line && !curve.moves(motors_[m].axis)) {
@@ -167,12 +170,10 @@ void MarginSurvey::watch_motor(const PlannedMove& move, std::size_t motor) {
                     .speed_from = from.speed,
                     .speed_to = to.speed,
                     .load = worst.load()};
-    find_leader(looks_[i - 1], looks_[i]);
-    if (leader_.axis && leader_.axis != own.axis) {
-      const Axis axis = *leader_.axis;
-      const double lines = grid_.steps_per_unit[axis] * leader_.division;
-      piece.grid_from = looks_[i - 1].place[axis] * lines + leader_.division / 2;
-      piece.grid_to = looks_[i].place[axis] * lines + leader_.division / 2;
+    if (const Leader& leader = looks_[i].leader; leader.axis && leader.axis != own.axis) {
+      const double lines = grid_.steps_per_unit[*leader.axis] * leader.division;
+      piece.grid_from = looks_[i - 1].place[*leader.axis] * lines + leader.division / 2;
+      piece.grid_to = looks_[i].place[*leader.axis] * lines + leader.division / 2;
     }
     judge(motor, worst, trials_[motor].play(piece));
     worst = spot;

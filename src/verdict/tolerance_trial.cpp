@@ -118,10 +118,10 @@ float& ToleranceTrial::played_of_kind(const AxisPiece& piece) {
 
 void ToleranceTrial::begin(const AxisPiece& piece) {
   stop();
-  for (const MotorSetup& setup : setups_) motors_.emplace_back(setup);
+  for (const MotorSetup& setup : setups_) motors_.emplace_back(setup, Integration::where_needed);
   origin_ = std::round(steps_per_unit_ * piece.from);
   if (setups_[0].weight.value != 0) {
-    for (RunningMotor& motor : motors_) motor.run(Seconds(to_settle));
+    for (BoundedMotor& motor : motors_) motor.run(Seconds(to_settle));
   }
   const double full_step = motors_[0].steps_per_full_step();
   if (std::abs(piece.speed_from) * steps_per_unit_ * carried > full_step) carry_to(piece);
@@ -138,7 +138,7 @@ void ToleranceTrial::carry_to(const AxisPiece& piece) {
                   .c3 = 0};
   origin_ = std::round(path.c0);
   follow({path.c0 - origin_, path.c1, path.c2, path.c3}, {}, carried, true);
-  for (RunningMotor& motor : motors_) motor.let_go();
+  for (BoundedMotor& motor : motors_) motor.let_go();
   out_ = 0;
 }
 
@@ -150,7 +150,7 @@ void ToleranceTrial::follow(const Path& path, const Path& grid, double duration,
   for (double i = 1; i <= parts; ++i) {
     if (carried_along) {
       const double speed = path.speed_at((i - 1) * part) / steps_per_unit_ * radians_per_unit_;
-      for (RunningMotor& motor : motors_) motor.carry({speed});
+      for (BoundedMotor& motor : motors_) motor.carry({speed});
     }
     const double here = path.at(i * part);
     const int way = here > before ? 1 : -1;
@@ -183,7 +183,7 @@ void ToleranceTrial::pass(double time) {
   pending_ = 0;
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     if ((out_ >> i & 1) != 0) continue;
-    RunningMotor& motor = motors_[i];
+    BoundedMotor& motor = motors_[i];
     motor.run(Seconds(time));
     most_swing_ = std::max(most_swing_, std::abs(motor.lag()));
     if (motor.slipped() == 0) continue;

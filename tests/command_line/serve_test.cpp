@@ -33,6 +33,13 @@ TEST_F(ServeCommand, is_the_board_of_the_machine_file) {
   EXPECT_EQ(passo("run " + program + " -q -m " + machine("router.toml") + from_here + " --board " + board).code, 1);
 }
 
+TEST_F(ServeCommand, for_senders_an_address_that_others_reach_must_be_asked_for_in_words) {
+  const auto outcome = passo("serve --grbl-tcp 0.0.0.0:0");
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("serve.open-port"));
+  EXPECT_EQ(passo("serve --grbl-tcp nowhere").code, 2);
+}
+
 TEST_F(ServeCommand, shows_itself_to_many_while_a_job_runs) {
   const std::string board = serve("", machine("router.toml"));
   const std::string program = write("p.ngc", "G21 G90 G1 F600 X2\nX0\nX2\nX0\nM2\n");

@@ -159,7 +159,7 @@ TEST_P(BrokenLineInFull, every_frame_boundary) {
   int trials = 0;
   int recoveries = 0;
   for (std::size_t program = 0; program < programs().size(); ++program) {
-    trials += cut_at_frame_boundaries(GetParam(), program, test::in_full(), {0.05, 0.5}, recoveries);
+    trials += cut_at_frame_boundaries(GetParam(), program, test::in_full(), {0.05, 0.2, 0.5}, recoveries);
     if (HasFatalFailure()) return;
   }
   std::printf("%d trials, %d recoveries from a tail\n", trials, recoveries);

@@ -88,6 +88,8 @@ class SessionSoak : public testing::Test {
       const MachineStatus& status;
       bool busy, runs;
       bool operator()(const request::Start&) const { return lacks(MachineEvent::begin_run); }
+      bool operator()(const request::Stream&) const { return lacks(MachineEvent::begin_run); }
+      bool operator()(const request::DropLines&) const { return true; }  // nothing here comes line by line
       bool operator()(const request::Jog&) const { return lacks(MachineEvent::begin_jog); }
       bool operator()(const request::RenewLease&) const { return status.state != MachineState::jog; }
       bool operator()(const request::Home&) const { return lacks(MachineEvent::begin_home); }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "check_page.hpp"
+#include "check_report.hpp"
 #include "commands.hpp"
 #include "findings_json.hpp"
 #include "named_files.hpp"
@@ -125,16 +126,118 @@ int measure(const CheckArguments& arguments, const MachineDescription& machine, 
   return proof.good() ? exit_done : exit_failed;
 }
 
-}  // namespace
+bool measures_motion(const CheckArguments& arguments) {
+  return arguments.motion || (!arguments.picture.empty() && arguments.colour_by.empty());
+}
 
-int check(const CheckArguments& arguments) {
+// What is wrong with the options. Empty: nothing.
+std::string refusal_of(const CheckArguments& arguments) {
   if (!arguments.picture.empty() && !picture_format_of(arguments.picture)) {
-    return fail(exit_bad_program, arguments.picture + ": a picture's name ends in .svg or .png");
+    return arguments.picture + ": a picture's name ends in .svg or .png";
   }
   const bool draws_margin = arguments.colour_by == "margin";
   if (!arguments.colour_by.empty() && (!draws_margin || arguments.picture.empty() || arguments.motion)) {
-    return fail(exit_bad_program, "--colour-by margin is for a --picture without --motion");
+    return "--colour-by margin is for a --picture without --motion";
   }
+  if (arguments.report.empty()) return "";
+  if (!arguments.report.ends_with(".html")) return arguments.report + ": a report's name ends in .html";
+  if (measures_motion(arguments)) {
+    return "--report is for a check without --motion, and without a picture of the motion";
+  }
+  return "";
+}
+
+// The share of a program that was read, by the lines that came. Lines in loops come again, and count once.
+class ReadShare {
+ public:
+  explicit ReadShare(std::uint64_t bytes) : whole_(static_cast<double>(bytes)) {}
+  void watch(const Operation& operation) {
+    if (operation.source.line <= line_) return;
+    line_ = operation.source.line;
+    read_ += operation.text.size() + 1;
+  }
+  double share() const { return whole_ > 0 ? static_cast<double>(read_) / whole_ : 0; }
+
+ private:
+  double whole_;
+  std::uint64_t read_ = 0;
+  std::uint32_t line_ = 0;
+};
+
+// The first look at the program: interpreter and path. About so much of the time goes into it, the rest into planning.
+constexpr double share_of_first_look = 0.3;
+
+struct FirstLook {
+  Diagnostics findings;
+  ProgramStops stops;
+  ProgramCheck result;
+};
+
+void look(const CheckArguments& arguments, const MachineDescription& machine, const ProgramReader& program,
+          const InterpreterOptions& options, ProgressDisplay& progress, FirstLook& first) {
+  constexpr unsigned items_between_looks = 4096;
+  ProgramMessages messages(arguments.program.program, !arguments.json);
+  FindingsDisplay display(first.findings);
+  ReadShare read(program.size());
+  unsigned items = 0;
+  const auto watch_path = [&](const PathItem& item) {
+    first.stops.watch(item);
+    if (!arguments.json && display.has_news()) {
+      progress.clear();
+      display.update();
+    }
+    if (++items % items_between_looks == 0) progress.update(share_of_first_look * read.share());
+  };
+  const auto watch_operations = [&](const Operation& operation) {
+    read.watch(operation);
+    messages.show(operation, [&] { progress.clear(); });
+  };
+  first.result = check_program(program.again(), machine, options, first.findings, watch_path, watch_operations);
+  progress.clear();
+  if (!arguments.json || (first.result.good && measures_motion(arguments))) display.finish();
+}
+
+void print(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
+           const std::optional<CheckPage>& page) {
+  if (arguments.json) {
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    nlohmann::ordered_json json = as_json(first.findings, first.stops);
+    if (page) add_to(json, *page, machine);
+    std::puts(json.dump(2, ' ', false, replace).c_str());
+    return;
+  }
+  const char* const name = arguments.program.program.c_str();
+  if (first.result.good) std::printf("%s: no errors\n", name);
+  if (first.stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, first.stops.words().c_str());
+  if (page) std::fputs(to_text(*page, machine).c_str(), stdout);
+}
+
+// Draws and writes what the arguments ask for. Returns an exit code.
+int write_files(const CheckArguments& arguments, const MachineDescription& machine, const FirstLook& first,
+                const std::optional<CheckPage>& page, const PathRecorder& path, const LoadTrack& track) {
+  if (page && !arguments.picture.empty()) {
+    const int code = draw(path, machine, arguments);
+    if (code != exit_done) return code;
+  }
+  if (arguments.report.empty()) return exit_done;
+  const CheckReport report{.program = std::filesystem::path(arguments.program.program).filename().string(),
+                           .machine = machine,
+                           .findings = first.findings,
+                           .waits = first.stops.count() > 0 ? first.stops.words() : "",
+                           .page = page ? &*page : nullptr,
+                           .path = path,
+                           .track = track};
+  Result<OutputFile, OutputError> file = OutputFile::open(arguments.report);
+  if (!file) return fail(exit_failed, file.error().message);
+  file->write(to_html(report));
+  const Status<OutputError> done = file->commit();
+  return done ? exit_done : fail(exit_failed, done.error().message);
+}
+
+}  // namespace
+
+int check(const CheckArguments& arguments) {
+  if (const std::string refusal = refusal_of(arguments); !refusal.empty()) return fail(exit_bad_program, refusal);
   Diagnostics diagnostics;
   const auto machine = load_machine_file(arguments.machine, diagnostics);
   show(diagnostics);
@@ -145,46 +248,33 @@ int check(const CheckArguments& arguments) {
   NamedFiles files = files_of(arguments.program, *options);
   files.reads("the machine file", arguments.machine);
   files.writes("--picture", arguments.picture);
+  files.writes("--report", arguments.report);
   if (!files.are_apart()) return exit_bad_program;
 
-  Diagnostics findings;
-  ProgramStops stops;
-  ProgramMessages messages(arguments.program.program, !arguments.json);
-  FindingsDisplay display(findings);
-  const auto watch_path = [&](const PathItem& item) {
-    stops.watch(item);
-    if (!arguments.json) display.update();
-  };
-  const auto watch_operations = [&](const Operation& operation) { messages.show(operation); };
-  const ProgramCheck result =
-      check_program(program->again(), *machine, *options, findings, watch_path, watch_operations);
-  if (result.good && (arguments.motion || (!arguments.picture.empty() && !draws_margin))) {
-    display.finish();
-    return measure(arguments, *machine, std::move(*program), *options, result.nominal_time, findings);
+  FirstLook first;
+  ProgressDisplay progress(program->name());
+  look(arguments, *machine, *program, *options, progress, first);
+  if (first.result.good && measures_motion(arguments)) {
+    return measure(arguments, *machine, std::move(*program), *options, first.result.nominal_time, first.findings);
   }
-  if (!arguments.json) display.finish();
   std::optional<CheckPage> page;
   PathRecorder path;
-  if (result.good) page = judge(std::move(*program), *machine, *options, result, draws_margin ? &path : nullptr);
-  if (page && draws_margin) {
-    const int code = draw(path, *machine, arguments);
-    if (code != exit_done) return code;
+  LoadTrack track;
+  if (first.result.good) {
+    const bool reports = !arguments.report.empty();
+    page = judge(program->again(), *machine, *options, first.result,
+                 {.path = reports || !arguments.picture.empty() ? &path : nullptr, .track = reports ? &track : nullptr},
+                 [&](double share) { progress.update(share_of_first_look + (1 - share_of_first_look) * share); });
   }
-  if (arguments.json) {
-    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    nlohmann::ordered_json json = as_json(findings, stops);
-    if (page) add_to(json, *page, *machine);
-    std::puts(json.dump(2, ' ', false, replace).c_str());
-  } else {
-    const char* const name = arguments.program.program.c_str();
-    if (result.good) std::printf("%s: no errors\n", name);
-    if (stops.count() > 0) std::printf("%s: waits for somebody at %s\n", name, stops.words().c_str());
-    if (page) std::fputs(to_text(*page, *machine).c_str(), stdout);
-  }
+  progress.clear();
+  if (page) page->line = line_cost(std::move(*program), *machine, *options, first.result, page->summary.time());
+  const int written = write_files(arguments, *machine, first, page, path, track);
+  if (written != exit_done) return written;
+  print(arguments, *machine, first, page);
   if (page && page->lost()) {
     return fail(exit_failed, "the motors would lose steps: this part would be scrap [check.steps-lost]");
   }
-  return result.good ? exit_done : exit_bad_program;
+  return first.result.good ? exit_done : exit_bad_program;
 }
 
 }  // namespace passo

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "progress_display.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -15,9 +14,7 @@
 #include "passo/verdict/margin_words.hpp"
 
 namespace passo {
-namespace {
 
-// 0:12:31
 std::string clock_words(Seconds time) {
   const auto seconds = static_cast<long long>(std::llround(time.value()));
   return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
@@ -26,6 +23,17 @@ std::string clock_words(Seconds time) {
 const AxisDescription& description_of(const MachineDescription& machine, Axis axis) {
   return *std::ranges::find(machine.axes, axis, &AxisDescription::axis);
 }
+
+std::string limit_words(const SpeedShare& share) {
+  std::string words = words_of(share.bound);
+  if (!(share.limit > 0)) return words;
+  const char* const unit = is_rotary(share.bound.axis) ? "deg" : "mm";
+  const bool velocity = share.bound.kind == SpeedBound::Kind::velocity;
+  const bool jerk = share.bound.kind == SpeedBound::Kind::jerk;
+  return words + fmt::format(", {:.4g} {}/s{}", share.limit, unit, velocity ? "" : jerk ? "\u00B3" : "\u00B2");
+}
+
+namespace {
 
 std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
   const char* unit = is_rotary(axis.axis) ? "deg" : "mm";
@@ -36,6 +44,40 @@ std::string axis_words(const AxisSummary& moved, const AxisDescription& axis) {
                      moved.machine_extents->low, moved.machine_extents->high, axis.travel_low, axis.travel_high,
                      moved.peak_speed.value(), axis.velocity.value(), moved.peak_acceleration.value(),
                      axis.acceleration.value(), fmt::arg("unit", unit));
+}
+
+// The axes whose limits are reached, and for how much of the time. The motion's bounds with less than half a percent of
+// the time are left out.
+std::string speed_words(const CheckPage& page) {
+  const Seconds whole = page.summary.cutting_time + page.summary.rapid_time;
+  if (!(whole > Seconds(0))) return "";
+  std::string words = "speed           bounded, of the time in motion, by\n";
+  constexpr std::size_t most_shares = 6;
+  std::size_t shown = 0;
+  for (const SpeedShare& share : page.speed.shares) {
+    const double percent = 100 * (share.time / whole);
+    if (percent < 0.5 || ++shown > most_shares) break;
+    words += fmt::format("  {:3.0f} %         {}; first in line {}\n", percent, limit_words(share), share.first_line);
+  }
+  constexpr std::size_t most_parts = 3;
+  const auto add = [&words](const char* what, const SpeedPart& part) {
+    words += fmt::format("  {}       line {}: {:.4g} mm/s", what, part.line,
+                         part.lost > Seconds(0) ? part.mean().value() : part.highest.value());
+    if (part.rapid) words += ", a rapid";
+    if (part.lost > Seconds(0)) {
+      words += fmt::format(" of {:.4g}, {:.2g} s lost", part.programmed.value(), part.lost.value());
+    }
+    words += fmt::format("; {}\n", words_of(part.bound));
+  };
+  for (std::size_t i = 0; i < std::min(most_parts, page.speed.slowest.size()); ++i) {
+    if (page.speed.slowest[i].lost >= notable_loss) add("slowest", page.speed.slowest[i]);
+  }
+  std::size_t feeds = 0;
+  for (SpeedPart part : page.speed.fastest) {
+    part.lost = Seconds(0);
+    if (part.rapid || ++feeds <= most_parts) add("fastest", part);
+  }
+  return words;
 }
 
 std::string motor_words(const CheckPage& page) {
@@ -55,6 +97,49 @@ std::string motor_words(const CheckPage& page) {
     words += fmt::format("  line {:<9}{}: {}; {}\n", spot.line, name_of(spot.verdict), cause_of(spot), cure_of(spot));
   }
   return words;
+}
+
+const char* name_of(SpeedBound::Kind kind) {
+  const char* const names[] = {"feed", "velocity", "acceleration", "bending", "torque", "jerk", "none"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+// The axis is null where no axis bounds the speed.
+nlohmann::ordered_json as_json(const SpeedBound& bound) {
+  const bool of_axis = bound.kind != SpeedBound::Kind::feed && bound.kind != SpeedBound::Kind::passage;
+  nlohmann::ordered_json json = {{"limit", name_of(bound.kind)}, {"axis", nullptr}};
+  if (of_axis) json["axis"] = std::string(1, letter_of(bound.axis));
+  return json;
+}
+
+nlohmann::ordered_json as_json(const std::vector<SpeedPart>& parts) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const SpeedPart& part : parts) {
+    nlohmann::ordered_json json = {{"line", part.line},
+                                   {"rapid", part.rapid},
+                                   {"way_mm", part.way.value()},
+                                   {"time_s", part.time.value()},
+                                   {"lost_s", part.lost.value()},
+                                   {"mean_mm_s", part.mean().value()},
+                                   {"highest_mm_s", part.highest.value()},
+                                   {"programmed_mm_s", nullptr}};
+    if (!part.rapid) json["programmed_mm_s"] = part.programmed.value();
+    json.update(as_json(part.bound));
+    list.push_back(json);
+  }
+  return list;
+}
+
+nlohmann::ordered_json as_json(const SpeedReport& speed) {
+  nlohmann::ordered_json bounds = nlohmann::ordered_json::array();
+  for (const SpeedShare& share : speed.shares) {
+    nlohmann::ordered_json json = as_json(share.bound);
+    json["time_s"] = share.time.value();
+    json["first_line"] = share.first_line;
+    if (share.limit > 0) json["value"] = share.limit;
+    bounds.push_back(json);
+  }
+  return {{"bounds", bounds}, {"slowest", as_json(speed.slowest)}, {"fastest", as_json(speed.fastest)}};
 }
 
 nlohmann::ordered_json as_json(const MarginSpot& spot) {
@@ -78,15 +163,36 @@ nlohmann::ordered_json as_json(const MarginSpot& spot) {
 
 }  // namespace
 
+// The track wants the load of each phase, and the survey tells that of the last move. So the move comes in pieces.
+// Returns the greatest load.
+static double watch_in_phases(const PlannedMove& move, MarginSurvey& survey, LoadTrack& track) {
+  double most = 0;
+  PlannedMove piece;
+  piece.begin_on(move.segment);
+  piece.phase_count = 1;
+  for (const Phase& phase : move) {
+    piece.phases[0] = phase;
+    piece.to = &phase + 1 == move.end() ? move.to : (&phase + 1)->start;
+    survey.watch(piece);
+    most = std::max(most, survey.last_load());
+    track.add(phase.duration, piece.to - phase.start, survey.last_load(), move.segment.source.line);
+  }
+  return most;
+}
+
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const ProgramCheck& check, PathRecorder* path) {
-  ProgressDisplay progress(program.name());
+                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress) {
   Diagnostics findings;  // after a good check only what is known already
   Program activity(std::move(program), machine, options, no_answers(), findings, check.nominal_time);
   std::vector<Axis> axes;
-  for (const AxisDescription& axis : machine.axes) axes.push_back(axis.axis);
+  AxisSet axis_set;
+  for (const AxisDescription& axis : machine.axes) {
+    axes.push_back(axis.axis);
+    axis_set.add(axis.axis);
+  }
   SummaryBuilder builder(axes);
   MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
+  SpeedSurvey speeds(motion_limits(machine), axis_set);
   CheckPage page;
   std::uint64_t segments = 0;
   activity.operations().watch([&](const Operation& operation) { builder.watch_operation(operation); });
@@ -103,14 +209,24 @@ CheckPage judge(ProgramReader program, const MachineDescription& machine, const 
   // A loop that only a probe ends goes on as far as the check has followed it.
   for (unsigned items = 1; (!check.probes || segments < check.moves) && planner.next(item); ++items) {
     const auto* move = std::get_if<PlannedMove>(&item);
-    survey.watch(item);
+    double load = 0;
+    if (move != nullptr && watchers.track != nullptr) {
+      load = watch_in_phases(*move, survey, *watchers.track);
+    } else {
+      survey.watch(item);
+      load = survey.last_load();
+    }
+    if (move != nullptr) speeds.watch(*move);
     builder.watch(item, move != nullptr ? move->segment.work_zero : Point());
-    if (path != nullptr) path->load_of_next(survey.last_load());
-    if (path != nullptr) path->watch(item, move != nullptr ? move->segment.work_zero : Point());
+    if (watchers.path != nullptr) {
+      watchers.path->load_of_next(load);
+      watchers.path->watch(item, move != nullptr ? move->segment.work_zero : Point());
+    }
     if (move == nullptr && std::get<Action>(item).kind == Action::Kind::tool_change) ++page.tool_changes;
-    if (items % items_between_looks == 0) progress.update(activity.nominal_time() / check.nominal_time);
+    if (items % items_between_looks == 0) progress(activity.nominal_time() / check.nominal_time);
   }
   page.summary = builder.summary();
+  page.speed = speeds.report();
   page.margin = survey.verdict();
   page.knows_motors = !page.margin.axes.empty();
   return page;
@@ -123,14 +239,16 @@ std::string to_text(const CheckPage& page, const MachineDescription& machine) {
   if (summary.dwell_time > Seconds(0)) text += fmt::format(", {} of dwells", clock_words(summary.dwell_time));
   if (page.tool_changes > 0) text += fmt::format(", and {} tool changes", page.tool_changes);
   text += "\n";
+  if (page.line) text += to_text(*page.line);
   for (const AxisSummary& axis : summary.axes) text += axis_words(axis, description_of(machine, axis.axis));
-  return text + motor_words(page);
+  return text + speed_words(page) + motor_words(page);
 }
 
 void add_to(nlohmann::ordered_json& json, const CheckPage& page, const MachineDescription& machine) {
   json["time_s"] = (page.summary.cutting_time + page.summary.rapid_time).value();
   json["dwell_s"] = page.summary.dwell_time.value();
   json["tool_changes"] = page.tool_changes;
+  json["line"] = page.line ? as_json(*page.line) : nlohmann::ordered_json();
   nlohmann::ordered_json axes = nlohmann::ordered_json::object();
   for (const AxisSummary& axis : page.summary.axes) {
     const AxisDescription& limits = description_of(machine, axis.axis);
@@ -141,6 +259,7 @@ void add_to(nlohmann::ordered_json& json, const CheckPage& page, const MachineDe
     axes[std::string(1, letter_of(axis.axis))] = own;
   }
   json["axes"] = axes;
+  json["speed"] = as_json(page.speed);
   json["margin"] = nullptr;
   if (!page.knows_motors) return;
   nlohmann::ordered_json worst = nlohmann::ordered_json::array();

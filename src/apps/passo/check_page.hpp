@@ -1,35 +1,58 @@
-// CheckPage: what `passo check` says of a program without errors: how long it takes, how far it goes, and whether the
-// motors can do it. The program is planned, but no step is made.
+// CheckPage: what `passo check` says of a program without errors: how long it takes, how far it goes, what bounds its
+// speed, what a line to the board costs, and whether the motors can do it.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "line_cost.hpp"
 #include <nlohmann/json_fwd.hpp>
 
 #include "passo/activity/program.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/report/path_recorder.hpp"
 #include "passo/report/summary.hpp"
+#include "passo/verdict/load_track.hpp"
 #include "passo/verdict/margin_survey.hpp"
+#include "passo/verdict/speed_survey.hpp"
 
 namespace passo {
 
 struct CheckPage {
   RunSummary summary;
+  SpeedReport speed;
   MarginVerdict margin;
   std::uint64_t tool_changes = 0;
   bool knows_motors = false;
+  std::optional<LineCost> line = {};  // empty: the machine file names no places, or a probe decides where to go
 
   // Whether the motors would surely lose steps.
   bool lost() const { return margin.verdict == Verdict::lost; }
 };
 
-// Plans a program that was checked, and judges its motion. `path` gets the motion with its load; null: nobody draws.
+// What else gets the motion, with its load. Null: nobody wants it.
+struct CheckWatchers {
+  PathRecorder* path = nullptr;
+  LoadTrack* track = nullptr;
+};
+
+// Plans a program that was checked, judges its motion, and plays it over a line. `progress` is told now and then which
+// share is done.
 CheckPage judge(ProgramReader program, const MachineDescription& machine, const InterpreterOptions& options,
-                const ProgramCheck& check, PathRecorder* path = nullptr);
+                const ProgramCheck& check, const CheckWatchers& watchers, const std::function<void(double)>& progress);
+
+// A line of the program that loses less than this against its feed is not told as slow.
+inline constexpr Seconds notable_loss{0.005};
+
+// 0:12:31
+std::string clock_words(Seconds time);
+const AxisDescription& description_of(const MachineDescription& machine, Axis axis);
+// "the acceleration of Z, 500 mm/s²".
+std::string limit_words(const SpeedShare& share);
 
 std::string to_text(const CheckPage& page, const MachineDescription& machine);
-// Adds the keys `time_s`, `dwell_s`, `tool_changes`, `axes` and `margin`.
+// Adds the keys `time_s`, `dwell_s`, `tool_changes`, `line`, `axes`, `speed` and `margin`.
 void add_to(nlohmann::ordered_json& json, const CheckPage& page, const MachineDescription& machine);
 
 }  // namespace passo

@@ -91,6 +91,7 @@ struct CheckArguments {
   bool motion = false;    // plans the path too, and measures the motion
   std::string picture;    // of the motion; empty: none
   std::string colour_by;  // "margin": the picture shows the path, coloured by the motors' margin; empty: the motion
+  std::string report;     // .html; empty: none
   bool json = false;
 };
 int check(const CheckArguments& arguments);
@@ -153,6 +154,15 @@ struct BoardServeArguments {
   bool once = false;    // ends when everybody has left
 };
 int board_serve(const BoardServeArguments& arguments);
+
+struct ServeArguments {
+  std::string machine;  // empty: the example machine
+  std::string board = "virtual";
+  std::string grbl_tcp;            // HOST:PORT; with no line at all: 127.0.0.1:7071
+  std::string grbl_pty;            // where the link to the pseudo-terminal is to be
+  bool anybody_may_drive = false;  // the port may be reached from other computers
+};
+int serve(const ServeArguments& arguments);
 
 struct InterpolateArguments {
   std::string method;  // a name of method_names(); empty with `compare`

@@ -29,6 +29,7 @@ constexpr const char* examples = R"(Examples:
   passo run part.ngc -m router.toml --json | jq .time_s       for scripts
   passo jog -m router.toml X+10 Y-3                           axes moved by hand
   passo home -m router.toml                                   where the machine stands, by its limit switches
+  passo serve                                                 a virtual machine for senders: UGS, bCNC, cncjs
   passo check part.ngc -m router.toml                         what is wrong with it, without running it
   passo check part.ngc -m router.toml --motion                peaks of the motion against the limits; the least time
   passo canon part.ngc                                        what it means, as canonical calls
@@ -133,6 +134,27 @@ CLI::App& add_home(CLI::App& app, HomeArguments& arguments) {
   return command;
 }
 
+CLI::App& add_serve(CLI::App& app, ServeArguments& arguments) {
+  CLI::App& command = *app.add_subcommand("serve", "let senders of G-code drive a machine, as a Grbl controller");
+  command.add_option("-m,--machine", arguments.machine, "machine file (TOML); without it an example");
+  add_board(command, arguments.board);
+  command.add_option("--grbl-tcp", arguments.grbl_tcp,
+                     "HOST:PORT for senders; without any line 127.0.0.1:7071. Port 0: any that is free");
+  command.add_option("--grbl-pty", arguments.grbl_pty,
+                     "LINK: a pseudo-terminal for senders that know serial ports alone");
+  command.add_flag("--anybody-may-drive", arguments.anybody_may_drive,
+                   "allow a HOST that other computers reach: the protocol has no password");
+  command.footer(
+      "Examples:\n  passo serve                                    a virtual machine: try a sender on it\n"
+      "  passo serve -m router.toml                     your machine file, still virtual\n"
+      "  passo serve -m uno.toml -b serial:/dev/ttyACM0     a real machine\n"
+      "  passo serve --grbl-pty /tmp/ttyPasso           for senders that open a serial port\n"
+      "  printf '?\\n$G\\n' | nc -q1 127.0.0.1 7071       what a sender sees\n"
+      "In UGS: connection TCP, host 127.0.0.1, port 7071. In bCNC: port socket://127.0.0.1:7071. See "
+      "docs/manual/serve.md");
+  return command;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app(description, "passo");
   app.footer(examples);
@@ -193,6 +215,9 @@ int parse_and_run(int argc, char** argv) {
   HomeArguments home_arguments;
   CLI::App& home_command = add_home(app, home_arguments);
 
+  ServeArguments serve_arguments;
+  CLI::App& serve_command = add_serve(app, serve_arguments);
+
   CheckArguments check_arguments;
   CLI::App& check_command = *app.add_subcommand("check", "find what is wrong with a program, without running it");
   add_program(check_command, check_arguments.program);
@@ -205,11 +230,15 @@ int parse_and_run(int argc, char** argv) {
       "draw the motion: path and tolerance, speed over the way, acceleration and jerk (.svg or .png)");
   check_command.add_option("--colour-by", check_arguments.colour_by,
                            "margin: the picture shows the path instead, dark where the motors have little torque left");
+  check_command.add_option("-r,--report", check_arguments.report,
+                           "all of it as one page to read and to print, with pictures (FILE.html)");
   check_command.add_flag("--json", check_arguments.json, "print the findings as JSON");
   check_command.footer(
       "Examples:\n  passo check part.ngc -m router.toml             what is wrong with it\n"
       "  passo check part.ngc -m router.toml --motion    peaks, deviation, time and the least time there can be;\n"
       "                                                  exit code 1 if a limit is broken\n"
+      "  passo check part.ngc -m router.toml --report part.html    one page with pictures, for the screen and for "
+      "paper\n"
       "  passo check part.ngc -m router.toml --picture margin.svg --colour-by margin    where torque is short\n"
       "  passo check corner.ngc -m router.toml --picture corner.svg    its speeds, accelerations and jerks; plans, "
       "too");
@@ -276,6 +305,7 @@ int parse_and_run(int argc, char** argv) {
   if (run_command.parsed()) return run(run_arguments);
   if (jog_command.parsed()) return jog(jog_arguments);
   if (home_command.parsed()) return home(home_arguments);
+  if (serve_command.parsed()) return serve(serve_arguments);
   if (check_command.parsed()) return check(check_arguments);
   if (canon_command.parsed()) return canon(canon_arguments);
   if (explain_command.parsed()) return explain(explain_arguments);

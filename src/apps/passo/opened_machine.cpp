@@ -86,14 +86,15 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
     opened->machine_.connect(*opened->plant_);
     opened->machine_.wire(pin_setup(machine));
     const KnownPosition at_zero{.place = Point(), .trust = Trust::commanded};
-    if (!wish.cut) {
-      opened->session_ = std::make_unique<MachineSession>(machine, opened->machine_, SessionOptions{.start = at_zero});
+    if (!wish.over_a_line) {
+      opened->session_ = std::make_unique<MachineSession>(
+          machine, opened->machine_, SessionOptions{.tells_place = wish.tells_place, .start = at_zero});
       // For its switches. Over a line, the greeting asks.
       static_cast<void>(ask_status(opened->session_->board(), answer).has_value());
       return opened;
     }
     opened->line_.emplace(opened->machine_, machine.board.clock, LineOptions());
-    opened->line_->cut(wish.cut->at, wish.cut->missing);
+    if (wish.cut) opened->line_->cut(wish.cut->at, wish.cut->missing);
     opened->session_ = std::make_unique<MachineSession>(
         machine, *opened->line_,
         SessionOptions{.over_a_line = true, .care = virtual_line, .greeting = {.session = 1}, .start = at_zero});
@@ -122,9 +123,12 @@ std::unique_ptr<OpenedMachine> OpenedMachine::open(const MachineDescription& mac
   }
   opened->port_ = std::move(*port);
   opened->plant_is_behind_ = !outlives;
-  opened->session_ = std::make_unique<MachineSession>(
-      machine, *opened->port_,
-      SessionOptions{.over_a_line = true, .care = real_line, .greeting = {.session = 1}, .start = {}});
+  opened->session_ = std::make_unique<MachineSession>(machine, *opened->port_,
+                                                      SessionOptions{.over_a_line = true,
+                                                                     .care = real_line,
+                                                                     .greeting = {.session = 1},
+                                                                     .tells_place = wish.tells_place,
+                                                                     .start = {}});
   if (!opened->ask_first(wish.board, wish.may_move, code)) return nullptr;
   if (const auto place = opened->place()) opened->start_at(*place);
   return opened;

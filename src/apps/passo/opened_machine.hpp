@@ -24,9 +24,11 @@ namespace passo {
 
 struct MachineWish {
   std::string board = "virtual";     // as parse_board_address() has it
-  std::optional<CableCut> cut = {};  // the virtual machine is at the end of a line that is cut
+  bool over_a_line = false;          // the virtual machine is at the end of a line
+  std::optional<CableCut> cut = {};  // the line is cut; only with over_a_line
   std::vector<TouchBox> boxes = {};  // boxes that the probe of a virtual or emulated board can touch
   bool physics = false;              // the motors of a virtual or emulated machine obey physics
+  bool tells_place = false;          // see SessionOptions
   bool may_move = false;             // another host may have left the board in motion
 };
 

@@ -39,8 +39,9 @@ class FindingsDisplay {
   explicit FindingsDisplay(const Diagnostics& findings) : findings_(findings) {}
   // Shows what is new. Cheap where nothing is.
   void update() {
-    if (findings_.all().size() != shown_) show_new();
+    if (has_news()) show_new();
   }
+  bool has_news() const { return findings_.all().size() != shown_; }
   // Shows the rest, and the number of errors.
   void finish();
 

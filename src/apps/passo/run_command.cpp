@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "homing_run.hpp"
+#include "line_cost.hpp"
 #include "line_watch.hpp"
 #include "mid_run_changes.hpp"
 #include "motor_watch.hpp"
@@ -171,7 +172,16 @@ struct Run {
   MidRunChanges& changes;
   RunOutputs& outputs;
   LatestMotion& motion;
+  std::optional<Seconds> without_line = {};  // the planned time
 };
+
+// Empty where the time over the line and the planned time are not of the same motion.
+std::optional<Seconds> time_without_line(const ResumableRun::Subject& subject, const ProgramReader& program,
+                                         const OpenedMachine& opened, const MidRunChanges& changes) {
+  const bool has_line = opened.has_board() || !subject.arguments.cable_cut.empty();
+  if (!has_line || subject.check.probes || subject.arguments.resume || changes.any()) return {};
+  return planned_time(program.again(), subject.machine, subject.options, subject.check);
+}
 
 // Runs the program to its end and returns the summary. `answered` is set to the outcome.
 RunSummary play(const Run& run, request::Start start, Answered& answered) {
@@ -230,6 +240,7 @@ RunSummary play(const Run& run, request::Start start, Answered& answered) {
   summary.machine = machine.name;
   add_board(summary, run.opened, machine, before);
   summary.board->busiest_second = load.busiest();
+  summary.board->without_line = run.without_line;
   summary.holds = run.changes.holds();
   if (probes.moves > 0) summary.probes = probes;
   summary.tails = tails.tails();
@@ -374,6 +385,7 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
   if (code != exit_done) return code;
 
   Diagnostics late;
+  const std::optional<Seconds> without_line = time_without_line(subject, program, opened, changes);
   request::Start start{.program = std::move(program),
                        .options = subject.options,
                        .nominal_time = subject.check.nominal_time,
@@ -384,7 +396,7 @@ int run_checked(const ResumableRun::Subject& subject, ProgramReader program, Ope
   if (!start.waits_for_operator && !arguments.yes) stops.tell(arguments);
   Answered answered;
   LatestMotion motion;
-  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion};
+  const Run run{arguments, subject.machine, subject.check, opened, changes, *outputs, motion, without_line};
   const RunSummary summary = play(run, std::move(start), answered);
   if (resumable != nullptr) resumable->end(opened.session(), answered);
   return end_run(run, answered, summary, late, subject.options.machine_units);
@@ -463,6 +475,7 @@ int run(const RunArguments& arguments) {
   end_on_signals();
   return run_program(arguments, *machine,
                      {.board = arguments.board,
+                      .over_a_line = cut.has_value(),
                       .cut = cut,
                       .boxes = *boxes,
                       .physics = arguments.physics,

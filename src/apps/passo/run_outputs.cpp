@@ -29,7 +29,10 @@ bool ends_with(std::string_view path, std::string_view ending) {
 }
 
 TraceOptions trace_options(const MachineDescription& machine) {
-  TraceOptions options{.motors = {}, .clock = machine.board.clock, .step_pulse = machine.board.step_pulse};
+  TraceOptions options{.motors = {},
+                       .clock = machine.board.clock,
+                       .step_pulse = machine.board.step_pulse,
+                       .windings = machine.board.windings};
   for (const AxisDescription& axis : machine.axes) options.motors.push_back({axis.axis, axis.inverted});
   return options;
 }

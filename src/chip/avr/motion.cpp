@@ -2,6 +2,7 @@
 #include "chip_player.hpp"
 #include "keypad_wiring.hpp"
 #include "output_actions.hpp"
+#include "products.hpp"
 #include "serial_line.hpp"
 #include "spindle_counter.hpp"
 #include "wiring.hpp"
@@ -36,6 +37,7 @@ struct Hardware {
   static constexpr bool has_encoder() { return SpindleCounter::exists(); }
   static SpindleCount spindle() { return SpindleCounter::count(); }
   static void breathe() { SerialLine::breathe(); }
+  static int32_t high_product(int32_t a, int32_t b) { return chip::high_product(a, b); }
 
   SerialLine line;
 };
@@ -187,8 +189,10 @@ bool take_tick() {
   SerialLine& line = hardware.line;
   SpindleCounter::look();
   line.poll();
-  if (ChipPlayer::wants_more() && board.ahead() != 0) board.settle();
-  for (uint8_t taken = 0; line.has_byte() && (taken < 8 || ChipPlayer::wants_more()) && taken < 32; ++taken) {
+  if (ChipPlayer::wants_more() && board.has_more()) board.settle();
+  // Bytes are in a hurry only if the list is empty. While it is not, a flood of them must not hold up the events.
+  const uint8_t most = ChipPlayer::wants_more() && !(board.has_more() && ChipPlayer::is_short()) ? 32 : 8;
+  for (uint8_t taken = 0; line.has_byte() && taken < most; ++taken) {
     receive();
     SerialLine::breathe();
   }

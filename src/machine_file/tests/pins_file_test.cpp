@@ -54,6 +54,24 @@ TEST(PinsFile, refuses_what_is_no_level) {
   EXPECT_THAT(codes_of_pins("[outputs]\nspindel = \"low\"\n"), testing::HasSubstr("perhaps spindle"));
 }
 
+TEST(PinsFile, tells_of_windings_on_the_pins_of_the_board) {
+  std::string text = sound_machine;
+  const std::string board = "[board]\n";
+  const std::size_t in_board = text.find(board) + board.size();
+  Diagnostics diagnostics;
+  EXPECT_FALSE(parse_machine(text, "m.toml", diagnostics)->board.windings);
+  const auto machine =
+      parse_machine(std::string(text).insert(in_board, "windings = \"wave\"\n"), "m.toml", diagnostics);
+  ASSERT_TRUE(machine) << render(diagnostics, false);
+  EXPECT_EQ(machine->board.windings->name(), "wave");
+  for (const char* const wrong : {"microsteps:4", "waves"}) {
+    Diagnostics found;
+    EXPECT_FALSE(parse_machine(std::string(text).insert(in_board, "windings = \"" + std::string(wrong) + "\"\n"),
+                               "m.toml", found));
+    EXPECT_EQ(found.all().front().code, "machine.windings");
+  }
+}
+
 TEST(PinsFile, tells_of_a_second_motor) {
   const MachineDescription machine =
       machine_with(home_of("X") + "[axis.X.second_motor]\ninverted = true\nsquare_mm = 0.2\nskew_mm = -1\n");

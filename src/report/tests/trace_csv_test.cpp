@@ -56,6 +56,15 @@ TEST(TraceCsv, has_a_row_for_each_event_with_the_direction_of_each_step) {
   EXPECT_EQ(csv.finished(), "t,x,y,z\n0.000001000,1,0,-1\n10.000000000,0,1,0\n");
 }
 
+TEST(TraceCsv, shows_the_windings_that_the_board_switches) {
+  Csv csv({.motors = {{.axis = Axis::x}, {.axis = Axis::y}}, .windings = *Excitation::named("wave")});
+  csv->on_steps(Ticks{16}, 0b01, 0);
+  csv->on_steps(Ticks{32}, 0b11, 0b10);
+  EXPECT_EQ(csv.finished(),
+            "t,x,y,x_f1,x_f2,x_f3,x_f4,y_f1,y_f2,y_f3,y_f4\n"
+            "0.000001000,1,0,0,1,0,0,0,0,0,0\n0.000002000,1,-1,0,0,1,0,0,0,0,1\n");
+}
+
 TEST(TraceCsv, shows_the_direction_of_the_axis_where_the_motor_is_inverted) {
   Csv csv({.motors = {{.axis = Axis::x}, {.axis = Axis::y, .inverted = true}}});
   csv->on_steps(Ticks{16}, 0b11, 0b10);

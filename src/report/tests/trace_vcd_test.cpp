@@ -52,6 +52,19 @@ TEST(TraceVcd, declares_the_lines_of_each_axis_and_the_outputs_and_has_no_date) 
   for (const auto& [name, changes] : vcd.wires) EXPECT_EQ(changes, Changes({{0, 0}})) << name;
 }
 
+TEST(TraceVcd, shows_the_windings_that_the_board_switches) {
+  Trace16 trace({.motors = {{.axis = Axis::x}, {.axis = Axis::y}}, .windings = *Excitation::named("half-step")});
+  trace->on_steps(Ticks{1000}, 0b01, 0);     // X 1: F2
+  trace->on_steps(Ticks{2000}, 0b01, 0);     // X 2: F2 F3
+  trace->on_steps(Ticks{3000}, 0b11, 0b11);  // X 1: F2; Y -1: F1
+  const Vcd vcd = trace.finished(4000);
+  EXPECT_EQ(vcd.wires.at("X_F1"), Changes({{0, 0}}));
+  EXPECT_EQ(vcd.wires.at("X_F2"), Changes({{0, 0}, {625'000, 1}}));
+  EXPECT_EQ(vcd.wires.at("X_F3"), Changes({{0, 0}, {1'250'000, 1}, {1'875'000, 0}}));
+  EXPECT_EQ(vcd.wires.at("Y_F1"), Changes({{0, 0}, {1'875'000, 1}}));
+  EXPECT_EQ(vcd.wires.at("Y_F4"), Changes({{0, 0}}));
+}
+
 TEST(TraceVcd, a_tick_is_a_whole_number_of_units_where_it_can_be) {
   EXPECT_EQ(timescale_at(16e6), "100 ps");  // 62.5 ns
   EXPECT_EQ(timescale_at(20e6), "10 ns");   // 50 ns

@@ -85,6 +85,7 @@ TEST(MachineStates, each_event_happens_just_where_it_has_a_meaning) {
     EXPECT_EQ(happens(MachineEvent::hold), program && state != hold) << "a state without a program accepts no hold";
     EXPECT_EQ(happens(MachineEvent::resume), program && state != run);
     EXPECT_EQ(happens(MachineEvent::want_tool), program && state != tool_change);
+    EXPECT_EQ(happens(MachineEvent::want_line), program && state != await_line);
     EXPECT_EQ(happens(MachineEvent::open_door), (program && state != door) || state == idle);
     EXPECT_EQ(happens(MachineEvent::close_door), state == door);
     EXPECT_EQ(happens(MachineEvent::end), active);
@@ -108,6 +109,7 @@ TEST(MachineStates, each_event_leads_to_the_state_that_it_names) {
       case MachineEvent::begin_check: wanted = check; break;
       case MachineEvent::hold: wanted = hold; break;
       case MachineEvent::want_tool: wanted = tool_change; break;
+      case MachineEvent::want_line: wanted = await_line; break;
       case MachineEvent::open_door: wanted = door; break;
       case MachineEvent::stop_at_once: wanted = alarm; break;
       case MachineEvent::lose_board: wanted = fault; break;

@@ -11,6 +11,7 @@
 
 #include "passo/activity/activity.hpp"
 #include "passo/activity/good_path.hpp"
+#include "passo/activity/low_rapids.hpp"
 #include "passo/activity/usual_mistakes.hpp"
 #include "passo/base/tap.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
@@ -61,6 +62,7 @@ class ProgramChecker {
   ToolTable tools_;  // the tools before the check
   Interpreter interpreter_;
   UsualMistakes mistakes_;
+  LowRapids low_rapids_;
   Tap<Operation> operations_;
   PathBuilder builder_;
   std::function<void(const PathItem&)> watcher_;

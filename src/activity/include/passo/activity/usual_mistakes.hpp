@@ -1,8 +1,8 @@
 // UsualMistakes: warns of what is allowed, but seldom meant. A program says no units; it feeds while the spindle
-// stands; M3 runs at S0; a dwell of minutes was probably meant in milliseconds.
+// stands; M3 runs at S0; a dwell of minutes was probably meant in milliseconds; S or T has no effect.
 //
 // Each mistake is reported once, where the program makes it first. The warnings about the spindle are for machines
-// whose file gives the spindle a speed (tool.max_rpm). A laser, a hot wire and a pen have none.
+// whose file gives the spindle a speed (tool.max_rpm). A laser, a hot wire and a pen have none; S is idle there.
 #pragma once
 
 #include <optional>
@@ -21,11 +21,16 @@ class UsualMistakes {
 
   // Call it for each operation of the program, in order.
   void watch(const Operation& operation);
+  // Call it after the last operation.
+  void finish();
 
  private:
   void feed(const Operation& operation);
   void move(const Operation& operation);
   void dwell(const Operation& operation, Seconds time);
+  void idle_speed(const Operation& operation);
+  void change_tool();
+  void select(const Operation& operation, std::int32_t tool);
   void turn_spindle(const Operation& operation, SpindleDirection direction);
   Diagnostic warning(const Operation& operation, std::string code, std::string message, std::string expected) const;
 
@@ -39,6 +44,9 @@ class UsualMistakes {
   std::optional<Diagnostic> turned_at_zero_;
   // The tool is a probe since its first probe move, until the tool is changed. A probe does not turn when it is fed.
   bool probes_ = false;
+  bool changes_tools_ = false;
+  std::optional<Diagnostic> idle_tool_;  // a T word, as long as no tool is changed
+  bool told_idle_speed_ = false;
   bool told_spindle_ = false;
   bool told_dwell_ = false;
 };

@@ -57,6 +57,11 @@ class Diagnostics {
   // Gives the rule of a diagnostic that comes without one. The stage that knows the rules sets it.
   using RuleOf = std::string (*)(const Diagnostic& diagnostic);
   void look_up_rules_with(RuleOf rule_of) { rule_of_ = rule_of; }
+  // Forgets what was found. What the diagnostics were told to do stays.
+  void clear() {
+    errors_ = 0;
+    all_.clear();
+  }
   const std::vector<Diagnostic>& all() const { return all_; }
   std::size_t errors() const { return errors_; }
   bool any_error() const { return errors_ > 0; }

@@ -91,6 +91,11 @@ class MotionDrive {
   // The stop or tool change that the program waits at, if any. done() lets the program go on.
   const std::optional<Action>& waits_for() const { return waits_for_; }
   void done();
+  // Brakes to rest, and drops the rest of the path up to its next action. The source of the path is to have an action
+  // next.
+  void drop();
+  // Over a line, after a drop(): where the machine has come to rest. Empty: at the end of the motion given.
+  const std::optional<Point>& dropped_to() const { return dropped_to_; }
   // Feeds are multiplied by both factors where the program heeds them (M48 to M50, M52). The operator's factor is 0 to
   // 2, the machine's 0 to 1. Rapids do not change. When the factors leave less than a hundredth of the feed, the motion
   // is held until they leave more.
@@ -139,6 +144,7 @@ class MotionDrive {
   void await_index(const Action& action);
   void turn_tap(const Action& action);
   void wait_for_operator(const Action& action);
+  void await_line();
   void look_at_probe();
   Attention attention() const;
   void change_holds(HoldReason reason, bool holds);
@@ -183,7 +189,8 @@ class MotionDrive {
   bool contact_seen_ = false;  // the contact that the board watches for now
   bool stopped_by_probe_ = false;
   std::optional<Point> end_of_probe_;  // where motion in a probe move ends, if not at the move's end
-  Point end_of_tap_;                   // where the committed motion ends
+  std::optional<Point> dropped_to_;
+  Point end_of_tap_;  // where the committed motion ends
 };
 
 // Why the greeted board cannot drive a machine with these step options, as a sentence without a full stop. Empty:

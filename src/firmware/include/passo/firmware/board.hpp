@@ -141,12 +141,12 @@ class Board : private BoardVoice<Hardware> {
         player_.forget();
         breathe();
       }
-      if (!player_.ready() || (parts_.are_done() && begun_ == list_.size())) return;
+      if (!player_.ready() || !has_more()) return;
       load();
     } while (true);
   }
-  // The number of items that the player has not begun.
-  uint8_t ahead() const { return static_cast<uint8_t>(list_.size() - begun_); }
+  // Whether there is an item, or a part of one, that the player has not begun.
+  bool has_more() const { return !parts_.are_done() || begun_ != list_.size(); }
   SegmentPlayer& player() { return player_; }
 
  private:

@@ -10,6 +10,7 @@
 //   uint8_t drivers_rest(); void release();           optional, both: that part of the setup; lets the motors go
 //   bool can_watch(uint8_t limits);                   optional: whether it can watch several limit switches at once
 //   static void breathe();                            optional: called between two pieces of work
+//   static int32_t high_product(int32_t, int32_t);    optional: that of wire/segment_parts.hpp, faster
 //   uint8_t room();                                   optional: the number of bytes that may be sent now
 //   bool has_encoder(); SpindleCount spindle();       optional, both: an encoder at the spindle
 //
@@ -23,9 +24,14 @@
 
 namespace passo {
 
-// Called between two pieces of work: hardware with a small buffer reads its line then.
+// Called between two pieces of work: hardware with a small buffer reads its line then. Hardware may have a product of
+// its own too.
 template <class Hardware>
 struct BreathOf {
+  [[gnu::always_inline]] static int32_t high_product(int32_t a, int32_t b) requires requires {
+    Hardware::high_product(a, b);
+  }
+  { return Hardware::high_product(a, b); }
   [[gnu::always_inline]] void operator()() const {
     if constexpr (requires { Hardware::breathe(); }) Hardware::breathe();
   }

@@ -6,12 +6,14 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "passo/base/source.hpp"
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/machine_answers.hpp"
+#include "passo/interpreter/modes_in_force.hpp"
 #include "passo/interpreter/operation.hpp"
 #include "passo/interpreter/parameter_file.hpp"
 #include "passo/interpreter/settings_file.hpp"
@@ -53,6 +55,9 @@ struct InterpreterOptions {
   int spindles = 1;          // 1 to 8
   double orient_offset = 0;  // degrees that M19 adds
   bool user_codes = false;   // M100 to M199 are allowed
+  // True: the program's lines come one by one, with give_line(). next() then returns false where no line is left, and
+  // goes on after the next give_line().
+  bool open_ended = false;
 };
 
 class Interpreter final : public Source<Operation> {
@@ -64,6 +69,18 @@ class Interpreter final : public Source<Operation> {
   ~Interpreter() override;
 
   [[nodiscard]] bool next(Operation& operation) override;
+
+  // Only for an open-ended program, whose reader is ProgramReader::from_lines(). Call when next() has returned false.
+  void give_line(std::string_view text);
+  // True: the program has ended, with M2, M30 or an error that ends programs. The interpreter takes no more lines.
+  bool ended() const;
+  // Notes the motion code in force (G0, G1 …), and puts it in force again.
+  void keep_motion();
+  void take_back_motion();
+  // Says that the machine stands somewhere else than where the program has left it. Modes and offsets stay.
+  void stand_at(const Point& machine);
+  // The modes and offsets after the lines read so far.
+  ModesInForce modes() const;
 
   // The parameters to save for the next run: InterpreterOptions::parameters with the program's changes.
   SavedParameters saved_parameters() const;

@@ -19,6 +19,7 @@
 #include "passo/diagnostics/diagnostic.hpp"
 #include "passo/geometry/axes.hpp"
 #include "passo/machine_file/axis_motor.hpp"
+#include "passo/motor/excitation.hpp"
 #include "passo/units/units.hpp"
 
 namespace passo {
@@ -98,6 +99,8 @@ struct BoardDescription {
   Seconds step_pulse{2.5e-6};
   bool step_pulse_is_given = false;  // true: a board whose pulses are shorter does not suit
   int held_items = 240;              // places in the list of the virtual board; a real board tells its own number
+  std::optional<Excitation> windings = {};  // the board's own pins switch the motors' windings; empty: drivers do
+  bool held_items_are_given = false;        // true: `passo check` says what a line to a board with so many places costs
 
   // An interval is at most 65535 whole ticks, so events never come slower than this. Slower motion is possible: most of
   // its events make no step.

@@ -33,6 +33,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "passo/motor/excitation.hpp"
 #include "passo/motor/motor_data.hpp"
@@ -75,6 +76,9 @@ class RunningMotor {
   void step(int way);
   // Lets time pass.
   void run(Seconds time);
+  // Goes on from another state of the rotor, with the currents that the driver wants at `commanded`. The steps that
+  // were lost stay lost.
+  void resume(std::int64_t commanded, double place, RadiansPerSecond speed, NewtonMetres mean_torque);
   // A hand carries the rotor at about that speed: it pulls as much as the rotor's speed differs, with critical damping.
   // So a rotor begins in mid-motion, with the lag and the currents of that motion. The rotor starts at that speed.
   void carry(RadiansPerSecond speed);
@@ -101,8 +105,21 @@ class RunningMotor {
   bool rests() const { return rests_; }
 
  private:
-  struct StepSize;
+  // One step of the integration, and what the trapezoidal rule for R·i + L·di/dt = u makes of it:
+  //   i' = (keep·i + push·u)
+  struct StepSize {
+    double h = 0;
+    double keep = 0;
+    double push = 0;
+    double fade = 0;
+    double kick = 0;
+  };
+  struct Shares {
+    double a = 0;  // of the rated current or of the supply
+    double b = 0;
+  };
 
+  StepSize size_of(double time) const;
   void excite();
   void integrate(const StepSize& size);
   double driven_torque(const StepSize& size);
@@ -131,16 +148,16 @@ class RunningMotor {
   double hand_ = 0;  // damping of the hand that carries the rotor
   double hand_speed_ = 0;
   std::optional<TorqueCurve> measured_;
-  Excitation excitation_;
   int steps_;  // of the driver to a full step
   double places_per_radian_;
   double first_;  // place() of the angle 0
   double longest_;
+  std::vector<Shares> shares_;  // of the phases, for each place of an electrical turn
 
   // The state.
   std::int64_t commanded_ = 0;
   std::int64_t slips_ = 0;
-  double share_a_ = 0;  // of the rated current or of the supply
+  double share_a_ = 0;
   double share_b_ = 0;
   double current_a_ = 0;
   double current_b_ = 0;
@@ -153,6 +170,10 @@ class RunningMotor {
   double mean_torque_ = 0;
   int until_exact_ = 0;
   bool rests_ = true;
+  // The last time that passed, and its steps: most times are as long as the one before.
+  double last_time_ = 0;
+  StepSize last_size_;
+  std::int64_t last_count_ = 0;
 };
 
 }  // namespace passo

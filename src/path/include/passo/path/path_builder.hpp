@@ -40,8 +40,10 @@ struct PathOptions {
   Mm tolerance{0.01};           // of junctions, if the program gives none (G64 P)
   double spindle_limit = 0;     // fastest spindle, revolutions a minute; 0: no spindle speed is refused
   Point start;                  // machine position at the start
-  Seconds spindle_run_up{0};    // from rest to 1000 turns a minute; gives the room for a tap to reverse
-  std::string file;             // names the program in diagnostics
+  // True: more operations may come after those that the source has given. At its end nothing is switched off.
+  bool open_ended = false;
+  Seconds spindle_run_up{0};  // from rest to 1000 turns a minute; gives the room for a tap to reverse
+  std::string file;           // names the program in diagnostics
 };
 
 class PathBuilder final : public Source<PathItem> {
@@ -54,6 +56,13 @@ class PathBuilder final : public Source<PathItem> {
   [[nodiscard]] bool next(PathItem& item) override;
 
   const Frame& frame() const { return frame_; }
+  // Where the path has come to, in machine coordinates.
+  const Point& position() const { return position_; }
+  // Says that the path goes on from somewhere else. What was read of the path before is not part of it any more.
+  void stand_at(const Point& machine) {
+    position_ = machine;
+    below_ = above_ = missing_ = AxisSet();
+  }
 
  private:
   bool next_operation();

@@ -76,7 +76,8 @@ struct Action {
     probe_begin,  // the probe move comes after this,
     probe_end,    // then this; no stage reads further before the machine rests here
     await_index,
-    tap_turns,  // after a tap's way down; no stage reads further before the spindle reverses
+    await_line,  // the next line of the program has not come yet; no stage reads further before the machine rests here
+    tap_turns,   // after a tap's way down; no stage reads further before the spindle reverses
   };
   Kind kind = Kind::dwell;
   Seconds dwell{0};

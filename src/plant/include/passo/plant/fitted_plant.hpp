@@ -44,6 +44,10 @@ class FittedPlant : public Plant {
     return screws_.motor_steps_for(switches_.steps_to_next_change(slides()));
   }
   const Switches& switches() const { return switches_; }
+  // What is true at `time`, with the motors and the switches as they were set last.
+  Truth truth_now(Seconds time) const {
+    return {.positions = slides(), .spindle_turns = spindle_.turns_at(time), .inputs = switches_.closed()};
+  }
 
  private:
   MotorPositions positions_{};

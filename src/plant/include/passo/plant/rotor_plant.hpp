@@ -1,19 +1,19 @@
 // RotorPlant: a plant whose motors obey physics. A motor that is asked for too much loses steps, and the plant tells
 // when, which motor and how many.
 //
-// Each motor with a setup is a RunningMotor, integrated from pulse to pulse. A motor without a setup does at once all
-// that it is told, as in an ideal plant. Positions are the rotors' own, so switches and the probe act where the machine
-// truly is.
+// Each motor with a setup is a BoundedMotor, integrated in full where its bound does not hold. A motor without a setup
+// does at once all that it is told, as in an ideal plant. Positions are the rotors' own, so switches and the probe act
+// where the machine truly is.
 //
 // Invariant: time is the board's time. The same pulses at the same times give the same positions.
-// Cost: about 25 ns for each 25 µs and motor while a rotor moves; nothing while the rotors rest.
+// Cost: docs/ramps/physics.md has a table. Nothing while the rotors rest.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <vector>
 
-#include "passo/motor/running_motor.hpp"
+#include "passo/motor/bounded_motor.hpp"
 #include "passo/plant/fitted_plant.hpp"
 
 namespace passo {
@@ -38,6 +38,8 @@ class RotorPlant final : public FittedPlant {
  public:
   static constexpr std::size_t most_losses = 1000;  // that are kept one by one
 
+  explicit RotorPlant(Integration integration = Integration::where_needed) : integration_(integration) {}
+
   // Gives a motor its physics, before a board drives the plant.
   void fit_motor(std::size_t motor, const MotorSetup& setup);
   // A torque of the work against the motion of a motor, from now on.
@@ -58,19 +60,26 @@ class RotorPlant final : public FittedPlant {
 
  private:
   struct Fitted {
-    std::optional<RunningMotor> rotor;
-    double origin = 0;  // of the rotor's place 0
+    std::optional<BoundedMotor> rotor;
+    double origin = 0;     // of the rotor's place 0
+    double full_step = 1;  // of a step of the driver
     std::optional<TorqueCurve> pull_out;
+    Seconds margin_due{0};  // when the margin is looked at next
     RotorRecord record;
   };
 
   void run_to(Seconds time);
-  void look_at(std::size_t motor);
+  Seconds pass_to(Seconds time);
+  void turn(std::size_t motor, Seconds passed, std::int64_t steps);
+  void look_at(std::size_t motor, int stepped);
+  void look_at_margin(Fitted& one) const;
+  void look_at_loss(std::size_t motor);
 
+  Integration integration_;
   std::array<Fitted, max_motors> motors_;
   std::vector<StepLoss> losses_;
   Seconds now_{0};
-  bool any_ = false;
+  std::size_t fitted_ = 0;  // one more than the last motor that has physics
 };
 
 }  // namespace passo

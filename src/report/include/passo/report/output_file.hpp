@@ -27,6 +27,8 @@ class OutputFile {
   static constexpr std::size_t buffer_size = 262'144;
 
   static Result<OutputFile, OutputError> open(const std::string& path);
+  // The bytes are added to a text, for what is a part of another file. `text` outlives the file. No error is possible.
+  static OutputFile into(std::string& text);
 
   OutputFile(OutputFile&&) noexcept;
   OutputFile& operator=(OutputFile&&) noexcept;

@@ -42,4 +42,9 @@ struct PictureOptions {
 // Draws into `file`, which the caller commits.
 Status<OutputError> draw_picture(const PathRecorder& path, const PictureOptions& options, OutputFile& file);
 
+// One of the two views, with its legend, for a page that has a title of its own. `width` and `height` are the view's.
+enum class PictureView : std::uint8_t { isometric, flat };
+Status<OutputError> draw_view(const PathRecorder& path, PictureView view, const PictureOptions& options,
+                              OutputFile& file);
+
 }  // namespace passo

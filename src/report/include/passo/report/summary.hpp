@@ -68,8 +68,10 @@ struct BoardSummary {
   std::uint64_t bytes = 0;
   std::uint64_t busiest_second = 0;  // bytes; 0: the run took less than a second
   // Only for a board on a line. The motion that such a board holds always ends at rest.
-  int held_items = 0;  // places in its list; 0: no line
-  int rests = 0;       // how often the board came to rest because no more motion had come in time
+  int held_items = 0;                        // places in its list; 0: no line
+  int rests = 0;                             // how often the board came to rest because no more motion had come in time
+  std::optional<Seconds> without_line = {};  // the planned time; empty: not known, or the run was changed on the way
+  Seconds cost_of_line() const { return end > *without_line ? end - *without_line : Seconds(0); }
 };
 
 // A hold in mid-run. Times are the board's.

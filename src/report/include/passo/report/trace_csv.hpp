@@ -4,8 +4,9 @@
 //   0.000010031,1,0,-1
 //
 // The first column is the time in seconds from the start. It has nine decimals, rounded half up from the exact tick.
-// Then each axis has −1, 0 or 1: the direction of the axis, whichever way its motor turns. Outputs are not shown. A row
-// takes about 20 ns.
+// Then each axis has −1, 0 or 1: the direction of the axis, whichever way its motor turns. Where the board switches
+// windings by itself, x_f1 to x_f4 and so on follow: 1 for a winding that carries current from this event on. Outputs
+// are not shown. A row takes about 20 ns.
 #pragma once
 
 #include <array>
@@ -26,11 +27,13 @@ class TraceCsv final : public Trace {
 
  private:
   void put_seconds(std::uint64_t ticks);
+  void put_windings(std::uint8_t stepped, std::uint8_t directions);
 
   TraceBuffer buffer_;
   std::uint64_t ticks_a_second_;
   unsigned motors_;
   std::uint8_t inverted_ = 0;
+  TraceWindings windings_;
   // The whole second in which the last row is.
   std::uint64_t second_ = 0;
   std::uint64_t second_start_ = 0;  // ticks

@@ -2,7 +2,7 @@
 //
 // Each axis of the machine has lines like X_step and X_dir. X_dir is the level of the line (1: the motor counts down).
 // So for an inverted motor, X_dir is opposite to the axis's direction. After the axes come spindle, spindle_reverse,
-// mist, flood and spindle_rpm.
+// mist, flood and spindle_rpm. Where the board switches windings by itself, X_F1 to X_F4 and so on come last.
 //
 //   X_dir  ____/‾‾‾‾‾‾‾‾‾‾‾‾     changes together with the first step in that direction
 //   X_step ____/‾\______/‾\_     high for the step pulse, but at most half the time to the next steps or outputs
@@ -50,6 +50,7 @@ class TraceVcd final : public Trace {
   static unsigned step_wire(unsigned motor) { return 2 * motor; }
   static unsigned direction_wire(unsigned motor) { return 2 * motor + 1; }
   unsigned output_wire(unsigned output) const { return 2 * motors_ + output; }
+  unsigned winding_wire(unsigned motor, unsigned output) const;
 
   TraceBuffer buffer_;
   Scale scale_;
@@ -60,6 +61,7 @@ class TraceVcd final : public Trace {
   unsigned high_ = 0;  // the step lines that are high
   unsigned directions_ = 0;
   BoardOutputs outputs_;
+  TraceWindings windings_;
 };
 
 }  // namespace passo

@@ -35,6 +35,7 @@ struct SessionOptions {
   bool over_a_line = false;
   LineCare care = {};
   Greeting greeting = {};    // the session sets `motors`
+  bool tells_place = false;  // the board is asked where it stands, also in motion, for MachineStatus::now_at
   KnownPosition start = {};  // where the machine stands, as far as the owner knows
 };
 
@@ -99,6 +100,8 @@ class MachineSession {
   // One function for each request.
   using Answer = Result<Ticket, Refusal>;
   Answer take(request::Start& start);
+  Answer take(request::Stream& stream);
+  Answer take(request::DropLines& drop);
   Answer take(request::Jog& jog);
   Answer take(request::RenewLease& renew);
   Answer take(request::Home& home);
@@ -129,6 +132,7 @@ class MachineSession {
   void find_place_again();
   void stand_at(const KnownPosition& position);
   void count_from_here();
+  Point place_of(const BoardPlace& place, AxisSet downs) const;
   MotorSteps steps_of(const BoardPlace& place) const;
 
   void turn_work(Seconds most);
@@ -139,11 +143,16 @@ class MachineSession {
   void note_place();
   Point home_place();
   [[nodiscard]] bool counts_agree();
+  bool mind_lines(Seconds most);
+  void go_on_after_drop();
   void mind_lease();
   void mind_holds();
   void note_tails();
   void mind_board();
   void look_at_panel();
+  void look_at_place();
+  void hear_place();
+  bool watches_counts() const { return options_.over_a_line || options_.tells_place; }
 
   void move_to(MachineEvent event);
   void note(MachineChange change);
@@ -165,6 +174,10 @@ class MachineSession {
   std::unique_ptr<Work> work_;  // what is going on, or what ended last
   std::unique_ptr<Panel> panel_;
   Overrides overrides_;
+  Point now_at_;  // as the board has told last, for tells_place
+  MmPerSecond speed_now_{0};
+  Seconds place_heard_{0};
+  Seconds place_asked_{0};
   std::optional<LinkError> trouble_;
   std::string trouble_words_;
   std::deque<MachineChange> changes_;

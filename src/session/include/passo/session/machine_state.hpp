@@ -21,13 +21,14 @@ enum class MachineState : std::uint8_t {
   home,         // the machine finds its place by switches
   probe,        // one probe move is made
   tool_change,  // a program waits for another tool (M6)
+  await_line,   // a program that comes line by line waits for its next line
   check,        // a program is checked without motion
   door,         // the door is open, or was open and nobody has pressed start since
   alarm,        // the motors were stopped at once: the place is not certain
   fault,        // the board does not answer, or does not suit
   sleep,        // at rest; only waking is accepted
 };
-inline constexpr std::size_t state_count = 13;
+inline constexpr std::size_t state_count = 14;
 
 enum class MachineEvent : std::uint8_t {
   ready,  // the board has answered the hello
@@ -39,6 +40,7 @@ enum class MachineEvent : std::uint8_t {
   hold,       // somebody asks for a hold, or the program does (M0, M1)
   resume,     // no reason to rest is left
   want_tool,  // the program comes to a tool change
+  want_line,  // the program comes to its end for now: the next line has not come yet
   open_door,
   close_door,    // the door closes, and nothing was going on
   end,           // what was going on is done, or was stopped
@@ -48,7 +50,7 @@ enum class MachineEvent : std::uint8_t {
   fall_asleep,
   wake,
 };
-inline constexpr std::size_t event_count = 17;
+inline constexpr std::size_t event_count = 18;
 
 struct Transition {
   MachineState from;
@@ -76,6 +78,7 @@ inline constexpr std::array<StateRow, state_count> state_rows = {{
     {MachineState::home, "Home", true, true, false},
     {MachineState::probe, "Probe", true, true, false},
     {MachineState::tool_change, "Tool", true, false, true},
+    {MachineState::await_line, "Line", true, false, true},
     {MachineState::check, "Check", true, false, false},
     {MachineState::door, "Door", true, true, true},
     {MachineState::alarm, "Alarm", false, false, false},
@@ -107,6 +110,7 @@ inline constexpr auto transitions = [] {
 
       Transition{run, Event::hold, hold},
       Transition{run, Event::want_tool, tool_change},
+      Transition{run, Event::want_line, await_line},
       Transition{run, Event::open_door, door},
       Transition{run, Event::end, idle},
       Transition{run, Event::stop_at_once, alarm},
@@ -114,6 +118,7 @@ inline constexpr auto transitions = [] {
 
       Transition{hold, Event::resume, run},
       Transition{hold, Event::want_tool, tool_change},
+      Transition{hold, Event::want_line, await_line},
       Transition{hold, Event::open_door, door},
       Transition{hold, Event::end, idle},
       Transition{hold, Event::stop_at_once, alarm},
@@ -121,14 +126,24 @@ inline constexpr auto transitions = [] {
 
       Transition{tool_change, Event::resume, run},
       Transition{tool_change, Event::hold, hold},
+      Transition{tool_change, Event::want_line, await_line},
       Transition{tool_change, Event::open_door, door},
       Transition{tool_change, Event::end, idle},
       Transition{tool_change, Event::stop_at_once, alarm},
       Transition{tool_change, Event::lose_board, fault},
 
+      Transition{await_line, Event::resume, run},
+      Transition{await_line, Event::hold, hold},
+      Transition{await_line, Event::want_tool, tool_change},
+      Transition{await_line, Event::open_door, door},
+      Transition{await_line, Event::end, idle},
+      Transition{await_line, Event::stop_at_once, alarm},
+      Transition{await_line, Event::lose_board, fault},
+
       Transition{door, Event::resume, run},
       Transition{door, Event::hold, hold},
       Transition{door, Event::want_tool, tool_change},
+      Transition{door, Event::want_line, await_line},
       Transition{door, Event::close_door, idle},
       Transition{door, Event::end, idle},
       Transition{door, Event::stop_at_once, alarm},

@@ -35,10 +35,12 @@ struct MachineStatus {
   std::uint64_t version = 0;  // grows with each change
   Seconds time{0};            // on the board's side
   MachineState state = MachineState::offline;
-  HoldReasons holds;       // why the machine rests or brakes
-  bool rests = true;       // no motion is under way
-  KnownPosition position;  // at rest: where the machine stands; in motion: where it last rested
-  Point ahead;             // in motion: the end of what has been planned
+  HoldReasons holds;         // why the machine rests or brakes
+  bool rests = true;         // no motion is under way
+  KnownPosition position;    // at rest: where the machine stands; in motion: where it last rested
+  Point now_at;              // with SessionOptions::tells_place: where the board has last told that it is
+  MmPerSecond speed_now{0};  // along the path, between the last two such places
+  Point ahead;               // in motion: the end of what has been planned
   std::optional<ActivityKind> activity;
   std::optional<double> progress;  // of the activity, 0 to 1
   Seconds committed{0};            // time of the motion that nothing can change any more

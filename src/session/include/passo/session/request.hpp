@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "passo/activity/jog_line.hpp"
+#include "passo/activity/open_program.hpp"
 #include "passo/drive/motion_drive.hpp"
 #include "passo/gcode/program_reader.hpp"
 #include "passo/interpreter/interpreter.hpp"
@@ -44,6 +45,14 @@ struct Start {
   Watchers watchers = {};
   Diagnostics* findings = nullptr;  // gets what is found during the run; outlives the run. Null: nobody looks
 };
+// Runs a program that comes line by line, until Stop. While no line is there, the machine rests in the state
+// await_line. The program is at the place where the machine stands.
+struct Stream {
+  OpenProgram* program = nullptr;  // outlives the stream
+  Watchers watchers = {};
+};
+// Of a stream: brakes on the path, and drops what is queued. The stream goes on with the next line.
+struct DropLines {};
 // Moves axes for as long as the lease is renewed. The machine begins to brake before the lease is over. No axis moves
 // towards a limit switch that is closed.
 struct Jog {
@@ -95,9 +104,9 @@ struct Wake {};
 }  // namespace request
 
 using Request =
-    std::variant<request::Start, request::Jog, request::RenewLease, request::Home, request::Probe, request::Check,
-                 request::Hold, request::Resume, request::Stop, request::Override, request::OperatorDone,
-                 request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
+    std::variant<request::Start, request::Stream, request::DropLines, request::Jog, request::RenewLease, request::Home,
+                 request::Probe, request::Check, request::Hold, request::Resume, request::Stop, request::Override,
+                 request::OperatorDone, request::SetPosition, request::ResetMachine, request::Sleep, request::Wake>;
 
 using Ticket = std::uint64_t;
 

@@ -131,6 +131,11 @@ class MarginSurvey {
     std::optional<MarginSpot> worst_of_line = {};
     std::optional<MarginSpot> worst = {};
   };
+  // The motor whose steps make the events, and the events that make one step of it.
+  struct Leader {
+    std::optional<Axis> axis = {};
+    double division = 1;
+  };
   // A moment of the path.
   struct Look {
     Look(const PlannedMove& move, const Phase& phase, Seconds t, Seconds now);
@@ -140,13 +145,9 @@ class MarginSurvey {
     Point place;
     Point slope;
     Point bend;
+    Leader leader = {};  // from the look before to this one
   };
   struct Moment;
-  // The motor whose steps make the events, and the events that make one step of it.
-  struct Leader {
-    std::optional<Axis> axis = {};
-    double division = 1;
-  };
   static constexpr int most_looks = 64;
 
   void watch_move(const PlannedMove& move);

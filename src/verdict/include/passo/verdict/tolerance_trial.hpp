@@ -5,7 +5,7 @@
 // fastest motor, so the steps of the others are late by up to one event: a jitter that makes rotors ring. The steps
 // here have the same jitter. Nothing is kept of the motion:
 //
-//   pieces ──▶ steps ──▶ three RunningMotors: weakest, usual, strongest ──▶ who lost steps, and how far they swung
+//   pieces ──▶ steps ──▶ three BoundedMotors: weakest, usual, strongest ──▶ who lost steps, and how far they swung
 //
 // The weakest motor lacks its tolerance and a reserve. The usual motor may lose steps where both ends keep theirs,
 // because the rates that make a rotor swing depend on its strength. A motor that has lost steps is left out until the
@@ -29,7 +29,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "passo/motor/running_motor.hpp"
+#include "passo/motor/bounded_motor.hpp"
 
 namespace passo {
 
@@ -93,7 +93,7 @@ class ToleranceTrial {
   double steps_per_unit_;
   double radians_per_unit_;
   double fastest_;
-  std::vector<RunningMotor> motors_;  // empty: nothing is played at present
+  std::vector<BoundedMotor> motors_;  // empty: nothing is played at present
   unsigned out_ = 0;                  // a bit for each motor that has lost steps since the axis began to move
   unsigned ever_lost_ = 0;
   std::int64_t commanded_ = 0;

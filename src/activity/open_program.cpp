@@ -1,0 +1,224 @@
+#include "passo/activity/open_program.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/activity/nominal_time.hpp"
+#include "passo/activity/stage_options.hpp"
+
+namespace passo {
+namespace {
+
+constexpr int first_g92_parameter = 5210;
+constexpr int last_g92_parameter = 5219;
+
+bool is_kind(const PathItem& item, Action::Kind kind) {
+  const auto* action = std::get_if<Action>(&item);
+  return action != nullptr && action->kind == kind;
+}
+
+// The first error. Warnings do not stop a line.
+std::optional<Diagnostic> first_error(const Diagnostics& diagnostics) {
+  for (const Diagnostic& one : diagnostics.all()) {
+    if (one.severity == Severity::error) return one;
+  }
+  return {};
+}
+
+// In grbl, G20 and G21 count for the F of their own line too. So they are read before the rest of the line.
+std::string_view units_word(std::string_view line) {
+  for (const std::string_view word : {"G20", "G21"}) {
+    const std::size_t at = line.find(word);
+    if (at == std::string_view::npos) continue;
+    const char after = at + word.size() < line.size() ? line[at + word.size()] : ' ';
+    if ((after < '0' || after > '9') && after != '.') return word;
+  }
+  return {};
+}
+
+}  // namespace
+
+OpenProgram::OpenProgram(const MachineDescription& machine, InterpreterOptions options, const Point& start)
+    : machine_(machine),
+      options_(std::move(options)),
+      limits_(motion_limits(machine)),
+      path_options_(path_options(machine, "line")),
+      answers_(AnswerBook::Answers{}) {
+  options_.open_ended = true;
+  options_.on_machine = true;
+  path_options_.open_ended = true;
+  path_options_.spindle_run_up = machine.spindle.run_up;
+  begin(start);
+}
+
+void OpenProgram::begin(const Point& start) {
+  options_.start = path_options_.start = start;
+  diagnostics_.clear();
+  interpreter_ = std::make_unique<Interpreter>(ProgramReader::from_lines("line"), options_, diagnostics_, answers_);
+  builder_ = std::make_unique<PathBuilder>(*interpreter_, path_options_, diagnostics_, answers_);
+  asks_ = false;
+}
+
+void OpenProgram::restart(const Point& place) {
+  options_.parameters = interpreter_->saved_parameters();
+  for (int number = first_g92_parameter; number <= last_g92_parameter; ++number) options_.parameters.erase(number);
+  options_.units = LengthUnits::mm;
+  queue_.clear();
+  queued_time_ = Seconds(0);
+  jogs_ = false;
+  outputs_ = {};
+  begin(place);
+}
+
+// As grbl does after M2: units, feed and tool offset stay.
+void OpenProgram::begin_after_end() {
+  const ModesInForce modes = interpreter_->modes();
+  options_.parameters = interpreter_->saved_parameters();
+  options_.units = modes.inches ? LengthUnits::inch : LengthUnits::mm;
+  begin(builder_->position());
+  const double unit = modes.inches ? mm_per_inch : 1;
+  const std::string again = fmt::format("G1 F{:.6f}", modes.feed / unit);
+  static_cast<void>(read(again));
+  const double tool = modes.frame.tool_offset()[Axis::z] / unit;
+  if (tool != 0) static_cast<void>(read(fmt::format("G43.1 Z{:.6f}", tool)));
+  ended_ = true;
+}
+
+std::optional<Diagnostic> OpenProgram::take(std::string_view line, Seconds now) {
+  return give(line, now, false);
+}
+
+std::optional<Diagnostic> OpenProgram::take_jog(std::string_view words, Seconds now) {
+  const ModesInForce modes = interpreter_->modes();
+  const double unit = modes.inches ? mm_per_inch : 1;
+  interpreter_->keep_motion();
+  auto answer = give(fmt::format("G94 G1 {}", words), now, true);
+  // Units come first, because F counts in them.
+  const std::string back =
+      fmt::format("{} {} {} F{:.6f}", modes.codes[3], modes.codes[4], modes.codes[5], modes.feed / unit);
+  static_cast<void>(read(back));
+  interpreter_->take_back_motion();
+  diagnostics_.clear();
+  return answer;
+}
+
+std::optional<Diagnostic> OpenProgram::check(std::string_view line) {
+  const std::size_t kept = queue_.size();
+  auto answer = read(line);
+  for (PathItem item; asks_ && builder_->next(item);) {
+  }
+  asks_ = false;
+  queue_.resize(kept);
+  if (interpreter_->ended()) begin_after_end();
+  return answer;
+}
+
+std::optional<Diagnostic> OpenProgram::give(std::string_view line, Seconds now, bool jogs) {
+  const bool was_empty = queue_.empty();
+  answer_fault_.reset();
+  auto answer = read(line);
+  if (answer) return answer;
+  if (!queue_.empty()) {
+    jogs_ = jogs;
+    last_came_ = now;
+    if (was_empty) first_came_ = now;
+  }
+  if (interpreter_->ended() && !asks_) begin_after_end();
+  return answer;
+}
+
+// Interprets a line, and queues what the line asks for.
+std::optional<Diagnostic> OpenProgram::read(std::string_view line) {
+  const std::string_view units = units_word(line);
+  if (!units.empty() && line != units) static_cast<void>(read(units));
+  const std::size_t kept = queue_.size();
+  const Point place = builder_->position();
+  diagnostics_.clear();
+  interpreter_->give_line(line);
+  for (PathItem item; builder_->next(item);) {
+    if (diagnostics_.any_error()) break;
+    push(item);
+    asks_ = is_kind(item, Action::Kind::probe_begin);
+    if (asks_) break;
+  }
+  if (diagnostics_.any_error()) return take_back(kept, place);
+  return {};
+}
+
+std::optional<Diagnostic> OpenProgram::take_back(std::size_t kept, const Point& place) {
+  asks_ = false;
+  for (PathItem item; builder_->next(item);) {
+  }
+  while (queue_.size() > kept) {
+    queued_time_ -= nominal_time_of(queue_.back(), limits_);
+    queue_.pop_back();
+  }
+  const Diagnostic error = *first_error(diagnostics_);
+  diagnostics_.clear();
+  builder_->stand_at(place);
+  interpreter_->stand_at(place);
+  return error;
+}
+
+void OpenProgram::push(const PathItem& item) {
+  queued_time_ += nominal_time_of(item, limits_);
+  queue_.push_back(item);
+}
+
+bool OpenProgram::room() const {
+  if (asks_) return false;
+  return queue_.size() < enough_items || (queue_.size() < most_items && queued_time_ < enough_time);
+}
+
+bool OpenProgram::is_to_begin(Seconds now) const {
+  if (queue_.empty() && !asks_) return false;
+  return !room() || now - last_came_ >= quiet || now - first_came_ >= longest_wait;
+}
+
+bool OpenProgram::expects_more(Seconds now) const {
+  return room() && queue_.size() < enough_items && now - last_came_ < quiet;
+}
+
+bool OpenProgram::next(PathItem& item) {
+  if (!queue_.empty()) {
+    item = std::move(queue_.front());
+    queue_.pop_front();
+    queued_time_ = queue_.empty() ? Seconds(0) : queued_time_ - nominal_time_of(item, limits_);
+  } else if (!pull_answer(item)) {
+    item = Action{.kind = Action::Kind::await_line, .outputs = outputs_, .place = builder_->position()};
+    return true;
+  }
+  if (const auto* action = std::get_if<Action>(&item)) {
+    outputs_ = action->outputs;
+  }
+  line_number_ = std::visit([](const auto& what) { return what.source.line_number; }, item);
+  return true;
+}
+
+// What comes after a question, once it is answered.
+bool OpenProgram::pull_answer(PathItem& item) {
+  if (!asks_) return false;
+  if (builder_->next(item) && !diagnostics_.any_error()) {
+    return true;
+  }
+  asks_ = false;
+  answer_fault_ = first_error(diagnostics_);
+  diagnostics_.clear();
+  if (interpreter_->ended()) begin_after_end();
+  ended_ = false;
+  return false;
+}
+
+void OpenProgram::drop(const Point& place) {
+  queue_.clear();
+  queued_time_ = Seconds(0);
+  asks_ = false;
+  builder_->stand_at(place);
+  interpreter_->stand_at(place);
+}
+
+OpenRun::OpenRun(OpenProgram& program, const MachineDescription& machine)
+    : program_(program), smoother_(program, smoothness(machine)) {}
+
+}  // namespace passo

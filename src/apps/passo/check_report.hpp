@@ -1,0 +1,27 @@
+// CheckReport: all that `passo check` knows of a program, as one page in HTML.
+//
+// The page is a single file: it needs no network and runs no script. It is readable on paper, on a narrow screen, and
+// in light and dark. All that comes from the program and its name is escaped.
+#pragma once
+
+#include <string>
+
+#include "check_page.hpp"
+
+#include "passo/diagnostics/diagnostic.hpp"
+
+namespace passo {
+
+struct CheckReport {
+  std::string program;  // its name
+  const MachineDescription& machine;
+  const Diagnostics& findings;
+  std::string waits;                // where the program waits for somebody; empty: nowhere
+  const CheckPage* page = nullptr;  // null: the program has errors
+  const PathRecorder& path;
+  const LoadTrack& track;
+};
+
+std::string to_html(const CheckReport& report);
+
+}  // namespace passo

@@ -1,0 +1,119 @@
+// ProcessBoard: an emulated board whose chip is a program of its own. All but what the chip's pins mean: the line, the
+// time, the counts, and the plant.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "passo/emulator/emulated_board.hpp"
+#include "passo/emulator/emulator_process.hpp"
+#include "passo/plant/ideal_plant.hpp"
+
+namespace passo {
+
+class ProcessBoard : public EmulatedBoard {
+ public:
+  void receive(std::span<const std::uint8_t> bytes) final { chip_->send(bytes); }
+  bool run(Seconds most) final {
+    const double seconds = std::clamp(most.value(), 0.0, longest_silence);
+    const std::uint64_t end = chip_->cycle() + static_cast<std::uint64_t>(seconds * clock_rate_);
+    look_at_plant();
+    while (said_.empty() && chip_->cycle() < end) {
+      const std::int64_t events = plant_->events_to_next_change();
+      const auto rises = static_cast<std::uint32_t>(
+          events == Plant::never ? 0 : std::min<std::int64_t>(events, std::numeric_limits<std::int32_t>::max()));
+      run_until(next_stop(end), {.at_byte = true, .watched = stepping_, .rises = rises});
+    }
+    return !said_.empty();
+  }
+  std::span<const std::uint8_t> replies() final {
+    taken_ = std::exchange(said_, {});
+    return taken_;
+  }
+  Seconds elapsed() const final { return time_of(chip_->cycle()); }
+  std::vector<std::int64_t> positions() const final { return positions_; }
+  void connect(Plant& plant) override {
+    plant_ = &plant;
+    look_at_plant();
+  }
+
+ protected:
+  // `clock_rate`: cycles a second.
+  ProcessBoard(double clock_rate, std::size_t motors) : clock_rate_(clock_rate), positions_(motors, 0) {}
+
+  // The chip that is emulated from now on, and the pins that make steps. The first answer shows that the program is
+  // there and boots.
+  void start(std::unique_ptr<EmulatorProcess> chip, std::uint32_t stepping) {
+    chip_ = std::move(chip);
+    stepping_ = stepping;
+    run_until(1, {});
+  }
+  EmulatorProcess& chip() { return *chip_; }
+  const EmulatorProcess& chip() const { return *chip_; }
+  Plant& plant() { return *plant_; }
+  Seconds time_of(std::uint64_t cycle) const { return Seconds(static_cast<double>(cycle) / clock_rate_); }
+  bool is_high(std::uint32_t pin) const { return (levels_ & pin) != 0; }
+  std::int64_t position(std::size_t motor) const { return positions_[motor]; }
+  void count(std::uint64_t cycle, std::size_t motor, bool down) {
+    positions_[motor] += down ? -1 : 1;
+    pulses_[motor] += down ? -1 : 1;
+    if (on_step) on_step(cycle, motor, down);
+  }
+
+ private:
+  // How long, in seconds, an endless run() waits for a silent board.
+  static constexpr double longest_silence = 10;
+
+  // Counts the steps of a change of the pins.
+  virtual void count_steps(const PinChange& change, std::uint32_t before) = 0;
+  // What the spindle's pins ask for; below zero: backwards.
+  virtual double commanded_rpm() const = 0;
+  // The plant's inputs have changed.
+  virtual void set_pins(std::uint16_t inputs) = 0;
+  // Where to stop at the latest on the way to the cycle `end`.
+  virtual std::uint64_t next_stop(std::uint64_t end) { return end; }
+
+  void run_until(std::uint64_t cycle, const EmulatorProcess::Stops& stops) {
+    if (!chip_->run(cycle, stops)) throw std::runtime_error(chip_->error());
+    for (const PinChange& change : chip_->changes()) {
+      const std::uint32_t before = std::exchange(levels_, change.levels);
+      if (((before ^ change.levels) & stepping_) != 0) follow(change, before);
+    }
+    const double rpm = commanded_rpm();
+    if (rpm != rpm_) plant_->command_spindle(elapsed(), rpm_ = rpm);
+    look_at_plant();
+    said_.insert(said_.end(), chip_->said().begin(), chip_->said().end());
+  }
+  void follow(const PinChange& change, std::uint32_t before) {
+    pulses_ = {};
+    count_steps(change, before);
+    if (std::ranges::any_of(pulses_, [](std::int64_t pulses) { return pulses != 0; })) {
+      plant_->pulse(time_of(change.cycle), pulses_);
+    }
+  }
+  void look_at_plant() {
+    const std::uint16_t inputs = plant_->inputs_at(elapsed());
+    if (inputs != std::exchange(inputs_, inputs)) set_pins(inputs);
+  }
+
+  double clock_rate_;
+  std::unique_ptr<EmulatorProcess> chip_;
+  std::uint32_t stepping_ = 0;  // the pins that make steps
+  std::uint32_t levels_ = 0;
+  IdealPlant own_plant_;
+  Plant* plant_ = &own_plant_;
+  std::uint16_t inputs_ = 0;  // the inputs that the plant told last
+  double rpm_ = 0;
+  std::vector<std::int64_t> positions_;
+  MotorSteps pulses_{};  // the pulses of the current change
+  std::vector<std::uint8_t> said_;
+  std::vector<std::uint8_t> taken_;
+};
+
+}  // namespace passo

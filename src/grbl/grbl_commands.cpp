@@ -1,0 +1,164 @@
+// GrblController: lines that begin with $.
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/grbl/grbl_controller.hpp"
+#include "passo/interpreter/grbl_errors.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::string_view beyond_travel = "travel.exceeded";
+constexpr std::size_t jog_words_from = 3;  // after "$J="
+
+}  // namespace
+
+void GrblController::take_command(const std::string& text) {
+  if (text == "$") {
+    say(help_text());
+    return answer(GrblError::none);
+  }
+  if (text == "$G") {
+    say(modes_text(program_.modes(), units()));
+    return answer(GrblError::none);
+  }
+  if (text == "$X") return unlock();
+  if (text == "$C") return toggle_check();
+  if (text.starts_with("$J=")) return take_jog(text.substr(jog_words_from));
+  // All others only at rest, as in grbl.
+  if (!is_idle() && !(alarm_ && !session_.busy())) return answer(GrblError::not_idle);
+  if (text == "$$") {
+    std::string all;
+    for (const GrblSetting& setting : grbl_settings(machine_, choices_)) {
+      all += fmt::format("${}={}\r\n", setting.number, setting.value);
+    }
+    say(std::move(all));
+    return answer(GrblError::none);
+  }
+  if (text == "$#") {
+    say(offsets_text(program_.parameters(), program_.modes(), probe_, units()));
+    return answer(GrblError::none);
+  }
+  if (text == "$I") {
+    say(build_text());
+    return answer(GrblError::none);
+  }
+  if (text == "$H") return home();
+  if (text == "$SLP") return sleep();
+  if (text.starts_with("$N")) return take_startup_line(text);
+  if (text.starts_with("$RST=")) return restore(text);
+  take_setting(text);
+}
+
+void GrblController::unlock() {
+  if (alarm_) {
+    const MachineState state = session_.state();
+    if (state == MachineState::alarm || state == MachineState::fault) return answer(GrblError::locked);
+    alarm_ = false;
+    say("[MSG:Caution: Unlocked]\r\n");
+  }
+  answer(GrblError::none);
+}
+
+void GrblController::toggle_check() {
+  if (checks_) {
+    say("[MSG:Disabled]\r\n");
+    answer(GrblError::none);
+    return reset();
+  }
+  if (!is_idle()) return answer(GrblError::not_idle);
+  checks_ = true;
+  say("[MSG:Enabled]\r\n");
+  answer(GrblError::none);
+}
+
+void GrblController::take_jog(const std::string& text) {
+  const bool at_rest = is_idle();
+  if (!at_rest && !(jogs() && !alarm_)) return answer(GrblError::not_idle);
+  if (text.find_first_of("IJKLMPRST$") != std::string::npos) return answer(GrblError::bad_jog);
+  const auto wrong = program_.take_jog(text, session_.now());
+  if (!wrong) {
+    begin_stream();
+    return answer(GrblError::none);
+  }
+  if (wrong->code == beyond_travel) return answer(GrblError::jog_beyond_travel);
+  answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::bad_jog)));
+}
+
+// What the program has left open ends first; the spindle stops.
+void GrblController::home() {
+  if (machine_.homing.empty()) return answer(GrblError::setting_disabled);
+  after_stop_ = [this] { begin_homing(); };
+  stop_for(Waits::stop);
+}
+
+void GrblController::begin_homing() {
+  const auto ticket = session_.request(request::Home{});
+  if (!ticket) return answer(GrblError::locked);
+  homing_ = *ticket;
+  waits_ = Waits::homing;
+}
+
+void GrblController::sleep() {
+  say("[MSG:Sleeping]\r\n");
+  after_stop_ = [this] {
+    ask(request::Sleep{});
+    answer(GrblError::none);
+  };
+  stop_for(Waits::stop);
+}
+
+void GrblController::take_startup_line(const std::string& text) {
+  if (text == "$N") {
+    say(fmt::format("$N0={}\r\n$N1={}\r\n", startup_[0], startup_[1]));
+    return answer(GrblError::none);
+  }
+  const bool is_good = text.size() >= 4 && (text[2] == '0' || text[2] == '1') && text[3] == '=';
+  if (!is_good) return answer(GrblError::bad_statement);
+  if (alarm_) return answer(GrblError::not_idle);
+  const std::string line = text.substr(4);
+  if (const auto wrong = line.empty() ? std::nullopt : program_.check(line)) {
+    return answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)));
+  }
+  startup_[text[2] - '0'] = line;
+  answer(GrblError::none);
+}
+
+// The machine file keeps the settings, so only offsets can be restored.
+void GrblController::restore(const std::string& text) {
+  if (text != "$RST=#") return answer(GrblError::bad_statement);
+  for (int system = 1; system <= 6; ++system) {
+    const std::string line = fmt::format("G10L2P{}X0Y0Z0", system);
+    if (program_.take(line, session_.now())) return answer(GrblError::bad_statement);
+  }
+  static_cast<void>(program_.take("G92.1", session_.now()));
+  say("[MSG:Restoring defaults]\r\n");
+  answer(GrblError::none);
+}
+
+void GrblController::take_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return answer(GrblError::bad_statement);
+  int number = 0;
+  const char* const last = text.data() + equals;
+  const auto [end, error] = std::from_chars(text.data() + 1, last, number);
+  double value = 0;
+  const char* const value_last = text.data() + text.size();
+  const auto [value_end, value_error] = std::from_chars(last + 1, value_last, value);
+  if (error != std::errc() || end != last) return answer(GrblError::bad_statement);
+  if (value_error != std::errc() || value_end != value_last || !std::isfinite(value)) return answer(2);
+  if (value < 0) return answer(4);
+  if (number == 10) {
+    choices_.status_mask = static_cast<unsigned>(std::lround(std::min(value, 255.0)));
+  } else if (number == 13) {
+    choices_.inches = value != 0;
+  } else {
+    return answer(GrblError::bad_statement);
+  }
+  answer(GrblError::none);
+}
+
+}  // namespace passo

@@ -1,0 +1,214 @@
+// GrblController: lines, and what has happened.
+#include "passo/grbl/grbl_controller.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "passo/interpreter/grbl_errors.hpp"
+
+namespace passo {
+namespace {
+
+constexpr std::string_view outside_travel = "travel.exceeded";
+
+}  // namespace
+
+GrblController::GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program)
+    : machine_(machine), session_(session), program_(program) {
+  alarm_ = !machine.homing.empty() && session.status().position.trust == Trust::unknown;
+}
+
+void GrblController::connect() {
+  input_.clear();
+  offset_in_ = 0;
+  overrides_in_ = 1;
+  say(std::string(grbl_banner));
+  if (alarm_) say("[MSG:'$H'|'$X' to unlock]\r\n");
+}
+
+void GrblController::disconnect() {
+  input_.clear();
+  if (jogs()) {
+    cancel_jog();
+  } else if (!is_idle() && waits_ == Waits::none) {
+    hold();
+  }
+}
+
+void GrblController::receive(std::string_view bytes) {
+  input_.receive(bytes, [this](std::uint8_t byte) { act(byte); });
+}
+
+std::vector<std::string> GrblController::take_replies() {
+  return std::exchange(replies_, {});
+}
+
+void GrblController::turn(const std::vector<MachineChange>& changes) {
+  for (const MachineChange& change : changes) heed(change);
+  if (waits_ == Waits::probe && !program_.asks()) end_probe();
+  if (waits_ == Waits::stop && !session_.busy()) {
+    waits_ = Waits::none;
+    std::exchange(after_stop_, nullptr)();
+  }
+  if (resets_ && !session_.busy() && session_.state() != MachineState::offline) end_reset();
+  begin_stream();
+  take_lines();
+}
+
+void GrblController::heed(const MachineChange& change) {
+  switch (change.kind) {
+    case MachineChange::Kind::state:
+      if (change.state == MachineState::alarm) raise(GrblAlarm::hard_limit);
+      if (change.state == MachineState::fault) raise(GrblAlarm::lost_place);
+      return;
+    case MachineChange::Kind::position_lost: return raise(GrblAlarm::lost_place);
+    case MachineChange::Kind::probed: probe_ = change.probe; return;
+    case MachineChange::Kind::answered: break;
+    default: return;
+  }
+  if (waits_ != Waits::homing || homing_ != change.ticket) return;
+  homing_.reset();
+  waits_ = Waits::none;
+  program_.restart(session_.status().position.place);
+  if (change.outcome == Outcome::done) {
+    alarm_ = false;
+    return answer(GrblError::none);
+  }
+  const bool holds = change.fault && change.fault->code == "homing.not-released";
+  raise(change.outcome == Outcome::stopped ? GrblAlarm::homing_stopped
+        : holds                            ? GrblAlarm::homing_no_release
+                                           : GrblAlarm::homing_no_switch);
+  answer(GrblError::locked);
+}
+
+// The probe move is done, and its line can be answered.
+void GrblController::end_probe() {
+  waits_ = Waits::none;
+  const bool failed = program_.answer_fault().has_value();
+  if (failed) raise(probe_ && probe_->refused ? GrblAlarm::probe_before : GrblAlarm::probe_untouched);
+  if (!probe_ || !probe_->refused) say(probe_text(probe_, units()));
+  answer(GrblError::none);
+}
+
+void GrblController::raise(GrblAlarm alarm) {
+  alarm_ = true;
+  say(fmt::format("ALARM:{}\r\n", static_cast<int>(alarm)));
+}
+
+// Ends what goes on, at rest on the path. `after_stop_` then tells what comes next.
+void GrblController::stop_for(Waits waits) {
+  waits_ = waits;
+  if (session_.busy()) ask(request::Stop{});
+}
+
+// The program's place is the machine's whenever a stream begins.
+void GrblController::begin_stream() {
+  if (session_.state() != MachineState::idle || resets_ || waits_ == Waits::homing) return;
+  if (program_.is_to_begin(session_.now())) ask(request::Stream{.program = &program_});
+}
+
+bool GrblController::may_take_line() const {
+  if (waits_ != Waits::none || resets_) return false;
+  const MachineState state = session_.state();
+  return state != MachineState::offline && program_.room();
+}
+
+void GrblController::take_lines() {
+  while (may_take_line()) {
+    const auto line = input_.take_line();
+    if (!line) return;
+    take(*line);
+  }
+}
+
+void GrblController::take(const GrblInput::Line& line) {
+  if (line.too_long) return answer(GrblError::line_overflow);
+  if (line.text.empty()) return answer(GrblError::none);
+  if (line.text[0] == '$') return take_command(line.text);
+  if (alarm_ || jogs() || session_.state() == MachineState::sleep) return answer(GrblError::locked);
+  take_code(line.text);
+}
+
+void GrblController::take_code(const std::string& text) {
+  probe_ = program_.asks() ? std::nullopt : probe_;
+  const auto wrong = checks_ ? program_.check(text) : program_.take(text, session_.now());
+  if (wrong) {
+    const bool is_beyond = wrong->code == outside_travel;
+    if (is_beyond && !checks_) {
+      // As grbl: what was sent before is held, and the rest is not executed.
+      hold();
+      raise(GrblAlarm::soft_limit);
+      say("[MSG:Reset to continue]\r\n");
+      return answer(GrblError::none);
+    }
+    return answer(grbl_error_number(wrong->code).value_or(static_cast<int>(GrblError::unsupported)));
+  }
+  if (program_.asks()) {
+    waits_ = Waits::probe;
+    return begin_stream();
+  }
+  if (program_.take_ended()) say("[MSG:Pgm End]\r\n");
+  begin_stream();
+  answer(GrblError::none);
+}
+
+void GrblController::answer(int error) {
+  say(error == 0 ? std::string("ok\r\n") : fmt::format("error:{}\r\n", error));
+}
+
+bool GrblController::jogs() const {
+  if (!program_.jogs()) return false;
+  return program_.queued() > 0 || session_.state() == MachineState::run;
+}
+
+bool GrblController::is_idle() const {
+  const MachineState state = session_.state();
+  return (state == MachineState::idle || state == MachineState::await_line) && program_.queued() == 0 &&
+         !program_.asks() && !alarm_ && !checks_ && waits_ == Waits::none;
+}
+
+std::string_view GrblController::state_name() const {
+  const MachineState state = session_.state();
+  const MachineStatus status = session_.status();
+  switch (state) {
+    case MachineState::home: return "Home";
+    case MachineState::sleep: return "Sleep";
+    case MachineState::alarm:
+    case MachineState::fault: return "Alarm";
+    default: break;
+  }
+  if (alarm_) return "Alarm";
+  switch (state) {
+    case MachineState::hold:
+    case MachineState::tool_change: return status.rests ? "Hold:0" : "Hold:1";
+    case MachineState::door: return !status.rests ? "Door:2" : (status.inputs & input_door) != 0 ? "Door:1" : "Door:0";
+    case MachineState::run:
+    case MachineState::probe: break;
+    case MachineState::jog: return "Jog";
+    default:
+      if (checks_) return "Check";
+      if (program_.queued() == 0 && !program_.asks()) return "Idle";
+  }
+  return program_.jogs() ? "Jog" : "Run";
+}
+
+// Limits and the probe. Never the start button: a sender begins a job of its own when it sees that.
+std::string GrblController::pins() const {
+  const unsigned inputs = session_.status().inputs;
+  std::string letters;
+  if ((inputs & input_probe) != 0) letters += 'P';
+  for (const AxisDescription& axis : machine_.axes) {
+    if (axis.home && (inputs & axis.home_switches()) != 0) letters += letter_of(axis.axis);
+  }
+  if ((inputs & input_door) != 0) letters += 'D';
+  if ((inputs & input_hold) != 0) letters += 'H';
+  return letters;
+}
+
+GrblUnits GrblController::units() const {
+  return {.axes = grbl_axes_of(machine_), .inches = choices_.inches};
+}
+
+}  // namespace passo

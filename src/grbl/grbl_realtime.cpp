@@ -1,0 +1,125 @@
+// GrblController: what real-time commands do.
+#include <algorithm>
+#include <cmath>
+
+#include "passo/grbl/grbl_controller.hpp"
+
+namespace passo {
+namespace {
+
+// How many reports lie between two that show the work offset, or the overrides: at rest, and while the machine moves.
+constexpr int offset_each_at_rest = 10;
+constexpr int offset_each = 30;
+constexpr int overrides_each_at_rest = 10;
+constexpr int overrides_each = 20;
+
+constexpr int least_override = 10;
+constexpr int most_override = 200;
+
+}  // namespace
+
+void GrblController::act(std::uint8_t byte) {
+  switch (byte) {
+    case '?': return report_status();
+    case '!': return jogs() ? cancel_jog() : hold();
+    case '~': return resume();
+    case 0x18: return reset();
+    case 0x84: return hold();
+    case 0x85: return cancel_jog();
+    case 0x90: return change_feed(100);
+    case 0x91: return change_feed(feed_override_ + 10);
+    case 0x92: return change_feed(feed_override_ - 10);
+    case 0x93: return change_feed(feed_override_ + 1);
+    case 0x94: return change_feed(feed_override_ - 1);
+    case 0x99: return change_spindle(100);
+    case 0x9A: return change_spindle(spindle_override_ + 10);
+    case 0x9B: return change_spindle(spindle_override_ - 10);
+    case 0x9C: return change_spindle(spindle_override_ + 1);
+    case 0x9D: return change_spindle(spindle_override_ - 1);
+    default: return;
+  }
+}
+
+void GrblController::report_status() {
+  const MachineStatus status = session_.status();
+  const bool rests = is_idle() || alarm_;
+  GrblStatus report;
+  report.state = state_name();
+  report.machine_place = status.now_at;
+  report.work_offset = program_.modes().frame.machine_from_work(Point());
+  report.planner_free = grbl_planner_blocks - std::min(program_.queued(), grbl_planner_blocks);
+  report.bytes_free = input_.free();
+  report.feed = status.speed_now.value() * seconds_per_minute;
+  report.speed = status.outputs.spindle == SpindleDirection::off ? 0 : status.outputs.revolutions_per_minute;
+  report.pins = pins();
+  report.outputs = status.outputs;
+  report.feed_override = feed_override_;
+  report.rapid_override = rapid_override_;
+  report.spindle_override = spindle_override_;
+  if (report.work_offset != told_offset_) offset_in_ = 0;
+  report.shows_offset = offset_in_ <= 0;
+  report.shows_overrides = !report.shows_offset && overrides_in_ <= 0;
+  offset_in_ = report.shows_offset ? (rests ? offset_each_at_rest : offset_each) - 1 : offset_in_ - 1;
+  overrides_in_ = report.shows_overrides ? (rests ? overrides_each_at_rest : overrides_each) - 1 : overrides_in_ - 1;
+  if (report.shows_offset) told_offset_ = report.work_offset;
+  say(status_text(report, units(), choices_.status_mask));
+}
+
+// At rest too: then the next motion waits for a resume.
+void GrblController::hold() {
+  if (alarm_ || checks_ || resets_) return;
+  if (session_.state() == MachineState::idle) ask(request::Stream{.program = &program_});
+  ask(request::Hold{});
+}
+
+void GrblController::resume() {
+  if (session_.status().waits_for) ask(request::OperatorDone{});
+  ask(request::Resume{});
+}
+
+void GrblController::cancel_jog() {
+  if (jogs()) ask(request::DropLines{});
+}
+
+// Brakes on the path. The answer, the banner, comes when the machine rests.
+void GrblController::reset() {
+  input_.clear();
+  after_stop_ = nullptr;
+  homing_.reset();
+  resets_ = true;
+  stop_for(Waits::none);
+  if (session_.state() == MachineState::sleep) ask(request::Wake{});
+  const MachineState state = session_.state();
+  if (state == MachineState::alarm || state == MachineState::fault) ask(request::ResetMachine{});
+}
+
+void GrblController::end_reset() {
+  resets_ = checks_ = false;
+  feed_override_ = rapid_override_ = spindle_override_ = 100;
+  send_overrides();
+  program_.restart(session_.status().position.place);
+  connect();
+  if (alarm_) return;
+  for (const std::string& line : startup_) {
+    if (line.empty()) continue;
+    const auto wrong = program_.take(line, session_.now());
+    say(">" + line + (wrong ? ":error:20\r\n" : ":ok\r\n"));
+  }
+}
+
+void GrblController::change_feed(int percent) {
+  feed_override_ = std::clamp(percent, least_override, most_override);
+  send_overrides();
+}
+
+void GrblController::change_spindle(int percent) {
+  spindle_override_ = std::clamp(percent, least_override, most_override);
+  send_overrides();
+}
+
+void GrblController::send_overrides() {
+  overrides_in_ = 0;
+  ask(request::Override{.feed = feed_override_ / 100.0, .adaptive_feed = {}, .spindle = spindle_override_ / 100.0});
+}
+
+}  // namespace passo

@@ -1,0 +1,150 @@
+// GrblController: a Grbl 1.1 controller around a machine session, as senders know it.
+//
+//   sender's bytes -> GrblInput -> GrblController -> requests to MachineSession, lines to OpenProgram
+//   sender  <- replies(): whole lines                <- status and changes
+//
+// Place on the street: beside the street, above the session. The controller knows no sockets and has no clock. Its
+// owner gives it the sender's bytes, turns the session, calls turn() after it, and sends the replies.
+//
+// Invariants: each line is answered by one `ok` or one `error:n`, in the order of the lines. An `ok` means that the
+// line was taken into the queue; after a probe move or homing, that it is done. A byte is never dropped, but by a
+// reset. Each reply is whole lines and belongs into one write.
+//
+// Where this differs from grbl, for the better: a reset and a soft limit brake on the path, so the place stays known.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/activity/open_program.hpp"
+#include "passo/grbl/grbl_input.hpp"
+#include "passo/grbl/grbl_reports.hpp"
+#include "passo/grbl/grbl_settings.hpp"
+#include "passo/machine_file/machine_description.hpp"
+#include "passo/session/machine_session.hpp"
+
+namespace passo {
+
+// grbl's numbers for what is wrong with a line, beside those for G-code.
+enum class GrblError : int {
+  none = 0,
+  bad_statement = 3,
+  setting_disabled = 5,
+  not_idle = 8,
+  locked = 9,
+  soft_limit_needs_homing = 10,
+  line_overflow = 11,
+  jog_beyond_travel = 15,
+  bad_jog = 16,
+  unsupported = 20,
+};
+
+enum class GrblAlarm : int {
+  none = 0,
+  hard_limit = 1,
+  soft_limit = 2,
+  lost_place = 3,
+  probe_before = 4,
+  probe_untouched = 5,
+  homing_stopped = 6,
+  homing_no_release = 8,
+  homing_no_switch = 9,
+};
+
+class GrblController {
+ public:
+  // `machine`, `session` and `program` outlive the controller. `program` speaks grbl's dialect.
+  GrblController(const MachineDescription& machine, MachineSession& session, OpenProgram& program);
+
+  // A sender has come: it is greeted, and what an earlier one has left unread is dropped.
+  void connect();
+  // The sender has gone: a jog ends, and a program is held until somebody resumes or resets it.
+  void disconnect();
+  void receive(std::string_view bytes);
+  // False: the server is to stop reading until lines were taken.
+  bool wants_more() const { return input_.wants_more(); }
+  // Takes lines as far as they can be taken now, and tells what has happened. `changes`: the session's, since the last
+  // call. Call after each turn of the session.
+  void turn(const std::vector<MachineChange>& changes);
+  // What to send, each in one write.
+  std::vector<std::string> take_replies();
+
+ private:
+  enum class Waits : std::uint8_t { none, probe, homing, stop };
+
+  // Real-time commands.
+  void act(std::uint8_t byte);
+  void report_status();
+  void hold();
+  void resume();
+  void reset();
+  void cancel_jog();
+  void change_feed(int percent);
+  void change_spindle(int percent);
+  void send_overrides();
+
+  // Lines.
+  void take_lines();
+  void take(const GrblInput::Line& line);
+  bool may_take_line() const;
+  void take_code(const std::string& text);
+  void take_command(const std::string& text);
+  void take_jog(const std::string& text);
+  void take_setting(const std::string& text);
+  void take_startup_line(const std::string& text);
+  void restore(const std::string& text);
+  void toggle_check();
+  void unlock();
+  void home();
+  void sleep();
+  void begin_stream();
+
+  // What has happened.
+  void heed(const MachineChange& change);
+  void end_probe();
+  void begin_homing();
+  void end_reset();
+  void raise(GrblAlarm alarm);
+  void stop_for(Waits waits);
+
+  void answer(GrblError error) { answer(static_cast<int>(error)); }
+  void answer(int error);
+  void say(std::string text) { replies_.push_back(std::move(text)); }
+  std::string_view state_name() const;
+  bool is_idle() const;
+  bool jogs() const;
+  std::string pins() const;
+  GrblUnits units() const;
+  template <class Wanted>
+  bool ask(Wanted wanted) {
+    return session_.request(std::move(wanted)).has_value();
+  }
+
+  const MachineDescription& machine_;
+  MachineSession& session_;
+  OpenProgram& program_;
+  GrblInput input_;
+  GrblChoices choices_;
+  std::vector<std::string> replies_;
+  Waits waits_ = Waits::none;
+  std::function<void()> after_stop_;
+  std::optional<Ticket> homing_;
+  std::optional<ProbeOutcome> probe_;
+  bool must_touch_ = false;  // the probe move under way raises an alarm if nothing is touched
+  bool alarm_ = false;       // locked, until $X, $H
+  bool checks_ = false;      // $C
+  bool resets_ = false;      // the machine comes to rest for a reset
+  int offset_in_ = 0;        // reports until the work offset is shown again; 0: in the next
+  int overrides_in_ = 1;
+  Point told_offset_;
+  int feed_override_ = 100;
+  int rapid_override_ = 100;
+  int spindle_override_ = 100;
+  std::string startup_[2];
+};
+
+}  // namespace passo

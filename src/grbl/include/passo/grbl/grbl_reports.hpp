@@ -1,0 +1,59 @@
+// The texts that a Grbl controller sends, as grbl 1.1 spells them. Each is one or more whole lines.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "passo/geometry/axes.hpp"
+#include "passo/grbl/grbl_settings.hpp"
+#include "passo/interpreter/modes_in_force.hpp"
+#include "passo/interpreter/parameter_file.hpp"
+#include "passo/interpreter/probe_outcome.hpp"
+#include "passo/path/segment.hpp"
+
+namespace passo {
+
+// What a status report shows.
+struct GrblStatus {
+  std::string_view state;  // "Idle", "Hold:0" …
+  Point machine_place;
+  Point work_offset;  // machine place minus work place
+  std::size_t planner_free = 0;
+  std::size_t bytes_free = 0;
+  double feed = 0;  // mm/min, as the machine moves
+  double speed = 0;
+  std::string pins;  // the letters of closed inputs
+  OutputState outputs;
+  int feed_override = 100;  // percent
+  int rapid_override = 100;
+  int spindle_override = 100;
+  bool shows_offset = false;
+  bool shows_overrides = false;
+};
+
+// How places are written: which axes, and whether in inches.
+struct GrblUnits {
+  std::vector<Axis> axes;
+  bool inches = false;
+};
+
+inline constexpr std::string_view grbl_banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
+inline constexpr std::size_t grbl_planner_blocks = 15;
+
+std::string places_text(const Point& place, const GrblUnits& units);
+std::string status_text(const GrblStatus& status, const GrblUnits& units, unsigned mask);
+// $G
+std::string modes_text(const ModesInForce& modes, const GrblUnits& units);
+// $#
+std::string offsets_text(const SavedParameters& parameters, const ModesInForce& modes,
+                         const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
+std::string probe_text(const std::optional<ProbeOutcome>& probe, const GrblUnits& units);
+// $I
+std::string build_text();
+// $
+std::string help_text();
+
+}  // namespace passo

@@ -1,0 +1,68 @@
+// BoundedMotor: a stepping motor in motion, integrated in full only where its bound does not hold.
+//
+// While the bound of ReducedMotor holds, the currents are not integrated. Where the bound fails, RunningMotor goes on
+// from the rotor's state, with the currents that the driver wants; when the motor is calm again, ReducedMotor takes
+// over. docs/ramps/physics.md states how far the places may differ from those of a motor that is always integrated.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "passo/motor/reduced_motor.hpp"
+#include "passo/motor/running_motor.hpp"
+
+namespace passo {
+
+enum class Integration : std::uint8_t {
+  where_needed,  // in full only where the bound does not hold
+  always,
+};
+
+class BoundedMotor {
+ public:
+  // The motor rests at place 0, as a RunningMotor. The setup's parts have passed their checks.
+  BoundedMotor(const MotorSetup& setup, Integration integration);
+
+  void step(int way) {
+    if (is_reduced_ && reduced_->step(way)) return;
+    step_in_full(way);
+  }
+  void run(Seconds time) {
+    if (!is_reduced_) return run_in_full(time);
+    reduced_->run(time.value());
+    if (!reduced_->holds()) leave();
+  }
+  void set_resistance(NewtonMetres torque);
+  // While a hand carries the rotor, the motor is integrated in full.
+  void carry(RadiansPerSecond speed);
+  void let_go();
+
+  // As RunningMotor has them.
+  double place() const { return is_reduced_ ? reduced_->place() : full_.place(); }
+  double lag() const { return is_reduced_ ? reduced_->load_angle() * full_steps_per_radian : full_.lag(); }
+  std::int64_t slipped() const { return full_.slipped(); }
+  RadiansPerSecond speed() const { return is_reduced_ ? reduced_->speed() : full_.speed(); }
+  NewtonMetres mean_torque() const { return is_reduced_ ? reduced_->mean_torque() : full_.mean_torque(); }
+  bool rests() const { return is_reduced_ ? reduced_->rests() : full_.rests(); }
+  int steps_per_full_step() const { return full_.steps_per_full_step(); }
+  // The bound holds now.
+  bool is_reduced() const { return is_reduced_; }
+
+ private:
+  static constexpr double full_steps_per_radian = 0.63661977236758134;  // 2/π
+
+  void step_in_full(int way);
+  void run_in_full(Seconds time);
+  void leave();
+  bool is_calm() const;
+  double interval_needed() const;
+
+  RunningMotor full_;
+  std::optional<ReducedMotor> reduced_;
+  bool is_reduced_ = false;
+  double calm_ = 0;   // seconds
+  double since_ = 0;  // the last step, in full
+  double interval_ = 0;
+};
+
+}  // namespace passo

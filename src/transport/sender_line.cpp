@@ -1,0 +1,206 @@
+#include "passo/transport/sender_line.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace passo {
+namespace {
+
+constexpr std::size_t most_at_once = 4096;
+constexpr std::string_view busy_words = "[MSG:Another sender is connected]\r\n";
+
+void set_flags(int descriptor) {
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) | O_NONBLOCK);
+  fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+}
+
+// Without echo, and without changes to any byte. Whoever closes the terminal sets it back to what it was.
+void make_raw(int terminal) {
+  termios mode{};
+  tcgetattr(terminal, &mode);
+  cfmakeraw(&mode);
+  tcsetattr(terminal, TCSANOW, &mode);
+}
+
+// The first address of that name at which this computer can listen. A negative number: errno or `reason` tells why.
+int bound(const std::string& host, unsigned port, std::string& reason) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  if (const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found); error != 0) {
+    reason = gai_strerror(error);
+    return -1;
+  }
+  int listening = -1;
+  for (const addrinfo* one = found; one != nullptr && listening < 0; one = one->ai_next) {
+    listening = socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, one->ai_protocol);
+    if (listening < 0) continue;
+    const int on = 1;
+    setsockopt(listening, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    if (bind(listening, one->ai_addr, one->ai_addrlen) == 0 && ::listen(listening, 4) == 0) break;
+    reason = errno == EADDRINUSE ? "in use by another program" : std::strerror(errno);
+    close(listening);
+    listening = -1;
+  }
+  freeaddrinfo(found);
+  return listening;
+}
+
+unsigned port_of(int listening) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  getsockname(listening, reinterpret_cast<sockaddr*>(&address), &size);
+  if (address.ss_family == AF_INET6) return ntohs(reinterpret_cast<const sockaddr_in6*>(&address)->sin6_port);
+  return ntohs(reinterpret_cast<const sockaddr_in*>(&address)->sin_port);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SenderLine>, std::string> SenderLine::listen(const std::string& host, unsigned port) {
+  std::string reason;
+  const int listening = bound(host, port, reason);
+  if (listening < 0) return Failure{host + ":" + std::to_string(port) + ": " + reason};
+  std::unique_ptr<SenderLine> line(new SenderLine);
+  line->listening_ = listening;
+  line->port_ = port_of(listening);
+  const bool has_colon = host.find(':') != std::string::npos;
+  line->name_ = "tcp:" + (has_colon ? "[" + host + "]" : host) + ":" + std::to_string(line->port_);
+  return line;
+}
+
+Result<std::unique_ptr<SenderLine>, std::string> SenderLine::open_terminal(const std::string& link) {
+  const int ours = posix_openpt(O_RDWR | O_NOCTTY);
+  if (ours < 0 || grantpt(ours) != 0 || unlockpt(ours) != 0) return Failure{std::string(std::strerror(errno))};
+  set_flags(ours);
+  const std::string theirs = ptsname(ours);
+  // A pseudo-terminal reports that nobody has it open only after somebody had.
+  if (const int once = ::open(theirs.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC); once >= 0) close(once);
+  // A link that an earlier program has left is replaced; a file never is.
+  std::array<char, 16> target{};
+  if (readlink(link.c_str(), target.data(), target.size() - 1) > 0 &&
+      std::string_view(target.data()).starts_with("/dev/pts/")) {
+    unlink(link.c_str());
+  }
+  if (symlink(theirs.c_str(), link.c_str()) != 0) {
+    const std::string reason = std::strerror(errno);
+    close(ours);
+    return Failure{link + ": " + reason};
+  }
+  std::unique_ptr<SenderLine> line(new SenderLine);
+  line->is_terminal_ = true;
+  line->sender_ = ours;
+  line->name_ = line->link_ = link;
+  return line;
+}
+
+SenderLine::~SenderLine() {
+  if (!link_.empty()) unlink(link_.c_str());
+  if (sender_ >= 0) close(sender_);
+  if (listening_ >= 0) close(listening_);
+}
+
+// A pseudo-terminal that nobody has open reports a hang-up.
+bool SenderLine::has_reader() const {
+  pollfd one{.fd = sender_, .events = POLLIN, .revents = 0};
+  static_cast<void>(poll(&one, 1, 0));
+  return (one.revents & POLLHUP) == 0;
+}
+
+void SenderLine::add_to(std::vector<pollfd>& all, bool reads) const {
+  if (listening_ >= 0) all.push_back({.fd = listening_, .events = POLLIN, .revents = 0});
+  // A terminal without a reader is always ready, and would not let anybody sleep.
+  if (sender_ < 0 || (is_terminal_ && !connected_)) return;
+  short events = reads ? POLLIN : short{0};
+  if (!unsent_.empty()) events = static_cast<short>(events | POLLOUT);
+  if (events != 0) all.push_back({.fd = sender_, .events = events, .revents = 0});
+}
+
+SenderLine::News SenderLine::look(bool reads) {
+  News news;
+  if (is_terminal_) {
+    const bool is_open = has_reader();
+    news.came = is_open && !connected_;
+    if (news.came) make_raw(sender_);
+    broken_ = broken_ || (!is_open && connected_);
+    connected_ = connected_ || is_open;
+  } else {
+    take_caller(news);
+  }
+  if (connected_ && !broken_) send_unsent();
+  if (connected_ && !broken_ && reads) read_bytes(news);
+  if (broken_) {
+    news.went = true;
+    close_sender();
+  }
+  return news;
+}
+
+void SenderLine::take_caller(News& news) {
+  const int descriptor = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (descriptor < 0) return;
+  if (connected_) {
+    static_cast<void>(::send(descriptor, busy_words.data(), busy_words.size(), MSG_NOSIGNAL));
+    close(descriptor);
+    return;
+  }
+  const int on = 1;
+  setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  sender_ = descriptor;
+  connected_ = news.came = true;
+}
+
+void SenderLine::read_bytes(News& news) {
+  std::array<char, most_at_once> bytes;
+  const ssize_t got = read(sender_, bytes.data(), bytes.size());
+  if (got > 0) {
+    news.bytes.assign(bytes.data(), static_cast<std::size_t>(got));
+  } else if (got == 0 || (errno != EAGAIN && errno != EINTR)) {
+    broken_ = true;
+  }
+}
+
+void SenderLine::send(std::string_view text) {
+  if (!connected_ || broken_) return;
+  unsent_ += text;
+  send_unsent();
+  if (unsent_.size() > most_unsent) broken_ = true;
+}
+
+void SenderLine::send_unsent() {
+  while (!unsent_.empty()) {
+    const ssize_t sent = is_terminal_ ? write(sender_, unsent_.data(), unsent_.size())
+                                      : ::send(sender_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    if (sent < 0) {
+      if (errno == EINTR) continue;
+      broken_ = broken_ || errno != EAGAIN;
+      return;
+    }
+    unsent_.erase(0, static_cast<std::size_t>(sent));
+  }
+}
+
+// A pseudo-terminal stays for the next sender.
+void SenderLine::close_sender() {
+  if (is_terminal_) {
+    tcflush(sender_, TCIOFLUSH);
+  } else {
+    close(sender_);
+    sender_ = -1;
+  }
+  unsent_.clear();
+  connected_ = broken_ = false;
+}
+
+}  // namespace passo

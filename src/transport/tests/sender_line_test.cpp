@@ -1,0 +1,117 @@
+// A sender that comes, speaks, is held up and goes: over TCP and through a pseudo-terminal.
+#include "passo/transport/sender_line.hpp"
+
+#include <filesystem>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace passo {
+namespace {
+
+int connect_to(unsigned port) {
+  const int made = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  EXPECT_EQ(connect(made, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  return made;
+}
+
+// Looks again and again until there is news of the wanted kind.
+template <class Wanted>
+SenderLine::News look_for(SenderLine& line, const Wanted& wanted, bool reads = true) {
+  SenderLine::News news;
+  for (int i = 0; i < 2000; ++i, usleep(1000)) {
+    news = line.look(reads);
+    if (wanted(news)) break;
+  }
+  return news;
+}
+bool came(const SenderLine::News& news) {
+  return news.came;
+}
+bool went(const SenderLine::News& news) {
+  return news.went;
+}
+bool spoke(const SenderLine::News& news) {
+  return !news.bytes.empty();
+}
+
+std::string read_from(int descriptor, std::size_t size) {
+  std::string text;
+  char c = 0;
+  while (text.size() < size && read(descriptor, &c, 1) == 1) text += c;
+  return text;
+}
+
+TEST(SenderLine, serves_one_sender_over_tcp_and_sends_a_second_one_away) {
+  auto line = SenderLine::listen("127.0.0.1", 0);
+  ASSERT_TRUE(line) << line.error();
+  const int first = connect_to((*line)->port());
+  EXPECT_TRUE(look_for(**line, came).came);
+  const int second = connect_to((*line)->port());
+  ASSERT_EQ(write(first, "G0\n", 3), 3);
+  EXPECT_EQ(look_for(**line, spoke).bytes, "G0\n");
+  (*line)->send("ok\r\n");
+  EXPECT_EQ(read_from(first, 4), "ok\r\n");
+  static_cast<void>((*line)->look(true));
+  EXPECT_TRUE(read_from(second, 1000).starts_with("[MSG:Another sender"));
+  close(second);
+  close(first);
+  EXPECT_TRUE(look_for(**line, went).went);
+  const int third = connect_to((*line)->port());
+  EXPECT_TRUE(look_for(**line, came).came);
+  close(third);
+}
+
+TEST(SenderLine, leaves_bytes_where_they_are_until_it_is_to_read) {
+  auto line = SenderLine::listen("127.0.0.1", 0);
+  ASSERT_TRUE(line);
+  const int sender = connect_to((*line)->port());
+  EXPECT_TRUE(look_for(**line, came, false).came);
+  ASSERT_EQ(write(sender, "G0\n", 3), 3);
+  for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(false).bytes.empty());
+  EXPECT_EQ(look_for(**line, spoke).bytes, "G0\n");
+  close(sender);
+}
+
+TEST(SenderLine, a_pseudo_terminal_serves_one_sender_after_the_other_without_an_echo) {
+  const std::string link =
+      (std::filesystem::temp_directory_path() / ("passo-tty-" + std::to_string(getpid()))).string();
+  {
+    auto line = SenderLine::open_terminal(link);
+    ASSERT_TRUE(line) << line.error();
+    EXPECT_FALSE((*line)->look(true).came) << "nobody has come yet";
+    for (int round = 0; round < 2; ++round) {
+      const int sender = open(link.c_str(), O_RDWR | O_NOCTTY);
+      ASSERT_GE(sender, 0);
+      EXPECT_TRUE(look_for(**line, came).came);
+      (*line)->send("hello\r\n");
+      EXPECT_EQ(read_from(sender, 7), "hello\r\n");
+      for (int i = 0; i < 20; ++i, usleep(1000)) EXPECT_TRUE((*line)->look(true).bytes.empty()) << "an echo";
+      ASSERT_EQ(write(sender, "?\n", 2), 2);
+      EXPECT_EQ(look_for(**line, spoke).bytes, "?\n");
+      close(sender);
+      EXPECT_TRUE(look_for(**line, went).went);
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
+}
+
+TEST(SenderLine, a_file_in_the_place_of_the_link_is_never_replaced) {
+  const std::string link =
+      (std::filesystem::temp_directory_path() / ("passo-file-" + std::to_string(getpid()))).string();
+  close(open(link.c_str(), O_CREAT | O_WRONLY, 0600));
+  EXPECT_FALSE(SenderLine::open_terminal(link));
+  EXPECT_TRUE(std::filesystem::is_regular_file(link));
+  std::filesystem::remove(link);
+}
+
+}  // namespace
+}  // namespace passo

@@ -1,0 +1,110 @@
+// EmulatedLineRun: a program on a board's own firmware, emulated, at the end of a bad line. Whatever the line does,
+// what comes out of the board's pins is the program, within the limits of the machine.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "emulator/bad_line.hpp"
+#include "emulator/board_kind.hpp"
+#include "kit/driven.hpp"
+#include "kit/example_machine.hpp"
+#include "kit/seed.hpp"
+#include "kit/step_log.hpp"
+#include <gtest/gtest.h>
+
+#include "passo/emulator/emulated_board.hpp"
+
+namespace passo::test {
+
+class EmulatedLineRun {
+ public:
+  struct Outcome {
+    std::uint64_t frames = 0;
+    int faults = 0;
+    int recoveries = 0;
+  };
+  struct Cuts {
+    int trials = 0;
+    int recoveries = 0;
+    int recoveries_without_need = 0;  // of the run that was not cut
+  };
+  // `machine`: the name of an example.
+  EmulatedLineRun(const BoardKind& board, const std::string& machine)
+      : board_(board), machine_(example_machine(machine)), reference_(steps_without_line()) {}
+
+  // `spoil` is called when the greeting is over.
+  Outcome run(const std::function<void(BadLine&)>& spoil) const {
+    auto board = EmulatedBoard::start(board_.name, board_.program);
+    EXPECT_TRUE(board);
+    StepLog log;
+    (*board)->on_step = [&](std::uint64_t cycle, std::size_t motor, bool down) {
+      log.add(static_cast<std::int64_t>(cycle) / board_.cycles_of_tick, static_cast<unsigned>(motor), down);
+    };
+    BadLine line(**board);
+    Diagnostics diagnostics;
+    DrivenProgram job(reader(), machine_, InterpreterOptions(), diagnostics, {.board = &line});
+    EXPECT_FALSE(job.unsuited()) << *job.unsuited();
+    spoil(line);
+    while (job.advance()) {
+    }
+    EXPECT_FALSE(job.link().error()) << message_of(*job.link().error());
+    // The last edges are counted with the time that passes next.
+    static_cast<void>((*board)->run(Seconds(0.01)));
+    expect_same_way(log.steps, reference_);
+    expect_within_limits(machine_, log.steps);
+    return {.frames = line.frames(), .faults = line.faults(), .recoveries = job.drive().refiller()->recoveries()};
+  }
+
+  // Cuts the line before each `stride`th frame.
+  Cuts cut_at_every(std::uint64_t stride) const {
+    const Outcome whole = run([](BadLine&) {});
+    Cuts cuts{.recoveries_without_need = whole.recoveries};
+    for (std::uint64_t frame = 3; frame < whole.frames && !testing::Test::HasFatalFailure(); frame += stride) {
+      SCOPED_TRACE("cut before frame " + std::to_string(frame));
+      cuts.recoveries += run([&](BadLine& line) { line.cut_at(line.frames() + frame, Seconds(0.3)); }).recoveries;
+      ++cuts.trials;
+    }
+    std::printf("%llu frames, %d rests without need; cut before %d of them: %d rests\n",
+                static_cast<unsigned long long>(whole.frames), whole.recoveries, cuts.trials, cuts.recoveries);
+    return cuts;
+  }
+
+  void random_faults(int trials) const {
+    const std::uint64_t seed = test::seed();
+    int faults = 0;
+    int recoveries = 0;
+    for (int i = 0; i < trials && !testing::Test::HasFatalFailure(); ++i) {
+      SCOPED_TRACE("PASSO_SEED=" + std::to_string(seed) + ", trial " + std::to_string(i));
+      const Outcome outcome = run([&](BadLine& line) { line.go_bad(seed + static_cast<std::uint64_t>(i)); });
+      faults += outcome.faults;
+      recoveries += outcome.recoveries;
+    }
+    std::printf("%d trials with %d faults, %d rests\n", trials, faults, recoveries);
+    EXPECT_GT(faults, trials);
+  }
+
+ private:
+  static ProgramReader reader() {
+    return ProgramReader::from_text(
+        "t",
+        "G21 G90 G64 P.02 G1 F4000\nX2\nY1.5\nX.5 Y2 Z-.4\nG2 X1.5 Y1 I.5 J-.5 F1500\nM3 S1000\nG0 X0 Y0 Z0\nM2\n");
+  }
+  StepLog::Steps steps_without_line() const {
+    Diagnostics diagnostics;
+    DrivenProgram job(reader(), machine_, InterpreterOptions(), diagnostics);
+    StepLog log;
+    job.machine().add_observer(log);
+    while (job.advance()) {
+    }
+    return log.steps;
+  }
+
+  BoardKind board_;
+  MachineDescription machine_;
+  StepLog::Steps reference_;
+};
+
+}  // namespace passo::test
