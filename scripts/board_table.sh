@@ -58,7 +58,10 @@ seconds() { awk -F: '{ printf "%.2f", $1 * 60 + $2 }'; }
 # row PROGRAM MACHINE
 row() {
   local alone line
-  alone=$("$passo" run "$1" -m "$work/$2.toml" 2>/dev/null)
+  if ! alone=$("$passo" run "$1" -m "$work/$2.toml" 2>/dev/null); then
+    echo "| $(basename "${1%.*}") | ${2/-/, } | leaves the travel | | | | |"
+    return
+  fi
   line=$("$passo" run "$1" -m "$work/$2.toml" --cut-cable-at 9999:1 2>/dev/null)
   local without with rests sent
   without=$(value end <<<"$alone" | seconds)

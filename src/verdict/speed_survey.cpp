@@ -34,6 +34,7 @@ void SpeedSurvey::watch(const PlannedMove& move) {
   if (!in_part_ || segment.source.line != part_.line || segment.rapid != part_.rapid) {
     end_part();
     in_part_ = true;
+    highest_look_ = MmPerSecond(0);
     part_ = {.line = segment.source.line, .rapid = segment.rapid, .programmed = segment.speed};
   }
   part_.programmed = std::max(part_.programmed, segment.speed);
@@ -62,11 +63,12 @@ void SpeedSurvey::watch_phase(const PlannedMove& move, const Phase& phase) {
       reached.lost += piece * (1 - share);
       part_.lost += piece * (1 - share);
     }
-    const MmPerSecond speed = std::max({phase.velocity, phase.velocity_at(t), phase.velocity_at(phase.duration)});
-    if (speed > part_.highest) {
-      part_.highest = speed;
+    // Judged at the places of the looks: at its end a ramp is as fast as the even motion after it.
+    if (phase.velocity_at(t) > highest_look_) {
+      highest_look_ = phase.velocity_at(t);
       at_highest_ = found.bound;
     }
+    part_.highest = std::max({part_.highest, highest_look_, phase.velocity, phase.velocity_at(phase.duration)});
   }
 }
 

@@ -191,7 +191,7 @@ bool take_tick() {
   line.poll();
   if (ChipPlayer::wants_more() && board.has_more()) board.settle();
   // Bytes are in a hurry only if the list is empty. While it is not, a flood of them must not hold up the events.
-  const uint8_t most = ChipPlayer::wants_more() && !(board.has_more() && ChipPlayer::is_short()) ? 32 : 8;
+  const uint8_t most = ChipPlayer::wants_more() && !(board.has_more() && ChipPlayer::is_short()) ? 32 : 16;
   for (uint8_t taken = 0; line.has_byte() && taken < most; ++taken) {
     receive();
     SerialLine::breathe();

@@ -73,6 +73,7 @@ TEST(SpeedSurvey, names_feed_acceleration_and_velocity_with_their_times) {
   EXPECT_DOUBLE_EQ(report.shares[1].limit, 100);
   EXPECT_EQ(report.shares[2].bound, (SpeedBound{.kind = Kind::acceleration, .axis = Axis::x}));
   EXPECT_DOUBLE_EQ(report.shares[2].time.value(), 0.05);
+  EXPECT_EQ(report.fastest[0].bound.kind, Kind::feed) << "not that of the ramp, which ends at the same speed";
 }
 
 TEST(SpeedSurvey, names_the_weaker_axis_of_a_slanting_line) {

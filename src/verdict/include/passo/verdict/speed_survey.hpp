@@ -99,6 +99,7 @@ class SpeedSurvey {
   SpeedPart part_;
   bool in_part_ = false;
   SpeedBound at_highest_;
+  MmPerSecond highest_look_{0};
   std::vector<SpeedPart> slowest_;
   std::vector<SpeedPart> fastest_;
   SpeedPart fastest_rapid_;
