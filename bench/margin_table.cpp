@@ -3,9 +3,6 @@
 //
 //   build/release/bench/margin_table [cases] [seed] [threads]
 //
-// Five more motors of each axis, from the weakest to the strongest of the tolerance, get the same pulses. Where they do
-// not agree, nobody can know from the machine file alone what a drawn motor will do: no honest judge has fewer doubts.
-//
 // The same numbers come out on every machine, with any number of threads.
 #include <array>
 #include <atomic>
@@ -51,13 +48,11 @@ std::vector<JudgedRun> outcomes_of(int cases, std::uint64_t seed, unsigned threa
 void table(int cases, std::uint64_t seed, unsigned threads) {
   std::array<Count, 3> verdicts;
   std::array<Count, 3> doubts;  // by what is wanted
-  Count unknowable;
   const std::vector<JudgedRun> outcomes = outcomes_of(cases, seed, threads);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const JudgedRun& outcome = outcomes[i];
     verdicts[static_cast<std::size_t>(outcome.verdict)].add(outcome.lost);
     if (outcome.verdict == Verdict::doubtful) doubts[static_cast<std::size_t>(outcome.want)].add(outcome.lost);
-    if (!outcome.knowable) unknowable.add(outcome.lost);
     if (outcome.verdict == (outcome.lost ? Verdict::safe : Verdict::lost)) {
       fmt::print(stderr, "seed {} is called {} wrongly\n", seed + i, name_of(outcome.verdict));
     }
@@ -69,7 +64,6 @@ void table(int cases, std::uint64_t seed, unsigned threads) {
   print("  for the swing after a jump", doubts[1], cases);
   print("  for swinging by itself", doubts[2], cases);
   print("lost", verdicts[2], cases);
-  print("the motors do not agree", unknowable, cases);
 }
 
 }  // namespace

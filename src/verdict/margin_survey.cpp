@@ -221,7 +221,7 @@ void MarginSurvey::judge(std::size_t motor, MarginSpot spot, const TrialFinding&
     if (!keeps) spot = *hardest;
     const bool torque_is_enough = spot.verdict == Verdict::safe;
     spot.verdict = keeps ? Verdict::safe : Verdict::doubtful;
-    if (finding.lost > 0 && trials_[motor].all_out()) spot.verdict = Verdict::lost;
+    if (finding.lost > 0 && trials_[motor].usual_out()) spot.verdict = Verdict::lost;
     if (keeps) {
       spot.want = Want::torque;
     } else if (torque_is_enough) {
@@ -317,8 +317,8 @@ MarginVerdict MarginSurvey::verdict() {
   for (std::size_t m = 0; m < motors_.size(); ++m) {
     std::optional<MarginSpot> worst = states_[m].worst;
     if (worst) {
-      // One motor here, another there, and none that keeps all its steps.
-      if (trials_[m].all_lost()) worst->verdict = Verdict::lost;
+      // One motor here, another there.
+      if (trials_[m].usual_lost()) worst->verdict = Verdict::lost;
       find_safe_speed(*worst);
       whole.verdict = std::max(whole.verdict, worst->verdict);
     }

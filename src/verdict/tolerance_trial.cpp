@@ -21,6 +21,16 @@ constexpr double carried = 0.012;          // s: several times L/R, and a period
 constexpr double between_samples = 50e-6;  // s; between them a place is in proportion
 constexpr double between_looks = 1e-3;     // s: a swing takes longer
 constexpr double latest = 1e-4;            // s: events are seldom further apart
+// The strengths of the motors after the weakest: how far from the usual one, in tolerances.
+constexpr std::array<double, ToleranceTrial::motor_count - 1> offsets = {-1.1, -0.9, -0.5, 0, 1};
+// In steps. A place on the border between two steps belongs to the higher one, as on a board. Motion that turns round
+// there makes a step up, and goes back at the next line of the board's finest grid.
+constexpr double rounding_at_border = 1e-6;
+constexpr double finest_line = 1.0 / 256;
+
+double step_at(double place) {
+  return std::floor(place + 0.5 + rounding_at_border);
+}
 
 }  // namespace
 
@@ -38,9 +48,8 @@ ToleranceTrial::ToleranceTrial(const MotorSetup& setup, double tolerance, double
                       setup.excitation.steps_per_full_step() / (2 * std::numbers::pi)),
       radians_per_unit_(radians_per_unit),
       fastest_(fastest.value) {
-  for (const double strength : {(1 - reserve) * (1 - tolerance), 1.0, 1 + tolerance}) {
-    setups_.push_back(with_torque(setup, strength));
-  }
+  setups_.push_back(with_torque(setup, (1 - reserve) * (1 - tolerance)));
+  for (const double off : offsets) setups_.push_back(with_torque(setup, 1 + off * tolerance));
   motors_.reserve(motor_count);
 }
 
@@ -119,7 +128,7 @@ float& ToleranceTrial::played_of_kind(const AxisPiece& piece) {
 void ToleranceTrial::begin(const AxisPiece& piece) {
   stop();
   for (const MotorSetup& setup : setups_) motors_.emplace_back(setup, Integration::where_needed);
-  origin_ = std::round(steps_per_unit_ * piece.from);
+  origin_ = step_at(steps_per_unit_ * piece.from);
   if (setups_[0].weight.value != 0) {
     for (BoundedMotor& motor : motors_) motor.run(Seconds(to_settle));
   }
@@ -136,7 +145,7 @@ void ToleranceTrial::carry_to(const AxisPiece& piece) {
                   .c1 = speed - acceleration * carried,
                   .c2 = acceleration / 2,
                   .c3 = 0};
-  origin_ = std::round(path.c0);
+  origin_ = step_at(path.c0);
   follow({path.c0 - origin_, path.c1, path.c2, path.c3}, {}, carried, true);
   for (BoundedMotor& motor : motors_) motor.let_go();
   out_ = 0;
@@ -155,7 +164,8 @@ void ToleranceTrial::follow(const Path& path, const Path& grid, double duration,
     const double here = path.at(i * part);
     const int way = here > before ? 1 : -1;
     double spent = 0;
-    for (double border = static_cast<double>(commanded_) + 0.5 * way; way * (here - border) > 0; border += way) {
+    const double first = static_cast<double>(commanded_) + (way > 0 ? 0.5 - rounding_at_border : -0.5 - finest_line);
+    for (double border = first; way * (here - border) > 0; border += way) {
       double at = here == before ? 0 : std::clamp((border - before) / (here - before), 0.0, 1.0) * part;
       if (events > 0) {
         const double line = (grid.c1 > 0 ? 1 : -1) * grid.at((i - 1) * part + at);

@@ -14,22 +14,19 @@
 #include <utility>
 #include <vector>
 
-#include "kit/rotor_crowd.hpp"
 #include <fmt/format.h>
 
 #include "passo/activity/machine_plant.hpp"
 #include "passo/activity/program.hpp"
 #include "passo/link/await.hpp"
 #include "passo/machine/virtual_machine.hpp"
+#include "passo/plant/rotor_plant.hpp"
 #include "passo/session/machine_session.hpp"
 #include "passo/verdict/margin_survey.hpp"
 
 namespace passo::test {
 
 inline constexpr double drawn_tolerance = 0.15;
-// Five more motors of each axis, in tolerances. Where they do not agree with the drawn one, nobody can know from the
-// machine file alone what a motor will do.
-inline constexpr std::array more_motors = {-1.0, -0.5, 0.0, 0.5, 1.0};
 
 class Draw {
  public:
@@ -117,30 +114,14 @@ struct JudgedRun {
   Verdict verdict = Verdict::safe;
   Want want = Want::torque;
   bool lost = false;
-  bool knowable = true;  // the motors of the tolerance agree
 };
 
-// All the motors of an axis keep their steps on each axis, or all those of some axis lose them.
-inline bool motors_agree(const RotorCrowd& crowd, std::size_t axes) {
-  bool any_lost = false;
-  for (std::size_t axis = 0; axis < axes; ++axis) {
-    std::size_t lost = 0;
-    for (std::size_t i = 0; i <= more_motors.size(); ++i) lost += crowd.lost(axis, i) ? 1 : 0;
-    if (lost == more_motors.size() + 1) return true;
-    any_lost = any_lost || lost > 0;
-  }
-  return !any_lost;
-}
-
 inline JudgedRun play_and_judge(const MachineDescription& machine, const std::string& text, Draw& draw) {
-  RotorCrowd plant;
+  RotorPlant plant(Integration::always);
   fit(plant, machine, {}, {});
-  for (const AxisDescription& axis : machine.axes) {
-    std::vector<MotorSetup> setups{
-        with_torque(*motor_setup(axis), draw.between(1 - drawn_tolerance, 1 + drawn_tolerance))};
-    for (const double other : more_motors)
-      setups.push_back(with_torque(*motor_setup(axis), 1 + drawn_tolerance * other));
-    plant.add_axis(setups);
+  for (std::size_t m = 0; m < machine.axes.size(); ++m) {
+    plant.fit_motor(m,
+                    with_torque(*motor_setup(machine.axes[m]), draw.between(1 - drawn_tolerance, 1 + drawn_tolerance)));
   }
   MarginSurvey survey(surveyed_motors(machine), step_grid(machine));
   VirtualMachine board(static_cast<std::uint8_t>(machine.axes.size()), machine.board.clock,
@@ -159,13 +140,12 @@ inline JudgedRun play_and_judge(const MachineDescription& machine, const std::st
   start.watchers.motion = [&](const MotionItem& item) { survey.watch(item); };
   if (!session.request(std::move(start)).has_value()) std::abort();
   while (session.busy()) session.turn(endless);
-  plant.settle(Seconds(2));
+  static_cast<void>(plant.settle(Seconds(2)));
   if (findings.any_error()) std::fputs(render(findings, false).c_str(), stderr);
   const MarginVerdict verdict = survey.verdict();
   JudgedRun outcome{.verdict = verdict.verdict};
   if (!verdict.worst.empty()) outcome.want = verdict.worst[0].want;
-  for (std::size_t axis = 0; axis < machine.axes.size(); ++axis) outcome.lost = outcome.lost || plant.lost(axis, 0);
-  outcome.knowable = motors_agree(plant, machine.axes.size());
+  outcome.lost = !plant.losses().empty();
   return outcome;
 }
 

@@ -33,12 +33,12 @@ AxisPiece after(const AxisPiece& piece, double seconds, double torque) {
 
 TEST(ToleranceTrial, tells_how_many_motors_lose_steps) {
   // The swing from rest to T needs 1.38·T.
-  for (const auto& [torque, lost] : {std::pair{0.5, 0}, {0.65, 1}, {0.78, 2}, {0.9, 3}}) {
+  for (const auto& [torque, lost] : {std::pair{0.5, 0}, {0.65, 3}, {0.7, 4}, {0.78, 5}, {0.9, 6}}) {
     ToleranceTrial trial = trial_of(flat_setup());
     const TrialFinding finding = trial.play(piece_of(0.03, torque));
     EXPECT_TRUE(finding.judged);
     EXPECT_EQ(finding.lost, lost) << torque;
-    EXPECT_EQ(trial.all_out(), lost == 3) << torque;
+    EXPECT_EQ(trial.usual_out(), lost >= 5) << torque;
   }
 }
 
@@ -56,10 +56,10 @@ TEST(ToleranceTrial, swings_as_far_as_the_equal_area_criterion_says) {
 TEST(ToleranceTrial, begins_anew_after_a_rest) {
   ToleranceTrial trial = trial_of(flat_setup());
   trial.play(piece_of(0.03, 1.4));
-  EXPECT_TRUE(trial.all_out());
+  EXPECT_TRUE(trial.usual_out());
   trial.stand(Seconds(1));
-  EXPECT_FALSE(trial.all_out());
-  EXPECT_TRUE(trial.all_lost());
+  EXPECT_FALSE(trial.usual_out());
+  EXPECT_TRUE(trial.usual_lost());
   EXPECT_EQ(trial.play(piece_of(0.03, 0.5)).lost, 0);
 }
 
@@ -88,7 +88,7 @@ TEST(ToleranceTrial, plays_what_is_new_in_a_long_program) {
   const AxisPiece mild = after(piece, 0.05, 0.45);
   EXPECT_EQ(trial.play(mild).lost, 0);
   const AxisPiece wild = after(mild, 0.05, 1.3);
-  EXPECT_EQ(trial.play(wild).lost, 3);
+  EXPECT_EQ(trial.play(wild).lost, 6);
 }
 
 // What nobody played is not known.

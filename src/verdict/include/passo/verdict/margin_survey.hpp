@@ -2,12 +2,12 @@
 //
 // Two looks at the same motion. The physics gives the verdict, and the formula the cause and the cure:
 //
-//   ToleranceTrial   plays the motion with the weakest, the usual and the strongest motor of the tolerance
+//   ToleranceTrial   plays the motion with motors from the weakest to the strongest of the tolerance
 //   formula          needed = (J_rotor + J_load)·α + friction·sign(ω) + damping·ω + weight     against pull-out at |ω|
 //
-//   safe      all motors keep their steps, and none swings further than 1.4 full steps from the field
+//   safe      all motors keep their steps, and none swings further than 1.8 full steps from the field
 //   doubtful  neither
-//   lost      all motors lose steps
+//   lost      the usual motor loses steps, and so does one that is weaker by half of the tolerance
 //
 // In the formula α and ω are those of the shaft, from the axis's part of the path: on a curve they include the bending.
 // Each phase is looked at in up to 64 places. A motor's true pull-out is only known between two torques (TorqueBand).
@@ -111,7 +111,7 @@ class MarginSurvey {
   // The share of the low end that the formula keeps.
   static constexpr double usual_reserve = 0.1;
   // Full steps from the field to the rotor. Torque falls beyond one, and at two the rotor falls back.
-  static constexpr double safe_swing = 1.4;
+  static constexpr double safe_swing = 1.8;
 
   // Without a grid each motor steps at its own exact times.
   explicit MarginSurvey(std::vector<SurveyedMotor> motors, const StepGrid& grid = {}, double reserve = usual_reserve);
