@@ -91,6 +91,24 @@ TEST(ToleranceTrial, plays_what_is_new_in_a_long_program) {
   EXPECT_EQ(trial.play(wild).lost, 6);
 }
 
+// After a minute only what is new is played, here the braking of a short motion. What was before is played with it.
+TEST(ToleranceTrial, enters_a_motion_with_the_swing_that_it_has) {
+  MotorSetup setup = flat_setup();
+  setup.load.friction = {0.1};  // so that it soon rests
+  ToleranceTrial trial = trial_of(setup);
+  const auto play_stroke = [&](double torque, double braking) {
+    AxisPiece piece = piece_of(0.005, torque);
+    int lost = trial.play(piece).lost;
+    piece = piece_of(0.005 * torque / braking, -braking, piece.to, piece.speed_to);
+    lost += trial.play(piece).lost;
+    return lost + trial.stand(Seconds(0.6)).lost;
+  };
+  const int whole = play_stroke(0.3, 0.2);
+  ASSERT_EQ(whole, 0);
+  for (int i = 0; i < 7000; ++i) ASSERT_EQ(play_stroke(0.3, 0.3), 0);
+  EXPECT_EQ(play_stroke(0.3, 0.2), whole);
+}
+
 // What nobody played is not known.
 TEST(ToleranceTrial, says_what_it_did_not_play) {
   ToleranceTrial trial = trial_of(flat_setup());

@@ -3,7 +3,7 @@
 //
 // The motion comes piece by piece, and becomes the steps of the axis's driver. A board makes steps at the events of the
 // fastest motor, so the steps of the others are late by up to one event: a jitter that makes rotors ring. The steps
-// here have the same jitter. Nothing is kept of the motion:
+// here have the same jitter. Only the last moments of the motion are kept:
 //
 //   pieces ──▶ steps ──▶ six BoundedMotors, from the weakest to the strongest ──▶ who lost steps, and how far they
 //   swung
@@ -21,13 +21,14 @@
 //     speed
 //   - after two minutes nothing is played
 //
-// In mid-motion the motors are carried to the speed, the lag and the currents of the motion first. Memory does not
-// depend on the program. The same pieces give the same findings.
+// In mid-motion the motors are carried to the speed, the lag and the currents of the motion first, and follow its last
+// 0.2 s. Memory does not depend on the program. The same pieces give the same findings.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "passo/motor/bounded_motor.hpp"
@@ -46,6 +47,9 @@ struct AxisPiece {
   // own motor.
   double grid_from = 0;
   double grid_to = 0;
+
+  // The mean.
+  double acceleration() const { return (speed_to - speed_from) / duration.value(); }
 };
 
 struct TrialFinding {
@@ -83,8 +87,11 @@ class ToleranceTrial {
   struct Path;
 
   float& played_of_kind(const AxisPiece& piece);
+  void skip(const AxisPiece& piece);
+  void forget_skipped();
   void begin(const AxisPiece& piece);
   void carry_to(const AxisPiece& piece);
+  double follow(const AxisPiece& piece);
   void follow(const Path& path, const Path& grid, double duration, bool carried);
   void step(int way);
   void pass(double time);
@@ -104,7 +111,8 @@ class ToleranceTrial {
   double played_ = 0;   // s
   double to_play_ = 0;  // s after a piece of a new kind
   double load_before_ = 0;
-  double acceleration_before_ = 0;  // of the axis
+  std::deque<AxisPiece> skipped_;  // the last of the pieces that were not played
+  double time_skipped_ = 0;        // s
   double most_swing_ = 0;
   std::array<float, loads * loads * speeds> kinds_{};  // s that each kind was played
 };
